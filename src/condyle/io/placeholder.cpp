@@ -1,0 +1,1 @@
+#include "condyle/io/version.hpp"
