@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "condyle/kinematics/fit_sphere.hpp"
+
+/// The axis of a hinge, from the surface that turns about it.
+
+namespace condyle {
+
+struct Cylinder {
+  Vec3 point;      ///< on the axis, nearest the centroid of the vertices used
+  Vec3 direction;  ///< unit; of its two senses the one whose largest component is positive
+  double radius;
+};
+
+struct CylinderFit {
+  Cylinder cylinder;
+  double rms_residual;          ///< of the distance to the axis minus the radius, mm
+  double largest_residual;      ///< its largest magnitude, mm
+  std::vector<Index> vertices;  ///< used, ascending
+};
+
+/// The cylinder near `start` that minimises the sum of squared distances of these points to it. Throws
+/// MeshError where the points leave it undetermined (fewer than five, or all on one line or plane).
+CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, const Cylinder& start);
+
+/// Where a cylindrical part is looked for. Lengths in mm.
+struct CylinderSearch {
+  double smallest_radius = 5;
+  double largest_radius = 45;
+  std::optional<Sphere> within;  ///< only vertices inside this ball are considered
+};
+
+/// The best cylindrical part of a surface: found without a hint, fitted to the vertices of that part alone.
+/// Deterministic. Throws MeshError where no part of the surface is cylindrical.
+CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search = {});
+
+}  // namespace condyle
