@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/mesh/length_unit.hpp"
+#include "condyle/mesh/tri_mesh.hpp"
+
+namespace condyle {
+
+/// Two vertices joined by a triangle's side; `from` before `to` in the first triangle that has it.
+struct Edge {
+  Index from, to;
+
+  friend bool operator==(const Edge&, const Edge&) = default;
+};
+
+/// How many elements have a defect, and the first of them in the mesh's order.
+template <class Element>
+struct Finding {
+  std::size_t count = 0;
+  std::optional<Element> first;
+
+  void add(const Element& element) {
+    if (count++ == 0) first = element;
+  }
+};
+
+/// A closed walk along edges that have one triangle only: the rim of a hole or of an open sheet.
+struct BoundaryLoop {
+  std::size_t edges;   ///< As many vertices as edges.
+  Index first_vertex;  ///< The loop's vertex where it is met first.
+  Vec3 centre;         ///< Mean of its vertices.
+};
+
+/// Triangles that hang together by edges. Two solids that touch in a vertex are two components.
+struct MeshComponent {
+  Index first_triangle;
+  std::size_t triangles;
+  bool closed;               ///< No boundary, no non-manifold edge, one winding.
+  std::optional<int> genus;  ///< Number of handles; where closed and without non-manifold vertices.
+  std::optional<double>
+      signed_volume;  ///< Where closed; negative when wound inside out, as the skin of a cavity is.
+};
+
+struct BoundingBox {
+  Vec3 low, high;
+
+  double diagonal() const { return (high - low).norm(); }
+};
+
+struct EdgeLengths {
+  double shortest, median, longest;
+};
+
+struct LikelyUnit {
+  std::optional<LengthUnit> unit;  ///< Empty: the size fits neither.
+  std::string reason;              ///< One line, with the size that decided.
+};
+
+/// What is so and what is wrong with a mesh. Lengths in the mesh's unit.
+///
+/// A triangle that names a vertex twice has no sides of its own: it is counted as degenerate and left out of
+/// edges, boundaries and components. A vertex no triangle uses counts as unreferenced only: bounds are those
+/// of the surface.
+struct MeshReport {
+  std::size_t vertices = 0, triangles = 0;
+
+  Finding<Edge> boundary_edges;  ///< One triangle.
+  Finding<BoundaryLoop> boundary_loops;
+  Finding<Edge> non_manifold_edges;  ///< Three triangles or more.
+  Finding<Index>
+      non_manifold_vertices;  ///< The triangles about it, joined over two-triangle edges, are not one fan.
+  Finding<Edge> inconsistent_edges;      ///< Two triangles that run through it in the same direction.
+  Finding<Index> duplicate_triangles;    ///< Has the three vertices of an earlier one, in any order.
+  Finding<Index> degenerate_triangles;   ///< A vertex twice, or an area of exactly zero.
+  Finding<Index> unreferenced_vertices;  ///< In no triangle.
+  Finding<Index> duplicate_vertices;     ///< Has the coordinates of an earlier one.
+  Finding<Index> inverted_components;    ///< Closed with negative volume; a component's number.
+
+  std::vector<MeshComponent> components;  ///< By first triangle.
+
+  BoundingBox bounds{Vec3::Zero(), Vec3::Zero()};
+  double area = 0;
+  std::optional<double> signed_volume;  ///< Where closed.
+  EdgeLengths edge_lengths{0, 0, 0};
+  LikelyUnit likely_unit;
+
+  /// Fit for a winding number: the surface bounds a solid, if perhaps inside out. Self-intersections do not
+  /// matter.
+  bool is_closed() const noexcept {
+    return !components.empty() && boundary_edges.count == 0 && non_manifold_edges.count == 0 &&
+           inconsistent_edges.count == 0;
+  }
+};
+
+/// Looks at everything once: sorts edges, n log n.
+MeshReport inspect(const TriMesh& mesh);
+
+/// "boundary loop of 14 edges at vertex 812 (12.1, -3.0, 44.9), the first of 3": for the message that refuses
+/// an open mesh. Empty for a mesh without boundary.
+std::string describe_boundary(const MeshReport& report);
+
+}  // namespace condyle
