@@ -34,7 +34,9 @@ struct CylinderSearch {
   std::optional<Sphere> within;  ///< only vertices inside this ball are considered
 };
 
-/// The best cylindrical part of a surface: found without a hint, fitted to the vertices of that part alone.
+/// The cylindrical part of a surface that has most area for its radius squared (the angle around the axis
+/// times the length in radii, so that a long and full one wins): found without a hint, fitted to the vertices
+/// of that part alone. On a whole long bone that is its shaft: limit the search to the condyles to get those.
 /// Deterministic. Throws MeshError where no part of the surface is cylindrical.
 CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search = {});
 
