@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "condyle/mesh/tri_mesh.hpp"
 
@@ -9,6 +10,10 @@
 /// triangles, moving vertices) is not here.
 
 namespace condyle {
+
+/// For every point the number of the first one with the same coordinates, -0 being +0: its own number where
+/// it is that first one. Coordinates must not be NaN. n log n.
+std::vector<Index> first_of_same_coordinates(PointsView points);
 
 /// Merges vertices whose coordinates are the same, -0 being +0, without any tolerance; the first of each
 /// stays, in its place. Triangles stay, all of them. Returns how many vertices went.
