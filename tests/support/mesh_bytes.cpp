@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 namespace condyle::test {
 namespace {
@@ -96,32 +97,49 @@ vtkSmartPointer<vtkPolyData> for_vtk(const TriMesh& mesh) {
   return data;
 }
 
+struct Choice {
+  const char* name;
+  int value;
+};
+constexpr Choice compressors[] = {
+    {"plain", vtkXMLWriter::NONE}, {"zlib", vtkXMLWriter::ZLIB}, {"lz4", vtkXMLWriter::LZ4}};
+constexpr Choice lengths[] = {{"UInt32", vtkXMLWriter::UInt32}, {"UInt64", vtkXMLWriter::UInt64}};
+constexpr Choice orders[] = {{"little", vtkXMLWriter::LittleEndian}, {"big", vtkXMLWriter::BigEndian}};
+enum class Data { text, inline_base64, appended_base64, appended_raw };
+constexpr std::pair<const char*, Data> data_modes[] = {{"text", Data::text},
+                                                       {"inline", Data::inline_base64},
+                                                       {"appended base64", Data::appended_base64},
+                                                       {"appended raw", Data::appended_raw}};
+
+std::string vtp_bytes(vtkPolyData* data, Data mode, int compressor, int length, int order) {
+  constexpr std::size_t block_size = 128;  // bytes: several blocks and a partial one, even for a small mesh
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(data);
+  writer->SetDataMode(mode == Data::text            ? vtkXMLWriter::Ascii
+                      : mode == Data::inline_base64 ? vtkXMLWriter::Binary
+                                                    : vtkXMLWriter::Appended);
+  writer->SetEncodeAppendedData(mode == Data::appended_base64);
+  writer->SetCompressorType(compressor);
+  writer->SetHeaderType(length);
+  writer->SetByteOrder(order);
+  writer->SetIdType(length == vtkXMLWriter::UInt32 ? vtkXMLWriter::Int32 : vtkXMLWriter::Int64);
+  writer->SetBlockSize(block_size);
+  writer->WriteToOutputStringOn();
+  writer->Write();
+  return writer->GetOutputString();
+}
+
 template <class Array>
 void add_vtp_files(const TriMesh& mesh, const char* type, std::vector<MeshBytes>& out) {
   const auto data = for_vtk<Array>(mesh);
-  for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended}) {
-    for (const int encode : {0, 1}) {
-      for (const int compressor : {vtkXMLWriter::NONE, vtkXMLWriter::ZLIB, vtkXMLWriter::LZ4}) {
-        for (const int header : {vtkXMLWriter::UInt32, vtkXMLWriter::UInt64}) {
-          for (const int order : {vtkXMLWriter::LittleEndian, vtkXMLWriter::BigEndian}) {
-            const bool all_the_same =
-                mode == vtkXMLWriter::Ascii && (compressor != vtkXMLWriter::NONE || order != 0);
-            if ((encode == 1 && mode != vtkXMLWriter::Appended) || all_the_same) continue;
-            vtkNew<vtkXMLPolyDataWriter> writer;
-            writer->SetInputData(data);
-            writer->SetDataMode(mode);
-            writer->SetEncodeAppendedData(encode);
-            writer->SetCompressorType(compressor);
-            writer->SetHeaderType(header);
-            writer->SetByteOrder(order);
-            writer->SetIdType(header == vtkXMLWriter::UInt32 ? vtkXMLWriter::Int32 : vtkXMLWriter::Int64);
-            writer->SetBlockSize(128);  // several blocks, and a partial one
-            writer->WriteToOutputStringOn();
-            writer->Write();
-            out.push_back({fmt::format("vtp mode {} encoded {} compressor {} header {} order {} {}", mode,
-                                       encode, compressor, header, order, type),
-                           MeshFormat::vtp, mode != vtkXMLWriter::Ascii, writer->GetOutputString()});
-          }
+  for (const auto& [mode_name, mode] : data_modes) {
+    for (const auto& compressor : compressors) {
+      for (const auto& length : lengths) {
+        for (const auto& order : orders) {
+          out.push_back(
+              {fmt::format("vtp {} {} {} {} {}", mode_name, compressor.name, length.name, order.name, type),
+               MeshFormat::vtp, mode != Data::text,
+               vtp_bytes(data, mode, compressor.value, length.value, order.value)});
         }
       }
     }
@@ -131,17 +149,19 @@ void add_vtp_files(const TriMesh& mesh, const char* type, std::vector<MeshBytes>
 template <class Array>
 void add_legacy_files(const TriMesh& mesh, const char* type, std::vector<MeshBytes>& out) {
   const auto data = for_vtk<Array>(mesh);
-  for (const int encoding : {VTK_ASCII, VTK_BINARY}) {
-    for (const int version :
-         {vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2, vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1}) {
+  constexpr Choice encodings[] = {{"text", VTK_ASCII}, {"binary", VTK_BINARY}};
+  constexpr Choice versions[] = {{"4.2", vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2},
+                                 {"5.1", vtkDataWriter::VTK_LEGACY_READER_VERSION_5_1}};
+  for (const auto& encoding : encodings) {
+    for (const auto& version : versions) {
       vtkNew<vtkPolyDataWriter> writer;
       writer->SetInputData(data);
-      writer->SetFileType(encoding);
-      writer->SetFileVersion(version);
+      writer->SetFileType(encoding.value);
+      writer->SetFileVersion(version.value);
       writer->WriteToOutputStringOn();
       writer->Write();
-      out.push_back({fmt::format("vtk encoding {} version {} {}", encoding, version, type), MeshFormat::vtk,
-                     encoding == VTK_BINARY, writer->GetOutputStdString()});
+      out.push_back({fmt::format("vtk {} {} {}", encoding.name, version.name, type), MeshFormat::vtk,
+                     encoding.value == VTK_BINARY, writer->GetOutputStdString()});
     }
   }
 }
