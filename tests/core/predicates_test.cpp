@@ -73,7 +73,8 @@ TEST(Predicates, SubnormalAndHugeCoordinatesAreDecided) {
 }
 
 TEST(Predicates, ThreePointsOnALineThatDoubleArithmeticBends) {
-  // 0.1 k is rounded: whether these are collinear is a matter of the last bit, and must be that of the doubles.
+  // 0.1 k is rounded: whether these are collinear is a matter of the last bit, and must be that of the
+  // doubles.
   for (int k = 1; k < 200; ++k) {
     const double x = 0.1 * k, y = 0.3 * k;
     const Rational left = (Rational(0.7) - Rational(0.1)) * (Rational(y) - Rational(0.3));

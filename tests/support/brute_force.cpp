@@ -10,12 +10,18 @@ namespace {
 using Rational = boost::multiprecision::cpp_rational;
 using Exact3 = std::array<Rational, 3>;
 
-Exact3 exact(const Vec3& p) { return {Rational(p.x()), Rational(p.y()), Rational(p.z())}; }
-Exact3 minus(const Exact3& a, const Exact3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Exact3 exact(const Vec3& p) {
+  return {Rational(p.x()), Rational(p.y()), Rational(p.z())};
+}
+Exact3 minus(const Exact3& a, const Exact3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Exact3 cross(const Exact3& a, const Exact3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Rational dot(const Exact3& a, const Exact3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Rational dot(const Exact3& a, const Exact3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Whether point p, known to lie in the triangle's plane, lies in the closed triangle.
 bool holds(const std::array<Exact3, 3>& t, const Exact3& normal, const Exact3& p) {
@@ -64,7 +70,8 @@ bool intersect(const std::array<Exact3, 3>& a, const std::array<Exact3, 3>& b) {
 }
 
 /// Signed crossings of the ray from p along d; empty where it meets an edge or a vertex.
-std::optional<int> crossings(const std::vector<std::array<Exact3, 3>>& triangles, const Exact3& p, const Exact3& d) {
+std::optional<int> crossings(const std::vector<std::array<Exact3, 3>>& triangles, const Exact3& p,
+                             const Exact3& d) {
   int sum = 0;
   for (const auto& t : triangles) {
     std::array<int, 3> side;

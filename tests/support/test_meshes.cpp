@@ -24,7 +24,8 @@ TriMesh sphere(const Vec3& centre, double radius, int levels) {
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<Index, Index>, Index> midpoint;
     const auto middle = [&](Index a, Index b) {
-      const auto [at, is_new] = midpoint.try_emplace(std::minmax(a, b), static_cast<Index>(directions.size()));
+      const auto [at, is_new] =
+          midpoint.try_emplace(std::minmax(a, b), static_cast<Index>(directions.size()));
       if (is_new) directions.push_back((directions[a] + directions[b]).normalized());
       return at->second;
     };

@@ -8,8 +8,8 @@
 
 #include "condyle/core/predicates.hpp"
 
-/// The exact stage of the predicates: doubles as integers with one common power of two. For .cpp files only, so that
-/// Boost stays out of what users of the library compile.
+/// The exact stage of the predicates: doubles as integers with one common power of two. For .cpp files only,
+/// so that Boost stays out of what users of the library compile.
 
 namespace condyle::exact {
 
@@ -38,11 +38,25 @@ std::array<Integer, N> to_integers(const std::array<double, N>& in) {
   return out;
 }
 
-inline Sign sign_of(const Integer& value) noexcept { return static_cast<Sign>(value.sign()); }
+inline Sign sign_of(const Integer& value) noexcept {
+  return static_cast<Sign>(value.sign());
+}
 
-/// numerator / denominator to double precision; the denominator is not zero.
-inline double quotient(const Integer& numerator, const Integer& denominator) {
-  return static_cast<double>(boost::multiprecision::cpp_rational(numerator, denominator));
+/// numerator / denominator as a double, correct to one unit in the last place; the denominator is not zero.
+inline double quotient(Integer numerator, Integer denominator) {
+  if (numerator == 0) return 0;
+  const bool negative = (numerator.sign() < 0) != (denominator.sign() < 0);
+  numerator = abs(numerator);
+  denominator = abs(denominator);
+  // Shift so that the integer quotient keeps at least 64 bits, more than a double holds.
+  const int shift = 65 + static_cast<int>(msb(denominator)) - static_cast<int>(msb(numerator));
+  if (shift > 0) {
+    numerator <<= static_cast<unsigned>(shift);
+  } else {
+    denominator <<= static_cast<unsigned>(-shift);
+  }
+  const double value = std::ldexp(static_cast<double>(Integer(numerator / denominator)), -shift);
+  return negative ? -value : value;
 }
 
 }  // namespace condyle::exact

@@ -7,9 +7,9 @@
 
 namespace condyle {
 
-/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena. A body writes
-/// only to its own elements: results then do not depend on the number of threads. Limit threads from outside
-/// with tbb::global_control or tbb::task_arena.
+/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena. A body
+/// writes only to its own elements: results then do not depend on the number of threads. Limit threads from
+/// outside with tbb::global_control or tbb::task_arena.
 template <class Body>
 void parallel_chunks(std::size_t count, std::size_t grain, const Body& body) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),

@@ -5,8 +5,9 @@
 namespace condyle::exact {
 namespace {
 
-Integer determinant(const Integer& ax, const Integer& ay, const Integer& az, const Integer& bx, const Integer& by,
-                    const Integer& bz, const Integer& cx, const Integer& cy, const Integer& cz) {
+Integer determinant(const Integer& ax, const Integer& ay, const Integer& az, const Integer& bx,
+                    const Integer& by, const Integer& bz, const Integer& cx, const Integer& cy,
+                    const Integer& cz) {
   return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx);
 }
 
@@ -23,8 +24,8 @@ Sign orientation(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
 }
 
 Sign orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
-  const auto v = to_integers<12>(
-      {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z(), d.x(), d.y(), d.z()});
+  const auto v =
+      to_integers<12>({a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z(), d.x(), d.y(), d.z()});
   return sign_of(determinant(v[9] - v[0], v[10] - v[1], v[11] - v[2], v[3] - v[0], v[4] - v[1], v[5] - v[2],
                              v[6] - v[0], v[7] - v[1], v[8] - v[2]));
 }

@@ -4,14 +4,17 @@
 
 #include "condyle/core/vec3.hpp"
 
-/// Signs that decide, exact for the doubles they are given, always: first in double with an error bound, and where
-/// that is too close to call, in integers of unlimited size. Works for all finite input, subnormal and huge alike.
+/// Signs that decide, exact for the doubles they are given, always: first in double with an error bound, and
+/// where that is too close to call, in integers of unlimited size. Works for all finite input, subnormal and
+/// huge alike.
 
 namespace condyle {
 
 enum class Sign : signed char { negative = -1, zero = 0, positive = 1 };
 
-constexpr Sign operator-(Sign s) noexcept { return static_cast<Sign>(-static_cast<int>(s)); }
+constexpr Sign operator-(Sign s) noexcept {
+  return static_cast<Sign>(-static_cast<int>(s));
+}
 constexpr Sign operator*(Sign a, Sign b) noexcept {
   return static_cast<Sign>(static_cast<int>(a) * static_cast<int>(b));
 }
@@ -34,7 +37,8 @@ inline constexpr double filter_floor = 0x1p-900;
 
 /// Sign of a d - b c.
 ///
-/// Two products and a difference err by at most (1 + u)(2u) (|ad| + |bc|); 4u covers the rounding of the sum too.
+/// Two products and a difference err by at most (1 + u)(2u) (|ad| + |bc|); 4u covers the rounding of the sum
+/// too.
 inline Sign determinant_2x2(double a, double b, double c, double d) noexcept {
   const double ad = a * d, bc = b * c, value = ad - bc;
   const double magnitude = std::abs(ad) + std::abs(bc);
@@ -48,19 +52,19 @@ struct FilteredDeterminant {
   bool certain;
 };
 
-/// det[a b c] = a . (b x c): six times the volume of the tetrahedron 0 a b c. Exchanging two arguments negates
-/// `value` to the last bit: (b x c) is formed from products rounded one by one.
+/// det[a b c] = a . (b x c): six times the volume of the tetrahedron 0 a b c. Exchanging two arguments
+/// negates `value` to the last bit: (b x c) is formed from products rounded one by one.
 ///
-/// Each of the three terms a_i (b_j c_k - b_k c_j) errs by at most 3u of its magnitude, two additions add 2u: 8u
-/// covers that and the rounding of the bound itself (Shewchuk 1997, section 4, has the tighter constants).
+/// Each of the three terms a_i (b_j c_k - b_k c_j) errs by at most 3u of its magnitude, two additions add 2u:
+/// 8u covers that and the rounding of the bound itself (Shewchuk 1997, section 4, has the tighter constants).
 inline FilteredDeterminant filtered_determinant(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
   const double yz = b.y() * c.z(), zy = b.z() * c.y();
   const double zx = b.z() * c.x(), xz = b.x() * c.z();
   const double xy = b.x() * c.y(), yx = b.y() * c.x();
   const double value = (a.x() * (yz - zy) + a.y() * (zx - xz)) + a.z() * (xy - yx);
-  const double magnitude = (std::abs(a.x()) * (std::abs(yz) + std::abs(zy)) +
-                            std::abs(a.y()) * (std::abs(zx) + std::abs(xz))) +
-                           std::abs(a.z()) * (std::abs(xy) + std::abs(yx));
+  const double magnitude =
+      (std::abs(a.x()) * (std::abs(yz) + std::abs(zy)) + std::abs(a.y()) * (std::abs(zx) + std::abs(xz))) +
+      std::abs(a.z()) * (std::abs(xy) + std::abs(yx));
   return {value, std::abs(value) > 8 * rounding_unit * magnitude && magnitude > filter_floor};
 }
 

@@ -11,8 +11,9 @@ namespace condyle {
 /// Three vertex numbers, counter-clockwise seen from outside the solid.
 using Triangle = std::array<Index, 3>;
 
-/// A triangle mesh, owned. Vertices in millimetres once past the file readers; every index in range, every coordinate
-/// finite (the readers see to both). Nothing else is promised: `inspect` tells what a mesh is fit for.
+/// A triangle mesh, owned. Vertices in millimetres once past the file readers; every index in range, every
+/// coordinate finite (the readers see to both). Nothing else is promised: `inspect` tells what a mesh is fit
+/// for.
 struct TriMesh {
   Points vertices;
   std::vector<Triangle> triangles;

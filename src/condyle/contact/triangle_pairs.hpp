@@ -1,0 +1,24 @@
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include "condyle/radial/radial_table.hpp"
+
+namespace condyle {
+
+/// A triangle of the fixed and one of the mobile body that share a point.
+struct TrianglePair {
+  Index fixed, mobile;
+  friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
+};
+
+/// The exact set of intersecting triangle pairs, ascending; touching counts, triangles of zero area meet
+/// nothing. The mobile mesh is given in the table's frame, already posed. Works for open meshes too: nothing
+/// here asks for an inside.
+///
+/// Candidates share a cell of directions and a radius interval there, then a bounding box; exact arithmetic
+/// decides.
+std::vector<TrianglePair> intersecting_pairs(const RadialTable& fixed, const TriMesh& posed_mobile);
+
+}  // namespace condyle

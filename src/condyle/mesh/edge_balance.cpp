@@ -1,0 +1,46 @@
+#include "condyle/mesh/edge_balance.hpp"
+
+#include <algorithm>
+
+namespace condyle {
+namespace {
+
+struct EdgeUse {
+  std::uint64_t edge;  // smaller vertex in the upper half, larger in the lower
+  Index triangle;
+  int direction;  // +1 from the smaller to the larger vertex
+
+  Index low() const { return static_cast<Index>(edge >> 32); }
+  Index high() const { return static_cast<Index>(edge & 0xffffffffu); }
+};
+
+}  // namespace
+
+std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * mesh.triangles.size());
+  for (Index t = 0; t < mesh.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Index a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      if (a == b) continue;
+      const auto [low, high] = std::minmax(a, b);
+      uses.push_back({std::uint64_t{low} << 32 | high, t, a < b ? 1 : -1});
+    }
+  }
+  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+    return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle;
+  });
+  const EdgeUse* first = nullptr;
+  int first_balance = 0;
+  for (auto at = uses.begin(); at != uses.end();) {
+    int balance = 0;
+    const auto begin = at;
+    for (; at != uses.end() && at->edge == begin->edge; ++at) balance += at->direction;
+    if (balance != 0 && (!first || begin->triangle < first->triangle))
+      first = &*begin, first_balance = balance;
+  }
+  if (!first) return std::nullopt;
+  return first_balance > 0 ? std::pair{first->low(), first->high()} : std::pair{first->high(), first->low()};
+}
+
+}  // namespace condyle

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "condyle/mesh/tri_mesh.hpp"
+
+namespace condyle {
+
+/// The first directed edge (from, to), in the order of triangles, that is used more often in one direction
+/// than in the other, or none. A mesh without one bounds a solid in the sense of the winding number: rays
+/// cross it as often inwards as outwards. This asks less than being a closed manifold, and exactly as much as
+/// a winding number needs.
+///
+/// O(n log n) in the number of triangles.
+std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh);
+
+}  // namespace condyle

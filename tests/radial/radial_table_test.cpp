@@ -1,0 +1,321 @@
+#include "condyle/radial/radial_table.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <limits>
+#include <random>
+
+#include "condyle/core/error.hpp"
+#include "support/brute_force.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+using test::box;
+using test::flipped;
+using test::joined;
+using test::sphere;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+class RadialTableOnMap : public testing::TestWithParam<DirectionMapKind> {
+ protected:
+  RadialTable table(const TriMesh& mesh, int cells_per_side = 16) const {
+    return RadialTable(mesh, {GetParam(), cells_per_side});
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(BothMaps, RadialTableOnMap,
+                         testing::Values(DirectionMapKind::cartesian, DirectionMapKind::cube),
+                         [](const auto& kind) {
+                           return kind.param == DirectionMapKind::cube ? "cube" : "cartesian";
+                         });
+
+Points random_points(std::size_t count, double reach, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-reach, reach);
+  Points points;
+  for (std::size_t i = 0; i < count; ++i)
+    points.push_back({uniform(random), uniform(random), uniform(random)});
+  return points;
+}
+
+void expect_states_of_brute_force(const RadialTable& table, const Points& points) {
+  const RadialHits hits = table.query(points);
+  std::vector<PointState> states;
+  table.query_states(points, states);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto truth = test::winding_number(table.mesh(), points[i]);
+    if (truth.on_surface) {
+      EXPECT_EQ(hits.state[i], PointState::on_surface) << points[i].transpose();
+    } else {
+      EXPECT_EQ(hits.winding[i], truth.winding) << points[i].transpose();
+      EXPECT_EQ(hits.state[i], truth.winding > 0 ? PointState::inside : PointState::outside)
+          << points[i].transpose();
+    }
+    EXPECT_EQ(states[i], hits.state[i]) << points[i].transpose();
+  }
+}
+
+/// Fixed solid with a spherical cavity: a box wound outwards and a sphere wound inwards.
+TriMesh cavity(const Vec3& centre, double radius, int levels) {
+  return joined(box(centre.array() - 2 * radius, centre.array() + 2 * radius),
+                flipped(sphere(centre, radius, levels)));
+}
+
+TEST_P(RadialTableOnMap, ConcentricBallInSocketHasTheClearanceAsGapEverywhere) {
+  constexpr double socket = 25, ball = 24;
+  const TriMesh mesh = cavity(Vec3::Zero(), socket, 4);
+  const TriMesh mobile = sphere(Vec3::Zero(), ball, 3);
+  const RadialHits hits = table(mesh).query(mobile.vertices);
+  // Longest edge of the 4-level octasphere: a quarter turn in 16 parts, stretched at most by pi/2.
+  const double edge = socket * std::numbers::pi / 2 / 16 * (std::numbers::pi / 2);
+  const double sag = edge * edge / (8 * socket) * 2;  // at a triangle's middle, within twice that of an edge
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_EQ(hits.state[i], PointState::outside);
+    EXPECT_LE(hits.radial_gap[i], socket - ball + 1e-12);
+    EXPECT_GE(hits.radial_gap[i], socket - ball - sag);
+    EXPECT_EQ(hits.direction[i], RayDirection::away_from_centre);
+  }
+}
+
+TEST_P(RadialTableOnMap, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootSays) {
+  constexpr double socket = 25, ball = 24.8, shift = 0.5;
+  const Vec3 u = Vec3(1, 2, -2) / 3;
+  const TriMesh mesh = cavity(Vec3::Zero(), socket, 5);
+  const TriMesh mobile = sphere(shift * u, ball, 3);
+  const RadialHits hits = table(mesh, 32).query(mobile.vertices);
+  const double edge = socket * std::numbers::pi / 2 / 32 * (std::numbers::pi / 2);
+  const double sag = edge * edge / (8 * socket) * 2;
+  int inside = 0, outside = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    // |v| at angle alpha from u is the root of the shifted sphere: s cos + sqrt(r^2 - s^2 sin^2).
+    const double cosine = mobile.vertices[i].normalized().dot(u);
+    const double radius = shift * cosine + std::sqrt(ball * ball - shift * shift * (1 - cosine * cosine));
+    const double gap = socket - radius;
+    if (gap < -1e-12) {
+      EXPECT_EQ(hits.state[i], PointState::inside);
+      EXPECT_LE(hits.radial_gap[i], gap + 1e-11);
+      EXPECT_GE(hits.radial_gap[i], gap - sag);
+      EXPECT_EQ(hits.direction[i], RayDirection::towards_centre);
+      ++inside;
+    } else if (gap > sag) {
+      EXPECT_EQ(hits.state[i], PointState::outside);
+      EXPECT_LE(hits.radial_gap[i], gap + 1e-11);
+      EXPECT_GE(hits.radial_gap[i], gap - sag);
+      ++outside;
+    }
+  }
+  EXPECT_GT(inside, 50);
+  EXPECT_GT(outside, 50);
+}
+
+TEST_P(RadialTableOnMap, StatesAreThoseOfRationalArithmetic) {
+  expect_states_of_brute_force(table(sphere({0.3, 0.2, -0.1}, 1, 2)), random_points(400, 1.5, 1));
+  expect_states_of_brute_force(table(test::torus(2, 0.5, 12, 8)), random_points(400, 2.6, 2));
+  expect_states_of_brute_force(table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 2)), random_points(400, 1.5, 3));
+}
+
+TEST_P(RadialTableOnMap, RaysThroughVerticesAndEdgesAreCountedOnce) {
+  // Every vertex and edge middle of these lies on an axis, a diagonal or a cell's border, and so do the query
+  // rays.
+  for (const double factor : {0.5, 0.999999, 1.000001, 2.0}) {
+    for (const TriMesh& mesh :
+         {box({-1, -1, -1}, {1, 1, 1}), sphere(Vec3::Zero(), 1, 1), test::torus(2, 1, 8, 8)}) {
+      if (test::winding_number(mesh, Vec3::Zero()).on_surface) continue;
+      Points points;
+      for (std::size_t i = 0; i < mesh.vertices.size(); ++i) points.push_back(factor * mesh.vertices[i]);
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        points.push_back(factor * 0.5 * (mesh.corner(t, 0) + mesh.corner(t, 1)));
+      }
+      expect_states_of_brute_force(table(mesh, 8), points);
+    }
+  }
+}
+
+TEST_P(RadialTableOnMap, PointsExactlyOnTheSurfaceAreOnIt) {
+  const TriMesh mesh = box({-1, -2, -1}, {3, 2, 1});
+  Points points;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) points.push_back(mesh.vertices[i]);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    points.push_back(0.5 * (mesh.corner(t, 0) + mesh.corner(t, 1)));
+    points.push_back(0.25 * mesh.corner(t, 0) + 0.25 * mesh.corner(t, 1) + 0.5 * mesh.corner(t, 2));
+  }
+  const RadialHits hits = table(mesh).query(points);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_EQ(hits.state[i], PointState::on_surface) << points[i].transpose();
+    EXPECT_EQ(hits.radial_gap[i], 0);
+    EXPECT_NE(hits.triangle[i], no_index);
+  }
+}
+
+TEST_P(RadialTableOnMap, PointsOnTheSilhouetteAreOnTheSurface) {
+  // A box whose face lies in a plane through the centre, seen edge-on: no ray crosses that face, yet it is
+  // surface.
+  const TriMesh mesh = box({1, 0, -1}, {3, 2, 1});
+  Points points;
+  points.push_back({2, 0, 0});
+  points.push_back({1, 0, 0});
+  points.push_back({3, 0, 1});
+  points.push_back({1, 1, 1});
+  const RadialHits hits = table(mesh).query(points);
+  for (const PointState state : hits.state) EXPECT_EQ(state, PointState::on_surface);
+  expect_states_of_brute_force(table(mesh), random_points(300, 3.5, 4));
+}
+
+TEST_P(RadialTableOnMap, SeveralSkinsAlongOneRayAreToldApart) {
+  TriMesh mesh = box({1, -1, -1}, {2, 1, 1});
+  mesh = joined(mesh, box({3, -1, -1}, {4, 1, 1}));
+  mesh = joined(mesh, box({3.5, -1, -1}, {5, 1, 1}));
+  Points points;
+  for (const double x : {0.5, 1.25, 1.75, 2.5, 3.25, 3.75, 4.75, 6.0}) points.push_back({x, 0.01, 0.02});
+  const RadialHits hits = table(mesh).query(points);
+  EXPECT_EQ(hits.winding, (std::vector<int>{0, 1, 1, 0, 1, 2, 1, 0}));
+  const double stretch = points[0].norm() / 0.5;  // the ray is not quite along x: path per unit of x
+  const auto at = [&](std::size_t i) { return hits.radial_gap[i]; };
+  const auto along = [&](std::size_t i) { return points[i].norm() / points[i].x(); };
+  EXPECT_NEAR(at(0), 0.5 * stretch, 1e-14);
+  EXPECT_NEAR(at(1), -0.25 * along(1), 1e-14);
+  EXPECT_EQ(hits.direction[1], RayDirection::towards_centre);
+  EXPECT_NEAR(at(2), -0.25 * along(2), 1e-14);
+  EXPECT_EQ(hits.direction[2], RayDirection::away_from_centre);
+  EXPECT_NEAR(at(3), 0.5 * along(3), 1e-14);
+  // Where two solids overlap, the way out passes the skin inside: the union's outer skin counts.
+  EXPECT_NEAR(at(5), -0.75 * along(5), 1e-14);
+  EXPECT_NEAR(at(6), -0.25 * along(6), 1e-14);
+  EXPECT_EQ(at(7), infinity);
+  EXPECT_EQ(hits.triangle[7], no_index);
+  expect_states_of_brute_force(table(mesh), random_points(300, 5.5, 5));
+}
+
+TEST_P(RadialTableOnMap, ASolidThatHoldsTheCentreMeasuresGapsInwards) {
+  const RadialTable solid = table(sphere(Vec3::Zero(), 10, 4));
+  EXPECT_EQ(solid.winding_at_centre(), 1);
+  Points points;
+  points.push_back({12, 0, 0});  // along a vertex: the true radius
+  points.push_back({0, 9, 0});
+  points.push_back({0, 0, 0});
+  const RadialHits hits = solid.query(points);
+  EXPECT_EQ(hits.state[0], PointState::outside);
+  EXPECT_NEAR(hits.radial_gap[0], 2, 1e-14);
+  EXPECT_EQ(hits.direction[0], RayDirection::towards_centre);
+  EXPECT_EQ(hits.state[1], PointState::inside);
+  EXPECT_NEAR(hits.radial_gap[1], -1, 1e-14);
+  EXPECT_EQ(hits.direction[1], RayDirection::away_from_centre);
+  EXPECT_EQ(hits.state[2], PointState::inside);
+  EXPECT_EQ(hits.radial_gap[2], -infinity);
+}
+
+TEST_P(RadialTableOnMap, DepthsAreThoseOfAnIndependentRayInFiftyDigits) {
+  using Fifty = boost::multiprecision::cpp_bin_float_50;
+  const TriMesh mesh = sphere({0.4, -0.3, 0.2}, 1, 3);
+  const Points points = random_points(2000, 1.3, 7);
+  const RadialHits hits = table(mesh).query(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (hits.triangle[i] == no_index) continue;
+    std::array<std::array<Fifty, 3>, 4> p;  // corners a b c, then the query point
+    for (int k = 0; k < 3; ++k) {
+      for (int corner = 0; corner < 3; ++corner) p[corner][k] = mesh.corner(hits.triangle[i], corner)[k];
+      p[3][k] = points[i][k];
+    }
+    std::array<Fifty, 3> n;
+    for (int k = 0; k < 3; ++k) {
+      const int l = (k + 1) % 3, m = (k + 2) % 3;
+      n[k] = (p[1][l] - p[0][l]) * (p[2][m] - p[0][m]) - (p[1][m] - p[0][m]) * (p[2][l] - p[0][l]);
+    }
+    const auto dot = [](const auto& a, const auto& b) {
+      return Fifty(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+    };
+    const Fifty distance = (dot(n, p[0]) / dot(n, p[3]) - 1) * sqrt(dot(p[3], p[3]));
+    const double expected = abs(distance).convert_to<double>();
+    EXPECT_NEAR(std::abs(hits.radial_gap[i]), expected, 1e-12 * points[i].norm());
+  }
+}
+
+TEST_P(RadialTableOnMap, MovingMeshAndPointsTenMetresAwayKeepsEveryAnswerExact) {
+  // The joint frame subtracts the centre before a table is made; coordinates that are multiples of 2^-20
+  // survive that exactly, so the answers must be the same to the last bit.
+  const auto snapped = [](const Points& in, const Vec3& offset) {
+    Points out;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const Vec3 p = (in[i] * 0x1p20).array().round() * 0x1p-20;
+      out.push_back((p + offset) - offset);
+    }
+    return out;
+  };
+  TriMesh near = sphere({0.3, 0.2, -0.1}, 1, 3), far = near;
+  const Points points = random_points(500, 1.5, 8);
+  near.vertices = snapped(near.vertices, Vec3::Zero());
+  far.vertices = snapped(far.vertices, {10000, -10000, 10000});
+  EXPECT_EQ(table(near).query(snapped(points, Vec3::Zero())),
+            table(far).query(snapped(points, {10000, -10000, 10000})));
+}
+
+TEST_P(RadialTableOnMap, OneThreadAndManyGiveTheSameBytes) {
+  const RadialTable solid = table(sphere({0.4, -0.3, 0.2}, 1, 4));
+  const Points points = random_points(20000, 1.3, 9);
+  RadialHits one, many;
+  {
+    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    solid.query(points, one);
+  }
+  {
+    const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
+    solid.query(points, many);
+  }
+  EXPECT_EQ(one, many);
+}
+
+TEST_P(RadialTableOnMap, AnOpenMeshIsRefusedByNameOfItsBoundary) {
+  TriMesh mesh = sphere({0.1, 0, 0}, 1, 1);
+  mesh.triangles.pop_back();
+  const RadialTable open = table(mesh);
+  EXPECT_FALSE(open.is_closed());
+  try {
+    open.query(mesh.vertices);
+    FAIL() << "an open mesh has no inside";
+  } catch (const MeshError& error) {
+    EXPECT_NE(std::string(error.what()).find("edge from vertex"), std::string::npos) << error.what();
+  }
+}
+
+TEST_P(RadialTableOnMap, ACentreOnTheSurfaceIsRefusedByNameOfItsTriangle) {
+  EXPECT_THROW(table(box({0, -1, -1}, {2, 1, 1})), MeshError);  // in a face
+  EXPECT_THROW(table(box({0, 0, -1}, {2, 1, 1})), MeshError);   // on an edge
+  EXPECT_THROW(table(box({0, 0, 0}, {2, 1, 1})), MeshError);    // on a vertex
+  EXPECT_NO_THROW(table(box({0, 0.5, 0}, {2, 1, 1})));          // in the plane of faces, not on them
+}
+
+TEST_P(RadialTableOnMap, AMeshWoundInsideOutHasNegativeWindingAndNoInside) {
+  const RadialHits hits = table(flipped(sphere({0.1, 0.2, 0.3}, 1, 2))).query(random_points(200, 0.3, 10));
+  for (const int winding : hits.winding) EXPECT_EQ(winding, -1);
+}
+
+TEST(RadialTable, BothMapsGiveTheSameBytes) {
+  const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
+  const Points points = random_points(3000, 1.5, 11);
+  EXPECT_EQ(RadialTable(mesh, {DirectionMapKind::cube, 24}).query(points),
+            RadialTable(mesh, {DirectionMapKind::cartesian, 40}).query(points));
+}
+
+TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething) {
+  const RadialTable table(box({-10, -10, 5}, {10, 10, 6}));
+  Points points;
+  points.push_back({0, 0, 5.5});
+  points.push_back({9, 0, 5.1});
+  const RadialHits hits = table.query(points);
+  EXPECT_NEAR(hits.ray_to_normal[0], 0, 1e-15);
+  EXPECT_NEAR(hits.ray_to_normal[1], std::atan2(9.0, 5.1), 1e-15);
+  EXPECT_GT(Angle::radians(hits.ray_to_normal[1]), oblique_ray);
+}
+
+TEST(RadialTable, CellsOutOfRangeAreRefused) {
+  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 0}), UsageError);
+  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 1 << 20}), UsageError);
+}
+
+}  // namespace
+}  // namespace condyle
