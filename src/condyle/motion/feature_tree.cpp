@@ -137,8 +137,9 @@ FeatureTree::FeatureTree(const TriMesh& mesh) : mesh_triangle_(mesh.triangles.si
       corners[k] = place[v];
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({corners[k], corners[(k + 1) % 3]});
-      uses.push_back({{low, high}, static_cast<Index>(triangles_.size())});
+      const Index a = corners[k], b = corners[(k + 1) % 3];
+      const bool ascending = mesh_vertex_[a] < mesh_vertex_[b];
+      uses.push_back({{ascending ? a : b, ascending ? b : a}, static_cast<Index>(triangles_.size())});
     }
     triangles_.push_back(corners);
     vertices_before.push_back(static_cast<Index>(mesh_vertex_.size()));

@@ -37,7 +37,8 @@ class FeatureTree {
   const std::vector<Node>& nodes() const noexcept { return nodes_; }
   bool empty() const noexcept { return triangles_.empty(); }
 
-  /// Corners and ends are places of vertices.
+  /// Corners and ends are places of vertices: corners in the mesh's order, ends in ascending order of the
+  /// mesh's numbers, so that what is computed from a feature does not depend on the tree.
   const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
   const std::vector<std::array<Index, 2>>& edges() const noexcept { return edges_; }
   const std::vector<Triple<double>>& vertices() const noexcept { return vertices_; }

@@ -37,8 +37,7 @@ Feature vertex_feature(const FeatureTree& tree, Index place) {
 }
 Feature edge_feature(const FeatureTree& tree, Index place) {
   const auto [a, b] = tree.edges()[place];
-  const auto [low, high] = std::minmax({tree.mesh_vertex(a), tree.mesh_vertex(b)});
-  return {FeatureKind::edge, low, high};
+  return {FeatureKind::edge, tree.mesh_vertex(a), tree.mesh_vertex(b)};
 }
 Feature face_feature(const FeatureTree& tree, Index place) {
   return {FeatureKind::face, tree.mesh_triangle(place)};
