@@ -1,0 +1,26 @@
+#pragma once
+
+#include "condyle/motion/feature_tree.hpp"
+
+namespace condyle {
+
+/// A pair of nodes still to be looked at, and the smallest turn after which they can touch.
+struct NodePair {
+  Index turning, resting;
+  double gap;
+};
+
+/// Splits the larger of two nodes, of which not both are leaves, and calls visit with each pair that results.
+template <class Visit>
+void split(const FeatureTree& turning, const FeatureTree& resting, const NodePair& pair, const Visit& visit) {
+  const auto &m = turning.nodes()[pair.turning], &f = resting.nodes()[pair.resting];
+  if (f.is_leaf() || (!m.is_leaf() && m.radius > f.radius)) {
+    visit(pair.turning + 1, pair.resting);
+    visit(m.right, pair.resting);
+  } else {
+    visit(pair.turning, pair.resting + 1);
+    visit(pair.turning, f.right);
+  }
+}
+
+}  // namespace condyle

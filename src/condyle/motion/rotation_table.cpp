@@ -1,0 +1,175 @@
+#include "condyle/motion/rotation_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/core/predicates.hpp"
+
+namespace condyle {
+namespace {
+
+using Node = FeatureTree::Node;
+using Point = Triple<double>;
+
+Point triple(const Vec3& p) noexcept {
+  return {p.x(), p.y(), p.z()};
+}
+Vec3 vec3(const Point& p) noexcept {
+  return {p.x, p.y, p.z};
+}
+
+/// Which side of the directed line a b, seen along the axis, p lies on; where exactly on it, p shifted by an
+/// infinitesimal in x and one infinitely smaller in y decides. Zero only where a is b.
+Sign side_seen_along_axis(const Point& a, const Point& b, const Point& p) noexcept {
+  const Sign sign = orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y);
+  if (sign != Sign::zero) return sign;
+  if (a.y != b.y) return a.y > b.y ? Sign::positive : Sign::negative;
+  return b.x > a.x ? Sign::positive : b.x < a.x ? Sign::negative : Sign::zero;
+}
+
+/// What the ray from p along the axis adds to the winding number at this triangle.
+int crossing(const Point& a, const Point& b, const Point& c, const Point& p) noexcept {
+  const Sign facing = side_seen_along_axis(a, b, p);
+  if (facing == Sign::zero || side_seen_along_axis(b, c, p) != facing ||
+      side_seen_along_axis(c, a, p) != facing)
+    return 0;
+  // Facing up, the triangle is above p where p is on its back.
+  const Sign height_of_p = orientation(vec3(a), vec3(b), vec3(c), vec3(p)) * facing;
+  return height_of_p == Sign::negative ? static_cast<int>(facing) : 0;
+}
+
+}  // namespace
+
+void CylinderFeatures::resize(const FeatureTree& tree) {
+  points.resize(tree.vertices().size());
+  at.resize(tree.vertices().size());
+  vertex_boxes.resize(tree.vertices().size());
+  edge_boxes.resize(tree.edges().size());
+  triangle_boxes.resize(tree.triangles().size());
+  node_boxes.resize(tree.nodes().size());
+}
+
+void CylinderFeatures::fill_boxes(const FeatureTree& tree, const Node& leaf) {
+  for (Index v = leaf.vertices.first; v < leaf.vertices.last; ++v)
+    vertex_boxes[v] = box_of_vertex(points[v], at[v]);
+  for (Index e = leaf.edges.first; e < leaf.edges.last; ++e) {
+    const auto [a, b] = tree.edges()[e];
+    edge_boxes[e] = box_of_edge(points[a], at[a], points[b], at[b]);
+  }
+  for (Index t = leaf.triangles.first; t < leaf.triangles.last; ++t) {
+    const auto [a, b, c] = tree.triangles()[t];
+    triangle_boxes[t] = box_of_triangle(points[a], at[a], points[b], at[b], points[c], at[c]);
+  }
+}
+
+RotationTable::RotationTable(const FeatureTree& tree, const AxisFrame& frame) : tree_(&tree), frame_(frame) {
+  features_.resize(tree);
+  for (std::size_t v = 0; v < tree.vertices().size(); ++v) {
+    features_.points[v] = triple(frame.to_axis(vec3(tree.vertices()[v])));
+    features_.at[v] = cylinder_point(features_.points[v]);
+  }
+  // Children come after their parent.
+  for (std::size_t i = tree.nodes().size(); i-- > 0;) {
+    const Node& node = tree.nodes()[i];
+    auto& box = features_.node_boxes[i];
+    if (node.is_leaf()) {
+      features_.fill_boxes(tree, node);
+      box = features_.triangle_boxes[node.triangles.first];
+      for (Index t = node.triangles.first + 1; t < node.triangles.last; ++t) {
+        box = hull(box, features_.triangle_boxes[t]);
+      }
+    } else {
+      box = hull(features_.node_boxes[i + 1], features_.node_boxes[node.right]);
+    }
+  }
+}
+
+TurningBody::TurningBody(const FeatureTree& tree)
+    : tree_(&tree),
+      frame_(Vec3::Zero(), Vec3::UnitZ()),
+      node_mark_(tree.nodes().size(), 0),
+      leaf_mark_(tree.nodes().size(), 0),
+      vertex_mark_(tree.vertices().size(), 0) {
+  features_.resize(tree);
+  for (const Point& p : tree.vertices())
+    extent_ = std::max({extent_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+}
+
+void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
+  frame_ = frame_R;
+  X_RT_ = X_RT;
+  // Two changes of frame, each three products and three sums of numbers of this size, for the centre and for
+  // the point.
+  const double size = 3 * extent_ + X_RT.translation().lpNorm<1>() + frame_R.point().lpNorm<1>();
+  posing_slack_ = 64 * rounding_unit * size;
+  if (++pose_number_ == 0) {
+    for (auto* marks : {&node_mark_, &leaf_mark_, &vertex_mark_}) std::fill(marks->begin(), marks->end(), 0u);
+    pose_number_ = 1;
+  }
+}
+
+void TurningBody::place_vertex(Index vertex) {
+  if (vertex_mark_[vertex] == pose_number_) return;
+  vertex_mark_[vertex] = pose_number_;
+  const Point p = triple(frame_.to_axis(posed(X_RT_, vec3(tree_->vertices()[vertex]))));
+  features_.points[vertex] = p;
+  features_.at[vertex] = cylinder_point(p);
+}
+
+const CylinderBox& TurningBody::node_box(Index i) {
+  auto& box = features_.node_boxes[i];
+  if (node_mark_[i] != pose_number_) {
+    node_mark_[i] = pose_number_;
+    const Node& node = tree_->nodes()[i];
+    const Vec3 centre = frame_.to_axis(posed(X_RT_, vec3(node.centre)));
+    box = box_of_ball(triple(centre), node.radius + posing_slack_);
+  }
+  return box;
+}
+
+const CylinderFeatures& TurningBody::leaf_features(Index i) {
+  if (leaf_mark_[i] != pose_number_) {
+    leaf_mark_[i] = pose_number_;
+    const Node& leaf = tree_->nodes()[i];
+    for (Index t = leaf.triangles.first; t < leaf.triangles.last; ++t) {
+      for (const Index v : tree_->triangles()[t]) place_vertex(v);
+    }
+    features_.fill_boxes(*tree_, leaf);
+  }
+  return features_;
+}
+
+template <class Body>
+int winding_number(Body& body, const Triple<double>& point) {
+  const FeatureTree& tree = body.tree();
+  if (tree.empty()) return 0;
+  const CylinderBox column = box_of_vertex(point, cylinder_point(point));
+  const auto above = [&](const CylinderBox& box) {
+    return box.rho_lo <= column.rho_hi && column.rho_lo <= box.rho_hi && box.z_hi >= point.z &&
+           arcs_meet(box, column);
+  };
+  int winding = 0;
+  std::vector<Index> open = {0};
+  while (!open.empty()) {
+    const Index i = open.back();
+    open.pop_back();
+    if (!above(body.node_box(i))) continue;
+    const Node& node = tree.nodes()[i];
+    if (!node.is_leaf()) {
+      open.push_back(i + 1);
+      open.push_back(node.right);
+      continue;
+    }
+    const auto& features = body.leaf_features(i);
+    for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
+      const auto [a, b, c] = tree.triangles()[t];
+      winding += crossing(features.points[a], features.points[b], features.points[c], point);
+    }
+  }
+  return winding;
+}
+
+template int winding_number<const RotationTable>(const RotationTable&, const Triple<double>&);
+template int winding_number<TurningBody>(TurningBody&, const Triple<double>&);
+
+}  // namespace condyle

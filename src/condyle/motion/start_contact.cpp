@@ -1,0 +1,112 @@
+#include "condyle/motion/start_contact.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "condyle/mesh/triangle_intersection.hpp"
+#include "condyle/motion/node_pairs.hpp"
+
+namespace condyle {
+namespace {
+
+/// How far inside a triangle a point of its plane is: the smallest of its three shares (1/3 in the middle, <
+/// 0 outside).
+double smallest_share(const TriangleCorners& t, const Vec3& p) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  double smallest = 1;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 edge = t[(k + 1) % 3] - t[k];
+    smallest = std::min(smallest, edge.cross(p - t[k]).dot(normal) / normal.squaredNorm());
+  }
+  return smallest;
+}
+
+/// A point of both triangles, which are known to meet, to rounding: of all crossings of an edge of one with
+/// the other's plane the one farthest inside; where they lie in one plane, of their corners and of the
+/// crossings of their edges.
+Vec3 common_point(const TriangleCorners& a, const TriangleCorners& b) {
+  Vec3 best = a[0];
+  double best_share = -std::numeric_limits<double>::infinity();
+  const auto consider = [&](const Vec3& p) {
+    const double share = std::min(smallest_share(a, p), smallest_share(b, p));
+    if (share > best_share) best_share = share, best = p;
+  };
+  const auto consider_edges_of = [&](const TriangleCorners& t, const TriangleCorners& other) {
+    const Vec3 normal = (other[1] - other[0]).cross(other[2] - other[0]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 p = t[k], q = t[(k + 1) % 3];
+      const double at_p = normal.dot(p - other[0]), at_q = normal.dot(q - other[0]);
+      if (at_p != at_q) consider(p + std::clamp(at_p / (at_p - at_q), 0.0, 1.0) * (q - p));
+      for (std::size_t l = 0; l < 3; ++l) {
+        const Vec3 r = other[l], along = other[(l + 1) % 3] - r, across = (q - p).cross(along);
+        const double size = across.squaredNorm();
+        if (size > 0) consider(p + std::clamp((r - p).cross(along).dot(across) / size, 0.0, 1.0) * (q - p));
+      }
+    }
+  };
+  consider_edges_of(a, b);
+  consider_edges_of(b, a);
+  return best;
+}
+
+TriangleCorners corners_of(const FeatureTree& tree, const CylinderFeatures& features, Index triangle) {
+  TriangleCorners out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& p = features.points[tree.triangles()[triangle][k]];
+    out[k] = {p.x, p.y, p.z};
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<TouchingFeatures> faces_touching_at_start(const RotationTable& resting, TurningBody& turning,
+                                                        TurnWork& work) {
+  const FeatureTree &mt = turning.tree(), &ft = resting.tree();
+  const auto near_now = [](const CylinderBox& a, const CylinderBox& b) {
+    return a.shares_profile(b) && arcs_meet(a, b);
+  };
+  std::vector<NodePair> open;
+  const auto push = [&](Index m, Index f) {
+    ++work.node_pairs;
+    if (near_now(turning.node_box(m), resting.node_box(f))) open.push_back({m, f, 0});
+  };
+  push(0, 0);
+  while (!open.empty()) {
+    const NodePair pair = open.back();
+    open.pop_back();
+    const auto &m = mt.nodes()[pair.turning], &f = ft.nodes()[pair.resting];
+    if (!m.is_leaf() || !f.is_leaf()) {
+      split(mt, ft, pair, push);
+      continue;
+    }
+    const CylinderFeatures &mf = turning.leaf_features(pair.turning), &ff = resting.features();
+    for (Index s = m.triangles.first; s < m.triangles.last; ++s) {
+      for (Index t = f.triangles.first; t < f.triangles.last; ++t) {
+        if (!near_now(mf.triangle_boxes[s], ff.triangle_boxes[t])) continue;
+        ++work.triangle_tests;
+        const auto a = corners_of(mt, mf, s), b = corners_of(ft, ff, t);
+        if (!triangles_intersect(a, b)) continue;
+        const Vec3 p = common_point(a, b);
+        return TouchingFeatures{
+            {{FeatureKind::face, mt.mesh_triangle(s)}, {FeatureKind::face, ft.mesh_triangle(t)}},
+            turning.to_own(p),
+            resting.frame().from_axis(p)};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool one_inside_other_at_start(const RotationTable& resting, TurningBody& turning) {
+  const FeatureTree &mt = turning.tree(), &ft = resting.tree();
+  const auto inside_resting = [&](Index v) { return winding_number(resting, turning.placed_vertex(v)) > 0; };
+  const auto inside_turning = [&](Index v) {
+    return winding_number(turning, resting.features().points[v]) > 0;
+  };
+  return (ft.is_closed() && std::any_of(mt.pieces().begin(), mt.pieces().end(), inside_resting)) ||
+         (mt.is_closed() && std::any_of(ft.pieces().begin(), ft.pieces().end(), inside_turning));
+}
+
+}  // namespace condyle

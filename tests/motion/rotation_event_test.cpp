@@ -1,0 +1,263 @@
+#include "condyle/motion/rotation_event.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <numbers>
+#include <vector>
+
+namespace condyle {
+namespace {
+
+using std::numbers::pi;
+using Point = Triple<double>;
+
+/// A hundred digits: zero is what vanishes to 1e-70. Roots of quadratics in small or double numbers that do
+/// not vanish are far larger.
+using Real = boost::multiprecision::cpp_bin_float_100;
+const Real negligible("1e-70");
+
+int side(const Real& value) {
+  return value > negligible ? 1 : value < -negligible ? -1 : 0;
+}
+
+Triple<Real> real(const Point& p) {
+  return {Real(p.x), Real(p.y), Real(p.z)};
+}
+Triple<Real> turned(const Triple<Real>& p, const Real& t) {
+  return {p.x * cos(t) - p.y * sin(t), p.x * sin(t) + p.y * cos(t), p.z};
+}
+/// t in [0, 2 pi), where all but 2 pi is 0.
+Real in_turn(Real t) {
+  const Real turn = 2 * boost::math::constants::pi<Real>();
+  while (t < -negligible) t += turn;
+  while (t >= turn - negligible) t -= turn;
+  return t < 0 ? Real(0) : t;
+}
+
+std::vector<Real> real_roots(const Real& A, const Real& B, const Real& C) {
+  const Real r = sqrt(A * A + B * B);
+  if (side(r) == 0 || side(abs(C) - r) > 0) return {};
+  const Real ratio = -C / r, middle = atan2(B, A);
+  if (side(abs(C) - r) == 0)
+    return {in_turn(ratio > 0 ? middle : middle + boost::math::constants::pi<Real>())};
+  return {in_turn(middle + acos(ratio)), in_turn(middle - acos(ratio))};
+}
+
+/// The plain reading of "a turning point is on a triangle": solve for the plane, then look at the three
+/// sides.
+std::vector<Real> real_vertex_face(const Point& vertex, const Corners& face) {
+  const auto p = real(vertex);
+  const std::array<Triple<Real>, 3> f = {real(face[0]), real(face[1]), real(face[2])};
+  const auto n = cross(f[1] - f[0], f[2] - f[0]);
+  std::vector<Real> found;
+  for (const Real& t : real_roots(n.x * p.x + n.y * p.y, n.y * p.x - n.x * p.y, n.z * p.z - dot(n, f[0]))) {
+    const auto x = turned(p, t);
+    bool inside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      inside = inside && side(dot(cross(f[(k + 1) % 3] - f[k], x - f[k]), n)) >= 0;
+    }
+    if (inside) found.push_back(t);
+  }
+  return found;
+}
+
+/// The plain reading of "two edges meet": solve for coplanar lines, then for both parameters; parallel lines
+/// are none.
+std::vector<Real> real_edges(const Point& pa, const Point& pb, const Point& pc, const Point& pd) {
+  const auto a = real(pa), b = real(pb), c = real(pc), d = real(pd);
+  const auto w = d - c, u = b - a, m = cross(a, u), n = cross(c, w);
+  std::vector<Real> found;
+  for (const Real& t : real_roots(m.x * w.x + m.y * w.y + u.x * n.x + u.y * n.y,
+                                  m.x * w.y - m.y * w.x + u.x * n.y - u.y * n.x, m.z * w.z + u.z * n.z)) {
+    const auto x = turned(a, t), ru = turned(u, t), across = cross(ru, w);
+    const Real size = dot(across, across);
+    if (side(size) == 0) continue;
+    const Real s = dot(cross(c - x, w), across) / size, q = dot(cross(c - x, ru), across) / size;
+    if (side(s) >= 0 && side(s - 1) <= 0 && side(q) >= 0 && side(q - 1) <= 0) found.push_back(t);
+  }
+  return found;
+}
+
+/// Same angles: as many, each within the stated error, and that error as small as promised.
+void expect_same(const Touches& touches, std::vector<Real> truth) {
+  RC_ASSERT(static_cast<std::size_t>(touches.count) == truth.size());
+  std::vector<Touch> found(touches.begin(), touches.end());
+  std::sort(found.begin(), found.end(), [](const Touch& a, const Touch& b) { return a.angle < b.angle; });
+  std::sort(truth.begin(), truth.end());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    RC_ASSERT(found[i].error <= worst_touch_error);
+    RC_ASSERT(abs(Real(found[i].angle) - truth[i]) <= Real(found[i].error));
+  }
+}
+
+/// Coordinates from a coarse lattice, where almost everything degenerate happens.
+Point lattice_point() {
+  return {double(*rc::gen::inRange(-2, 3)), double(*rc::gen::inRange(-2, 3)),
+          double(*rc::gen::inRange(-1, 2))};
+}
+Point any_point() {
+  const auto coordinate = [] { return *rc::gen::inRange(-1'000'000, 1'000'001) * 1e-4; };
+  return {coordinate(), coordinate(), coordinate()};
+}
+
+TEST(RotationRoots, of_cosine_and_sine_are_where_they_vanish) {
+  const Roots cosine = rotation_roots(1, 0, 0), sine = rotation_roots(0, 1, 0);
+  ASSERT_EQ(cosine.count, 2);
+  EXPECT_NEAR(cosine.angle[0], pi / 2, 1e-15);
+  EXPECT_NEAR(cosine.angle[1], 3 * pi / 2, 2e-15);
+  ASSERT_EQ(sine.count, 2);
+  EXPECT_NEAR(std::min(sine.angle[0], sine.angle[1]), 0, 1e-15);
+  EXPECT_NEAR(std::max(sine.angle[0], sine.angle[1]), pi, 1e-15);
+}
+
+TEST(RotationRoots, exist_up_to_grazing_and_not_beyond) {
+  EXPECT_EQ(rotation_roots(3, 4, 5).count, 1);
+  EXPECT_NEAR(rotation_roots(3, 4, 5).angle[0], pi + std::atan2(4, 3), 1e-15);
+  EXPECT_EQ(rotation_roots(3, 4, -5).count, 1);
+  EXPECT_NEAR(rotation_roots(3, 4, -5).angle[0], std::atan2(4, 3), 1e-15);
+  EXPECT_EQ(rotation_roots(3, 4, std::nextafter(5, 6)).count, 0);
+  EXPECT_EQ(rotation_roots(3, 4, std::nextafter(5, 4)).count, 2);
+  EXPECT_EQ(rotation_roots(0, 0, 0).count, 0) << "sliding contact is reported by neighbours";
+}
+
+TEST(RotationRoots, of_a_grazing_plane_lie_as_far_apart_as_the_square_root_says) {
+  // cos t = 1 - e has roots +-sqrt(2 e) (1 + e / 12): acos would have lost half the digits.
+  const double e = 0x1p-40;
+  const Roots roots = rotation_roots(1, 0, -(1 - e));
+  ASSERT_EQ(roots.count, 2);
+  EXPECT_NEAR(roots.angle[0], std::sqrt(2 * e) * (1 + e / 12), 1e-21);
+}
+
+TEST(VertexMeetsFace, where_the_arctangent_says) {
+  // A point at distance 2 from the axis meets the wall x = 1 at +-60 degrees: only one of the two is in the
+  // triangle.
+  const Corners wall = {Point{1, 0, -5}, Point{1, 9, 0}, Point{1, 0, 5}};
+  const auto touches = vertex_meets_face({2, 0, 0}, wall);
+  ASSERT_EQ(touches.count, 1);
+  EXPECT_NEAR(touches.touch[0].angle, pi / 3, touches.touch[0].error);
+  EXPECT_LE(touches.touch[0].error, 1e-13);
+  const auto backwards = face_meets_vertex(wall, {2, 0, 0});
+  ASSERT_EQ(backwards.count, 1);
+  EXPECT_NEAR(backwards.touch[0].angle, 5 * pi / 3, backwards.touch[0].error);
+}
+
+TEST(VertexMeetsFace, touching_an_edge_or_a_corner_counts) {
+  const Corners wall = {Point{0, 1, -5}, Point{0, 3, -5}, Point{0, 1, 5}};
+  EXPECT_EQ(vertex_meets_face({2, 0, -5}, wall).count, 1) << "on an edge";
+  EXPECT_EQ(vertex_meets_face({3, 0, -5}, wall).count, 1) << "on a corner";
+  EXPECT_EQ(vertex_meets_face({3, 0, std::nextafter(-5, 0)}, wall).count, 0) << "just beside";
+  EXPECT_EQ(vertex_meets_face({std::nextafter(3, 4), 0, -5}, wall).count, 0) << "just beside";
+}
+
+TEST(VertexMeetsFace, grazing_a_face_is_one_touch_and_missing_it_by_one_rounding_is_none) {
+  const Corners wall = {Point{2, -4, -5}, Point{2, 4, -5}, Point{2, 0, 5}};
+  const auto touches = vertex_meets_face({0, 2, 0}, wall);
+  ASSERT_EQ(touches.count, 1);
+  EXPECT_NEAR(touches.touch[0].angle, 3 * pi / 2, touches.touch[0].error);
+  EXPECT_EQ(vertex_meets_face({0, std::nextafter(2, 0), 0}, wall).count, 0);
+  EXPECT_EQ(vertex_meets_face({0, std::nextafter(2, 3), 0}, wall).count, 2);
+}
+
+TEST(VertexMeetsFace, sliding_in_its_plane_or_resting_on_the_axis_reports_nothing) {
+  const Corners floor = {Point{-5, -5, 1}, Point{5, -5, 1}, Point{0, 5, 1}};
+  EXPECT_EQ(vertex_meets_face({1, 0, 1}, floor).count, 0);
+  EXPECT_EQ(vertex_meets_face({0, 0, 1}, floor).count, 0);
+  const Corners through_axis = {Point{0, -5, -5}, Point{0, 5, -5}, Point{0, 0, 5}};
+  EXPECT_EQ(vertex_meets_face({0, 0, 0}, through_axis).count, 0);
+}
+
+TEST(VertexMeetsFace, a_triangle_without_area_reports_nothing) {
+  EXPECT_EQ(vertex_meets_face({2, 0, 0}, {Point{0, 2, -1}, Point{0, 2, 1}, Point{0, 2, 0}}).count, 0);
+}
+
+TEST(VertexMeetsFace, next_to_the_start_the_side_is_decided_exactly) {
+  // The wall x = 1 + e meets the point (1 + e, y, 0) on either side of y = 0, by less than one rounding of 2
+  // pi.
+  const double y = 1e-17;
+  const Corners wall = {Point{-5, 0, -5}, Point{5, 0, -5}, Point{0, 0, 5}};
+  const auto before = vertex_meets_face({1, -y, 0}, wall, TurnWindow::forward(1));
+  ASSERT_EQ(before.count, 1);
+  EXPECT_LT(before.touch[0].angle, 1e-15);
+  const auto after = vertex_meets_face({1, y, 0}, wall, TurnWindow::backward(1));
+  ASSERT_EQ(after.count, 1);
+  EXPECT_GT(after.touch[0].angle, two_pi - 1e-15);
+}
+
+TEST(EdgesMeet, where_the_arctangent_says) {
+  // A radial spoke at height 0 meets an upright post at distance 2, 90 degrees on.
+  const auto touches = edges_meet({1, 0, 0}, {3, 0, 0}, {0, 2, -1}, {0, 2, 1});
+  ASSERT_EQ(touches.count, 1);
+  EXPECT_NEAR(touches.touch[0].angle, pi / 2, touches.touch[0].error);
+  EXPECT_EQ(edges_meet({1, 0, 0}, {3, 0, 0}, {0, 3, -1}, {0, 3, 1}).count, 1) << "at an end";
+  EXPECT_EQ(edges_meet({1, 0, 0}, {3, 0, 0}, {0, 4, -1}, {0, 4, 1}).count, 0) << "past an end";
+}
+
+TEST(EdgesMeet, always_in_one_plane_reports_nothing) {
+  EXPECT_EQ(edges_meet({1, 0, 0}, {1, 0, 2}, {0, 1, -1}, {0, 1, 1}).count, 0) << "both parallel to the axis";
+  EXPECT_EQ(edges_meet({1, 0, 1}, {2, 0, 2}, {0, 1, 1}, {0, 3, 3}).count, 0)
+      << "both through one point of the axis";
+  EXPECT_EQ(edges_meet({2, 1, 1}, {2, -1, -1}, {2, 1, -1}, {2, -1, 1}).count, 0)
+      << "mirrored rulings of a hyperboloid";
+}
+
+TEST(EdgesMeet, parallel_at_the_root_reports_nothing) {
+  // At 90 degrees both are parallel, and one is the other.
+  for (const Touch& t : edges_meet({2, 1, 0}, {2, -1, 1}, {-1, 2, 0}, {1, 2, 1})) {
+    EXPECT_GT(std::abs(t.angle - pi / 2), 0.1);
+  }
+}
+
+TEST(EdgesMeet, in_one_plane_across_the_axis_where_an_end_passes_the_other_edge) {
+  // A spoke from 1 to 3 sweeps the plane z = 0 and meets the bar x = 2 (|y| < 1) end first at atan(1/2)...
+  // from below.
+  const auto touches = edges_meet({1, 0, 0}, {3, 0, 0}, {2, -1, 0}, {2, 1, 0});
+  ASSERT_EQ(touches.count, 2);
+  for (const Touch& t : touches) EXPECT_NEAR(std::abs(std::sin(t.angle)), 1 / std::sqrt(5), 1e-14);
+}
+
+RC_GTEST_PROP(RotationEvents, of_a_vertex_agree_with_a_hundred_digits, ()) {
+  for (int i = 0; i < 20; ++i) {
+    const Point p = any_point();
+    const Corners face = {any_point(), any_point(), any_point()};
+    expect_same(vertex_meets_face(p, face), real_vertex_face(p, face));
+  }
+}
+
+RC_GTEST_PROP(RotationEvents, of_edges_agree_with_a_hundred_digits, ()) {
+  for (int i = 0; i < 20; ++i) {
+    const Point a = any_point(), b = any_point(), c = any_point(), d = any_point();
+    expect_same(edges_meet(a, b, c, d), real_edges(a, b, c, d));
+  }
+}
+
+RC_GTEST_PROP(RotationEvents, on_a_lattice_of_degenerate_cases_agree_with_a_hundred_digits, ()) {
+  for (int i = 0; i < 100; ++i) {
+    const Point a = lattice_point(), b = lattice_point(), c = lattice_point(), d = lattice_point();
+    expect_same(vertex_meets_face(a, {b, c, d}), real_vertex_face(a, {b, c, d}));
+    const bool flat = a.z == b.z && b.z == c.z && c.z == d.z;
+    if (!flat) expect_same(edges_meet(a, b, c, d), real_edges(a, b, c, d));
+  }
+}
+
+RC_GTEST_PROP(RotationEvents, ten_metres_away_agree_with_a_hundred_digits, ()) {
+  const auto away = [](Point p) { return Point{p.x + 1e4, p.y, p.z - 1e4}; };
+  const Point a = away(any_point()), b = away(any_point()), c = away(any_point()), d = away(any_point());
+  expect_same(vertex_meets_face(a, {b, c, d}), real_vertex_face(a, {b, c, d}));
+  expect_same(edges_meet(a, b, c, d), real_edges(a, b, c, d));
+}
+
+RC_GTEST_PROP(RotationEvents, a_window_loses_none_of_its_touches, ()) {
+  const Point a = any_point(), b = any_point(), c = any_point(), d = any_point();
+  const double last = *rc::gen::inRange(0, 6283) * 1e-3;
+  const auto all = vertex_meets_face(a, {b, c, d});
+  const auto some = vertex_meets_face(a, {b, c, d}, TurnWindow::backward(last));
+  for (const Touch& t : all) {
+    if (t.angle < two_pi - last) continue;
+    RC_ASSERT(std::any_of(some.begin(), some.end(), [&](const Touch& s) { return s.angle == t.angle; }));
+  }
+}
+
+}  // namespace
+}  // namespace condyle
