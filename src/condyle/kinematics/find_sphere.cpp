@@ -25,6 +25,10 @@ constexpr double radius_ratio = 1.05;
 /// normals off by up to 7 degrees in both directions.
 constexpr double cell_in_radii = 0.25;
 
+/// Most that one vertex votes for, in parts of the whole sphere: a sphere of a dozen vertices gives each so
+/// much. The corners of large flat faces have more area than any head and would outvote it.
+constexpr double largest_vote = 1.0 / 12;
+
 /// Vertices farther than this many cells from the first one (3,000 km) are on no joint and would overflow
 /// cell numbers.
 constexpr double farthest_cell = 1e9;
@@ -47,12 +51,12 @@ constexpr double narrowest_band = 1e-6;
 constexpr double first_band = 0.10;
 constexpr double widest_band = 0.05;
 
-/// What a spherical part must have: a tenth of its sphere (a cap of 37 degrees), and rays spread in all three
-/// directions: the smallest eigenvalue of the mean of u u^T is 1/3 for a hemisphere, 0.1 for a cap of 38
-/// degrees, and for the strip where a cylinder or torus touches a sphere from inside, at most 2 widest_band
-/// / 3.
+/// What a spherical part must have: a tenth of its sphere, and rays spread in all three directions. The
+/// smallest eigenvalue of the mean of u u^T is 1/3 for a hemisphere and 0.15 for a cap of 48 degrees; for the
+/// strip where a tube touches a sphere from inside (2 sqrt(4 widest_band) radii wide) it is 4 widest_band / 3
+/// = 0.07, on coarse meshes up to 0.12.
 constexpr double smallest_coverage = 0.10;
-constexpr double smallest_spread = 0.10;
+constexpr double smallest_spread = 0.15;
 constexpr std::size_t fewest_vertices = 12;
 
 struct Candidate {
@@ -89,7 +93,7 @@ std::vector<Candidate> votes(const std::vector<SurfacePoint>& points, double inw
     Vec3 weighted = Vec3::Zero();
   };
   std::unordered_map<Cell, Tally, CellHash> cells;
-  const double side = cell_in_radii * radius;
+  const double side = cell_in_radii * radius, whole = 4 * std::numbers::pi * radius * radius;
   // Positions relative to one vertex keep cell numbers small wherever the mesh lies.
   const Vec3 origin = points.front().position;
   for (const SurfacePoint& p : points) {
@@ -100,10 +104,10 @@ std::vector<Candidate> votes(const std::vector<SurfacePoint>& points, double inw
                     static_cast<std::int32_t>(std::floor(scaled.y())),
                     static_cast<std::int32_t>(std::floor(scaled.z()))};
     Tally& tally = cells[cell];
-    tally.area += p.area;
-    tally.weighted += p.area * centre;
+    const double area = std::min(p.area, largest_vote * whole);
+    tally.area += area;
+    tally.weighted += area * centre;
   }
-  const double whole = 4 * std::numbers::pi * radius * radius;
   std::vector<Candidate> out;
   for (const auto& [cell, tally] : cells) {
     const Candidate candidate{{tally.weighted / tally.area, radius}, tally.area / whole};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "condyle/core/error.hpp"
+#include "condyle/core/predicates.hpp"
 
 namespace condyle {
 namespace {
@@ -13,9 +14,9 @@ using Vec4 = Eigen::Vector4d;
 using Mat4 = Eigen::Matrix4d;
 
 /// As for spheres: see fit_sphere.cpp.
+constexpr double local = 1e-6;
 constexpr double settled = 1e-13;
-constexpr int most_steps = 200;
-constexpr int most_halvings = 10;
+constexpr int most_steps = 100;
 
 /// Smallest over largest pivot of the normal equations (lengths in units of the patch) below which some
 /// motion of the axis changes no distance to it: the points lie in one plane, on one line or on two parallel
@@ -119,23 +120,22 @@ CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, con
     return {a.point + (centroid - a.point).dot(a.direction) * a.direction, a.direction};
   };
   Axis axis = beside({start.point, start.direction.normalized()});
-  double squares = sum_of_squares(points, vertices, axis);
+  const double noise = settled * extent + 4 * rounding_unit * centroid.norm();
   for (int i = 0; i < most_steps; ++i) {
     Vec4 step = axis_step(points, vertices, axis, extent);
-    double next = sum_of_squares(points, vertices, moved(axis, step, extent));
-    for (int halving = 0; halving < most_halvings && !(next < squares); ++halving) {
-      step /= 2;
-      next = sum_of_squares(points, vertices, moved(axis, step, extent));
+    if (step.norm() > local * extent) {
+      const double squares = sum_of_squares(points, vertices, axis);
+      while (step.norm() > local * extent &&
+             !(sum_of_squares(points, vertices, moved(axis, step, extent)) < squares))
+        step /= 2;
     }
-    if (!(next < squares)) break;
     axis = beside(moved(axis, step, extent));
-    squares = next;
-    if (!(step.norm() > settled * extent)) break;
+    if (!(step.norm() > noise)) break;
   }
 
   CylinderFit fit{
       {axis.point, largest_component_positive(axis.direction), mean_distance(points, vertices, axis)},
-      std::sqrt(squares / count),
+      std::sqrt(sum_of_squares(points, vertices, axis) / count),
       0,
       {vertices.begin(), vertices.end()}};
   for (const Index v : vertices) {

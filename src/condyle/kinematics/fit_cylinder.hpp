@@ -31,7 +31,7 @@ CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, con
 struct CylinderSearch {
   double smallest_radius = 5;
   double largest_radius = 45;
-  std::optional<Sphere> within;  ///< only vertices inside this ball are considered
+  std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered
 };
 
 /// The cylindrical part of a surface that has most area for its radius squared (the angle around the axis

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "condyle/core/error.hpp"
+#include "condyle/core/predicates.hpp"
 
 namespace condyle {
 namespace {
@@ -17,11 +18,12 @@ using Mat3 = Eigen::Matrix3d;
 /// to no digit once its coordinates were rounded to float.
 constexpr double flat = 1e-9;
 
-/// Gauss-Newton converges here in some ten steps. A step shorter than this part of the patch is no news; one
-/// that does not lower the sum of squares is halved, and after so many halvings it is rounding alone.
+/// Gauss-Newton converges here in some ten steps, lengths in units of the patch. A step that does not lower
+/// the sum of squares is halved; one shorter than `local` is taken as it is, for it changes the sum by its
+/// square, which rounding hides. A step shorter than `settled` is no news.
+constexpr double local = 1e-6;
 constexpr double settled = 1e-13;
-constexpr int most_steps = 200;
-constexpr int most_halvings = 10;
+constexpr int most_steps = 100;
 
 Vec3 mean_of(PointsView points, std::span<const Index> vertices) {
   Vec3 sum = Vec3::Zero();
@@ -113,18 +115,17 @@ SphereFit fit_sphere(PointsView points, std::span<const Index> vertices) {
     throw MeshError("the vertices lie in one plane: no sphere fits them");
 
   Vec3 centre = algebraic_centre(points, vertices, mean, C);
-  double squares = sum_of_squares(points, vertices, centre);
+  const double patch = std::sqrt(variances[2]);
+  const double noise = settled * patch + 4 * rounding_unit * mean.norm();
   for (int step = 0; step < most_steps; ++step) {
     Vec3 move = centre_step(points, vertices, centre);
-    double next = sum_of_squares(points, vertices, centre + move);
-    for (int halving = 0; halving < most_halvings && !(next < squares); ++halving) {
-      move /= 2;
-      next = sum_of_squares(points, vertices, centre + move);
+    if (move.norm() > local * patch) {
+      const double squares = sum_of_squares(points, vertices, centre);
+      while (move.norm() > local * patch && !(sum_of_squares(points, vertices, centre + move) < squares))
+        move /= 2;
     }
-    if (!(next < squares)) break;
     centre += move;
-    squares = next;
-    if (!(move.norm() > settled * std::sqrt(variances[2]))) break;
+    if (!(move.norm() > noise)) break;
   }
   if (!centre.allFinite()) throw MeshError("the vertices are not on a sphere: the fit does not settle");
   return with_residuals(points, vertices, centre);

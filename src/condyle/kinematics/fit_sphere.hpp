@@ -36,7 +36,7 @@ struct SphereSearch {
   SphericalPart part = SphericalPart::head;
   double smallest_radius = 10;  ///< heads of children's femora and of adult humeri lie well inside
   double largest_radius = 45;
-  std::optional<Sphere> within;  ///< only vertices inside this ball are considered
+  std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered
 };
 
 /// A spherical part of a surface.
