@@ -97,20 +97,26 @@ Encoding encoding_from(const std::vector<std::string_view>& words, const TextCur
   text.fail(in_quotes(name) + " is no format of a PLY file");
 }
 
+/// Names go into messages as they are: one that could not is refused.
+std::string name_from(std::string_view word, const TextCursor& text) {
+  if (in_quotes(word) != fmt::format("'{}'", word)) text.fail(in_quotes(word) + " is no name");
+  return std::string(word);
+}
+
 Element element_from(const std::vector<std::string_view>& words, const TextCursor& text) {
   std::uint64_t count = 0;
   if (words.size() != 3) text.fail("an element needs a name and a count");
   if (!parse_number(words[2], count))
     text.fail(in_quotes(words[2]) + " should be the count of elements " + in_quotes(words[1]));
-  return {std::string(words[1]), count, {}};
+  return {name_from(words[1], text), count, {}};
 }
 
 Property property_from(const std::vector<std::string_view>& words, const TextCursor& text) {
-  if (words.size() == 3) return {std::string(words[2]), type_from(words[1], text), std::nullopt};
+  if (words.size() == 3) return {name_from(words[2], text), type_from(words[1], text), std::nullopt};
   if (words.size() != 5 || words[1] != "list") text.fail("a property needs a type and a name");
   const Type count_type = type_from(words[2], text);
   if (is_floating(count_type)) text.fail("the length of a list should be of an integer type");
-  return {std::string(words[4]), type_from(words[3], text), count_type};
+  return {name_from(words[4], text), type_from(words[3], text), count_type};
 }
 
 Header read_header(const Source& source) {
