@@ -9,12 +9,12 @@ namespace condyle::test {
 /// Axis-aligned box, 8 vertices, 12 triangles.
 TriMesh box(const Vec3& low, const Vec3& high);
 
-/// Octahedron split 1-to-4 `levels` times, vertices laid on the sphere about `centre`. Its vertices include the six
-/// axis points; flat triangles sag inside the sphere by at most edge^2 / (8 radius).
+/// Octahedron split 1-to-4 `levels` times, vertices laid on the sphere about `centre`. Its vertices include
+/// the six axis points; flat triangles sag inside the sphere by at most edge^2 / (8 radius).
 TriMesh sphere(const Vec3& centre, double radius, int levels);
 
-/// Thick hemispherical shell on the side y > 0 of `centre`, open towards -y: a socket. Outer radius `outer`, inner radius `inner`,
-/// closed, genus 0.
+/// Thick hemispherical shell on the side y > 0 of `centre`, open towards -y: a socket. Outer radius `outer`,
+/// inner radius `inner`, closed, genus 0.
 TriMesh socket(const Vec3& centre, double inner, double outer, int levels);
 
 /// Ring torus about +z.
