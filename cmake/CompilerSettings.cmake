@@ -13,10 +13,10 @@ endif()
 function(settings_for target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  # Predicates rely on a*b - c*d being rounded product by product: a fused multiply-add would
-  # break the sign symmetry of a x b and b x a, and make results depend on the instruction set.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-                                           -Werror -ffp-contract=off)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror)
+  # Predicates rely on a*b - c*d being rounded product by product: a fused multiply-add would break the sign symmetry of
+  # a x b and b x a, and make results depend on the instruction set. They are inline: whoever includes them needs this.
+  target_compile_options(${target} PUBLIC -ffp-contract=off)
   if(CONDYLE_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all
                                              -fno-omit-frame-pointer)

@@ -93,12 +93,13 @@ BruteWinding winding_number(const TriMesh& mesh, const Vec3& point) {
   const Exact3 p = exact(point);
   std::vector<std::array<Exact3, 3>> triangles;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    triangles.push_back({exact(mesh.corner(t, 0)), exact(mesh.corner(t, 1)), exact(mesh.corner(t, 2))});
-    const auto& corners = triangles.back();
+    const std::array<Exact3, 3> corners = {exact(mesh.corner(t, 0)), exact(mesh.corner(t, 1)),
+                                           exact(mesh.corner(t, 2))};
     const Exact3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-    if (dot(normal, normal) != 0 && dot(minus(p, corners[0]), normal) == 0 && holds(corners, normal, p)) {
-      return {true, 0};
-    }
+    // A triangle without area is never crossed; collinear with p, no direction would seem to miss it.
+    if (dot(normal, normal) == 0) continue;
+    if (dot(minus(p, corners[0]), normal) == 0 && holds(corners, normal, p)) return {true, 0};
+    triangles.push_back(corners);
   }
   for (int attempt = 0;; ++attempt) {
     const Exact3 d = {Rational(1000 + 7 * attempt), Rational(313 - 11 * attempt), Rational(71 + 3 * attempt)};

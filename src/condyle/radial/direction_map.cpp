@@ -2,6 +2,9 @@
 
 #include <array>
 #include <limits>
+#include <numbers>
+
+#include "condyle/core/predicates.hpp"
 
 namespace condyle {
 namespace {
@@ -63,7 +66,7 @@ struct PlaneNormal {
   explicit PlaneNormal(const Cone& cone) : n((cone.b - cone.a).cross(cone.c - cone.a)) {
     const double longest =
         std::max({(cone.b - cone.a).norm(), (cone.c - cone.b).norm(), (cone.a - cone.c).norm()});
-    error = 8 * 0x1p-53 * longest * longest;
+    error = 8 * rounding_unit * longest * longest;
     if (n.norm() < 1e6 * error) sliver_width = (n.norm() + 2 * error) / longest;
   }
 };
@@ -119,34 +122,58 @@ struct Interval {
   double low, high;
 };
 
-Interval operator+(Interval a, Interval b) noexcept {
-  return {a.low + b.low, a.high + b.high};
-}
-Interval operator*(double s, Interval a) noexcept {
-  return s >= 0 ? Interval{s * a.low, s * a.high} : Interval{s * a.high, s * a.low};
-}
+/// Rounding of 1 - x^2 near the disc's rim, where its root, a coordinate of the direction, is most sensitive:
+/// an error of 4u under the root is one of 2 sqrt(u) = 2.2e-8 beside it.
+constexpr double rim_margin = 5e-8;
 
-/// The directions of a block of Cartesian cells.
+/// The directions of a block of Cartesian cells: x and y in two intervals, z >= 0 or z <= 0.
 struct DirectionBox {
-  Interval x, y, z;
+  Interval x, y;
+  double hemisphere;  // +1 or -1
+
+  bool holds(double px, double py) const noexcept {
+    return px >= x.low && px <= x.high && py >= y.low && py <= y.high;
+  }
+
+  /// Whether no direction falls into the box: it lies outside the disc x^2 + y^2 <= 1.
+  bool outside_disc() const noexcept {
+    const auto nearest = [](Interval s) { return s.low > 0 ? s.low : s.high < 0 ? s.high : 0; };
+    const double px = nearest(x), py = nearest(y);
+    return px * px + py * py > 1 + 4 * cell_margin;
+  }
+
+  /// Largest n . d over the box, but for rim_margin. Where n itself lies in the box it is |n|; else the
+  /// largest value is on the border: on a side, which is an arc of a circle, or on the rim z = 0.
+  double largest(const Vec3& n) const noexcept {
+    const double length = n.norm();
+    const double up = hemisphere * n.z();
+    if (up >= 0 && holds(n.x() / length, n.y() / length)) return length;
+    double best = -length;
+    // On the side s = fixed (s is x or y), t runs over an interval and z = sqrt(1 - s^2 - t^2).
+    const auto side = [&](double n_s, double s, double n_t, Interval t) {
+      const double radius = std::sqrt(std::max(0.0, 1 - s * s));
+      const double low = std::max(t.low, -radius), high = std::min(t.high, radius);
+      if (std::abs(s) > 1 + cell_margin || low > high) return;
+      const auto at = [&](double p) {
+        return n_s * s + n_t * p + up * std::sqrt(std::max(0.0, radius * radius - p * p));
+      };
+      best = std::max({best, at(low), at(high)});
+      const double reach = std::hypot(n_t, up);
+      if (up > 0 && reach > 0) best = std::max(best, at(std::clamp(radius * n_t / reach, low, high)));
+    };
+    for (const double s : {x.low, x.high}) side(n.x(), s, n.y(), y);
+    for (const double s : {y.low, y.high}) side(n.y(), s, n.x(), x);
+    const double flat = std::hypot(n.x(), n.y());
+    if (flat > 0 && holds(n.x() / flat, n.y() / flat)) best = std::max(best, flat);
+    return best;
+  }
 
   /// Bounds of n . d over the box, for n known to within `error` in each component.
   Interval times(const Vec3& n, double error) const noexcept {
-    const Interval value = n.x() * x + n.y() * y + n.z() * z;
-    const double margin = cell_margin * n.cwiseAbs().sum() + 2 * error;
-    return {value.low - margin, value.high + margin};
+    const double margin = (cell_margin + rim_margin) * n.cwiseAbs().sum() + 2 * error;
+    return {-largest(-n) - margin, largest(n) + margin};
   }
 };
-
-double square(double s) noexcept {
-  return s * s;
-}
-
-/// Smallest and largest s^2 over an interval.
-Interval squared(Interval s) noexcept {
-  const double low = s.low <= 0 && s.high >= 0 ? 0 : std::min(square(s.low), square(s.high));
-  return {low, std::max(square(s.low), square(s.high))};
-}
 
 /// What the descent through blocks of Cartesian cells needs of one triangle.
 struct ConeBounds {
@@ -156,12 +183,14 @@ struct ConeBounds {
   double normal_error;
   Interval distance;  // of the origin from the plane, times |normal|
   Interval radius;
+  Vec3 cap_axis;  // the cone lies within a cap: cap_axis . d >= cap_cosine, where that is positive
+  double cap_cosine;
 
   explicit ConeBounds(const Cone& cone, double nearest)
       : edge{cone.a.cross(cone.b), cone.b.cross(cone.c), cone.c.cross(cone.a)},
         radius{nearest, max_radius(cone)} {
     const PlaneNormal plane(cone);
-    edge_error = 4 * 0x1p-53 * radius.high * radius.high;
+    edge_error = 4 * rounding_unit * radius.high * radius.high;
     normal = plane.n;
     normal_error = plane.error;
     double along = normal.dot(cone.a);
@@ -172,6 +201,18 @@ struct ConeBounds {
     }
     const double slack = (cell_margin * normal.norm() + 2 * normal_error) * radius.high;
     distance = {along - slack, along + slack};
+    const Vec3 a = cone.a.normalized(), b = cone.b.normalized(), c = cone.c.normalized();
+    cap_axis = (a + b + c).normalized();
+    cap_cosine = std::min({cap_axis.dot(a), cap_axis.dot(b), cap_axis.dot(c)}) - cell_margin;
+  }
+
+  /// Interval of coordinate k over the cap's directions.
+  Interval coordinate(int k) const noexcept {
+    if (cap_cosine <= 0) return {-1, 1};
+    const double middle = std::acos(std::clamp(cap_axis[k], -1.0, 1.0));
+    const double opening = std::acos(std::min(cap_cosine, 1.0));
+    return {std::cos(std::min(middle + opening, std::numbers::pi)) - rim_margin,
+            std::cos(std::max(middle - opening, 0.0)) + rim_margin};
   }
 
   /// The radius interval over the box, or an empty one (low > high) where the cone does not meet it.
@@ -180,6 +221,9 @@ struct ConeBounds {
   /// whose turn is rounding: they then bound nothing, and the plane and the radii alone decide.
   Interval over(const DirectionBox& box) const noexcept {
     constexpr Interval empty{1, 0};
+    // A cap holds the cone of three directions in it only where it is no more than a hemisphere. Without this
+    // test, a cone seen edge-on would be listed along its sides' whole great circle.
+    if (cap_cosine > 0 && box.times(cap_axis, rounding_unit).high < cap_cosine) return empty;
     const bool faces_origin = distance.low > 0;
     const Interval along = box.times(normal, normal_error);
     if (faces_origin) {
@@ -214,27 +258,23 @@ void CartesianMap::visit_cells(const Cone& cone, const std::function<void(const 
   };
   const auto box_of = [this](const Block& block) {
     const double step = 2.0 / n_;
-    const Interval x{block.i0 * step - 1, block.i1 * step - 1}, y{block.j0 * step - 1, block.j1 * step - 1};
-    const Interval x2 = squared({x.low - cell_margin, x.high + cell_margin});
-    const Interval y2 = squared({y.low - cell_margin, y.high + cell_margin});
-    const Interval z{std::sqrt(std::max(0.0, 1 - x2.high - y2.high)),
-                     std::sqrt(std::max(0.0, 1 - x2.low - y2.low))};
-    return DirectionBox{x, y, block.hemisphere == 0 ? z : Interval{-z.high, -z.low}};
-  };
-  const auto outside_disc = [](const DirectionBox& box) {
-    return squared(box.x).low + squared(box.y).low > 1 + 4 * cell_margin;
+    return DirectionBox{{block.i0 * step - 1 - cell_margin, block.i1 * step - 1 + cell_margin},
+                        {block.j0 * step - 1 - cell_margin, block.j1 * step - 1 + cell_margin},
+                        block.hemisphere == 0 ? 1.0 : -1.0};
   };
 
   // A descent halves the longer side of one block and keeps the other half waiting: at most 2 log2(n) wait at
   // a time.
   std::array<Block, 72> waiting;
   std::size_t count = 0;
-  waiting[count++] = {0, 0, n_, 0, n_};
-  waiting[count++] = {1, 0, n_, 0, n_};
+  const Interval x = bounds.coordinate(0), y = bounds.coordinate(1), z = bounds.coordinate(2);
+  const int i0 = column(x.low), i1 = column(x.high) + 1, j0 = column(y.low), j1 = column(y.high) + 1;
+  if (z.high >= 0) waiting[count++] = {0, i0, i1, j0, j1};
+  if (z.low <= 0) waiting[count++] = {1, i0, i1, j0, j1};
   while (count > 0) {
     const Block block = waiting[--count];
     const DirectionBox box = box_of(block);
-    if (outside_disc(box)) continue;
+    if (box.outside_disc()) continue;
     const Interval radius = bounds.over(box);
     if (radius.low > radius.high) continue;
     const int width = block.i1 - block.i0, height = block.j1 - block.j0;

@@ -30,9 +30,9 @@ enum class DirectionMapKind {
 /// The paper's normalised Cartesian map: a direction d = v / |v| falls into cell (d.x, d.y) of an N x N grid
 /// over [-1, 1]^2, one grid for d.z >= 0 and one for d.z < 0.
 ///
-/// A cell holds directions d with d.x, d.y in two intervals, hence d.z in a third; linear functions of d are
-/// bounded over the cell by interval arithmetic. Cells near the rim of the disc span a large part of z, so
-/// their lists are long: that is the map's weakness, not the bound's.
+/// Cells are descended to by halving blocks of them: a block is left where a side of the cone, or the
+/// triangle's plane at the triangle's radii, keeps off all of its directions. Cells near the rim of the disc
+/// span many directions and their lists are long: that is the map's weakness.
 class CartesianMap {
  public:
   explicit CartesianMap(int cells_per_side) : n_(cells_per_side) { assert(n_ > 0); }

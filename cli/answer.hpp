@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string_view>
+
+namespace condyle::cli {
+
+/// How an answer is printed.
+enum class AnswerForm { text, json };
+
+/// Writes an answer to standard output. Throws FileError where it cannot be written (closed, disk full).
+void print(std::string_view answer);
+
+}  // namespace condyle::cli

@@ -1,0 +1,38 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <string>
+
+#include "answer.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/report_text.hpp"
+#include "verbs.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string joint;
+  AnswerForm form = AnswerForm::text;
+};
+
+void run(const Options& options) {
+  const LoadedJoint joint = read_joint(options.joint);
+  print(options.form == AnswerForm::json ? to_json(joint) : to_text(joint));
+}
+
+}  // namespace
+
+void add_frame(CLI::App& app) {
+  auto* verb =
+      app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
+  verb->footer("Example: condyle frame right_hip.toml --json");
+  auto options = std::make_shared<Options>();
+  verb->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  verb->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace condyle::cli

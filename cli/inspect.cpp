@@ -1,0 +1,86 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "answer.hpp"
+#include "condyle/core/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/output_folder.hpp"
+#include "condyle/io/report_text.hpp"
+#include "verbs.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::vector<std::string> meshes;
+  std::vector<std::string> repairs;
+  std::string out;
+  AnswerForm form = AnswerForm::text;
+};
+
+/// The name a repaired mesh is written under: PLY keeps every bit whatever format it came from.
+std::string repaired_name(const std::filesystem::path& mesh) {
+  return mesh.stem().string() + ".ply";
+}
+
+void check_names_differ(const Options& options) {
+  std::set<std::string> names;
+  for (const std::string& mesh : options.meshes)
+    if (!names.insert(repaired_name(mesh)).second)
+      throw UsageError("--out: two meshes would be written as " + repaired_name(mesh));
+}
+
+void run(const Options& options) {
+  std::vector<Repair> repairs;
+  for (const std::string& name : options.repairs) repairs.push_back(repair_named(name));
+  if (!options.out.empty()) check_names_differ(options);
+
+  std::vector<MeshInspection> inspections;
+  std::vector<TriMesh> repaired;
+  for (const std::string& path : options.meshes) {
+    MeshFile file = read_mesh(path);
+    MeshInspection inspection{path, file.welded_vertices, {}, {}};
+    try {
+      inspection.repairs = repair_mesh(file.mesh, repairs);
+    } catch (const MeshError& error) {
+      throw MeshError(path + ": " + error.what());
+    }
+    inspection.report = inspect(file.mesh);
+    inspections.push_back(std::move(inspection));
+    if (!options.out.empty()) repaired.push_back(std::move(file.mesh));
+  }
+  if (!options.out.empty()) {
+    OutputFolder out(options.out);
+    for (std::size_t i = 0; i < repaired.size(); ++i)
+      write_mesh(out.file(repaired_name(options.meshes[i])), repaired[i]);
+    out.commit();
+  }
+  print(options.form == AnswerForm::json ? to_json(inspections) : to_text(inspections));
+}
+
+}  // namespace
+
+void add_inspect(CLI::App& app) {
+  auto* verb = app.add_subcommand("inspect", "Tell what is so and what is wrong with meshes");
+  verb->footer(
+      "Example: condyle inspect femur.stl hip_bone.ply\n"
+      "         condyle inspect femur.stl --repair drop_unreferenced,flip_inverted --out repaired");
+  auto options = std::make_shared<Options>();
+  verb->add_option("MESH", options->meshes, "Mesh files: .stl, .obj, .ply, .vtp or .vtk")->required();
+  verb->add_option("--repair", options->repairs,
+                   "Repairs that lose nothing, in this order: weld, drop_unreferenced, flip_inverted")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  verb->add_option("--out", options->out, "Folder to write the meshes to, as read and repaired, as .ply");
+  verb->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  verb->callback([options] { run(*options); });
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,108 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <new>
+#include <string>
+
+#include "answer.hpp"
+#include "condyle/core/error.hpp"
+#include "verbs.hpp"
+
+namespace {
+
+namespace cli = condyle::cli;
+
+enum ExitCode { answered = 0, bad_usage = 2, bad_file = 3, unfit_mesh = 4, internal_error = 5 };
+
+constexpr const char* exit_codes =
+    "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error.";
+
+/// A closed standard stream would give its number to the next file that is opened, and answers would be
+/// written into it. Opened for reading, the number is taken and writing still fails.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    while (::fcntl(stream, F_GETFD) == -1)
+      if (::open("/dev/null", O_RDONLY) == -1) return;
+}
+
+/// One line on standard error, whatever a file or its name holds.
+int fail(ExitCode code, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  std::fprintf(stderr, "condyle: %s\n", message.c_str());
+  return code;
+}
+
+/// What is wrong with the command line, with the verbs there are where none of them was given.
+std::string describe(const CLI::ParseError& error, const CLI::App& app) {
+  if (!app.get_subcommands().empty()) return app.get_subcommands().front()->get_name() + ": " + error.what();
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands(nullptr))
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  const auto unknown = app.remaining();
+  if (!unknown.empty()) return fmt::format("unknown verb '{}'; there are {}", unknown.front(), verbs);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
+    return fmt::format("a verb is needed: {}", verbs);
+  return error.what();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app(
+      "Condyle tells where the bones of a joint run into each other, how deep, and along which direction.",
+      "condyle");
+  app.set_version_flag("--version", "condyle " CONDYLE_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(exit_codes);
+
+  std::unique_ptr<tbb::global_control> limit;
+  app.add_option_function<int>(
+         "--threads",
+         [&](int count) {
+           limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                         static_cast<std::size_t>(count));
+         },
+         "Most threads to use; all cores if not given. Results are the same for any number")
+      ->check(CLI::Range(1, 4096));
+
+  cli::add_inspect(app);
+  cli::add_frame(app);
+  cli::add_depth(app);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& asked) {  // --help or --version
+    const bool version = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
+    cli::print(version ? app.version() + "\n" : app.help());
+  } catch (const CLI::ParseError& error) {
+    return fail(bad_usage, describe(error, app));
+  }
+  return answered;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hold_standard_streams();
+  try {
+    return run(argc, argv);
+  } catch (const condyle::UsageError& error) {
+    return fail(bad_usage, error.what());
+  } catch (const condyle::FileError& error) {
+    return fail(bad_file, error.what());
+  } catch (const condyle::MeshError& error) {
+    return fail(unfit_mesh, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(internal_error, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(internal_error, fmt::format("internal error: {}", error.what()));
+  }
+}

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <CLI/App.hpp>
+
+/// One verb per file: its options, then read, one library call, one writer. A verb runs as the callback of
+/// its subcommand and ends by throwing where it cannot answer; main() turns errors into a line and an exit
+/// code.
+
+namespace condyle::cli {
+
+void add_inspect(CLI::App& app);
+void add_frame(CLI::App& app);
+void add_depth(CLI::App& app);
+
+}  // namespace condyle::cli

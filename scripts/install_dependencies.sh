@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs every Debian package that Condyle builds, tests and benchmarks with. Quick when nothing is missing.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build ccache pkg-config
+  libeigen3-dev libtbb-dev libboost-dev              # the core
+  libvtk9-dev libfmt-dev nlohmann-json3-dev          # condyle_io
+  libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
+  libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there and nowhere else
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed'; then
+    missing+=("$package")
+  fi
+done
+if [ ${#missing[@]} -eq 0 ]; then exit 0; fi
+
+if ! command -v apt-get >/dev/null; then
+  echo "condyle: apt-get not found; install by hand: ${missing[*]}" >&2
+  exit 1
+fi
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+echo "Installing ${#missing[@]} Debian packages: ${missing[*]}" >&2
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,234 @@
+#include "condyle/io/depth_result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "condyle/contact/radial_summary.hpp"
+#include "condyle/io/version.hpp"
+
+namespace condyle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* scope_note =
+    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
+    "device";
+
+/// An empty answer is null, never a number that could be read as one.
+template <class Value>
+Json nullable(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json numbers(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+Json pose_json(const Pose& X) {
+  Json rows = Json::array();
+  for (int i = 0; i < 4; ++i) rows.push_back({X(i, 0), X(i, 1), X(i, 2), X(i, 3)});
+  return rows;
+}
+
+const char* name_of(DepthKind kind) {
+  return kind == DepthKind::radial ? "radial" : "tangential";
+}
+
+/// The question that both methods share.
+Json header(const DepthQuestion& question, const char* method) {
+  const auto& [joint, angles, X_FM] = question;
+  return {{"condyle", format_version},
+          {"joint", joint.name},
+          {"fixed", joint.fixed.name},
+          {"mobile", joint.mobile.name},
+          {"side", joint.side == Side::right ? "right" : "left"},
+          {"method", method},
+          {"pose_deg",
+           {{"flexion", angles.flexion.degrees()},
+            {"adduction", angles.adduction.degrees()},
+            {"internal_rotation", angles.internal_rotation.degrees()}}},
+          {"X_FM", pose_json(X_FM)}};
+}
+
+/// One body's vertices against the other body, with where its deepest vertex is in F.
+struct BodyView {
+  const char* key;
+  const Body& body;
+  std::optional<RadialBodySummary> summary;
+  Pose X_F;  // pose of this body in F
+
+  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices[vertex]); }
+};
+
+std::optional<RadialBodySummary> summary_of(const std::optional<RadialHits>& hits) {
+  return hits ? std::optional(summarise(*hits)) : std::nullopt;
+}
+
+std::array<BodyView, 2> views(const DepthQuestion& question, const RadialContact& contact) {
+  return {{{"mobile", question.joint.mobile, summary_of(contact.mobile_in_fixed), question.X_FM},
+           {"fixed", question.joint.fixed, summary_of(contact.fixed_in_mobile), Pose::Identity()}}};
+}
+
+/// The deepest vertex of either body.
+struct Deepest {
+  const BodyView* view;
+  DeepestVertex vertex;
+};
+
+template <class Select>
+std::optional<Deepest> deepest_of(const std::array<BodyView, 2>& bodies, const Select& select) {
+  std::optional<Deepest> deepest;
+  for (const BodyView& view : bodies) {
+    if (!view.summary) continue;
+    const std::optional<DeepestVertex>& candidate = select(*view.summary);
+    if (candidate && (!deepest || candidate->depth_mm > deepest->vertex.depth_mm))
+      deepest = {&view, *candidate};
+  }
+  return deepest;
+}
+
+const std::optional<DeepestVertex>& any_angle(const RadialBodySummary& summary) {
+  return summary.deepest;
+}
+const std::optional<DeepestVertex>& facing(const RadialBodySummary& summary) {
+  return summary.deepest_facing;
+}
+
+std::optional<double> min_gap(const std::array<BodyView, 2>& bodies) {
+  std::optional<double> gap;
+  for (const BodyView& view : bodies) {
+    if (view.summary && view.summary->min_gap_mm && (!gap || *view.summary->min_gap_mm < *gap)) {
+      gap = view.summary->min_gap_mm;
+    }
+  }
+  return gap;
+}
+
+DepthKind kind_to_read(const DeepestVertex& vertex) {
+  return vertex.ray_to_normal > oblique_ray ? DepthKind::tangential : DepthKind::radial;
+}
+
+Json body_json(const BodyView& view) {
+  if (!view.summary) return nullptr;
+  const RadialBodySummary& summary = *view.summary;
+  Json json = {
+      {"vertices", view.body.mesh.vertices.size()},
+      {"vertices_inside", summary.vertices_inside},
+      {"vertices_on_surface", summary.vertices_on_surface},
+      {"vertices_inside_oblique", summary.oblique_inside},
+      {"max_radial_depth_mm", summary.deepest ? summary.deepest->depth_mm : 0.0},
+      {"max_facing_radial_depth_mm", summary.deepest_facing ? summary.deepest_facing->depth_mm : 0.0},
+      {"min_gap_mm", nullable(summary.min_gap_mm)}};
+  json["deepest_vertex"] = summary.deepest ? Json(summary.deepest->vertex) : Json(nullptr);
+  return json;
+}
+
+}  // namespace
+
+std::string depth_json(const DepthQuestion& question, const RadialContact& contact) {
+  const auto bodies = views(question, contact);
+  const auto& [mobile, fixed] = bodies;
+  const auto deepest = deepest_of(bodies, any_angle), meaningful = deepest_of(bodies, facing);
+  const auto inside = [](const BodyView& view) {
+    return view.summary ? Json(view.summary->vertices_inside) : Json(nullptr);
+  };
+
+  Json json = header(question, "radial");
+  json["in_contact"] = contact.in_contact;
+  json["mobile_vertices_inside"] = inside(mobile);
+  json["fixed_vertices_inside"] = inside(fixed);
+  json["triangle_pairs"] = contact.pairs.size();
+  json["max_radial_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
+  json["max_facing_radial_depth_mm"] = meaningful ? meaningful->vertex.depth_mm : 0.0;
+  json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
+  json["deepest_vertex"] = deepest ? Json(deepest->vertex.vertex) : Json(nullptr);
+  json["deepest_point_mm"] =
+      deepest ? numbers(deepest->view->in_fixed_frame(deepest->vertex.vertex)) : Json(nullptr);
+  json["deepest_ray_to_normal_deg"] = deepest ? Json(deepest->vertex.ray_to_normal.degrees()) : Json(nullptr);
+  json["depth_to_read"] = deepest ? Json(name_of(kind_to_read(deepest->vertex))) : Json(nullptr);
+  json["min_gap_mm"] = nullable(min_gap(bodies));
+  for (const BodyView& view : bodies) json["bodies"][view.key] = body_json(view);
+  json["scope"] = scope_note;
+  return json.dump(2) + "\n";
+}
+
+std::string depth_text(const DepthQuestion& question, const RadialContact& contact) {
+  const auto& [joint, angles, X_FM] = question;
+  const auto bodies = views(question, contact);
+  std::string text = fmt::format("{}: {} in {}, flexion {:g}, adduction {:g}, internal rotation {:g} deg\n",
+                                 joint.name, joint.mobile.name, joint.fixed.name, angles.flexion.degrees(),
+                                 angles.adduction.degrees(), angles.internal_rotation.degrees());
+  text += fmt::format("  {}; {} intersecting triangle pairs\n", contact.in_contact ? "in contact" : "free",
+                      contact.pairs.size());
+  for (const BodyView& view : bodies) {
+    if (!view.summary) {
+      text += fmt::format("  {}: no answer, the other mesh is open and has no inside\n", view.body.name);
+      continue;
+    }
+    text += fmt::format("  {}: {} of {} vertices inside", view.body.name, view.summary->vertices_inside,
+                        view.body.mesh.vertices.size());
+    if (view.summary->vertices_on_surface > 0) {
+      text += fmt::format(", {} exactly on the surface", view.summary->vertices_on_surface);
+    }
+    text += "\n";
+  }
+  if (const auto deepest = deepest_of(bodies, any_angle)) {
+    const Vec3 p = deepest->view->in_fixed_frame(deepest->vertex.vertex);
+    text += fmt::format(
+        "  deepest: {:.3f} mm along the ray, vertex {} of {}, at ({:.2f}, {:.2f}, {:.2f}) mm\n",
+        deepest->vertex.depth_mm, deepest->vertex.vertex, deepest->view->body.name, p.x(), p.y(), p.z());
+    if (kind_to_read(deepest->vertex) == DepthKind::tangential) {
+      text += fmt::format(
+          "  that ray grazes the surface, {:.0f} deg from its normal: read the tangential depth there "
+          "(--method tangential)\n",
+          deepest->vertex.ray_to_normal.degrees());
+      if (const auto meaningful = deepest_of(bodies, facing)) {
+        text +=
+            fmt::format("  deepest where the ray faces the surface: {:.3f} mm, vertex {} of {}\n",
+                        meaningful->vertex.depth_mm, meaningful->vertex.vertex, meaningful->view->body.name);
+      }
+    }
+  }
+  if (const auto gap = min_gap(bodies)) text += fmt::format("  smallest gap along a ray: {:.3f} mm\n", *gap);
+  return text;
+}
+
+std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits) {
+  if (!hits) return {};
+  const std::size_t count = hits->size();
+  std::vector<std::uint8_t> inside(count);
+  std::vector<std::int32_t> winding(count), triangle(count);
+  std::vector<double> gap(count), angle(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    inside[i] = hits->state[i] == PointState::inside;
+    winding[i] = hits->winding[i];
+    triangle[i] = hits->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(hits->triangle[i]);
+    gap[i] =
+        std::isfinite(hits->radial_gap[i]) ? hits->radial_gap[i] : std::numeric_limits<double>::quiet_NaN();
+    angle[i] = Angle::radians(hits->ray_to_normal[i]).degrees();
+  }
+  return {{"inside", std::move(inside)},
+          {"radial_gap_mm", std::move(gap)},
+          {"triangle", std::move(triangle)},
+          {"winding", std::move(winding)},
+          {"ray_to_normal_deg", std::move(angle)}};
+}
+
+InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs) {
+  std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles.size()),
+      mobile(joint.mobile.mesh.triangles.size());
+  for (const auto& pair : pairs) fixed[pair.fixed] = 1, mobile[pair.mobile] = 1;
+  return {{"in_contact", std::move(fixed)}, {"in_contact", std::move(mobile)}};
+}
+
+std::string pairs_csv(const std::vector<TrianglePair>& pairs) {
+  std::string text = "fixed_triangle,mobile_triangle\n";
+  for (const auto& [fixed, mobile] : pairs) text += fmt::format("{},{}\n", fixed, mobile);
+  return text;
+}
+
+}  // namespace condyle

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "condyle/contact/joint_contact.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/kinematics/joint.hpp"
+
+/// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
+
+namespace condyle {
+
+/// The pose that a result belongs to.
+struct DepthQuestion {
+  const Joint& joint;
+  JointAngles angles;
+  Pose X_FM;
+};
+
+/// The summary as JSON text, ending in a newline.
+std::string depth_json(const DepthQuestion& question, const RadialContact& contact);
+
+/// The summary for people, a few lines.
+std::string depth_text(const DepthQuestion& question, const RadialContact& contact);
+
+/// Point arrays of one body: inside, winding, radial_gap_mm, triangle, ray_to_normal_deg. None where the
+/// other mesh is open and nothing can be inside it.
+std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits);
+
+/// Cell arrays in_contact of both bodies: 1 for a triangle that is in a pair.
+struct InContact {
+  MeshArray fixed, mobile;
+};
+InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs);
+
+/// Colliding triangle pairs as CSV text with a header line.
+std::string pairs_csv(const std::vector<TrianglePair>& pairs);
+
+}  // namespace condyle

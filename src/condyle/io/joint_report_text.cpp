@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/report_text.hpp"
+
+namespace condyle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z());
+}
+Json json_of(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// The frame's axes by their anatomical names.
+std::array<std::pair<const char*, Vec3>, 3> axes_of(const Pose& X_WF) {
+  const auto& m = X_WF.linear();
+  return {{{"anterior", m.col(0)}, {"superior", m.col(1)}, {"right", m.col(2)}}};
+}
+
+std::string text_of(const char* role, const Body& body, const BodyReport& report) {
+  const auto &low = report.bounds.low, &high = report.bounds.high;
+  return fmt::format(
+      "  {:<8} {}: {}, {} vertices, {} triangles\n"
+      "           x {:.3f} .. {:.3f}, y {:.3f} .. {:.3f}, z {:.3f} .. {:.3f} mm\n",
+      role, body.name, report.mesh.string(), report.vertices, report.triangles, low.x(), high.x(), low.y(),
+      high.y(), low.z(), high.z());
+}
+
+Json json_of(const Body& body, const BodyReport& report) {
+  Json repairs = Json::array();
+  for (const RepairDone& done : report.repairs)
+    repairs.push_back({{"repair", name_of(done.repair)}, {"count", done.count}});
+  return {{"name", body.name},
+          {"mesh", report.mesh.string()},
+          {"vertices", report.vertices},
+          {"triangles", report.triangles},
+          {"welded_vertices", report.welded_vertices},
+          {"repairs", std::move(repairs)},
+          {"bounds_mm", {{"low", json_of(report.bounds.low)}, {"high", json_of(report.bounds.high)}}}};
+}
+
+Json json_of(const SphericalPatch& head) {
+  return {{"shape", "sphere"},
+          {"radius_mm", head.fit.sphere.radius},
+          {"rms_residual_mm", head.fit.rms_residual},
+          {"largest_residual_mm", head.fit.largest_residual},
+          {"coverage", head.coverage},
+          {"vertex_count", head.fit.vertices.size()},
+          {"vertices", head.fit.vertices}};
+}
+
+Json json_of(const CylinderFit& fit, Angle axis_turn) {
+  return {{"shape", "cylinder"},
+          {"radius_mm", fit.cylinder.radius},
+          {"direction", json_of(fit.cylinder.direction)},
+          {"rms_residual_mm", fit.rms_residual},
+          {"largest_residual_mm", fit.largest_residual},
+          {"axis_turn_deg", axis_turn.degrees()},
+          {"vertex_count", fit.vertices.size()},
+          {"vertices", fit.vertices}};
+}
+
+}  // namespace
+
+std::string to_text(const LoadedJoint& loaded) {
+  const auto& [joint, report] = loaded;
+  std::string out =
+      fmt::format("{}: {} joint, {} side\n", joint.name, name_of(joint.kind), name_of(joint.side));
+  out +=
+      fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre", text_of(report.X_WF.translation()));
+  for (const auto& [name, axis] : axes_of(report.X_WF))
+    out += fmt::format("  {:<8} {}\n", name, text_of(axis));
+  out += fmt::format("  {:<8} flexion about Z", "angles");
+  if (joint.kind == JointKind::ball) {
+    const char sense = joint.side == Side::right ? '+' : '-';
+    out += fmt::format(", then adduction about {0}X, then internal rotation about {0}Y", sense);
+  }
+  out += fmt::format("\n  {:<8} {}\n", "rest", to_text(report.file.rest));
+  out += text_of("fixed", joint.fixed, report.fixed) + text_of("mobile", joint.mobile, report.mobile);
+  for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
+  return out;
+}
+
+std::string to_json(const LoadedJoint& loaded) {
+  const auto& [joint, report] = loaded;
+  Json out{{"file", report.file.path.string()},
+           {"name", joint.name},
+           {"kind", name_of(joint.kind)},
+           {"side", name_of(joint.side)},
+           {"units_of_meshes", report.file.units == LengthUnit::metres ? "m" : "mm"},
+           {"centre_mm", json_of(report.X_WF.translation())}};
+  for (const auto& [name, axis] : axes_of(report.X_WF)) out["axes"][name] = json_of(axis);
+  out["rest_deg"] = {{"flexion", report.file.rest.flexion.degrees()},
+                     {"adduction", report.file.rest.adduction.degrees()},
+                     {"internal_rotation", report.file.rest.internal_rotation.degrees()}};
+  out["fit"] = report.head       ? json_of(*report.head)
+               : report.cylinder ? json_of(*report.cylinder, report.axis_turn)
+                                 : Json();
+  out["fixed"] = json_of(joint.fixed, report.fixed);
+  out["mobile"] = json_of(joint.mobile, report.mobile);
+  out["notes"] = report.notes;
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace condyle

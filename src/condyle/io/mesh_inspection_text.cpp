@@ -1,0 +1,136 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "condyle/io/report_text.hpp"
+
+namespace condyle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(Index element) {
+  return fmt::format("{}", element);
+}
+std::string text_of(const Edge& edge) {
+  return fmt::format("{}-{}", edge.from, edge.to);
+}
+std::string text_of(const BoundaryLoop& loop) {
+  return fmt::format("{} edges from vertex {}, near ({:.6g}, {:.6g}, {:.6g})", loop.edges, loop.first.from,
+                     loop.centre.x(), loop.centre.y(), loop.centre.z());
+}
+
+Json json_of(Index element) {
+  return element;
+}
+Json json_of(const Edge& edge) {
+  return {edge.from, edge.to};
+}
+Json json_of(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+Json json_of(const BoundaryLoop& loop) {
+  return {{"edges", loop.edges}, {"first_edge", json_of(loop.first)}, {"centre", json_of(loop.centre)}};
+}
+
+/// Calls visit(key, words, finding) for every defect a report counts: both forms list the same ones in one
+/// order.
+template <class Visit>
+void for_each_finding(const MeshReport& r, const Visit& visit) {
+  visit("boundary_edges", "boundary edges", r.boundary_edges);
+  visit("boundary_loops", "boundary loops", r.boundary_loops);
+  visit("non_manifold_edges", "non-manifold edges", r.non_manifold_edges);
+  visit("non_manifold_vertices", "non-manifold vertices", r.non_manifold_vertices);
+  visit("inconsistent_edges", "edges with inconsistent winding", r.inconsistent_edges);
+  visit("inverted_components", "components wound inside out", r.inverted_components);
+  visit("duplicate_triangles", "duplicate triangles", r.duplicate_triangles);
+  visit("degenerate_triangles", "degenerate triangles", r.degenerate_triangles);
+  visit("duplicate_vertices", "duplicate vertices", r.duplicate_vertices);
+  visit("unreferenced_vertices", "unreferenced vertices", r.unreferenced_vertices);
+}
+
+/// A sheet has no genus: said as such, not as a number.
+std::string describe(const MeshComponent& c) {
+  if (!c.closed) return fmt::format("{} triangles, open", c.triangles);
+  std::string out = fmt::format("{} triangles, closed", c.triangles);
+  if (c.genus) out += fmt::format(", genus {}", *c.genus);
+  if (c.signed_volume) out += fmt::format(", volume {:.6g}", *c.signed_volume);
+  return out;
+}
+
+void append(std::string& out, const MeshInspection& mesh) {
+  constexpr std::size_t components_listed = 5;  // the rest of a soup is counted, not listed
+  const MeshReport& r = mesh.report;
+  out += fmt::format("{}\n  {} vertices, {} triangles, {}\n", mesh.path.string(), r.vertices, r.triangles,
+                     r.is_closed() ? "closed" : "not closed");
+  if (mesh.welded_vertices > 0)
+    out += fmt::format("  {} equal corners read as one vertex each\n", mesh.welded_vertices);
+  for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", condyle::describe(done));
+  out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
+  for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
+    out += fmt::format("    {}: {}\n", i, describe(r.components[i]));
+  if (r.components.size() > components_listed)
+    out += fmt::format("    and {} more\n", r.components.size() - components_listed);
+  for_each_finding(r, [&](const char*, const char* words, const auto& finding) {
+    if (finding.count > 0)
+      out += fmt::format("  {} {}, the first: {}\n", finding.count, words, text_of(*finding.first));
+  });
+  const auto &low = r.bounds.low, &high = r.bounds.high;
+  out += fmt::format("  bounds x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g}, z {:.6g} .. {:.6g}\n", low.x(),
+                     high.x(), low.y(), high.y(), low.z(), high.z());
+  out += fmt::format("  area {:.6g}", r.area);
+  if (r.signed_volume) out += fmt::format(", volume {:.6g}", *r.signed_volume);
+  out += fmt::format("; edges {:.4g} .. {:.4g}, median {:.4g}\n", r.edge_lengths.shortest,
+                     r.edge_lengths.longest, r.edge_lengths.median);
+  out += fmt::format("  unit: {}\n", r.likely_unit.reason);
+}
+
+Json json_of(const MeshComponent& c) {
+  Json out{{"first_triangle", c.first_triangle}, {"triangles", c.triangles}, {"closed", c.closed}};
+  out["genus"] = c.genus ? Json(*c.genus) : Json();
+  out["signed_volume"] = c.signed_volume ? Json(*c.signed_volume) : Json();
+  return out;
+}
+
+Json json_of(const MeshInspection& mesh) {
+  const MeshReport& r = mesh.report;
+  Json out{{"file", mesh.path.string()},
+           {"vertices", r.vertices},
+           {"triangles", r.triangles},
+           {"closed", r.is_closed()},
+           {"welded_vertices", mesh.welded_vertices}};
+  out["repairs"] = Json::array();
+  for (const RepairDone& done : mesh.repairs)
+    out["repairs"].push_back({{"repair", name_of(done.repair)}, {"count", done.count}});
+  for_each_finding(r, [&](const char* key, const char*, const auto& finding) {
+    out[key] = {{"count", finding.count}, {"first", finding.first ? json_of(*finding.first) : Json()}};
+  });
+  out["components"] = Json::array();
+  for (const MeshComponent& component : r.components) out["components"].push_back(json_of(component));
+  out["bounds"] = {{"low", json_of(r.bounds.low)}, {"high", json_of(r.bounds.high)}};
+  out["area"] = r.area;
+  out["signed_volume"] = r.signed_volume ? Json(*r.signed_volume) : Json();
+  out["edge_lengths"] = {{"shortest", r.edge_lengths.shortest},
+                         {"median", r.edge_lengths.median},
+                         {"longest", r.edge_lengths.longest}};
+  const auto& unit = r.likely_unit.unit;
+  out["likely_unit"] = !unit ? Json() : Json(*unit == LengthUnit::metres ? "m" : "mm");
+  out["likely_unit_reason"] = r.likely_unit.reason;
+  return out;
+}
+
+}  // namespace
+
+std::string to_text(std::span<const MeshInspection> meshes) {
+  std::string out;
+  for (const MeshInspection& mesh : meshes) append(out, mesh);
+  return out;
+}
+
+std::string to_json(std::span<const MeshInspection> meshes) {
+  Json out{{"meshes", Json::array()}};
+  for (const MeshInspection& mesh : meshes) out["meshes"].push_back(json_of(mesh));
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace condyle

@@ -1,1 +1,0 @@
-#include "condyle/io/version.hpp"

@@ -1,0 +1,183 @@
+#include "condyle/mesh/winding_number.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "condyle/core/error.hpp"
+#include "condyle/core/parallel.hpp"
+#include "condyle/core/predicates.hpp"
+#include "condyle/mesh/edge_balance.hpp"
+
+namespace condyle {
+namespace {
+
+/// Points a thread takes at a time: some 100 us of work, far above the cost of handing it out.
+constexpr std::size_t grain = 256;
+
+using Corners = std::array<Vec3, 3>;
+
+/// Whether p lies within the closed triangle as seen along one axis; of a triangle seen edge on, whether it
+/// may.
+bool holds_seen_along(const Corners& t, const Vec3& p, int axis) noexcept {
+  const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  bool left = false, right = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 &a = t[k], &b = t[(k + 1) % 3];
+    const Sign side = orientation_2d(a[i], a[j], b[i], b[j], p[i], p[j]);
+    left |= side == Sign::positive, right |= side == Sign::negative;
+  }
+  return !(left && right);
+}
+
+/// Whether p, known to be in the triangle's plane, lies in the closed triangle: it must as seen along every
+/// axis, and along one of them at least the triangle is not seen edge on. A triangle without area holds
+/// nothing: the edges it hangs on belong to its neighbours.
+bool holds(const Corners& t, const Vec3& p) noexcept {
+  bool has_area = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!holds_seen_along(t, p, axis)) return false;
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    has_area |= orientation_2d(t[0][i], t[0][j], t[1][i], t[1][j], t[2][i], t[2][j]) != Sign::zero;
+  }
+  return has_area;
+}
+
+/// On which side of the edge a b, seen along z, the shifted point p + e x + e^2 y lies. Zero for a vertical
+/// edge only.
+///
+/// orientation_2d = (b_x - a_x)(p_y - a_y) - (b_y - a_y)(p_x - a_x): its derivative by p_x is a_y - b_y, by
+/// p_y b_x - a_x.
+Sign side_of_shifted(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
+  const Sign side = orientation_2d(a.x(), a.y(), b.x(), b.y(), p.x(), p.y());
+  if (side != Sign::zero) return side;
+  if (a.y() != b.y()) return a.y() > b.y() ? Sign::positive : Sign::negative;
+  if (a.x() != b.x()) return b.x() > a.x() ? Sign::positive : Sign::negative;
+  return Sign::zero;
+}
+
+/// +1 where the vertical line through the shifted point crosses the triangle and its normal points up, -1
+/// where down, 0 where they do not meet.
+int crossing(const Corners& t, const Vec3& p) noexcept {
+  const Sign first = side_of_shifted(t[0], t[1], p);
+  if (first == Sign::zero || side_of_shifted(t[1], t[2], p) != first ||
+      side_of_shifted(t[2], t[0], p) != first) {
+    return 0;
+  }
+  return static_cast<int>(first);
+}
+
+/// A mesh must bound a solid for anything to be inside it.
+void require_closed(const TriMesh& mesh) {
+  const auto edge = unbalanced_edge(mesh);
+  if (!edge) return;
+  throw MeshError("the surface is not closed at the edge from vertex " + std::to_string(edge->first) +
+                  " to " + std::to_string(edge->second) +
+                  ": it has no inside; intersecting triangle pairs can still be computed");
+}
+
+}  // namespace
+
+template <class Visit>
+void WindingNumber::for_each_cell(std::size_t triangle, const Visit& visit) const {
+  const Vec3 a = mesh_.corner(triangle, 0), b = mesh_.corner(triangle, 1), c = mesh_.corner(triangle, 2);
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  const Index first = column_at(low.x()), last = column_at(high.x()), top = row_at(high.y());
+  for (Index row = row_at(low.y()); row <= top; ++row) {
+    for (Index column = first; column <= last; ++column)
+      visit(static_cast<std::size_t>(row) * columns_ + column);
+  }
+}
+
+WindingNumber::WindingNumber(TriMesh mesh) : mesh_(std::move(mesh)) {
+  require_closed(mesh_);
+  if (mesh_.triangles.empty()) {
+    offset_.assign(2, 0);
+    high_.setConstant(-std::numeric_limits<double>::infinity());
+    return;
+  }
+  low_.setConstant(std::numeric_limits<double>::infinity());
+  high_ = -low_;
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = mesh_.corner(t, k);
+      low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
+    }
+  }
+  // A surface covers the grid about twice or more, so with a cell per triangle a cell is about as wide as a
+  // triangle: wider cells lengthen the lists, narrower ones repeat every triangle in many.
+  const double width = high_.x() - low_.x(), height = high_.y() - low_.y();
+  const double target = static_cast<double>(mesh_.triangles.size());
+  const double side =
+      std::max({std::sqrt(width) * std::sqrt(height / target), width / target, height / target});
+  if (side > 0) {
+    const auto count = [&](double extent) {
+      return static_cast<Index>(std::clamp(std::ceil(extent / side), 1.0, target));
+    };
+    columns_ = count(width), rows_ = count(height);
+  }
+  if (width > 0) cell_.x() = width / columns_;
+  if (height > 0) cell_.y() = height / rows_;
+
+  offset_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for_each_cell(t, [&](std::size_t cell) { ++offset_[cell + 1]; });
+  }
+  for (std::size_t cell = 1; cell < offset_.size(); ++cell) offset_[cell] += offset_[cell - 1];
+  triangle_.resize(offset_.back());
+  std::vector<Index> next(offset_.begin(), offset_.end() - 1);
+  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+    for_each_cell(t, [&](std::size_t cell) { triangle_[next[cell]++] = static_cast<Index>(t); });
+  }
+}
+
+PointWinding WindingNumber::at(const Vec3& p) const noexcept {
+  if (!(p.array() >= low_.array()).all() || !(p.array() <= high_.array()).all()) return {};
+  const std::size_t cell = static_cast<std::size_t>(row_at(p.y())) * columns_ + column_at(p.x());
+  int winding = 0;
+  for (Index i = offset_[cell]; i < offset_[cell + 1]; ++i) {
+    const Corners t = {mesh_.corner(triangle_[i], 0), mesh_.corner(triangle_[i], 1),
+                       mesh_.corner(triangle_[i], 2)};
+    const Vec3 low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    // The ray goes up, and the shift moves the point by less than any distance: outside the closed rectangle
+    // is outside.
+    if (p.z() > high.z() || p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y())
+      continue;
+    if (p.z() < low.z()) {
+      winding += crossing(t, p);
+      continue;
+    }
+    const Sign side = orientation(t[0], t[1], t[2], p);
+    if (side == Sign::zero) {
+      if (holds(t, p)) return {PointState::on_surface, 0, triangle_[i]};
+      continue;
+    }
+    // Below a triangle that faces up, or above-behind one that faces down: the point is on the side the ray
+    // comes from.
+    const int sense = crossing(t, p);
+    if (sense * static_cast<int>(side) < 0) winding += sense;
+  }
+  return {winding > 0 ? PointState::inside : PointState::outside, winding, no_index};
+}
+
+void WindingNumber::at(PointsView points, std::vector<PointWinding>& out) const {
+  out.resize(points.size());
+  parallel_chunks(points.size(), grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) out[i] = at(points[i]);
+  });
+}
+
+std::vector<PointWinding> WindingNumber::at(PointsView points) const {
+  std::vector<PointWinding> out;
+  at(points, out);
+  return out;
+}
+
+std::size_t WindingNumber::bytes() const noexcept {
+  return (offset_.capacity() + triangle_.capacity()) * sizeof(Index) +
+         mesh_.triangles.capacity() * sizeof(Triangle) + 3 * mesh_.vertices.size() * sizeof(double);
+}
+
+}  // namespace condyle

@@ -1,0 +1,25 @@
+#include "fuzz/largest_allocation.hpp"
+
+#include <cstdlib>
+#include <new>
+
+namespace condyle::test {
+
+std::size_t largest_allocation = 0;
+
+}  // namespace condyle::test
+
+// The array forms come here by default. In a file of their own: where the compiler sees a body, it takes
+// malloc for a mismatch of delete.
+void* operator new(std::size_t size) {
+  using condyle::test::largest_allocation;
+  if (size > largest_allocation) largest_allocation = size;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}

@@ -1,0 +1,50 @@
+#include "fuzz/mesh_reader_promise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/core/error.hpp"
+
+namespace condyle::test {
+namespace {
+
+constexpr std::string_view name = "some.file";
+constexpr std::size_t longest_message = 400;  // characters: a line, however much of the file it quotes
+
+bool is_finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+std::string broken_promise(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return "a mesh without triangles";
+  if (!is_finite(mesh.vertices.x) || !is_finite(mesh.vertices.y) || !is_finite(mesh.vertices.z)) {
+    return "a coordinate that is not finite";
+  }
+  for (const auto& triangle : mesh.triangles) {
+    for (const Index v : triangle) {
+      if (v >= mesh.vertices.size()) return "an index out of range";
+    }
+  }
+  return {};
+}
+
+std::string broken_promise(std::string_view message) {
+  if (!message.starts_with(std::string(name) + ": ")) return "a message without the file's name";
+  if (message.size() > longest_message) return "a message too long for a line";
+  if (!std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; })) {
+    return "a message that is not one line of plain characters";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string broken_promise(std::string_view bytes, MeshFormat format) {
+  try {
+    return broken_promise(read_mesh(bytes, format, name).mesh);
+  } catch (const FileError& error) {
+    return broken_promise(std::string_view(error.what()));
+  }
+}
+
+}  // namespace condyle::test

@@ -1,0 +1,194 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <array>
+#include <bit>
+#include <csignal>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+
+#include "condyle/core/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/whole_file.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+class WrittenMesh : public testing::Test {
+ protected:
+  WrittenMesh()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("condyle_written_mesh_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~WrittenMesh() override { std::filesystem::remove_all(folder_); }
+
+  std::ptrdiff_t files() const {
+    return std::distance(std::filesystem::directory_iterator(folder_), std::filesystem::directory_iterator());
+  }
+
+  std::filesystem::path folder_;
+};
+
+void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << "vertex " << i;
+  }
+}
+
+void expect_same_bits(const TriMesh& a, const TriMesh& b) {
+  expect_same_bits(a.vertices.x, b.vertices.x);
+  expect_same_bits(a.vertices.y, b.vertices.y);
+  expect_same_bits(a.vertices.z, b.vertices.z);
+  EXPECT_EQ(a.triangles, b.triangles);
+}
+
+TriMesh float_valued() {
+  TriMesh mesh = test::sphere({0.1, -20.3, 300.7}, 25.1, 3);
+  for (auto* axis : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z}) {
+    for (double& value : *axis) value = static_cast<float>(value);
+  }
+  mesh.vertices.x[0] = -0.0;
+  return mesh;
+}
+
+/// Doubles at the ends of their range, where a float would overflow or vanish.
+TriMesh double_valued() {
+  TriMesh mesh = test::sphere({0.1, -20.3, 300.7}, 25.1, 3);
+  mesh.vertices.x[0] = -0.0;
+  mesh.vertices.x[1] = std::numeric_limits<double>::denorm_min();
+  mesh.vertices.y[2] = -std::numeric_limits<double>::max();
+  mesh.vertices.z[3] = 1 + std::numeric_limits<double>::epsilon();
+  return mesh;
+}
+
+TEST_F(WrittenMesh, IsReadBackBitForBit) {
+  for (const char* name : {"a.ply", "a.vtp", "B.PLY", "B.VTP"}) {
+    for (const TriMesh& mesh : {float_valued(), double_valued()}) {
+      write_mesh(folder_ / name, mesh);
+      expect_same_bits(read_mesh(folder_ / name).mesh, mesh);
+    }
+  }
+  EXPECT_EQ(files(), 4);
+}
+
+TEST_F(WrittenMesh, TakesFloatsWhereTheyLoseNothing) {
+  for (const char* name : {"a.ply", "a.vtp"}) {
+    write_mesh(folder_ / name, float_valued());
+    const auto with_floats = read_whole_file(folder_ / name);
+    write_mesh(folder_ / name, double_valued());
+    const auto with_doubles = read_whole_file(folder_ / name);
+    if (std::string_view(name) == "a.ply") {
+      const std::size_t vertices = float_valued().vertices.size(),
+                        triangles = float_valued().triangles.size();
+      EXPECT_EQ(with_floats.size() - with_floats.find("end_header\n") - 11, 12 * vertices + 13 * triangles);
+      EXPECT_EQ(with_doubles.size() - with_doubles.find("end_header\n") - 11, 24 * vertices + 13 * triangles);
+    }
+    EXPECT_NE(with_floats.find(name[2] == 'p' ? "property float x" : "Float32"), std::string::npos);
+    EXPECT_EQ(with_doubles.find(name[2] == 'p' ? "property float x" : "Float32"), std::string::npos);
+  }
+}
+
+TEST_F(WrittenMesh, HasTheSameBytesEveryTime) {
+  for (const char* extension : {".ply", ".vtp"}) {
+    const auto one = folder_ / (std::string("one") + extension),
+               two = folder_ / (std::string("two") + extension);
+    write_mesh(one, double_valued());
+    write_mesh(two, double_valued());
+    EXPECT_EQ(read_whole_file(one), read_whole_file(two));
+  }
+}
+
+TEST_F(WrittenMesh, CarriesItsArraysForVtk) {
+  const TriMesh mesh = test::box({0, 0, 0}, {1, 2, 3});
+  const std::vector<double> gap = {0.1, -0.2, 0.3, 1e-300, 5, 6, 7, 8};
+  const std::vector<std::int32_t> triangle = {-1, 0, 1, 2, 3, 4, 5, 11};
+  const std::vector<std::uint8_t> touching = {1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 255};
+  write_vtp(folder_ / "a.vtp", mesh,
+            std::array{MeshArray{"radial_gap_mm", gap}, MeshArray{"triangle", triangle}},
+            std::array{MeshArray{"in_contact", touching}});
+
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName((folder_ / "a.vtp").c_str());
+  reader->Update();
+  vtkPolyData* data = reader->GetOutput();
+  ASSERT_EQ(data->GetNumberOfPoints(), 8);
+  ASSERT_EQ(data->GetNumberOfPolys(), 12);
+  auto* gaps = data->GetPointData()->GetArray("radial_gap_mm");
+  auto* triangles = data->GetPointData()->GetArray("triangle");
+  auto* contacts = data->GetCellData()->GetArray("in_contact");
+  ASSERT_NE(gaps, nullptr);
+  ASSERT_NE(triangles, nullptr);
+  ASSERT_NE(contacts, nullptr);
+  EXPECT_EQ(gaps->GetDataType(), VTK_DOUBLE);
+  EXPECT_EQ(triangles->GetDataType(), VTK_INT);
+  EXPECT_EQ(contacts->GetDataType(), VTK_UNSIGNED_CHAR);
+  for (vtkIdType i = 0; i < 8; ++i) {
+    EXPECT_EQ(gaps->GetTuple1(i), gap[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(triangles->GetTuple1(i), triangle[static_cast<std::size_t>(i)]);
+  }
+  for (vtkIdType i = 0; i < 12; ++i) EXPECT_EQ(contacts->GetTuple1(i), touching[static_cast<std::size_t>(i)]);
+  expect_same_bits(read_mesh(folder_ / "a.vtp").mesh, mesh);
+}
+
+TEST_F(WrittenMesh, LeavesNothingBehindWhereItCannotBeWritten) {
+  const TriMesh mesh = test::box({0, 0, 0}, {1, 2, 3});
+  const auto no_folder = folder_ / "nowhere" / "a.ply";
+  try {
+    write_mesh(no_folder, mesh);
+    FAIL() << "written";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.what(), no_folder.string() + ": cannot be written: No such file or directory");
+  }
+  // A folder in the way: the temporary file is written, and then cannot take the name.
+  std::filesystem::create_directories(folder_ / "taken.vtp" / "inside");
+  EXPECT_THROW(write_mesh(folder_ / "taken.vtp", mesh), FileError);
+  EXPECT_THROW(write_mesh(folder_ / "a.stl", mesh), FileError);
+  EXPECT_EQ(files(), 1);
+}
+
+/// A limit on the size of files stands in for a full disk: writing fails halfway.
+TEST_F(WrittenMesh, AFullDiskIsNoticedAndTheOldFileStays) {
+  const auto path = folder_ / "a.ply";
+  const TriMesh old = test::box({0, 0, 0}, {1, 1, 1});
+  write_mesh(path, old);
+
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit little{1000, before.rlim_max};  // bytes
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &little), 0);
+  std::string complaint = "written";
+  try {
+    write_mesh(path, double_valued());
+  } catch (const FileError& error) {
+    complaint = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+
+  EXPECT_EQ(complaint, path.string() + ": cannot be written: File too large");
+  EXPECT_EQ(read_mesh(path).mesh, old);
+  EXPECT_EQ(files(), 1);
+}
+
+TEST_F(WrittenMesh, TakesThePlaceOfAnOlderOneOnlyWhenWhole) {
+  const auto path = folder_ / "a.ply";
+  write_mesh(path, test::box({0, 0, 0}, {1, 1, 1}));
+  write_mesh(path, test::box({0, 0, 0}, {2, 2, 2}));
+  EXPECT_EQ(read_mesh(path).mesh, test::box({0, 0, 0}, {2, 2, 2}));
+  EXPECT_EQ(files(), 1);
+}
+
+}  // namespace
+}  // namespace condyle

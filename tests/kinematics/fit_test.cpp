@@ -1,0 +1,247 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "condyle/core/angle.hpp"
+#include "condyle/core/error.hpp"
+#include "condyle/core/predicates.hpp"
+#include "condyle/kinematics/fit_cylinder.hpp"
+#include "condyle/kinematics/fit_sphere.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+/// Points spread evenly over the cap of a sphere about +y with this smallest height (-1 is the whole sphere).
+Points cap(const Vec3& centre, double radius, double lowest, int count) {
+  Points points;
+  for (int i = 0; i < count; ++i) {
+    const double y = 1 - (1 - lowest) * (i + 0.5) / count, across = std::sqrt(1 - y * y);
+    const double turn = i * std::numbers::pi * (3 - std::sqrt(5));
+    points.push_back(centre + radius * Vec3(across * std::cos(turn), y, across * std::sin(turn)));
+  }
+  return points;
+}
+
+std::vector<Index> all_of(const Points& points) {
+  std::vector<Index> all(points.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
+}
+
+/// A tube about the z axis of the given length, closed by flat ends: `around` quadrangles by `along`.
+TriMesh tube(double radius, double length, int around, int along) {
+  TriMesh mesh;
+  const auto vertex = [&](int ring, int k) { return static_cast<Index>(ring * around + k % around); };
+  for (int ring = 0; ring <= along; ++ring)
+    for (int k = 0; k < around; ++k) {
+      const double turn = two_pi * k / around;
+      mesh.vertices.push_back(
+          {radius * std::cos(turn), radius * std::sin(turn), length * (1.0 * ring / along - 0.5)});
+    }
+  for (int ring = 0; ring < along; ++ring)
+    for (int k = 0; k < around; ++k) {
+      mesh.triangles.push_back({vertex(ring, k), vertex(ring, k + 1), vertex(ring + 1, k + 1)});
+      mesh.triangles.push_back({vertex(ring, k), vertex(ring + 1, k + 1), vertex(ring + 1, k)});
+    }
+  for (int k = 1; k + 1 < around; ++k) {
+    mesh.triangles.push_back({vertex(0, 0), vertex(0, k + 1), vertex(0, k)});
+    mesh.triangles.push_back({vertex(along, 0), vertex(along, k), vertex(along, k + 1)});
+  }
+  return mesh;
+}
+
+/// Points of magnitude `size` carry u of it each. A fit over a patch averages them, weighted by how well the
+/// patch fixes the centre: for a cap of height h radii the distances change by about h^2 / 12 of a shift
+/// along its axis (the standard deviation of the rays' heights is h / sqrt(12), entering squared), so errors
+/// grow by at most its inverse.
+double exact_fit_tolerance(double size, double cap_height) {
+  return 8 * rounding_unit * size * 12 / (cap_height * cap_height);
+}
+
+TEST(FitSphere, IsExactOnExactSpheresWhereverTheyLie) {
+  for (const double lowest : {-1.0, 0.0, 0.5, 0.8})
+    for (const double far : {0.0, 10.0, 10000.0}) {
+      const Vec3 centre(far, -2 * far, 0.3 * far);
+      const auto fit = fit_sphere(cap(centre, 24, lowest, 500));
+      const double tolerance = exact_fit_tolerance(24 + centre.norm(), 1 - lowest);
+      EXPECT_LE((fit.sphere.centre - centre).norm(), tolerance) << lowest << ' ' << far;
+      EXPECT_NEAR(fit.sphere.radius, 24, tolerance);
+      EXPECT_LE(fit.largest_residual, tolerance);
+    }
+}
+
+TEST(FitSphere, FourVerticesAreEnough) {
+  Points corners;
+  for (const Vec3& p : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
+    corners.push_back(p);
+  const auto fit = fit_sphere(corners);
+  EXPECT_LE(fit.sphere.centre.norm(), 16 * rounding_unit);
+  EXPECT_NEAR(fit.sphere.radius, std::sqrt(3), 16 * rounding_unit);
+}
+
+TEST(FitSphere, IsStationaryUnderGeometricLeastSquares) {
+  // Noise that does not average out: at the best centre the residuals are orthogonal to the rays less their
+  // mean.
+  Points points = cap({1, 2, 3}, 24, -0.2, 400);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 ray = (points[i] - Vec3(1, 2, 3)).normalized();
+    points.set(
+        i, points[i] + 0.5 * std::sin(3.7 * static_cast<double>(i)) * ray + 0.3 * ray.x() * ray.z() * ray);
+  }
+  const auto fit = fit_sphere(points);
+  Vec3 gradient = Vec3::Zero();
+  double sum = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 ray = points[i] - fit.sphere.centre;
+    gradient += (ray.norm() - fit.sphere.radius) * ray.normalized();
+    sum += ray.norm() - fit.sphere.radius;
+  }
+  // Steps end below 1e-13 of the patch; each of the 400 terms is then off by less than 1e-11 mm.
+  EXPECT_LE(gradient.norm(), 400 * 1e-11);
+  EXPECT_NEAR(sum, 0, 400 * 1e-11);
+  EXPECT_GT(fit.rms_residual, 0.1);
+}
+
+TEST(FitSphere, TellsTheResidualsOfKnownOffsets) {
+  // A whole sphere with every second point moved out and in by 0.1 in opposite pairs: the sphere stays,
+  // residuals are 0.1.
+  Points points;
+  int k = 0;
+  for (const Vec3& axis :
+       {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitY()), Vec3(Vec3::UnitZ()), Vec3(Vec3(1, 1, 1).normalized())}) {
+    const double radius = k++ % 2 == 0 ? 10.1 : 9.9;
+    points.push_back(radius * axis);
+    points.push_back(-radius * axis);
+  }
+  const auto fit = fit_sphere(points);
+  EXPECT_LE(fit.sphere.centre.norm(), 1e-12);
+  EXPECT_NEAR(fit.sphere.radius, 10, 1e-12);
+  EXPECT_NEAR(fit.rms_residual, 0.1, 1e-12);
+  EXPECT_NEAR(fit.largest_residual, 0.1, 1e-12);
+  EXPECT_EQ(fit.vertices, all_of(points));
+}
+
+TEST(FitSphere, UsesTheNamedVerticesAlone) {
+  Points points = cap({5, 5, 5}, 20, -1, 100);
+  const auto sphere = all_of(points);
+  points.push_back({1000, 0, 0});
+  const auto fit = fit_sphere(points, sphere);
+  EXPECT_NEAR(fit.sphere.radius, 20, exact_fit_tolerance(30, 2));
+  EXPECT_EQ(fit.vertices, sphere);
+}
+
+TEST(FitSphere, RefusesTooFewAndCoplanarVertices) {
+  Points circle;
+  for (int i = 0; i < 12; ++i) circle.push_back({std::cos(i * 0.5), std::sin(i * 0.5), 3});
+  EXPECT_THROW(fit_sphere(circle), MeshError);
+  EXPECT_THROW(fit_sphere(circle, all_of(circle)), MeshError);
+  const std::vector<Index> three{0, 1, 2};
+  EXPECT_THROW(fit_sphere(circle, three), MeshError);
+}
+
+TEST(FitCylinder, IsExactOnExactCylindersFromADisturbedStart) {
+  for (const double arc : {two_pi, 2.0, 1.0}) {
+    const Vec3 axis = Vec3(1, 2, 3).normalized(), foot(100, -50, 20);
+    const Vec3 e1 = axis.cross(Vec3::UnitX()).normalized(), e2 = axis.cross(e1);
+    Points points;
+    for (int i = 0; i < 20; ++i)
+      for (int k = 0; k < 20; ++k) {
+        const double turn = arc * i / 20;
+        points.push_back(foot + (k - 7) * 2.0 * axis + 15 * (std::cos(turn) * e1 + std::sin(turn) * e2));
+      }
+    const Cylinder start{foot + Vec3(1, -1, 0.5), (axis + Vec3(0.1, -0.05, 0)).normalized(), 12};
+    const auto fit = fit_cylinder(points, all_of(points), start);
+    // As for spheres, with the cap's height of an arc: 1 - cos(arc / 2), at most 1.
+    const double height = std::min(1.0, 1 - std::cos(arc / 2));
+    const double tolerance = exact_fit_tolerance(130, arc > 3 ? 1 : height);
+    EXPECT_LE(fit.cylinder.direction.cross(axis).norm() * 40, tolerance) << arc;
+    EXPECT_LE((fit.cylinder.point - foot).cross(axis).norm(), tolerance) << arc;
+    EXPECT_NEAR(fit.cylinder.radius, 15, tolerance);
+    EXPECT_LE(fit.largest_residual, tolerance);
+    EXPECT_GT(fit.cylinder.direction.z(), 0);
+  }
+}
+
+TEST(FitCylinder, RefusesTooFewVerticesAndAPlane) {
+  Points plane;
+  for (int i = 0; i < 5; ++i)
+    for (int k = 0; k < 5; ++k) plane.push_back({1.0 * i, 1.0 * k, 0});
+  const std::vector<Index> four{0, 1, 5, 6};
+  const Cylinder start{Vec3(2, 2, -3), Vec3::UnitX(), 3};
+  EXPECT_THROW(fit_cylinder(plane, four, start), MeshError);
+}
+
+TEST(FindSphere, AHeadOnALongNeckIsFoundAmongBoxes) {
+  TriMesh head = test::sphere({3, -4, 5}, 24, 4);
+  const TriMesh bone = test::joined(test::joined(head, test::box({-10, -300, -10}, {10, -40, 10})),
+                                    test::box({40, -200, -200}, {200, -100, 200}));
+  const auto patch = find_sphere(bone);
+  // All vertices of the head lie on its sphere but for rounding.
+  EXPECT_LE((patch.fit.sphere.centre - Vec3(3, -4, 5)).norm(), exact_fit_tolerance(40, 2));
+  EXPECT_NEAR(patch.fit.sphere.radius, 24, exact_fit_tolerance(40, 2));
+  EXPECT_EQ(patch.fit.vertices, all_of(head.vertices));
+  // Flat triangles have a little less area than their sphere: cos of half an edge's angle, squared.
+  EXPECT_LE(patch.coverage, 1);
+  EXPECT_GE(patch.coverage, 0.99);
+}
+
+TEST(FindSphere, ASocketIsFoundWhereSocketsAreAskedForAndItsOutsideWhereHeadsAre) {
+  const TriMesh socket = test::socket({1, 2, 3}, 25, 30, 4);
+  const auto inner = find_sphere(socket, {.part = SphericalPart::socket});
+  EXPECT_NEAR(inner.fit.sphere.radius, 25, exact_fit_tolerance(40, 1));
+  EXPECT_LE((inner.fit.sphere.centre - Vec3(1, 2, 3)).norm(), exact_fit_tolerance(40, 1));
+  const auto outer = find_sphere(socket);
+  EXPECT_NEAR(outer.fit.sphere.radius, 30, exact_fit_tolerance(40, 1));
+}
+
+TEST(FindSphere, AnInsideOutHeadIsNotTakenForAHead) {
+  const TriMesh head = test::flipped(test::sphere({0, 0, 0}, 24, 4));
+  EXPECT_THROW(find_sphere(head), MeshError);
+  EXPECT_NO_THROW(find_sphere(head, {.part = SphericalPart::socket}));
+}
+
+TEST(FindSphere, SearchesOnlyInsideTheBallItIsGiven) {
+  const TriMesh both = test::joined(test::sphere({0, 0, 0}, 24, 4), test::sphere({100, 0, 0}, 15, 4));
+  EXPECT_NEAR(find_sphere(both, {.within = Sphere{{100, 0, 0}, 20}}).fit.sphere.radius, 15,
+              exact_fit_tolerance(115, 2));
+  EXPECT_NEAR(find_sphere(both, {.within = Sphere{{0, 0, 0}, 30}}).fit.sphere.radius, 24,
+              exact_fit_tolerance(24, 2));
+}
+
+TEST(FindSphere, RadiiOutsideTheAskedRangeAreNotFound) {
+  const TriMesh ball = test::sphere({0, 0, 0}, 24, 4);
+  EXPECT_THROW(find_sphere(ball, {.largest_radius = 20}), MeshError);
+  EXPECT_THROW(find_sphere(ball, {.smallest_radius = 28}), MeshError);
+}
+
+TEST(FindSphere, NeitherATubeNorATorusNorANearlyEmptyMeshIsASphere) {
+  EXPECT_THROW(find_sphere(tube(15, 200, 60, 100)), MeshError);
+  EXPECT_THROW(find_sphere(test::torus(60, 15, 120, 40)), MeshError);
+  EXPECT_THROW(find_sphere(TriMesh{}), MeshError);
+  EXPECT_THROW(find_sphere(test::box({0, 0, 0}, {40, 50, 60})), MeshError);
+}
+
+TEST(FindSphere, HugeCoordinatesAreRefusedNotOverflown) {
+  EXPECT_THROW(find_sphere(test::sphere({0, 0, 0}, 1e200, 3)), MeshError);
+  EXPECT_THROW(find_sphere(test::sphere({1e300, 0, 0}, 20, 3)), MeshError);
+}
+
+TEST(FindCylinder, ATubesAxisIsFoundAndItsFlatEndsLeftOut) {
+  const auto fit = find_cylinder(tube(15, 80, 60, 40));
+  EXPECT_LE(fit.cylinder.direction.cross(Vec3::UnitZ()).norm() * 40, exact_fit_tolerance(45, 1));
+  EXPECT_NEAR(fit.cylinder.radius, 15, exact_fit_tolerance(45, 1));
+  EXPECT_LE(fit.cylinder.point.head<2>().norm(), exact_fit_tolerance(45, 1));
+  EXPECT_GE(fit.vertices.size(), 60u * 39u);
+}
+
+TEST(FindCylinder, NeitherABallNorABoxIsACylinder) {
+  EXPECT_THROW(find_cylinder(test::sphere({0, 0, 0}, 20, 4)), MeshError);
+  EXPECT_THROW(find_cylinder(test::box({0, 0, 0}, {40, 50, 60})), MeshError);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "condyle/contact/triangle_pairs.hpp"
+#include "condyle/core/point_state.hpp"
+#include "condyle/mesh/tri_mesh.hpp"
+
+namespace condyle::test {
+
+/// CGAL with exact predicates, asked the same questions: an oracle that shares no code with the library.
+class CgalOracle {
+ public:
+  explicit CgalOracle(const TriMesh& mesh);
+  ~CgalOracle();
+  CgalOracle(CgalOracle&&) noexcept;
+
+  /// Side of each point by the parity of a ray's crossings. Parity and winding number differ where a mesh
+  /// overlaps itself.
+  std::vector<PointState> states(PointsView points) const;
+
+  /// Pairs (triangle of this mesh, triangle of the other) that share a point, ascending.
+  std::vector<TrianglePair> pairs(const TriMesh& other) const;
+
+  /// Smallest distance from a point to the surface, mm.
+  double min_distance(PointsView points) const;
+
+ private:
+  struct Trees;
+  std::unique_ptr<Trees> trees_;
+};
+
+}  // namespace condyle::test
