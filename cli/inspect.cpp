@@ -75,7 +75,8 @@ void add_inspect(CLI::App& app) {
   verb->add_option("MESH", options->meshes, "Mesh files: .stl, .obj, .ply, .vtp or .vtk")->required();
   verb->add_option("--repair", options->repairs,
                    "Repairs that lose nothing, in this order: weld, drop_unreferenced, flip_inverted")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   verb->add_option("--out", options->out, "Folder to write the meshes to, as read and repaired, as .ply");
   verb->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");

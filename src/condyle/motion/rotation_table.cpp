@@ -62,10 +62,11 @@ void CylinderFeatures::fill_boxes(const FeatureTree& tree, const Node& leaf) {
   }
 }
 
-RotationTable::RotationTable(const FeatureTree& tree, const AxisFrame& frame) : tree_(&tree), frame_(frame) {
+RotationTable::RotationTable(const FeatureTree& tree, const AxisFrame& frame, const Pose& X_RT)
+    : tree_(&tree), frame_(frame) {
   features_.resize(tree);
   for (std::size_t v = 0; v < tree.vertices().size(); ++v) {
-    features_.points[v] = triple(frame.to_axis(vec3(tree.vertices()[v])));
+    features_.points[v] = triple(frame.to_axis(posed(X_RT, vec3(tree.vertices()[v]))));
     features_.at[v] = cylinder_point(features_.points[v]);
   }
   // Children come after their parent.
