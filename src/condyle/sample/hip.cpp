@@ -56,13 +56,22 @@ void check_count(const char* name, std::size_t triangles, std::size_t low) {
                    std::to_string(high));
 }
 
-/// Edges about three quarters as long within the joint as elsewhere: flat triangles cut corners off head and
-/// socket, which are only some millimetres apart.
-Meshing meshing_for(double sphere_radius, double contour_spacing, std::size_t least_base) {
-  const auto sizing = [sphere_radius](const Vec3& p) {
-    constexpr double in_joint = 0.75, transition_mm = 20, rim_mm = 5;
-    return in_joint +
-           (1 - in_joint) * std::clamp((p.norm() - sphere_radius - rim_mm) / transition_mm, 0.0, 1.0);
+/// Wanted edge lengths, relative to the smooth parts far from the joint. Edges about three quarters as long
+/// in the joint: flat triangles cut corners off head and socket, which are only some millimetres apart. Half
+/// as long at small details: a cap that a single triangle covers would never be found by midpoints laid on
+/// the surface.
+Meshing meshing_for(const Solid& solid, double sphere_radius, double contour_spacing,
+                    std::size_t least_base) {
+  const auto sizing = [details = solid.details, sphere_radius](const Vec3& p) {
+    constexpr double in_joint = 0.75, at_detail = 0.5, transition_mm = 20, rim_mm = 5;
+    const auto grown = [](double from, double distance) {
+      return from + (1 - from) * std::clamp(distance / transition_mm, 0.0, 1.0);
+    };
+    double size = grown(in_joint, p.norm() - sphere_radius - rim_mm);
+    for (const auto& [centre, radius] : details) {
+      size = std::min(size, grown(at_detail, (p - centre).norm() - radius));
+    }
+    return size;
   };
   return {sizing, contour_spacing, least_base};
 }
@@ -123,8 +132,8 @@ SampleHip sample_hip(const HipParameters& parameters, const Resolution& resoluti
   // The thinnest parts, the wing and the ischial spine, are three times as thick as the lattice is wide.
   const double contour_spacing = 2.5 * parameters.head_radius_mm / 24;
   const Meshing hip_bone_meshing =
-      meshing_for(parameters.head_radius_mm + parameters.joint_space_mm, contour_spacing, 2000);
-  const Meshing femur_meshing = meshing_for(parameters.head_radius_mm, contour_spacing, 1200);
+      meshing_for(hip_bone, parameters.head_radius_mm + parameters.joint_space_mm, contour_spacing, 2000);
+  const Meshing femur_meshing = meshing_for(femur, parameters.head_radius_mm, contour_spacing, 1200);
 
   const TriangleCounts count = counts(resolution, hip_bone, hip_bone_meshing, femur, femur_meshing);
   check_count("hip bone", count.hip_bone, 1600);

@@ -11,9 +11,9 @@
 namespace condyle::sample {
 namespace {
 
-/// Subdivisions of a skeleton: 16 plates per control triangle, 4 bars per control bar. Two leave dihedral
-/// angles of a few degrees, less than the meshes made from them show.
-constexpr int levels = 2;
+/// Subdivisions of a skeleton: 64 plates per control triangle, 8 bars per control bar. With two, the finest
+/// meshes show the facets on the wing.
+constexpr int levels = 3;
 
 Ball operator+(const Ball& a, const Ball& b) {
   return {a.centre + b.centre, a.radius + b.radius};
@@ -153,7 +153,7 @@ FieldValue Skeleton::operator()(const Vec3& p) const noexcept {
     const double here = bound(groups_[g]);
     if (here < least) least = here, first = g;
   }
-  visit(groups_[first]);
+  if (!groups_.empty()) visit(groups_[first]);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (g != first && bound(groups_[g]) < nearest.value) visit(groups_[g]);
   }
