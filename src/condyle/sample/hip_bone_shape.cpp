@@ -77,7 +77,7 @@ struct HipBonePieces {
   std::array<Skeleton, 4> tips = {Skeleton::chain(ischial_spine), Skeleton::chain(anterior_tip),
                                   Skeleton::chain(posterior_tip), Skeleton::chain(posterior_inferior_tip)};
   Socket socket;
-  Vec3 notch_start, notch_end;
+  Ball notch_start, notch_end;
   double scale;
 
   FieldValue operator()(const Vec3& p) const noexcept {
@@ -87,15 +87,16 @@ struct HipBonePieces {
     bone.value *= scale;
 
     const Ball shell = {Vec3::Zero(), socket.radius + socket_wall * scale};
-    const FieldValue cup =
-        common(ball(shell, p), half_space(socket.opening, socket.rim_offset, p), 6 * scale);
-    bone = joined(bone, cup, 10 * scale);
+    bone = joined(bone, ball(shell, p), 10 * scale);
+    // The rim: what stands beyond its plane goes, out to somewhat more than the shell.
+    const Ball around_rim = {Vec3::Zero(), shell.radius + 4 * scale};
+    const FieldValue beyond_rim = half_space(-socket.opening, -socket.rim_offset, p);
+    bone = without(bone, common(ball(around_rim, p), beyond_rim, 4 * scale), 6 * scale);
     // The head's room, open outwards: a bar from the centre along the opening keeps the way of the neck free.
     const Ball room = {Vec3::Zero(), socket.radius};
     const Ball way_out = {3 * socket.radius * socket.opening, socket.radius};
     bone = without(bone, bar(room, way_out, p), 4 * scale);
-    const Ball notch_in = {notch_start, 8 * scale}, notch_out = {notch_end, 10 * scale};
-    return without(bone, bar(notch_in, notch_out, p), 5 * scale);
+    return without(bone, bar(notch_start, notch_end, p), 7 * scale);
   }
 };
 
@@ -121,15 +122,17 @@ Solid hip_bone_shape(const HipParameters& hip) {
   const Vec3 down(0.15, -1, 0);
   const Vec3 notch = (down - down.dot(bone.socket.opening) * bone.socket.opening).normalized();
   const Vec3 level = bone.socket.rim_offset * bone.socket.opening;
-  bone.notch_start = level + 0.7 * bone.socket.radius * notch;
-  bone.notch_end = level + 1.6 * bone.socket.radius * notch;
+  bone.notch_start = {level + 0.7 * bone.socket.radius * notch, 8 * bone.scale};
+  bone.notch_end = {level + 1.6 * bone.socket.radius * notch, 10 * bone.scale};
 
   const Box sheet = box_around(bone.ilium_sheet.balls()), ring = box_around(bone.ring.balls());
   const Vec3 room = Vec3::Constant(room_around);
   const Vec3 low = sheet.low.cwiseMin(ring.low) - room, high = sheet.high.cwiseMax(ring.high) + room;
   const Ball& tip = ischial_spine.back();
-  return {
-      bone, {bone.scale * low, bone.scale * high}, {{bone.scale * tip.centre, 2 * bone.scale * tip.radius}}};
+  const Ball lips = {level + 1.2 * bone.socket.radius * notch, 12 * bone.scale};
+  return {bone,
+          {bone.scale * low, bone.scale * high},
+          {{bone.scale * tip.centre, 2 * bone.scale * tip.radius}, lips}};
 }
 
 }  // namespace condyle::sample
