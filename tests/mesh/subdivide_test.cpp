@@ -69,7 +69,9 @@ TEST(Subdivide, OpenAndNonManifoldEdgesStayShared) {
   EXPECT_EQ(users, 9);
 }
 
-TEST(Subdivide, NothingBecomesNothing) { EXPECT_EQ(subdivided(TriMesh{}), TriMesh{}); }
+TEST(Subdivide, NothingBecomesNothing) {
+  EXPECT_EQ(subdivided(TriMesh{}), TriMesh{});
+}
 
 TEST(Subdivide, OneThreadGivesTheSameBytesAsMany) {
   const TriMesh mesh = test::sphere(Vec3(1, 2, 3), 5, 4);
