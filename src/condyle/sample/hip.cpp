@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -93,25 +94,36 @@ std::string place(const Vec3& p) {
   return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") mm";
 }
 
-TriMesh checked_mesh(const char* name, const Solid& solid, const Meshing& meshing, std::size_t triangles,
-                     int wanted_genus) {
-  const auto impossible = [&](const std::string& why) {
-    return UsageError(std::string("sample hip: with these parameters the ") + name + " " + why);
-  };
-  TriMesh mesh;
-  try {
-    mesh = sample::meshed(solid, meshing, triangles);
-  } catch (const MeshError& error) {
-    throw impossible(std::string("cannot be meshed: ") + error.what());
-  }
+/// What is wrong with a mesh, if anything.
+std::optional<std::string> defect(const TriMesh& mesh, int wanted_genus) {
   if (const int found = sample::genus(mesh); found != wanted_genus) {
-    throw impossible("has " + std::to_string(found) + " holes through it, not " +
-                     std::to_string(wanted_genus));
+    return "has " + std::to_string(found) + " holes through it, not " + std::to_string(wanted_genus);
   }
   if (const auto pair = sample::first_self_intersection(mesh)) {
-    throw impossible("runs into itself near " + place(mesh.corner(pair->first, 0)));
+    return "runs into itself near " + place(mesh.corner(pair->first, 0));
   }
-  return mesh;
+  return std::nullopt;
+}
+
+/// Coarse triangles may happen to cut across a sharp lip; from another contour they fall differently. Defects
+/// that the parameters cause come up every time.
+TriMesh checked_mesh(const char* name, const Solid& solid, Meshing meshing, std::size_t triangles,
+                     int wanted_genus) {
+  constexpr int attempts = 4;
+  constexpr double finer = 0.9;
+  std::string why;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    try {
+      TriMesh mesh = sample::meshed(solid, meshing, triangles);
+      const auto found = defect(mesh, wanted_genus);
+      if (!found) return mesh;
+      why = *found;
+    } catch (const MeshError& error) {
+      why = std::string("cannot be meshed: ") + error.what();
+    }
+    meshing.contour_spacing *= finer;
+  }
+  throw UsageError(std::string("sample hip: with these parameters the ") + name + " " + why);
 }
 
 /// The vertex that comes nearest to the other bone's solid, by that bone's field.
