@@ -57,11 +57,11 @@ struct Circle {
 /// The piece of a triangle at the circle's height, walked from p to q with the solid on its left (seen from
 /// +z).
 ///
-///            upper              upper
-///           /                       \         solid beyond the page,
-///     -----p-------------------------q-----   outside towards the reader   z = h
-///         /                           \
-///      lower                        lower
+///          upper         upper
+///            |             |          solid: beyond the page
+///     -------p------------>q-------   z = h
+///            |             |          outside: this side of it
+///          lower         lower
 ///
 /// Each end lies on an edge of the triangle, from `lower` (below the height) to `upper` (at it or above), and
 /// is computed from lower to upper: both triangles at the edge get the same bits. Ends err by at most 12u
