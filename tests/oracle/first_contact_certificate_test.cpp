@@ -104,15 +104,17 @@ TEST_P(RealHip, touches_through_a_full_turn_exactly_in_its_contact_set) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, RealHip,
-                         testing::Values(std::pair{"hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply"},
-                                         std::pair{"hip_libhip_m1_left/hip_bone.ply",
-                                                   "hip_libhip_m1_left/femur.ply"},
-                                         std::pair{"hip_libhip_m1_left/coarse/hip_bone_2442.ply",
-                                                   "hip_libhip_m1_left/coarse/femur_1542.ply"}),
-                         [](const auto& hip) {
-                           return std::vector<std::string>{"vhf", "libhip", "libhip_coarse"}[hip.index];
-                         });
+using HipFiles = std::pair<const char*, const char*>;
+
+const HipFiles hips[] = {
+    {"hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply"},
+    {"hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply"},
+    {"hip_libhip_m1_left/coarse/hip_bone_2442.ply", "hip_libhip_m1_left/coarse/femur_1542.ply"},
+};
+const char* const hip_names[] = {"vhf", "libhip", "libhip_coarse"};
+
+INSTANTIATE_TEST_SUITE_P(FirstContact, RealHip, testing::ValuesIn(hips),
+                         [](const auto& hip) { return std::string(hip_names[hip.index]); });
 
 }  // namespace
 }  // namespace condyle
