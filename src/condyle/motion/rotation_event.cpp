@@ -123,7 +123,7 @@ TurnWindow::TurnWindow(double last, double side) noexcept : side_(side) {
 }
 
 Touches vertex_meets_face(const Point& p, const Corners& face, const TurnWindow& window) {
-  const auto& [a, b, c] = face;
+  const Point &a = face[0], &b = face[1], &c = face[2];
   const bool face_across_axis = a.z == b.z && b.z == c.z, on_axis = p.x == 0 && p.y == 0;
   if (face_across_axis || on_axis) return {};
   const Point ab = b - a, ac = c - a, normal = cross(ab, ac);
