@@ -65,8 +65,8 @@ PostJoint post_joint(JointAngle vary, Side side) {
 Joint bumpy_joint(Side side) {
   // Two posts in the opening, one on either side of the neck, stop turns about the socket's own axis.
   TriMesh fixed = bumpy(socket({0, 0, 0}, 24, 30, 3), Vec3::Zero(), 1.2);
-  fixed = joined(fixed, bumpy(box({14, -34, -8}, {19, -27, -2}), {16, -30, -5}, 1));
-  fixed = joined(fixed, bumpy(box({-18, -36, -3}, {-11, -26, 3}), {-15, -30, 0}, 1));
+  fixed = joined(fixed, bumpy(box({8, -34, -8}, {14, -27, -2}), {11, -30, -5}, 1));
+  fixed = joined(fixed, bumpy(box({-14, -36, -3}, {-7, -26, 3}), {-10, -30, 0}, 1));
   TriMesh mobile = bumpy(sphere({0, 0, 0}, 20, 3), Vec3::Zero(), 1.5);
   // A neck through the opening, out of the middle.
   mobile = joined(mobile, bumpy(box({-4, -38, 2}, {6, -8, 12}), {1, -20, 7}, 1));
