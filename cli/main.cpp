@@ -41,6 +41,19 @@ int fail(ExitCode code, std::string message) {
   return code;
 }
 
+/// What is wrong with the command line, with the verbs there are where none of them was given.
+std::string describe(const CLI::ParseError& error, const CLI::App& app) {
+  if (!app.get_subcommands().empty()) return app.get_subcommands().front()->get_name() + ": " + error.what();
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands(nullptr))
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  const auto unknown = app.remaining();
+  if (!unknown.empty()) return fmt::format("unknown verb '{}'; there are {}", unknown.front(), verbs);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
+    return fmt::format("a verb is needed: {}", verbs);
+  return error.what();
+}
+
 int run(int argc, char** argv) {
   CLI::App app(
       "Condyle tells where the bones of a joint run into each other, how deep, and along which direction.",
@@ -62,6 +75,8 @@ int run(int argc, char** argv) {
 
   cli::add_inspect(app);
   cli::add_frame(app);
+  cli::add_depth(app);
+  cli::add_sample(app);
 
   try {
     app.parse(argc, argv);
@@ -69,7 +84,7 @@ int run(int argc, char** argv) {
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
     cli::print(version ? app.version() + "\n" : app.help());
   } catch (const CLI::ParseError& error) {
-    return fail(bad_usage, error.what());
+    return fail(bad_usage, describe(error, app));
   }
   return answered;
 }

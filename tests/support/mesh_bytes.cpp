@@ -229,11 +229,13 @@ std::vector<MeshBytes> ply_files(const TriMesh& mesh) {
     };
     add("float and int", ply_binary<float, std::int32_t>(mesh, "float32", "int32", big));
     add("double and uint", ply_binary<double, std::uint32_t>(mesh, "double", "uint", big));
-    add("double and short", ply_binary<double, std::int16_t>(mesh, "double", "short", big));
-    add("float and ushort", ply_binary<float, std::uint16_t>(mesh, "float", "uint16", big));
-    if (mesh.vertices.size() <= 256) {
+    const std::size_t vertices = mesh.vertices.size();
+    if (vertices <= 0x8000)
+      add("double and short", ply_binary<double, std::int16_t>(mesh, "double", "short", big));
+    if (vertices <= 0x10000)
+      add("float and ushort", ply_binary<float, std::uint16_t>(mesh, "float", "uint16", big));
+    if (vertices <= 0x100)
       add("float and uchar", ply_binary<float, std::uint8_t>(mesh, "float", "uchar", big));
-    }
   }
   return files;
 }

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "condyle/core/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/toml_table.hpp"
 #include "condyle/io/version.hpp"
+#include "condyle/io/whole_file.hpp"
 
 namespace condyle {
 namespace {
@@ -20,18 +19,9 @@ using detail::TomlTable;
 
 constexpr std::array<std::string_view, 3> repair_names{"weld", "drop_unreferenced", "flip_inverted"};
 
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(fmt::format("{}: cannot be opened", path.string()));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  // A folder opens like a file and reads as nothing; so does an empty file, which is no joint file either.
-  if (in.bad() || text.empty()) throw FileError(fmt::format("{}: nothing to read", path.string()));
-  return text;
-}
-
 toml::table parsed(const std::filesystem::path& path) {
   try {
-    return toml::parse(contents(path), path.string());
+    return toml::parse(read_whole_file(path), path.string());
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     std::replace_if(

@@ -69,15 +69,16 @@ int crossing(const Corners& t, const Vec3& p) noexcept {
   return static_cast<int>(first);
 }
 
-}  // namespace
-
-void require_closed(const TriMesh& mesh, const char* purpose) {
+/// A mesh must bound a solid for anything to be inside it.
+void require_closed(const TriMesh& mesh) {
   const auto edge = unbalanced_edge(mesh);
   if (!edge) return;
   throw MeshError("the surface is not closed at the edge from vertex " + std::to_string(edge->first) +
-                  " to " + std::to_string(edge->second) + ", and " + purpose +
-                  " needs a closed surface; intersecting triangle pairs can still be computed");
+                  " to " + std::to_string(edge->second) +
+                  ": it has no inside; intersecting triangle pairs can still be computed");
 }
+
+}  // namespace
 
 template <class Visit>
 void WindingNumber::for_each_cell(std::size_t triangle, const Visit& visit) const {
@@ -91,7 +92,7 @@ void WindingNumber::for_each_cell(std::size_t triangle, const Visit& visit) cons
 }
 
 WindingNumber::WindingNumber(TriMesh mesh) : mesh_(std::move(mesh)) {
-  require_closed(mesh_, "a winding number");
+  require_closed(mesh_);
   if (mesh_.triangles.empty()) {
     offset_.assign(2, 0);
     high_.setConstant(-std::numeric_limits<double>::infinity());

@@ -60,8 +60,4 @@ class WindingNumber {
   std::vector<Index> offset_, triangle_;
 };
 
-/// MeshError naming an edge where the mesh does not bound a solid. `purpose` is what it was wanted for: "a
-/// winding number".
-void require_closed(const TriMesh& mesh, const char* purpose);
-
 }  // namespace condyle

@@ -55,11 +55,6 @@ Feature feature(const FeatureTree& tree, FeatureKind kind, Index place) {
   return face_feature(tree, place);
 }
 
-Corners corners(const FeatureTree& tree, const CylinderFeatures& features, Index triangle) {
-  const auto [a, b, c] = tree.triangles()[triangle];
-  return {features.points[a], features.points[b], features.points[c]};
-}
-
 /// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest.
 class Search {
  public:
@@ -109,14 +104,14 @@ class Search {
     for (Index v = m.vertices.first; v < m.vertices.last; ++v) {
       for (Index t = f.triangles.first; t < f.triangles.last; ++t) {
         if (!within_reach(mf.vertex_boxes[v], ff.triangle_boxes[t])) continue;
-        record(vertex_meets_face(mf.points[v], corners(ft, ff, t), window_), FeatureKind::vertex, v,
+        record(vertex_meets_face(mf.points[v], ff.corners(ft, t), window_), FeatureKind::vertex, v,
                FeatureKind::face, t);
       }
     }
     for (Index t = m.triangles.first; t < m.triangles.last; ++t) {
       for (Index v = f.vertices.first; v < f.vertices.last; ++v) {
         if (!within_reach(mf.triangle_boxes[t], ff.vertex_boxes[v])) continue;
-        record(face_meets_vertex(corners(mt, mf, t), ff.points[v], window_), FeatureKind::face, t,
+        record(face_meets_vertex(mf.corners(mt, t), ff.points[v], window_), FeatureKind::face, t,
                FeatureKind::vertex, v);
       }
     }

@@ -27,14 +27,20 @@ struct CylinderFeatures {
   void resize(const FeatureTree& tree);
   /// Boxes of all a leaf owns, its corners being in place.
   void fill_boxes(const FeatureTree& tree, const FeatureTree::Node& leaf);
+
+  Corners corners(const FeatureTree& tree, Index triangle) const noexcept {
+    const auto [a, b, c] = tree.triangles()[triangle];
+    return {points[a], points[b], points[c]};
+  }
 };
 
-/// The body that rests, placed about one axis: built once, then asked from many start poses and many threads.
+/// A body placed about one axis, all boxes ready: for the one that rests, built once, then asked from many
+/// start poses and many threads.
 class RotationTable {
  public:
-  /// The frame is given in the mesh's own coordinates; a ball joint wants its origin in the centre. The tree
-  /// must outlive the table.
-  RotationTable(const FeatureTree& tree, const AxisFrame& frame);
+  /// The frame is given in the coordinates X_RT takes the mesh to: its own, or those of the other body. A
+  /// ball joint wants its origin in the centre. The tree must outlive the table.
+  RotationTable(const FeatureTree& tree, const AxisFrame& frame, const Pose& X_RT = Pose::Identity());
 
   const FeatureTree& tree() const noexcept { return *tree_; }
   const AxisFrame& frame() const noexcept { return frame_; }

@@ -10,32 +10,33 @@
 namespace condyle {
 namespace {
 
-/// How far inside a triangle a point of its plane is: the smallest of its three shares (1/3 in the middle, <
-/// 0 outside).
-double smallest_share(const TriangleCorners& t, const Vec3& p) {
-  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
-  double smallest = 1;
+/// How far p is from the triangle, in mm and roughly: 0 on it, and growing away from it in its plane and
+/// across.
+double off(const TriangleCorners& t, const Vec3& p) {
+  const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]).normalized();
+  double beside = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 edge = t[(k + 1) % 3] - t[k];
-    smallest = std::min(smallest, edge.cross(p - t[k]).dot(normal) / normal.squaredNorm());
+    const Vec3 outwards = (t[(k + 1) % 3] - t[k]).normalized().cross(normal);
+    beside = std::max(beside, outwards.dot(p - t[k]));
   }
-  return smallest;
+  return beside + std::abs(normal.dot(p - t[0]));
 }
 
-/// A point of both triangles, which are known to meet, to rounding: of all crossings of an edge of one with
-/// the other's plane the one farthest inside; where they lie in one plane, of their corners and of the
-/// crossings of their edges.
+/// A point of both triangles, which are known to meet, to rounding. They meet at a corner of one, where an
+/// edge of one crosses the other's plane or, both in one plane, where two edges cross: of all these the one
+/// nearest to both.
 Vec3 common_point(const TriangleCorners& a, const TriangleCorners& b) {
   Vec3 best = a[0];
-  double best_share = -std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](const Vec3& p) {
-    const double share = std::min(smallest_share(a, p), smallest_share(b, p));
-    if (share > best_share) best_share = share, best = p;
+    const double distance = off(a, p) + off(b, p);
+    if (distance < least) least = distance, best = p;
   };
   const auto consider_edges_of = [&](const TriangleCorners& t, const TriangleCorners& other) {
     const Vec3 normal = (other[1] - other[0]).cross(other[2] - other[0]);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 p = t[k], q = t[(k + 1) % 3];
+      consider(p);
       const double at_p = normal.dot(p - other[0]), at_q = normal.dot(q - other[0]);
       if (at_p != at_q) consider(p + std::clamp(at_p / (at_p - at_q), 0.0, 1.0) * (q - p));
       for (std::size_t l = 0; l < 3; ++l) {

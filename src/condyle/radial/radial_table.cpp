@@ -71,14 +71,15 @@ double exact_relative_gap(const Vec3& v, const Cone& t) {
 
 /// Signed distance in mm from v along its ray, outwards positive, to the plane of a triangle the ray crosses.
 ///
-/// Both determinants err by at most 8u times the product of lengths. Where that could show in the quotient (a
-/// ray within a degree or so of the surface, a sliver), the quotient is taken in integers.
+/// Both determinants err by at most 12u times a product of lengths: 8u for their own operations, and u for
+/// each of the rounded differences in them. Where that could show in the quotient (a ray within a degree or
+/// so of the surface, a sliver), the quotient is taken in integers.
 double distance_along_ray(const Vec3& v, const Cone& t) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, av = v - t.a;
   const double past = filtered_determinant(av, ab, ac).value, full = filtered_determinant(v, ab, ac).value;
   const double radius = v.norm();
-  const double error = 8 * rounding_unit * ab.norm() * ac.norm() * (radius + av.norm());
-  constexpr double accepted = 2e-13;
+  const double error = 12 * rounding_unit * ab.norm() * ac.norm() * (radius + av.norm());
+  constexpr double accepted = 3e-13;
   const double relative = error <= accepted * std::abs(full) ? -past / full : exact_relative_gap(v, t);
   return relative * radius;
 }

@@ -1,0 +1,95 @@
+#include "condyle/sample/femur_shape.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace condyle::sample {
+namespace {
+
+/// Lean of the shaft: the foot stands nearer the midline than the greater trochanter, the angle between the
+/// shaft and the line from hip to knee.
+constexpr Angle shaft_lean = Angle::degrees(7);
+
+/// Head radius at which the lengths below were chosen, mm.
+constexpr double nominal_head_radius = 24;
+
+/// Room around the balls for filled seams, mm at the nominal size.
+constexpr double room_around = 10;
+
+/// The pieces of one femur, blended in this order.
+struct FemurPieces {
+  Ball head;
+  Ball neck_inside_head, neck_upper_foot, neck_lower_foot;
+  Ball shaft_top, shaft_waist, shaft_end;
+  Ball greater_tip, greater_side, greater_back;
+  Ball lesser, lesser_root;
+  Vec3 distal;
+  double cut;
+  double scale;
+
+  FieldValue operator()(const Vec3& p) const noexcept {
+    FieldValue bone = bar(shaft_top, shaft_waist, p);
+    bone = joined(bone, bar(shaft_waist, shaft_end, p), 4 * scale);
+    bone = joined(bone, plate(greater_tip, greater_side, greater_back, p), 14 * scale);
+    bone = joined(bone, bar(lesser_root, lesser, p), 12 * scale);
+    bone = joined(bone, bar(greater_back, lesser, p), 10 * scale);
+    bone = joined(bone, plate(neck_inside_head, neck_upper_foot, neck_lower_foot, p), 14 * scale);
+    bone = joined(bone, ball(head, p), 7 * scale);
+    return common(bone, half_space(distal, cut, p), 8 * scale);
+  }
+};
+
+}  // namespace
+
+FemurAxes femur_axes(const HipParameters& hip) noexcept {
+  const double lean = shaft_lean.radians(), turn = hip.femoral_anteversion.radians();
+  const double bend = std::numbers::pi - hip.neck_shaft_angle.radians();
+  FemurAxes axes;
+  axes.distal = Vec3(0, -std::cos(lean), -std::sin(lean));
+  axes.lateral = Vec3(0, -std::sin(lean), std::cos(lean));
+  axes.neck = std::sin(bend) * (std::cos(turn) * axes.lateral - std::sin(turn) * Vec3::UnitX()) +
+              std::cos(bend) * axes.distal;
+  axes.foot = hip.neck_length_mm * axes.neck;
+  return axes;
+}
+
+Solid femur_shape(const HipParameters& hip) {
+  const FemurAxes axes = femur_axes(hip);
+  const double scale = hip.head_radius_mm / nominal_head_radius;
+  // A point by its distances from the foot, in millimetres at the nominal size: up the shaft, forward, to the
+  // side.
+  const auto at = [&](double up, double forward, double side, double radius) {
+    const Vec3 offset = -up * axes.distal + forward * Vec3::UnitX() + side * axes.lateral;
+    return Ball{axes.foot + scale * offset, scale * radius};
+  };
+  // The neck is higher than it is deep, more so towards its foot.
+  const Vec3 across = axes.neck.cross(axes.distal.cross(axes.neck)).normalized();
+  const double neck_radius = hip.neck_radius_mm;
+
+  FemurPieces femur;
+  femur.scale = scale;
+  femur.distal = axes.distal;
+  femur.cut = (axes.foot + hip.shaft_length_mm * axes.distal).dot(axes.distal);
+  femur.head = {Vec3::Zero(), hip.head_radius_mm};
+  femur.neck_inside_head = {0.3 * hip.head_radius_mm * axes.neck, neck_radius};
+  femur.neck_upper_foot = {axes.foot - 0.8 * neck_radius * across, neck_radius};
+  femur.neck_lower_foot = {axes.foot + 0.8 * neck_radius * across, neck_radius};
+  femur.shaft_top = at(4, 0, 0, 17);
+  femur.shaft_waist = at(-55, 0, 0, 14);
+  femur.shaft_end = {axes.foot + (hip.shaft_length_mm + 10 * scale) * axes.distal, 13.5 * scale};
+  femur.greater_tip = at(33, -10, 9, 9);
+  femur.greater_side = at(8, -3, 14, 12);
+  femur.greater_back = at(18, -14, 8, 10);
+  femur.lesser_root = at(-16, -8, -10, 10);
+  femur.lesser = at(-17, -14, -17, 7.5);
+
+  const std::array<Ball, 10> balls = {
+      femur.head,      femur.neck_upper_foot, femur.neck_lower_foot, femur.shaft_top,    femur.shaft_waist,
+      femur.shaft_end, femur.greater_tip,     femur.greater_side,    femur.greater_back, femur.lesser};
+  const Box box = box_around(balls);
+  const Vec3 room = Vec3::Constant(room_around * scale);
+  return {femur, {box.low - room, box.high + room}};
+}
+
+}  // namespace condyle::sample

@@ -1,0 +1,155 @@
+#include "condyle/sample/hip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "condyle/core/error.hpp"
+#include "condyle/sample/femur_shape.hpp"
+#include "condyle/sample/hip_bone_shape.hpp"
+#include "condyle/sample/self_intersection.hpp"
+#include "condyle/sample/solid_mesh.hpp"
+
+namespace condyle {
+namespace {
+
+using sample::Meshing;
+using sample::Solid;
+
+/// Vertices of one bone stay at least this far from the other solid in the neutral pose, mm: what the
+/// coarsest triangles sag into head and socket together, rounded up.
+constexpr double least_clearance = 1;
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+void check_range(const char* name, double value, double low, double high, const char* unit) {
+  if (value >= low && value <= high) return;
+  throw UsageError(std::string("sample hip: ") + name + " is " + text(value) + ", must be " + text(low) +
+                   " to " + text(high) + " " + unit);
+}
+
+void check(const HipParameters& hip) {
+  check_range("head_radius_mm", hip.head_radius_mm, 18, 32, "mm");
+  check_range("joint_space_mm", hip.joint_space_mm, 2, 6, "mm");
+  check_range("neck_shaft_angle", hip.neck_shaft_angle.degrees(), 110, 145, "degrees");
+  check_range("femoral_anteversion", hip.femoral_anteversion.degrees(), -15, 45, "degrees");
+  check_range("neck_radius_mm", hip.neck_radius_mm, 8, 0.8 * hip.head_radius_mm, "mm");
+  check_range("neck_length_mm", hip.neck_length_mm, 40, 65, "mm");
+  check_range("shaft_length_mm", hip.shaft_length_mm, 60, 250, "mm");
+  check_range("acetabular_inclination", hip.acetabular_inclination.degrees(), 35, 65, "degrees");
+  check_range("acetabular_version", hip.acetabular_version.degrees(), -10, 35, "degrees");
+  check_range("lateral_centre_edge_angle", hip.lateral_centre_edge_angle.degrees(), 15, 45, "degrees");
+}
+
+void check_count(const char* name, std::size_t triangles, std::size_t low) {
+  constexpr std::size_t high = 4'000'000;
+  if (triangles % 2 == 0 && triangles >= low && triangles <= high) return;
+  throw UsageError(std::string("sample hip: ") + name + " cannot have " + std::to_string(triangles) +
+                   " triangles, must be an even number from " + std::to_string(low) + " to " +
+                   std::to_string(high));
+}
+
+/// Edges about three quarters as long within the joint as elsewhere: flat triangles cut corners off head and
+/// socket, which are only some millimetres apart.
+Meshing meshing_for(double sphere_radius, double contour_spacing, std::size_t least_base) {
+  const auto sizing = [sphere_radius](const Vec3& p) {
+    constexpr double in_joint = 0.75, transition_mm = 20, rim_mm = 5;
+    return in_joint +
+           (1 - in_joint) * std::clamp((p.norm() - sphere_radius - rim_mm) / transition_mm, 0.0, 1.0);
+  };
+  return {sizing, contour_spacing, least_base};
+}
+
+TriangleCounts counts(const Resolution& resolution, const Solid& hip_bone, const Meshing& hip_bone_meshing,
+                      const Solid& femur, const Meshing& femur_meshing) {
+  if (const auto* scenario = std::get_if<Scenario>(&resolution)) {
+    const int level = static_cast<int>(*scenario) - 1;
+    return {std::size_t{2442} << 2 * level, std::size_t{1542} << 2 * level};
+  }
+  if (const auto* asked = std::get_if<TriangleCounts>(&resolution)) return *asked;
+  const double edge = std::get<EdgeLength>(resolution).mm;
+  check_range("edge_length_mm", edge, 0.3, 9, "mm");
+  return {sample::triangles_for(hip_bone, hip_bone_meshing, edge),
+          sample::triangles_for(femur, femur_meshing, edge)};
+}
+
+std::string place(const Vec3& p) {
+  return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") mm";
+}
+
+TriMesh checked_mesh(const char* name, const Solid& solid, const Meshing& meshing, std::size_t triangles,
+                     int wanted_genus) {
+  const auto impossible = [&](const std::string& why) {
+    return UsageError(std::string("sample hip: with these parameters the ") + name + " " + why);
+  };
+  TriMesh mesh;
+  try {
+    mesh = sample::meshed(solid, meshing, triangles);
+  } catch (const MeshError& error) {
+    throw impossible(std::string("cannot be meshed: ") + error.what());
+  }
+  if (const int found = sample::genus(mesh); found != wanted_genus) {
+    throw impossible("has " + std::to_string(found) + " holes through it, not " +
+                     std::to_string(wanted_genus));
+  }
+  if (const auto pair = sample::first_self_intersection(mesh)) {
+    throw impossible("runs into itself near " + place(mesh.corner(pair->first, 0)));
+  }
+  return mesh;
+}
+
+/// The vertex that comes nearest to the other bone's solid, by that bone's field.
+std::pair<double, Vec3> least_value(const Solid& solid, const TriMesh& mesh) {
+  std::pair<double, Vec3> least = {std::numeric_limits<double>::infinity(), Vec3::Zero()};
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const double value = solid.field(mesh.vertices[v]).value;
+    if (value < least.first) least = {value, mesh.vertices[v]};
+  }
+  return least;
+}
+
+}  // namespace
+
+SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution) {
+  check(parameters);
+  const Solid hip_bone = sample::hip_bone_shape(parameters), femur = sample::femur_shape(parameters);
+  // The thinnest parts, the wing and the ischial spine, are three times as thick as the lattice is wide.
+  const double contour_spacing = 2.5 * parameters.head_radius_mm / 24;
+  const Meshing hip_bone_meshing =
+      meshing_for(parameters.head_radius_mm + parameters.joint_space_mm, contour_spacing, 2000);
+  const Meshing femur_meshing = meshing_for(parameters.head_radius_mm, contour_spacing, 1200);
+
+  const TriangleCounts count = counts(resolution, hip_bone, hip_bone_meshing, femur, femur_meshing);
+  check_count("hip bone", count.hip_bone, 1600);
+  check_count("femur", count.femur, 600);
+  SampleHip hip = {checked_mesh("hip bone", hip_bone, hip_bone_meshing, count.hip_bone, 1),
+                   checked_mesh("femur", femur, femur_meshing, count.femur, 0)};
+
+  for (const auto& [value, at] : {least_value(femur, hip.hip_bone), least_value(hip_bone, hip.femur)}) {
+    if (value < least_clearance) {
+      throw UsageError("sample hip: with these parameters the bones touch in the neutral pose, near " +
+                       place(at));
+    }
+  }
+  return hip;
+}
+
+TriMesh mirrored(const TriMesh& mesh) {
+  TriMesh other = mesh;
+  for (double& z : other.vertices.z) z = -z;
+  for (auto& triangle : other.triangles) std::swap(triangle[1], triangle[2]);
+  return other;
+}
+
+SampleHip mirrored(const SampleHip& hip) {
+  return {mirrored(hip.hip_bone), mirrored(hip.femur)};
+}
+
+}  // namespace condyle

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "condyle/sample/field.hpp"
+#include "condyle/sample/hip_parameters.hpp"
+
+namespace condyle::sample {
+
+/// The socket of a right hip, in the joint frame: millimetres, X anterior, Y superior, Z to the right, origin
+/// at the hip centre.
+///
+///            . - ~ .  <- rim at `rim_radius` about the opening's axis
+///          /         |
+///         (     O    |--->  opening
+///          \         |
+///            ` - _ .       rim plane: p . opening = rim_offset, behind the centre where the cover is less
+///            than half
+struct Socket {
+  double radius;
+  Vec3 opening;
+  double rim_offset;
+};
+Socket socket_of(const HipParameters&) noexcept;
+
+/// Right hip bone: socket with rim and inferior notch, iliac wing with both spines, ischium with tuberosity
+/// and spine, both pubic rami about the obturator hole. Genus 1.
+Solid hip_bone_shape(const HipParameters&);
+
+}  // namespace condyle::sample

@@ -1,0 +1,365 @@
+#include "condyle/io/joint_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+#include "condyle/core/error.hpp"
+#include "condyle/core/predicates.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+using test::TemporaryFolder;
+
+constexpr const char* plain = R"(condyle = 1
+name = "right hip"
+kind = "ball"
+side = "right"
+units = "mm"
+[fixed]
+name = "hip bone"
+mesh = "hip_bone.ply"
+[mobile]
+name = "femur"
+mesh = "femur.ply"
+[frame]
+centre = [0.0, 0.0, 0.0]
+anterior = [1.0, 0.0, 0.0]
+superior = [0.0, 1.0, 0.0]
+)";
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return at == text.npos ? text : text.replace(at, from.size(), to);
+}
+
+TriMesh scaled(TriMesh mesh, double scale) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, scale * mesh.vertices[v]);
+  return mesh;
+}
+
+/// A socket and a head with a long neck, the size of bones, off the grid of floats by thirds.
+TriMesh pelvis_like() {
+  return test::socket({1.0 / 3, -0.0, 2.0 / 3}, 26, 60, 3);
+}
+TriMesh femur_like() {
+  return test::joined(test::sphere({1.0 / 3, -0.0, 2.0 / 3}, 24, 4),
+                      test::box({-10, -400, -10}, {10, -40, 10}));
+}
+
+class JointFileTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_mesh(folder / "hip_bone.ply", pelvis_like());
+    write_mesh(folder / "femur.ply", femur_like());
+  }
+  std::filesystem::path write(std::string_view text) const { return folder.file("joint.toml", text); }
+  LoadedJoint read(std::string_view text) const { return read_joint(write(text)); }
+
+  /// The error's message after the file's name, or "accepted".
+  std::string refusal(std::string_view text) const {
+    const auto path = write(text);
+    try {
+      read_joint(path);
+    } catch (const FileError& error) {
+      const std::string message = error.what();
+      EXPECT_EQ(message.find('\n'), message.npos);
+      const std::string start = path.string() + ": ";
+      EXPECT_TRUE(message.starts_with(start)) << message;
+      return message.substr(std::min(message.size(), start.size()));
+    }
+    return "accepted";
+  }
+  std::string refusal_of(std::string_view from, std::string_view to) const {
+    return refusal(replaced(plain, from, to));
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(JointFileTest, StandardPlacementKeepsEveryBit) {
+  const auto [joint, report] = read(plain);
+  const TriMesh fixed = pelvis_like(), mobile = femur_like();
+  EXPECT_EQ(joint.fixed.mesh, fixed);
+  EXPECT_EQ(joint.mobile.mesh, mobile);
+  // Equal doubles may still differ in the sign of 0.
+  for (std::size_t v = 0; v < mobile.vertices.size(); ++v)
+    EXPECT_EQ(std::signbit(joint.mobile.mesh.vertices.y[v]), std::signbit(mobile.vertices.y[v]));
+  EXPECT_EQ(joint.name, "right hip");
+  EXPECT_EQ(joint.kind, JointKind::ball);
+  EXPECT_EQ(joint.side, Side::right);
+  EXPECT_EQ(joint.fixed.name, "hip bone");
+  EXPECT_EQ(joint.mobile.name, "femur");
+  EXPECT_TRUE(report.notes.empty()) << report.notes.front();
+}
+
+TEST_F(JointFileTest, MetresBecomeMillimetres) {
+  write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
+  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  const auto [joint, report] =
+      read(replaced(replaced(plain, "\"mm\"", "\"m\""), "[0.0, 0.0, 0.0]", "[0.001, 0.002, -0.003]"));
+  const Vec3 centre(1, 2, -3);
+  EXPECT_TRUE(report.X_WF.translation().isApprox(centre, 4 * rounding_unit));
+  const TriMesh expected = femur_like();
+  for (std::size_t v = 0; v < expected.vertices.size(); ++v)
+    // The test's own scaling, that of the file and the centre's: u each, of at most 400 mm.
+    EXPECT_LE((joint.mobile.mesh.vertices[v] - (expected.vertices[v] - centre)).cwiseAbs().maxCoeff(),
+              4 * rounding_unit * 400);
+  EXPECT_EQ(report.notes.size(), 1u);
+}
+
+TEST_F(JointFileTest, ACentreIsSubtractedWithOneRounding) {
+  const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "[0.1, -0.2, 0.3]"));
+  const TriMesh expected = femur_like();
+  for (std::size_t v = 0; v < expected.vertices.size(); ++v) {
+    EXPECT_EQ(joint.mobile.mesh.vertices.x[v], expected.vertices.x[v] - 0.1);
+    EXPECT_EQ(joint.mobile.mesh.vertices.y[v], expected.vertices.y[v] + 0.2);
+    EXPECT_EQ(joint.mobile.mesh.vertices.z[v], expected.vertices.z[v] - 0.3);
+  }
+}
+
+TEST_F(JointFileTest, AScannersFrameIsTurnedToTheJointsWithoutRounding) {
+  // Left, posterior, superior: anterior is -y, superior z, and right -x.
+  const auto [joint, report] =
+      read(replaced(replaced(plain, "[1.0, 0.0, 0.0]", "[0, -1, 0]"), "[0.0, 1.0, 0.0]", "[0, 0, 1]"));
+  const TriMesh given = femur_like();
+  for (std::size_t v = 0; v < given.vertices.size(); ++v) {
+    const Vec3 p = given.vertices[v];
+    EXPECT_EQ(joint.mobile.mesh.vertices[v], Vec3(-p.y(), p.z(), -p.x()));
+  }
+}
+
+TEST_F(JointFileTest, ARestPoseIsTakenOffTheMobileMeshAlone) {
+  for (const auto& [name, side] : {std::pair{"right", Side::right}, std::pair{"left", Side::left}}) {
+    const JointAngles rest{Angle::degrees(20), Angle::degrees(-10), Angle::degrees(5)};
+    const auto [joint, report] = read(replaced(plain, "\"right\"", "\"" + std::string(name) + "\"") +
+                                      "[rest]\nflexion = 20\nadduction = -10.0\ninternal_rotation = 5\n");
+    EXPECT_EQ(joint.fixed.mesh, pelvis_like());
+    EXPECT_EQ(report.file.rest, rest);
+    // At the rest angles the mesh is again where the file has it: two rotations with a few u of 400 mm each.
+    const TriMesh given = femur_like(), back = posed(pose_at(side, rest), joint.mobile.mesh);
+    for (std::size_t v = 0; v < given.vertices.size(); ++v)
+      EXPECT_LE((back.vertices[v] - given.vertices[v]).norm(), 32 * rounding_unit * 400);
+  }
+}
+
+TEST_F(JointFileTest, AFittedCentreIsThatOfTheHeadAndIsReported) {
+  const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\""));
+  ASSERT_TRUE(report.head);
+  // Vertices of 24 mm rounded to double lie on the sphere: see the tests of the fit.
+  EXPECT_LE((report.X_WF.translation() - Vec3(1.0 / 3, 0, 2.0 / 3)).norm(), 1e-12);
+  EXPECT_NEAR(report.head->fit.sphere.radius, 24, 1e-12);
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_TRUE(report.notes[0].starts_with("centre fitted: sphere of radius 24.000 mm")) << report.notes[0];
+}
+
+TEST_F(JointFileTest, ASocketCanBeFittedInstead) {
+  const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\"\nfit_body = \"fixed\""));
+  ASSERT_TRUE(report.head);
+  EXPECT_NEAR(report.head->fit.sphere.radius, 26, 1e-12);
+}
+
+TEST_F(JointFileTest, AFitThatFindsNothingIsAMeshErrorWithFileAndKey) {
+  const auto path = write(
+      replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\"\nfit_within = { centre = [0, -300, 0], radius = 20 }"));
+  try {
+    read_joint(path);
+    FAIL();
+  } catch (const MeshError& error) {
+    EXPECT_TRUE(
+        std::string(error.what()).starts_with(path.string() + ": frame.centre: femur.ply: no spherical head"))
+        << error.what();
+  }
+}
+
+TEST_F(JointFileTest, LandmarksGiveTheAxes) {
+  const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
+  const auto at = [&](std::string_view landmarks) {
+    return read(replaced(plain, axes, "[frame.landmarks]\n" + std::string(landmarks))).report.X_WF;
+  };
+  const auto isb =
+      at("right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\nright_psis = [-150, 0, 45]\nleft_psis = [-150, "
+         "0, -45]\n");
+  EXPECT_TRUE(isb.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  const auto plane =
+      at("right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\npubic_symphysis = [0, -90, 0]\n");
+  EXPECT_TRUE(plane.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  const auto femur = at("medial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, -400, 40]\n");
+  EXPECT_TRUE(femur.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  const auto knee =
+      read(replaced(replaced(plain, axes,
+                             "[frame.landmarks]\nmedial_epicondyle = [0, -400, -40]\nlateral_epicondyle = "
+                             "[0, -400, 40]\nhip_centre = [0, 0, 0]\n"),
+                    "centre = [0.0, 0.0, 0.0]\n", ""));
+  EXPECT_TRUE(knee.report.X_WF.translation() == Vec3(0, -400, 0));
+}
+
+TEST_F(JointFileTest, ACentreIsAlsoTakenInTheFilesUnits) {
+  const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
+  write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
+  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  const auto femur = read(replaced(
+      replaced(
+          plain, axes,
+          "[frame.landmarks]\nmedial_epicondyle = [0, -0.4, -0.04]\nlateral_epicondyle = [0, -0.4, 0.04]\n"),
+      "\"mm\"", "\"m\""));
+  EXPECT_TRUE(femur.report.X_WF.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+}
+
+TEST_F(JointFileTest, RepairsAreMadeInOrderAndReported) {
+  TriMesh dirty = test::flipped(femur_like());
+  dirty.vertices.push_back({500, 0, 0});
+  write_mesh(folder / "femur.ply", dirty);
+  const auto [joint, report] =
+      read(replaced(plain, "mesh = \"femur.ply\"",
+                    "mesh = \"femur.ply\"\nrepair = [\"drop_unreferenced\", \"flip_inverted\"]"));
+  EXPECT_EQ(joint.mobile.mesh.vertices, femur_like().vertices);
+  ASSERT_EQ(report.mobile.repairs.size(), 2u);
+  EXPECT_EQ(report.mobile.repairs[0].count, 1u);
+  EXPECT_EQ(report.mobile.repairs[1].count, dirty.triangles.size());
+  EXPECT_EQ(report.notes.size(), 2u);
+}
+
+TEST_F(JointFileTest, MeshesInContradictingUnitsAreRefusedNamingBoth) {
+  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  const std::string message = refusal(plain);
+  EXPECT_NE(message.find("hip_bone.ply looks like millimetres"), message.npos) << message;
+  EXPECT_NE(message.find("femur.ply like metres"), message.npos) << message;
+}
+
+TEST_F(JointFileTest, AUnitThatDoesNotFitTheMeshesIsSaidButFollowed) {
+  write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
+  write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
+  const auto [joint, report] = read(plain);
+  EXPECT_EQ(joint.mobile.mesh, scaled(femur_like(), 0.001));
+  ASSERT_EQ(report.notes.size(), 2u);
+  EXPECT_NE(report.notes[1].find("femur.ply: the file says millimetres"), std::string::npos)
+      << report.notes[1];
+}
+
+TEST_F(JointFileTest, EveryRequiredKeyIsAskedForByName) {
+  for (const auto& [line, message] : {
+           std::pair{"condyle = 1\n", "condyle: is missing"},
+           std::pair{"name = \"right hip\"\n", "name: is missing"},
+           std::pair{"kind = \"ball\"\n", "kind: is missing"},
+           std::pair{"side = \"right\"\n", "side: is missing"},
+           std::pair{"units = \"mm\"\n", "units: is missing"},
+           std::pair{"mesh = \"hip_bone.ply\"\n", "fixed.mesh: is missing"},
+           std::pair{"mesh = \"femur.ply\"\n", "mobile.mesh: is missing"},
+           std::pair{"centre = [0.0, 0.0, 0.0]\n", "frame.centre: is missing"},
+           std::pair{"anterior = [1.0, 0.0, 0.0]\n", "frame.anterior: is missing"},
+           std::pair{"superior = [0.0, 1.0, 0.0]\n", "frame.superior: is missing"},
+       }) {
+    const std::string answer = refusal_of(line, "");
+    EXPECT_TRUE(answer.ends_with(message)) << answer;
+  }
+  EXPECT_TRUE(refusal("condyle = 1\n").ends_with("name: is missing"));
+}
+
+TEST_F(JointFileTest, WrongTypesAndWordsAreNamedWithTheirLine) {
+  EXPECT_EQ(refusal_of("condyle = 1", "condyle = 2"),
+            "line 1: condyle: format version 2 is not known; this is version 1");
+  EXPECT_EQ(refusal_of("condyle = 1", "condyle = 1.0"),
+            "line 1: condyle: must be a whole number, not a number");
+  EXPECT_EQ(refusal_of("\"right hip\"", "5"), "line 2: name: must be a text in quotes, not a whole number");
+  EXPECT_EQ(refusal_of("\"ball\"", "\"saddle\""),
+            "line 3: kind: must be \"ball\" or \"hinge\", not \"saddle\"");
+  EXPECT_EQ(refusal_of("\"right\"", "\"Right\""),
+            "line 4: side: must be \"right\" or \"left\", not \"Right\"");
+  EXPECT_EQ(refusal_of("\"mm\"", "\"cm\""), "line 5: units: must be \"mm\" or \"m\", not \"cm\"");
+  EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "\"fitted\""),
+            "line 13: frame.centre: must be [x, y, z] or \"fit\"");
+  EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "[0, 0]"),
+            "line 13: frame.centre: must be a list of three numbers, not of 2");
+  EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "[0, 0, \"0\"]"),
+            "line 13: frame.centre: must be a number, not a text");
+  EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "[0, 0, nan]"), "line 13: frame.centre: must be a finite number");
+  EXPECT_EQ(refusal_of("[0.0, 0.0, 0.0]", "[0, inf, 0]"), "line 13: frame.centre: must be a finite number");
+  EXPECT_EQ(refusal_of("[frame]", "[[frame]]"), "line 12: frame: must be a table, not a list");
+  EXPECT_EQ(refusal_of("mesh = \"femur.ply\"", "mesh = \"\""), "line 11: mobile.mesh: must name a file");
+  EXPECT_EQ(
+      refusal_of("mesh = \"femur.ply\"", "mesh = \"femur.ply\"\nrepair = [\"fill\"]"),
+      "line 12: mobile.repair: unknown repair \"fill\"; there are weld, drop_unreferenced and flip_inverted");
+}
+
+TEST_F(JointFileTest, UnknownKeysAreRefusedEverywhere) {
+  EXPECT_EQ(refusal_of("[frame]\n", "[frame]\ncenter = 5\n").substr(0, 34),
+            "line 13: frame.center: unknown key");
+  EXPECT_EQ(refusal_of("units", "unit = 1\nunits").substr(0, 25), "line 5: unit: unknown key");
+  EXPECT_EQ(refusal_of("[mobile]\n", "[mobile]\ncolour = 1\n").substr(0, 35),
+            "line 10: mobile.colour: unknown key");
+  EXPECT_EQ(refusal(plain + std::string("[rest]\nflex = 1\n")).substr(0, 30),
+            "line 17: rest.flex: unknown ke");
+}
+
+TEST_F(JointFileTest, KeysThatContradictEachOtherAreRefused) {
+  EXPECT_NE(refusal_of("[frame]",
+                       "[frame.landmarks]\nmedial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, "
+                       "-400, 40]\n[frame]"),
+            "accepted");
+  EXPECT_NE(refusal_of("[frame]\n", "[frame]\nfit_body = \"fixed\"\n"), "accepted");
+  EXPECT_NE(refusal_of("\"ball\"", "\"hinge\"\n[rest]\nadduction = 5\n"), "accepted");
+}
+
+TEST_F(JointFileTest, OneSidesSpinesAskForTheOtherSides) {
+  const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
+  EXPECT_TRUE(refusal_of(axes, "[frame.landmarks]\nright_asis = [0, 0, 120]\nright_psis = [-150, 0, 45]\n")
+                  .ends_with("frame.landmarks.left_asis: is missing"));
+}
+
+TEST_F(JointFileTest, AxesThatAreNotOrthonormalAreRefusedSayingByHowMuch) {
+  EXPECT_EQ(refusal_of("[0.0, 1.0, 0.0]", "[0.6, 0.8, 0.0]"),
+            "frame: anterior and superior are 53.1301 degrees apart, not 90 (off by 36.8699)");
+  EXPECT_EQ(refusal_of("[0.0, 1.0, 0.0]", "[0.0, 0.0, 0.0]"), "frame: superior has length 0, not 1");
+}
+
+TEST_F(JointFileTest, AxesWithSixDecimalsAreMadeOrthonormalAndThatIsReported) {
+  const auto [joint, report] = read(replaced(replaced(plain, "[1.0, 0.0, 0.0]", "[0.866025, 0.5, 0.0]"),
+                                             "[0.0, 1.0, 0.0]", "[-0.5, 0.866025, 0.0]"));
+  ASSERT_EQ(report.notes.size(), 1u);
+  EXPECT_TRUE(report.notes[0].starts_with("axes made orthonormal")) << report.notes[0];
+}
+
+TEST_F(JointFileTest, WhatIsNotTomlIsRefusedWithItsLine) {
+  EXPECT_TRUE(refusal_of("kind = \"ball\"", "kind = ball").starts_with("line 3: not TOML: "));
+  EXPECT_TRUE(refusal_of("side", "kind = \"ball\"\nside").starts_with("line 4: not TOML: "));
+  EXPECT_TRUE(refusal(std::string_view("\xff\xfe\0\x01", 4)).starts_with("line 1: not TOML: "));
+  EXPECT_TRUE(refusal("").ends_with("condyle: is missing"));
+}
+
+TEST_F(JointFileTest, MissingFilesAreNamed) {
+  EXPECT_THROW(read_joint(folder / "none.toml"), FileError);
+  EXPECT_THROW(read_joint(folder.path()), FileError);
+  const auto path = write(replaced(plain, "\"femur.ply\"", "\"none.ply\""));
+  try {
+    read_joint(path);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find((folder / "none.ply").string()), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST_F(JointFileTest, CoordinatesThatOverflowInMillimetresAreRefused) {
+  TriMesh huge = femur_like();
+  huge.vertices.x[7] = 1e307;
+  write_mesh(folder / "femur.ply", huge);
+  const auto path = write(replaced(plain, "\"mm\"", "\"m\""));
+  try {
+    read_joint(path);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_TRUE(
+        std::string(error.what()).ends_with("femur.ply: vertex 7: coordinates too large for millimetres"))
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,93 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "condyle/core/error.hpp"
+#include "condyle/io/output_folder.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+using test::count_entries;
+using test::TemporaryFolder;
+
+void write(const fs::path& path, std::string_view text) {
+  std::ofstream(path) << text;
+}
+std::string read(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(OutputFolder, FilesAppearTogetherOnCommitAndNothingElse) {
+  const TemporaryFolder folder;
+  const fs::path out = folder / "a/b";
+  {
+    OutputFolder files(out);
+    write(files.file("one.txt"), "1");
+    write(files.file("two.txt"), "2");
+    EXPECT_FALSE(fs::exists(out / "one.txt"));
+    EXPECT_EQ(files.commit(), (std::vector<fs::path>{out / "one.txt", out / "two.txt"}));
+  }
+  EXPECT_EQ(read(out / "one.txt") + read(out / "two.txt"), "12");
+  EXPECT_EQ(count_entries(out), 2u);
+}
+
+TEST(OutputFolder, WithoutCommitNothingIsLeftNotEvenTheFolders) {
+  const TemporaryFolder folder;
+  {
+    OutputFolder files(folder / "a/b/");
+    write(files.file("one.txt"), "1");
+  }
+  EXPECT_EQ(count_entries(folder.path()), 0u);
+}
+
+TEST(OutputFolder, OlderFilesStayUntilCommitAndAreReplacedThen) {
+  const TemporaryFolder folder;
+  folder.file("one.txt", "old");
+  folder.file("other.txt", "kept");
+  {
+    OutputFolder files(folder.path());
+    write(files.file("one.txt"), "new");
+  }
+  EXPECT_EQ(read(folder / "one.txt"), "old");
+  OutputFolder files(folder.path());
+  write(files.file("one.txt"), "new");
+  files.commit();
+  EXPECT_EQ(read(folder / "one.txt"), "new");
+  EXPECT_EQ(read(folder / "other.txt"), "kept");
+}
+
+TEST(OutputFolder, AFolderThatCannotBeMadeIsRefusedAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("plain", "text");
+  EXPECT_THROW(OutputFolder{file}, FileError);
+  EXPECT_THROW(OutputFolder{file / "below"}, FileError);
+  EXPECT_THROW(OutputFolder{fs::path()}, FileError);
+  EXPECT_THROW(OutputFolder{"/proc/condyle/out"}, FileError);
+  EXPECT_EQ(read(file), "text");
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+TEST(OutputFolder, AFolderWithoutWritePermissionIsRefused) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THROW(OutputFolder{folder.path()}, FileError);
+}
+
+TEST(OutputFolder, AFolderUnderAFilesNameStopsTheCommitBeforeTheFirstMove) {
+  const TemporaryFolder folder;
+  fs::create_directory(folder / "two.txt");
+  {
+    OutputFolder files(folder.path());
+    write(files.file("one.txt"), "1");
+    write(files.file("two.txt"), "2");
+    EXPECT_THROW(files.commit(), FileError);
+  }
+  EXPECT_EQ(count_entries(folder.path()), 1u);
+}
+
+}  // namespace
+}  // namespace condyle

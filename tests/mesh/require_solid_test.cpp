@@ -1,0 +1,47 @@
+#include "condyle/mesh/require_solid.hpp"
+
+#include <gtest/gtest.h>
+
+#include "condyle/core/error.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+std::string refusal(const TriMesh& mesh) {
+  try {
+    require_solid(mesh, "bone.ply");
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RequireSolid, ASolidAndASolidWithACavityPass) {
+  EXPECT_EQ(refusal(test::sphere({0, 0, 0}, 1, 2)), "");
+  EXPECT_EQ(
+      refusal(test::joined(test::box({-2, -2, -2}, {2, 2, 2}), test::flipped(test::sphere({0, 0, 0}, 1, 2)))),
+      "");
+}
+
+TEST(RequireSolid, AnOpenMeshIsRefusedByFileAndBoundary) {
+  TriMesh open = test::sphere({0, 0, 0}, 1, 1);
+  open.triangles.pop_back();
+  const std::string message = refusal(open);
+  EXPECT_EQ(message.rfind("bone.ply: an open boundary of 3 edges", 0), 0u) << message;
+  EXPECT_NE(message.find("intersecting triangle pairs can still be computed"), std::string::npos);
+}
+
+TEST(RequireSolid, InconsistentWindingIsRefusedByFileAndEdge) {
+  TriMesh mesh = test::sphere({0, 0, 0}, 1, 1);
+  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
+  EXPECT_NE(refusal(mesh).find("bone.ply: triangles wound against each other at the edge from vertex "),
+            std::string::npos);
+}
+
+TEST(RequireSolid, AMeshInsideOutIsRefusedWithItsRepair) {
+  EXPECT_NE(refusal(test::flipped(test::sphere({0, 0, 0}, 1, 1))).find("flip_inverted"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle

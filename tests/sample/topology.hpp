@@ -1,0 +1,23 @@
+#pragma once
+
+#include "condyle/mesh/tri_mesh.hpp"
+
+namespace condyle::test {
+
+/// What a test asks of a mesh before anything else; every count is plain and independent of the library.
+struct Topology {
+  bool is_closed_and_consistent;  ///< every directed edge once, and once in the other direction
+  bool has_manifold_vertices;     ///< the triangles at each vertex form one ring
+  int components;
+  int genus;             ///< of a closed connected mesh
+  double signed_volume;  ///< positive when wound outwards
+};
+Topology topology(const TriMesh& mesh);
+
+/// The smallest angle of every triangle in degrees, ascending.
+std::vector<double> smallest_angles_deg(const TriMesh& mesh);
+
+/// Centroid of the area in which the plane normal . p = offset cuts the solid, for a closed mesh.
+Vec3 section_centroid(const TriMesh& mesh, const Vec3& normal, double offset);
+
+}  // namespace condyle::test
