@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/kinematics/joint.hpp"
+#include "condyle/motion/range_of_motion.hpp"
+
+/// What `condyle rom` found, as text for people and for programs. Every key, column, unit and sign is in
+/// docs/formats.md.
+
+namespace condyle {
+
+/// The limits of a joint and on which terms they were found.
+struct RomResult {
+  const Joint& joint;
+  std::span<const MotionLimit> limits;
+  /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
+  std::vector<std::string> terms;
+};
+
+/// "contact", "end_of_range", "contact_at_start".
+std::string_view name_of(LimitReason reason) noexcept;
+
+/// What the limit promises, in one sentence.
+std::string certificate_text(const MotionLimit& limit);
+
+/// The summary as JSON text, ending in a newline.
+std::string rom_json(const RomResult& result);
+
+/// A table for people, one line per motion.
+std::string rom_text(const RomResult& result);
+
+/// One line per motion, with a header line; numbers to the last bit.
+std::string rom_csv(const RomResult& result);
+
+}  // namespace condyle
