@@ -1,0 +1,267 @@
+#include "condyle/motion/range_of_motion.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+
+#include "condyle/contact/joint_contact.hpp"
+#include "condyle/core/error.hpp"
+#include "motion/joint_scenes.hpp"
+
+/// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,
+/// and the same bytes whichever way they are asked for.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+/// Coordinates go through at most two rotations and one arctangent: some ten roundings of angles of a few
+/// radians, each 2^-53 of it; contact itself is short by at most 4e-12.
+constexpr double angle_tolerance = 5e-12;
+
+void expect_same_end(const MotionLimit& a, const MotionLimit& b) {
+  EXPECT_EQ(a.turned, b.turned) << a.motion.name;
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.articular, b.articular);
+  EXPECT_EQ(a.shortfall, b.shortfall);
+  ASSERT_EQ(a.contact.has_value(), b.contact.has_value());
+  if (!a.contact) return;
+  EXPECT_EQ(a.contact->fixed_feature, b.contact->fixed_feature);
+  EXPECT_EQ(a.contact->mobile_feature, b.contact->mobile_feature);
+  EXPECT_EQ(a.contact->fixed_point, b.contact->fixed_point);
+  EXPECT_EQ(a.contact->mobile_point, b.contact->mobile_point);
+}
+
+class EachAngle : public testing::TestWithParam<std::tuple<JointAngle, Side>> {
+ protected:
+  JointAngle vary() const { return std::get<0>(GetParam()); }
+  Side side() const { return std::get<1>(GetParam()); }
+  Motion motion(const JointAngles& start = {}) const {
+    return {"turn", vary(), TurnSense::positive, start, Angle::degrees(180)};
+  }
+};
+INSTANTIATE_TEST_SUITE_P(RangeOfMotion, EachAngle,
+                         testing::Combine(testing::Values(JointAngle::flexion, JointAngle::adduction,
+                                                          JointAngle::internal_rotation),
+                                          testing::Values(Side::right, Side::left)));
+
+TEST_P(EachAngle, AnArmMeetsAPostWhereTheArctangentSays) {
+  const PostJoint scene = post_joint(vary(), side());
+  const MotionLimit limit = RangeOfMotion(scene.joint).limit(motion());
+  EXPECT_EQ(limit.reason, LimitReason::contact);
+  EXPECT_NEAR(limit.turned.radians(), scene.limit, angle_tolerance);
+  EXPECT_LE(limit.shortfall.radians(), 4e-12);
+}
+
+TEST_P(EachAngle, TheOtherWayRoundIsAFullTurnLess) {
+  const PostJoint scene = post_joint(vary(), side());
+  Motion other = motion();
+  other.sense = TurnSense::negative, other.range = Angle::radians(two_pi);
+  EXPECT_NEAR(RangeOfMotion(scene.joint).limit(other).turned.radians(), scene.limit_other_way,
+              angle_tolerance);
+}
+
+TEST_P(EachAngle, AStartOnTheWayLeavesTheRest) {
+  const PostJoint scene = post_joint(vary(), side());
+  const Angle start = Angle::degrees(7);
+  const MotionLimit limit = RangeOfMotion(scene.joint).limit(motion(turned_by({}, vary(), start)));
+  EXPECT_NEAR(limit.turned.radians(), scene.limit - start.radians(), angle_tolerance);
+  EXPECT_NEAR(angle_of(limit.angles_at_limit(), vary()).radians(), scene.limit, angle_tolerance);
+}
+
+TEST_P(EachAngle, ARangeThatEndsBeforeContactSaysSo) {
+  const PostJoint scene = post_joint(vary(), side());
+  Motion shorter = motion();
+  shorter.range = Angle::radians(scene.limit - 1e-9);
+  const MotionLimit limit = RangeOfMotion(scene.joint).limit(shorter);
+  EXPECT_EQ(limit.reason, LimitReason::end_of_range);
+  EXPECT_EQ(limit.turned, shorter.range);
+  EXPECT_FALSE(limit.contact);
+}
+
+TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
+  // Whatever the other angles are, turning F as they turn the axis' own body leaves the scene as it was: F by
+  // all rotations before the varied one, M by the inverse of those after it.
+  const PostJoint scene = post_joint(vary(), side());
+  const JointAngles held = [&] {
+    JointAngles all{Angle::degrees(40), Angle::degrees(-25), Angle::degrees(15)};
+    return turned_by(all, vary(), -angle_of(all, vary()));
+  }();
+  JointAngles before{}, after{};
+  switch (vary()) {
+    case JointAngle::flexion:
+      after = held;
+      break;
+    case JointAngle::adduction:
+      before.flexion = held.flexion, after.internal_rotation = held.internal_rotation;
+      break;
+    case JointAngle::internal_rotation:
+      before = held;
+      break;
+  }
+  Joint carried = scene.joint;
+  carried.fixed.mesh = posed(pose_at(side(), before), carried.fixed.mesh);
+  carried.mobile.mesh = posed(pose_at(side(), after).inverse(), carried.mobile.mesh);
+  const RangeOptions accept{.articular = {}, .overlap = {.contact_at_rest = ContactAtRest::accept}};
+  EXPECT_NEAR(RangeOfMotion(carried, accept).limit(motion(held)).turned.radians(), scene.limit, 1e-11);
+}
+
+TEST_P(EachAngle, ExchangingTheBodiesNegatesAndAgrees) {
+  const Joint joint = bumpy_joint(side());
+  Joint exchanged = joint;
+  std::swap(exchanged.fixed, exchanged.mobile);
+  Motion one = motion(), other = motion();
+  other.sense = TurnSense::negative;
+  const MotionLimit a = RangeOfMotion(joint).limit(one), b = RangeOfMotion(exchanged).limit(other);
+  ASSERT_EQ(a.reason, LimitReason::contact);
+  EXPECT_EQ(b.reason, a.reason);
+  EXPECT_NEAR(a.turned.radians(), b.turned.radians(), 1e-11);
+  EXPECT_EQ(a.contact->fixed_feature, b.contact->mobile_feature);
+  EXPECT_EQ(a.contact->mobile_feature, b.contact->fixed_feature);
+}
+
+TEST_P(EachAngle, ContactPointsAreOnePlaceSeenFromBothBodies) {
+  const MotionLimit limit = RangeOfMotion(bumpy_joint(side())).limit(motion({Angle::degrees(5), {}, {}}));
+  ASSERT_TRUE(limit.contact);
+  const Vec3 seen_from_F = pose_at(side(), limit.angles_at_limit()) * limit.contact->mobile_point;
+  // 40 mm away at most, short of contact by up to 4e-12, some ten roundings.
+  EXPECT_LT((seen_from_F - limit.contact->fixed_point).norm(), 40 * 5e-12);
+}
+
+TEST(RangeOfMotion, AMirroredLeftJointTurnsAsFar) {
+  const Joint right = bumpy_joint(Side::right), left = mirrored(right);
+  const auto motions = hip_motions();
+  const auto one = RangeOfMotion(right).limits(motions), other = RangeOfMotion(left).limits(motions);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    EXPECT_EQ(one[i].reason, other[i].reason) << motions[i].name;
+    EXPECT_NEAR(one[i].turned.radians(), other[i].turned.radians(), 1e-11) << motions[i].name;
+  }
+}
+
+TEST(RangeOfMotion, SharedTablesAndManyThreadsGiveTheBytesOfFreshOnes) {
+  const Joint joint = bumpy_joint(Side::right);
+  const auto motions = hip_motions();
+  const RangeOfMotion shared(joint);
+  tbb::task_arena one_thread(1);
+  const auto many = shared.limits(motions);
+  const auto again = one_thread.execute([&] { return shared.limits(motions); });
+  ASSERT_EQ(many.size(), motions.size());
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    expect_same_end(many[i], again[i]);
+    expect_same_end(many[i], RangeOfMotion(joint).limit(motions[i]));
+    contacts += many[i].reason == LimitReason::contact;
+  }
+  EXPECT_GT(contacts, 6u);
+}
+
+TEST(RangeOfMotion, BodiesInContactAtRestAreRefusedWithTheDeepestPlaceAndWhatCanBeDone) {
+  const Joint joint = overlapping_joint();
+  try {
+    const RangeOfMotion refused(joint);
+    FAIL() << "accepted";
+  } catch (const MeshError& error) {
+    const std::string text = error.what();
+    for (const char* part :
+         {"arm and post are in contact at rest", "arm vertex", "1 mm inside post", "leave out", "accept"})
+      EXPECT_NE(text.find(part), std::string::npos) << part << " is not in: " << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  }
+}
+
+TEST(RangeOfMotion, ContactAtRestCanBeAcceptedAndIsThenReported) {
+  const RangeOfMotion range(overlapping_joint(), {.overlap = {.contact_at_rest = ContactAtRest::accept}});
+  const MotionLimit limit = range.limit(hip_motions().front());
+  EXPECT_EQ(limit.reason, LimitReason::contact_at_start);
+  EXPECT_EQ(limit.turned, Angle());
+  EXPECT_TRUE(limit.contact);
+}
+
+TEST(RangeOfMotion, ContactsInsideARegionCanBeLeftOut) {
+  const Joint joint = ball_and_post_joint();
+  const OverlapOptions options{.leave_out_region = ArticularRegion{ball_and_post_region}};
+  const RangeOfMotion range(joint, {.overlap = options});
+  EXPECT_GT(range.left_out().fixed_triangles, 0u);
+  EXPECT_GT(range.left_out().mobile_triangles, 0u);
+  const MotionLimit limit = range.limit(hip_motions().front());
+  EXPECT_EQ(limit.reason, LimitReason::contact);
+  EXPECT_NEAR(limit.turned.radians(), post_limit(), angle_tolerance);
+  EXPECT_FALSE(limit.articular);
+  // Features carry the numbers of the whole mesh: the point lies on the named fixed edge or its faces.
+  EXPECT_NEAR(limit.contact->fixed_point.x(), post_x, 1e-9);
+  EXPECT_NEAR(limit.contact->fixed_point.y(), post_y, 1e-9);
+}
+
+TEST(RangeOfMotion, ContactsAtRestCanBeLeftOut) {
+  const OverlapOptions options{.leave_out_rest_contacts = LeaveOutRestContacts{.rings = 1}};
+  const RangeOfMotion range(ball_and_post_joint(), {.overlap = options});
+  EXPECT_NEAR(range.limit(hip_motions().front()).turned.radians(), post_limit(), angle_tolerance);
+}
+
+TEST(RangeOfMotion, ContactsAreArticularInsideTheStatedRegionOnly) {
+  const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
+  const double radius = std::hypot(post_x, post_y);
+  const auto articular = [&](const ArticularRegion& region) {
+    return RangeOfMotion(scene.joint, {.articular = region}).limit(hip_motions().front()).articular;
+  };
+  // The post's edge is 10 mm long: contact is on its straight line, at most 5 mm off its middle.
+  EXPECT_FALSE(articular({radius - 0.01}));
+  EXPECT_TRUE(articular({radius + 0.2}));
+  const Vec3 towards(post_x, post_y, 0);
+  EXPECT_TRUE(articular({radius + 0.2, ArticularCone{towards, Angle::degrees(10)}}));
+  EXPECT_FALSE(articular({radius + 0.2, ArticularCone{-towards, Angle::degrees(10)}}));
+}
+
+TEST(HipMotions, HaveTheNamesThatCliniciansUse) {
+  std::vector<std::string> names;
+  for (const Motion& motion : hip_motions()) {
+    names.push_back(motion.name);
+    EXPECT_NO_THROW(check_motion(motion, JointKind::ball));
+  }
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"flexion", "extension", "abduction", "adduction", "internal_rotation",
+                                      "external_rotation", "abduction_at_90_flexion",
+                                      "adduction_at_90_flexion", "internal_rotation_at_90_flexion",
+                                      "external_rotation_at_90_flexion", "fadir", "faber"}));
+}
+
+TEST(HipMotions, OwnOnesReplaceThoseOfTheirNameAndFollowTheRest) {
+  Motion own = hip_motions().front(), fadir = hip_motions()[10];
+  own.name = "kick", fadir.start.adduction = Angle::degrees(30);
+  const std::vector<Motion> given{own, fadir};
+  const auto all = with_own_motions(hip_motions(), given);
+  ASSERT_EQ(all.size(), 13u);
+  EXPECT_EQ(all.back().name, "kick");
+  EXPECT_EQ(motion_named(all, "fadir").start.adduction, Angle::degrees(30));
+}
+
+TEST(HipMotions, UnknownNamesAreRefusedWithThoseThereAre) {
+  try {
+    motion_named(hip_motions(), "flexoin");
+    FAIL();
+  } catch (const UsageError& error) {
+    EXPECT_NE(std::string(error.what()).find("\"flexoin\"; there are flexion, extension"), std::string::npos);
+  }
+}
+
+TEST(HipMotions, ImpossibleOnesAreRefusedByName) {
+  const Motion good = hip_motions()[4];
+  const auto refused = [&](auto change, JointKind kind) {
+    Motion bad = good;
+    change(bad);
+    EXPECT_THROW(check_motion(bad, kind), UsageError);
+  };
+  refused([](Motion& m) { m.range = Angle(); }, JointKind::ball);
+  refused([](Motion& m) { m.range = Angle::degrees(-1); }, JointKind::ball);
+  refused([](Motion& m) { m.range = Angle::degrees(361); }, JointKind::ball);
+  refused([](Motion& m) { m.range = Angle::radians(std::nan("")); }, JointKind::ball);
+  refused([](Motion& m) { m.start.adduction = Angle::radians(INFINITY); }, JointKind::ball);
+  refused([](Motion&) {}, JointKind::hinge);
+  refused([](Motion& m) { m.vary = JointAngle::flexion, m.start.adduction = Angle::degrees(1); },
+          JointKind::hinge);
+}
+
+}  // namespace
+}  // namespace condyle
