@@ -69,8 +69,8 @@ void run(const Options& options) {
 void add_inspect(CLI::App& app) {
   auto* verb = app.add_subcommand("inspect", "Tell what is so and what is wrong with meshes");
   verb->footer(
-      "Example: condyle inspect femur.stl hip_bone.ply\n"
-      "         condyle inspect femur.stl --repair drop_unreferenced,flip_inverted --out repaired");
+      "Example: condyle inspect femur.ply hip_bone.ply\n"
+      "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired");
   auto options = std::make_shared<Options>();
   verb->add_option("MESH", options->meshes, "Mesh files: .stl, .obj, .ply, .vtp or .vtk")->required();
   verb->add_option("--repair", options->repairs,

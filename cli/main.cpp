@@ -76,6 +76,7 @@ int run(int argc, char** argv) {
   cli::add_inspect(app);
   cli::add_frame(app);
   cli::add_depth(app);
+  cli::add_sample(app);
 
   try {
     app.parse(argc, argv);

@@ -11,5 +11,6 @@ namespace condyle::cli {
 void add_inspect(CLI::App& app);
 void add_frame(CLI::App& app);
 void add_depth(CLI::App& app);
+void add_sample(CLI::App& app);
 
 }  // namespace condyle::cli

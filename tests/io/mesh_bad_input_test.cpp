@@ -104,8 +104,9 @@ TEST(BadMeshFile, TheFilesThatTheOthersAreMadeFromAreGood) {
 
 TEST(BadMeshFile, AMissingFileAFolderAndAnUnknownExtensionAreNamed) {
   const Folder folder;
-  const auto missing = folder / "femur.stl", inside = folder / "pelvis.ply", unknown = folder / "femur.step";
+  const auto missing = folder / "femur.stl", inside = folder / "meshes", unknown = folder / "femur.step";
   std::filesystem::create_directories(inside);
+  std::ofstream(unknown) << obj_text;
   EXPECT_EQ(complaint(missing), missing.string() + ": no such file");
   EXPECT_EQ(complaint(inside), inside.string() + ": is a folder, not a file");
   EXPECT_EQ(complaint(unknown),
@@ -346,6 +347,38 @@ TEST(BadMeshFile, DamagedCompressedDataIsNoticedWithoutAWordFromVtk) {
   EXPECT_EQ(complaint(with_value(many, lengths_in(many) + 8, 1200000000u), MeshFormat::vtp),
             "bone: array 'Points': 1200000000 bytes cannot come out of its blocks");
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(BadMeshFile, AHeaderThatContradictsItselfIsRefused) {
+  EXPECT_EQ(
+      complaint(with(ply_text, "element face 1\n", "element vertex 1\nproperty float x\nelement face 1\n"),
+                MeshFormat::ply),
+      "bone: header: element 'vertex' twice");
+  EXPECT_EQ(complaint(with(ply_text, "double y", "double x"), MeshFormat::ply),
+            "bone: header: vertex property 'x' twice");
+  EXPECT_EQ(complaint(with(ply_text, "double y", "int y"), MeshFormat::ply),
+            "bone: header: vertex property 'y' should be a float or a double");
+  EXPECT_EQ(complaint(with(ply_text, "double y", "double w"), MeshFormat::ply),
+            "bone: header: a vertex needs the properties x, y and z");
+  EXPECT_EQ(complaint(with(ply_text, "vertex_indices", "corners"), MeshFormat::ply),
+            "bone: header: a face needs one property 'vertex_indices'");
+  EXPECT_EQ(complaint(with(ply_text, "list uchar", "list float"), MeshFormat::ply),
+            "bone: line 8: the length of a list should be of an integer type");
+  EXPECT_EQ(complaint(with(ply_text, "format ascii 1.0\n", ""), MeshFormat::ply),
+            "bone: header: no 'format'");
+  EXPECT_EQ(complaint(with(vtp_text, "</Piece>", "</Piece>\n<Piece>\n</Piece>"), MeshFormat::vtp),
+            "bone: line 17: a second piece: only files of one piece are read");
+  EXPECT_EQ(complaint(with(vtp_text, "</Points>", "</Polys>"), MeshFormat::vtp),
+            "bone: line 11: '</Polys>' closes what is not open");
+  EXPECT_EQ(
+      complaint(with(vtp_text, "NumberOfComponents=\"3\"", "NumberOfComponents=\"2\""), MeshFormat::vtp),
+      "bone: line 6: points need NumberOfComponents=\"3\"");
+  EXPECT_EQ(complaint(with(vtp_text, "offsets", "ends"), MeshFormat::vtp), "bone: no array 'Polys offsets'");
+  EXPECT_EQ(
+      complaint(with(vtp_text, "version=\"0.1\"", "compressor=\"vtkLZMADataCompressor\""), MeshFormat::vtp),
+      "bone: line 2: compressed by 'vtkLZMADataCompressor': only zlib and LZ4 are read");
+  EXPECT_EQ(complaint(with(vtk_text, "double", "int"), MeshFormat::vtk),
+            "bone: line 5: points should be float or double");
 }
 
 TEST(BadMeshFile, AMessageIsOneLineWhateverTheFileHolds) {

@@ -11,6 +11,7 @@
 #include "condyle/kinematics/fit_cylinder.hpp"
 #include "condyle/kinematics/fit_sphere.hpp"
 #include "support/test_meshes.hpp"
+#include "support/tube.hpp"
 
 namespace condyle {
 namespace {
@@ -30,28 +31,6 @@ std::vector<Index> all_of(const Points& points) {
   std::vector<Index> all(points.size());
   std::iota(all.begin(), all.end(), Index{0});
   return all;
-}
-
-/// A tube about the z axis of the given length, closed by flat ends: `around` quadrangles by `along`.
-TriMesh tube(double radius, double length, int around, int along) {
-  TriMesh mesh;
-  const auto vertex = [&](int ring, int k) { return static_cast<Index>(ring * around + k % around); };
-  for (int ring = 0; ring <= along; ++ring)
-    for (int k = 0; k < around; ++k) {
-      const double turn = two_pi * k / around;
-      mesh.vertices.push_back(
-          {radius * std::cos(turn), radius * std::sin(turn), length * (1.0 * ring / along - 0.5)});
-    }
-  for (int ring = 0; ring < along; ++ring)
-    for (int k = 0; k < around; ++k) {
-      mesh.triangles.push_back({vertex(ring, k), vertex(ring, k + 1), vertex(ring + 1, k + 1)});
-      mesh.triangles.push_back({vertex(ring, k), vertex(ring + 1, k + 1), vertex(ring + 1, k)});
-    }
-  for (int k = 1; k + 1 < around; ++k) {
-    mesh.triangles.push_back({vertex(0, 0), vertex(0, k + 1), vertex(0, k)});
-    mesh.triangles.push_back({vertex(along, 0), vertex(along, k), vertex(along, k + 1)});
-  }
-  return mesh;
 }
 
 /// Points of magnitude `size` carry u of it each. A fit over a patch averages them, weighted by how well the
@@ -219,7 +198,7 @@ TEST(FindSphere, RadiiOutsideTheAskedRangeAreNotFound) {
 }
 
 TEST(FindSphere, NeitherATubeNorATorusNorANearlyEmptyMeshIsASphere) {
-  EXPECT_THROW(find_sphere(tube(15, 200, 60, 100)), MeshError);
+  EXPECT_THROW(find_sphere(test::tube(15, 200, 60, 100)), MeshError);
   EXPECT_THROW(find_sphere(test::torus(60, 15, 120, 40)), MeshError);
   EXPECT_THROW(find_sphere(TriMesh{}), MeshError);
   EXPECT_THROW(find_sphere(test::box({0, 0, 0}, {40, 50, 60})), MeshError);
@@ -231,7 +210,7 @@ TEST(FindSphere, HugeCoordinatesAreRefusedNotOverflown) {
 }
 
 TEST(FindCylinder, ATubesAxisIsFoundAndItsFlatEndsLeftOut) {
-  const auto fit = find_cylinder(tube(15, 80, 60, 40));
+  const auto fit = find_cylinder(test::tube(15, 80, 60, 40));
   EXPECT_LE(fit.cylinder.direction.cross(Vec3::UnitZ()).norm() * 40, exact_fit_tolerance(45, 1));
   EXPECT_NEAR(fit.cylinder.radius, 15, exact_fit_tolerance(45, 1));
   EXPECT_LE(fit.cylinder.point.head<2>().norm(), exact_fit_tolerance(45, 1));

@@ -89,9 +89,10 @@ TEST(Inspect, GenusCountsHandles) {
   EXPECT_EQ(report.components[0].genus, 2);
 }
 
-/// det of coordinates up to c, rounded three times in a sum and twice in each product, six times the volume:
-/// the error of one tetrahedron is below 8 u c^3 (MeshReport takes the box's centre as origin, so that c is
-/// half the box), that of the sum below twice that per triangle.
+/// Both meshes have the same coordinates relative to their boxes' centres, but for the rounding of the
+/// centres, which changes no volume. A tetrahedron's determinant of those errs by less than 8 u size^3 (see
+/// filtered_determinant), the sum by less than its terms do; about the origin instead, it would err by 8 u
+/// (16 m)^3, half a billion times as much.
 TEST(Inspect, TheVolumeLosesNothingTenMetresFromTheOrigin) {
   const double size = 20;
   const TriMesh here = test::sphere({0, 0, 0}, size, 4);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/contact/joint_contact.hpp"
+#include "condyle/contact/tangential_contact.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/kinematics/joint.hpp"
 
@@ -18,15 +18,25 @@ struct DepthQuestion {
   Pose X_FM;
 };
 
+/// A turning axis, by its joint angle and as a direction in F.
+struct TurnAxis {
+  JointAngle about;
+  Vec3 direction_F;
+};
+
 /// The summary as JSON text, ending in a newline.
 std::string depth_json(const DepthQuestion& question, const RadialContact& contact);
+std::string depth_json(const DepthQuestion& question, const TurnAxis& axis, const TangentialContact& contact);
 
 /// The summary for people, a few lines.
 std::string depth_text(const DepthQuestion& question, const RadialContact& contact);
+std::string depth_text(const DepthQuestion& question, const TurnAxis& axis, const TangentialContact& contact);
 
-/// Point arrays of one body: inside, winding, radial_gap_mm, triangle, ray_to_normal_deg. None where the
-/// other mesh is open and nothing can be inside it.
+/// Point arrays of one body: inside, winding, triangle; radial_gap_mm and ray_to_normal_deg, or
+/// tangential_depth_deg and tangential_depth_mm. None where the other mesh is open and nothing can be inside
+/// it.
 std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits);
+std::vector<MeshArray> depth_arrays(const std::optional<TangentialHits>& hits);
 
 /// Cell arrays in_contact of both bodies: 1 for a triangle that is in a pair.
 struct InContact {

@@ -81,6 +81,7 @@ MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view n
 }
 
 MeshFile read_mesh(const std::filesystem::path& path) {
+  check_is_file(path);
   const auto format = format_of(path);
   return read_mesh(read_whole_file(path), format, path.string());
 }

@@ -13,7 +13,8 @@ struct TypeName {
   std::string_view name;
   VtkType type;
 };
-// "long" has the size of the machine that wrote it; VTK writes it nowhere that a mesh needs it.
+// vtkIdType stands for int in files, whatever it is in memory. "long" has the size it had where it was
+// written: not read.
 constexpr TypeName type_names[] = {{"char", VtkType::i8},          {"unsigned_char", VtkType::u8},
                                    {"short", VtkType::i16},        {"unsigned_short", VtkType::u16},
                                    {"int", VtkType::i32},          {"unsigned_int", VtkType::u32},

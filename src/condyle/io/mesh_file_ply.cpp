@@ -311,15 +311,14 @@ RawMesh read_ply(const Source& source) {
   const Header header = read_header(source);
   Values values(source, header);
   RawMesh raw;
+  bool has_vertices = false, has_faces = false;
   for (const auto& element : header.elements) {
-    const auto same_name = [&](const Element& other) { return other.name == element.name; };
-    if (std::count_if(header.elements.begin(), header.elements.end(), same_name) > 1) {
-      source.fail(fmt::format("header: element {} twice", in_quotes(element.name)));
-    }
     check_count(source, element, values);
     if (element.name == "vertex") {
+      if (std::exchange(has_vertices, true)) source.fail("header: element 'vertex' twice");
       raw.vertices = read_vertices(element, values, source);
     } else if (element.name == "face") {
+      if (std::exchange(has_faces, true)) source.fail("header: element 'face' twice");
       raw.triangles = read_faces(element, values, source);
     } else {
       skip_element(element, values, source);

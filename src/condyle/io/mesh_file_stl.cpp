@@ -48,7 +48,8 @@ RawMesh read_text(const Source& source) {
       if (word == "endsolid") break;
       if (word.empty()) text.fail("the file ends before 'endsolid'");
       if (word != "facet") text.fail(in_quotes(word) + " should be 'facet' or 'endsolid'");
-      text.rest_of_line();  // the normal: the corners say it better
+      text.expect("normal");
+      for (int k = 0; k < 3; ++k) text.word();  // not a number in some files; the corners say it better
       text.expect("outer");
       text.expect("loop");
       for (int corner = 0; corner < 3; ++corner) {

@@ -33,15 +33,20 @@ std::filesystem::path temporary_name_beside(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string read_whole_file(const std::filesystem::path& path) {
+void check_is_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw FileError(path.string() + ": no such file");
   if (std::filesystem::is_directory(status)) throw FileError(path.string() + ": is a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) throw FileError(path.string() + ": is not a regular file");
+}
+
+std::string read_whole_file(const std::filesystem::path& path) {
+  check_is_file(path);
 
   const File file(std::fopen(path.c_str(), "rb"));
   if (!file) throw FileError(fmt::format("{}: cannot be read: {}", path.string(), reason(errno)));
+  std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   if (error) throw FileError(fmt::format("{}: cannot be read: {}", path.string(), error.message()));
   std::string bytes(size, '\0');

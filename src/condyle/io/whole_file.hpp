@@ -6,6 +6,9 @@
 
 namespace condyle {
 
+/// Raises FileError for a file that is missing, a folder, or something else that is not a regular file.
+void check_is_file(const std::filesystem::path& path);
+
 /// The bytes of a regular file. Raises FileError for a file that is missing, a folder, or cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
 

@@ -17,9 +17,9 @@ namespace {
 
 using detail::SurfacePoint;
 
-/// Radii tried, each this much larger than the one before: with cells of a quarter of the radius a head meets
-/// one of them within a fifth of a cell.
-constexpr double radius_ratio = 1.05;
+/// Radii tried, each this much larger than the one before: every head is within 5 % of one of them, a fifth
+/// of a cell.
+constexpr double radius_ratio = 1.1;
 
 /// Side of the cells in which votes are gathered, in radii: the spread, on a head of radius r, of p - r n for
 /// normals off by up to 7 degrees in both directions.
@@ -33,10 +33,9 @@ constexpr double largest_vote = 1.0 / 12;
 /// cell numbers.
 constexpr double farthest_cell = 1e9;
 
-/// Fullest cells followed up at each radius. The head of a finely meshed femur is the fullest of all at its
-/// own radius; on a mesh whose edges are half the radius long, normals are off by 10 degrees and a dozen
-/// others come first.
-constexpr std::size_t kept_per_radius = 6;
+/// Fullest cells followed up at each radius. Two are enough for every head and socket tried, down to edges of
+/// half the radius, where normals are off by 10 degrees; the rest is margin.
+constexpr std::size_t kept_per_radius = 4;
 
 /// A candidate this near (in radii) to a part already found would grow into the same part.
 constexpr double same_part = 0.25;

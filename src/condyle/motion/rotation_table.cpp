@@ -38,6 +38,20 @@ int crossing(const Point& a, const Point& b, const Point& c, const Point& p) noe
   return height_of_p == Sign::negative ? static_cast<int>(facing) : 0;
 }
 
+/// Nodes of the turning body with at most so many triangles get their box from their triangles, the others
+/// from their ball. A ball costs one point and is loose, triangles cost all of theirs. On a hip of 30 000 and
+/// 15 000 triangles a limit takes 0.9 ms with balls down to the leaves, 0.4 to 0.5 ms with 16 to 64 here and
+/// twice that with 256.
+constexpr Index tight_triangles = 32;
+
+CylinderBox hull_of_triangles(const CylinderFeatures& features, const Node& node) noexcept {
+  CylinderBox box = features.triangle_boxes[node.triangles.first];
+  for (Index t = node.triangles.first + 1; t < node.triangles.last; ++t) {
+    box = hull(box, features.triangle_boxes[t]);
+  }
+  return box;
+}
+
 }  // namespace
 
 void CylinderFeatures::resize(const FeatureTree& tree) {
@@ -75,10 +89,7 @@ RotationTable::RotationTable(const FeatureTree& tree, const AxisFrame& frame, co
     auto& box = features_.node_boxes[i];
     if (node.is_leaf()) {
       features_.fill_boxes(tree, node);
-      box = features_.triangle_boxes[node.triangles.first];
-      for (Index t = node.triangles.first + 1; t < node.triangles.last; ++t) {
-        box = hull(box, features_.triangle_boxes[t]);
-      }
+      box = hull_of_triangles(features_, node);
     } else {
       box = hull(features_.node_boxes[i + 1], features_.node_boxes[node.right]);
     }
@@ -119,9 +130,15 @@ void TurningBody::place_vertex(Index vertex) {
 
 const CylinderBox& TurningBody::node_box(Index i) {
   auto& box = features_.node_boxes[i];
-  if (node_mark_[i] != pose_number_) {
-    node_mark_[i] = pose_number_;
-    const Node& node = tree_->nodes()[i];
+  if (node_mark_[i] == pose_number_) return box;
+  node_mark_[i] = pose_number_;
+  const Node& node = tree_->nodes()[i];
+  if (node.is_leaf()) {
+    leaf_features(i);
+    box = hull_of_triangles(features_, node);
+  } else if (node.triangles.last - node.triangles.first <= tight_triangles) {
+    box = hull(node_box(i + 1), node_box(node.right));
+  } else {
     const Vec3 centre = frame_.to_axis(posed(X_RT_, vec3(node.centre)));
     box = box_of_ball(triple(centre), node.radius + posing_slack_);
   }

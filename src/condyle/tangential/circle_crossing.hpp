@@ -26,8 +26,7 @@ struct CircleCrossing {
   double ahead() const noexcept;   ///< Counter-clockwise from the point, in (0, 2 pi].
   double behind() const noexcept;  ///< Clockwise from the point, in (0, 2 pi].
 
-  /// Order in which the circle, walked counter-clockwise from the point, meets them. What touches is one: at
-  /// equal angles the solid is entered before another is left.
+  /// Order in which the circle, walked counter-clockwise from the point, meets them.
   friend bool operator<(const CircleCrossing& a, const CircleCrossing& b) noexcept;
 };
 

@@ -16,44 +16,55 @@ double within_one_turn(Angle phi) noexcept {
   return turned < two_pi ? turned : 0;
 }
 
+/// visit(crossing, now_inside) wherever the circle comes into the solid or out of it, in order. Crossings at
+/// one angle act together: bodies that touch there are one, a sheet of no thickness is none.
+template <class Visit>
+void for_each_change(int winding, std::span<const CircleCrossing> crossings, const Visit& visit) {
+  for (std::size_t first = 0; first < crossings.size();) {
+    const bool was_inside = winding > 0;
+    std::size_t end = first;
+    for (; end < crossings.size() && crossings[end].angle == crossings[first].angle; ++end) {
+      winding += static_cast<int>(crossings[end].passage);
+    }
+    const bool now_inside = winding > 0;
+    if (now_inside != was_inside) {
+      const Passage passage = now_inside ? Passage::enters : Passage::leaves;
+      while (crossings[first].passage != passage) ++first;
+      visit(crossings[first], now_inside);
+    }
+    first = end;
+  }
+}
+
 }  // namespace
 
 void append_arcs(int winding, std::span<const CircleCrossing> crossings, std::vector<OccupiedArc>& arcs) {
   const std::size_t first = arcs.size();
-  const bool starts_inside = winding > 0;
   // Inside from the start: what ends first is the end of the last arc, one turn on.
   const CircleCrossing* end_of_last = nullptr;
-  for (const auto& crossing : crossings) {
-    const bool was_inside = winding > 0;
-    winding += static_cast<int>(crossing.passage);
-    if (was_inside == (winding > 0)) continue;
-    if (!was_inside) {
+  for_each_change(winding, crossings, [&](const CircleCrossing& crossing, bool now_inside) {
+    if (now_inside) {
       arcs.push_back({crossing.ahead(), 0, crossing.triangle, no_index});
     } else if (arcs.size() == first) {
       end_of_last = &crossing;
     } else {
       arcs.back().end = crossing.ahead(), arcs.back().leaves = crossing.triangle;
     }
-  }
-  if (!starts_inside) return;
-  if (arcs.size() == first) {
-    arcs.push_back({0, two_pi, no_index, no_index});
-  } else {
+  });
+  if (end_of_last) {
     arcs.back().end = end_of_last->ahead() + two_pi, arcs.back().leaves = end_of_last->triangle;
+  } else if (winding > 0) {
+    arcs.push_back({0, two_pi, no_index, no_index});
   }
 }
 
 AngularGap gap_at_point(int winding, std::span<const CircleCrossing> crossings) noexcept {
   const bool inside = winding > 0;
-  const CircleCrossing *next = nullptr,
-                       *previous = nullptr;  // where the solid begins or ends, ahead and behind
-  for (const auto& crossing : crossings) {
-    const bool was_inside = winding > 0;
-    winding += static_cast<int>(crossing.passage);
-    if (was_inside == (winding > 0)) continue;
+  const CircleCrossing *next = nullptr, *previous = nullptr;  // ends of the solid, ahead and behind
+  for_each_change(winding, crossings, [&](const CircleCrossing& crossing, bool) {
     if (!next) next = &crossing;
     previous = &crossing;
-  }
+  });
   if (!next) return {inside ? -infinity : infinity, no_index, Turn::none};
   const bool go_ahead = next->ahead() <= previous->behind();
   const double way = go_ahead ? next->ahead() : previous->behind();

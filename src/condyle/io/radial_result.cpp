@@ -1,57 +1,15 @@
-#include "condyle/io/depth_result.hpp"
+#include "condyle/io/depth_result_parts.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-
-#include "condyle/contact/radial_summary.hpp"
-#include "condyle/io/version.hpp"
 
 namespace condyle {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* scope_note =
-    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
-    "device";
-
-/// An empty answer is null, never a number that could be read as one.
-template <class Value>
-Json nullable(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json numbers(const Vec3& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
-Json pose_json(const Pose& X) {
-  Json rows = Json::array();
-  for (int i = 0; i < 4; ++i) rows.push_back({X(i, 0), X(i, 1), X(i, 2), X(i, 3)});
-  return rows;
-}
-
 const char* name_of(DepthKind kind) {
   return kind == DepthKind::radial ? "radial" : "tangential";
-}
-
-/// The question that both methods share.
-Json header(const DepthQuestion& question, const char* method) {
-  const auto& [joint, angles, X_FM] = question;
-  return {{"condyle", format_version},
-          {"joint", joint.name},
-          {"fixed", joint.fixed.name},
-          {"mobile", joint.mobile.name},
-          {"side", joint.side == Side::right ? "right" : "left"},
-          {"method", method},
-          {"pose_deg",
-           {{"flexion", angles.flexion.degrees()},
-            {"adduction", angles.adduction.degrees()},
-            {"internal_rotation", angles.internal_rotation.degrees()}}},
-          {"X_FM", pose_json(X_FM)}};
 }
 
 /// One body's vertices against the other body, with where its deepest vertex is in F.
@@ -137,7 +95,7 @@ std::string depth_json(const DepthQuestion& question, const RadialContact& conta
     return view.summary ? Json(view.summary->vertices_inside) : Json(nullptr);
   };
 
-  Json json = header(question, "radial");
+  Json json = depth_header(question, "radial");
   json["in_contact"] = contact.in_contact;
   json["mobile_vertices_inside"] = inside(mobile);
   json["fixed_vertices_inside"] = inside(fixed);
@@ -157,24 +115,14 @@ std::string depth_json(const DepthQuestion& question, const RadialContact& conta
 }
 
 std::string depth_text(const DepthQuestion& question, const RadialContact& contact) {
-  const auto& [joint, angles, X_FM] = question;
   const auto bodies = views(question, contact);
-  std::string text = fmt::format("{}: {} in {}, flexion {:g}, adduction {:g}, internal rotation {:g} deg\n",
-                                 joint.name, joint.mobile.name, joint.fixed.name, angles.flexion.degrees(),
-                                 angles.adduction.degrees(), angles.internal_rotation.degrees());
-  text += fmt::format("  {}; {} intersecting triangle pairs\n", contact.in_contact ? "in contact" : "free",
-                      contact.pairs.size());
+  std::string text = depth_headline(question, contact.in_contact, contact.pairs.size());
   for (const BodyView& view : bodies) {
     if (!view.summary) {
       text += fmt::format("  {}: no answer, the other mesh is open and has no inside\n", view.body.name);
       continue;
     }
-    text += fmt::format("  {}: {} of {} vertices inside", view.body.name, view.summary->vertices_inside,
-                        view.body.mesh.vertices.size());
-    if (view.summary->vertices_on_surface > 0) {
-      text += fmt::format(", {} exactly on the surface", view.summary->vertices_on_surface);
-    }
-    text += "\n";
+    text += inside_line(view.body, view.summary->vertices_inside, view.summary->vertices_on_surface);
   }
   if (const auto deepest = deepest_of(bodies, any_angle)) {
     const Vec3 p = deepest->view->in_fixed_frame(deepest->vertex.vertex);
@@ -216,19 +164,6 @@ std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits) {
           {"triangle", std::move(triangle)},
           {"winding", std::move(winding)},
           {"ray_to_normal_deg", std::move(angle)}};
-}
-
-InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs) {
-  std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles.size()),
-      mobile(joint.mobile.mesh.triangles.size());
-  for (const auto& pair : pairs) fixed[pair.fixed] = 1, mobile[pair.mobile] = 1;
-  return {{"in_contact", std::move(fixed)}, {"in_contact", std::move(mobile)}};
-}
-
-std::string pairs_csv(const std::vector<TrianglePair>& pairs) {
-  std::string text = "fixed_triangle,mobile_triangle\n";
-  for (const auto& [fixed, mobile] : pairs) text += fmt::format("{},{}\n", fixed, mobile);
-  return text;
 }
 
 }  // namespace condyle

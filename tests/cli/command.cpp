@@ -1,0 +1,35 @@
+#include "command.hpp"
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+
+#include "support/temporary_folder.hpp"
+
+namespace condyle::test {
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+Ran run_condyle(const std::filesystem::path& folder, const std::string& arguments,
+                const std::string& redirections) {
+  const TemporaryFolder caught;
+  const std::string command = "cd '" + folder.string() + "' && '" CONDYLE_COMMAND "' " + arguments + " >'" +
+                              (caught / "out").string() + "' 2>'" + (caught / "err").string() + "' " +
+                              redirections;
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(caught / "out"), contents(caught / "err")};
+}
+
+bool is_one_error_line(const std::string& text) {
+  return text.starts_with("condyle: ") && text.find('\n') == text.size() - 1;
+}
+
+}  // namespace condyle::test

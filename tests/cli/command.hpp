@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace condyle::test {
+
+/// What a run of the command left behind.
+struct Ran {
+  int exit_code;  ///< -1 where it was killed
+  std::string out, err;
+};
+
+/// Runs `condyle ARGUMENTS` in a folder, by the shell, with `redirections` after it ("" for none: both are
+/// caught).
+Ran run_condyle(const std::filesystem::path& folder, const std::string& arguments,
+                const std::string& redirections = "");
+
+/// Whether a text is one line "condyle: ..." and nothing else.
+bool is_one_error_line(const std::string& text);
+
+}  // namespace condyle::test

@@ -1,0 +1,209 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A hip of a socket and a head on a neck, under the names that the examples of --help use.
+class Command : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directory(folder / "in");
+    femur = joined(sphere({0, 0, 0}, 24, 4), box({-10, -400, -10}, {10, -40, 10}));
+    hip_bone = socket({0, 0, 0}, 26, 60, 3);
+    write_mesh(here / "femur.ply", femur);
+    write_mesh(here / "hip_bone.ply", hip_bone);
+    std::ofstream(here / "right_hip.toml") << joint_text;
+  }
+  Ran run(const std::string& arguments, const std::string& redirections = "") const {
+    return run_condyle(here, arguments, redirections);
+  }
+  void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+    EXPECT_NE(ran.err.find(saying), ran.err.npos) << ran.err;
+  }
+  void write_joint(std::string_view from, std::string_view to) const {
+    std::string text = joint_text;
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(here / "right_hip.toml") << text;
+  }
+
+  static constexpr const char* joint_text = R"(condyle = 1
+name = "right hip"
+kind = "ball"
+side = "right"
+units = "mm"
+[fixed]
+mesh = "hip_bone.ply"
+[mobile]
+mesh = "femur.ply"
+[frame]
+centre = "fit"
+anterior = [1, 0, 0]
+superior = [0, 1, 0]
+)";
+  const TemporaryFolder folder;
+  const fs::path here = folder / "in";
+  TriMesh femur, hip_bone;
+};
+
+TEST_F(Command, InspectAnswersInTextAndJson) {
+  const Ran text = run("inspect femur.ply hip_bone.ply");
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_EQ(text.err, "");
+  EXPECT_NE(text.out.find("femur.ply\n  " + std::to_string(femur.vertices.size()) + " vertices"),
+            text.out.npos)
+      << text.out;
+  const Ran json = run("inspect femur.ply hip_bone.ply --json");
+  EXPECT_EQ(json.exit_code, 0);
+  const Json answer = Json::parse(json.out);
+  ASSERT_EQ(answer["meshes"].size(), 2u);
+  EXPECT_EQ(answer["meshes"][0]["file"], "femur.ply");
+  EXPECT_EQ(answer["meshes"][0]["vertices"], femur.vertices.size());
+  EXPECT_EQ(answer["meshes"][1]["triangles"], hip_bone.triangles.size());
+  EXPECT_EQ(answer["meshes"][0]["closed"], true);
+  EXPECT_EQ(answer["meshes"][0]["components"].size(), 2u);
+  EXPECT_EQ(answer["meshes"][0]["likely_unit"], "mm");
+}
+
+TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
+  TriMesh dirty = flipped(femur);
+  dirty.vertices.push_back({5, 5, 5});
+  write_mesh(here / "dirty.ply", dirty);
+  const Ran ran = run("inspect dirty.ply --repair drop_unreferenced,flip_inverted --out repaired --json");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const Json answer = Json::parse(ran.out);
+  EXPECT_EQ(answer["meshes"][0]["repairs"][0], (Json{{"repair", "drop_unreferenced"}, {"count", 1}}));
+  EXPECT_EQ(answer["meshes"][0]["inverted_components"]["count"], 0);
+  const TriMesh repaired = read_mesh(here / "repaired/dirty.ply").mesh;
+  EXPECT_EQ(repaired.vertices, femur.vertices);
+  EXPECT_EQ(read_mesh(here / "dirty.ply").mesh, dirty);
+}
+
+TEST_F(Command, FrameAnswersInTextAndJson) {
+  const Ran text = run("frame right_hip.toml");
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_EQ(text.err, "");
+  EXPECT_NE(text.out.find("sphere of radius 24.000 mm"), text.out.npos) << text.out;
+  const Ran json = run("frame --json right_hip.toml");
+  EXPECT_EQ(json.exit_code, 0);
+  const Json answer = Json::parse(json.out);
+  EXPECT_EQ(answer["side"], "right");
+  EXPECT_EQ(answer["kind"], "ball");
+  EXPECT_EQ(answer["axes"]["right"], (Json{0.0, 0.0, 1.0}));
+  // The sphere's 1026 vertices are 24 mm from the origin to u; see the tests of the fit.
+  EXPECT_NEAR(answer["fit"]["radius_mm"], 24, 1e-12);
+  EXPECT_EQ(answer["fit"]["vertex_count"], answer["fit"]["vertices"].size());
+  EXPECT_EQ(answer["mobile"]["vertices"], femur.vertices.size());
+  EXPECT_NEAR(answer["mobile"]["bounds_mm"]["low"][1], -400, 1e-9);
+}
+
+TEST_F(Command, WrongUsageEndsWithTwo) {
+  expect_refused(2, "", "a verb is needed: inspect, frame");
+  expect_refused(2, "inspekt femur.ply", "unknown verb 'inspekt'");
+  expect_refused(2, "inspect", "MESH is required");
+  expect_refused(2, "frame", "JOINT is required");
+  expect_refused(2, "frame right_hip.toml --jsn", "--jsn");
+  expect_refused(2, "--threads 0 inspect femur.ply", "--threads");
+  expect_refused(2, "--threads two inspect femur.ply", "--threads");
+  expect_refused(2, "inspect femur.ply --repair fill", "unknown repair \"fill\"");
+  expect_refused(2, "inspect femur.ply ./femur.ply --out repaired",
+                 "two meshes would be written as femur.ply");
+  EXPECT_FALSE(fs::exists(here / "repaired"));
+}
+
+TEST_F(Command, ABadFileEndsWithThree) {
+  folder.file("in/empty.stl", "");
+  folder.file("in/line\nbreak.ply", "ply\nformat");
+  expect_refused(3, "inspect none.ply", "none.ply");
+  expect_refused(3, "inspect empty.stl", "empty.stl");
+  expect_refused(3, "inspect femur.ply empty.stl", "empty.stl");
+  expect_refused(3, "inspect 'line\nbreak.ply'", "line break.ply");
+  expect_refused(3, "inspect .", ".");
+  expect_refused(3, "frame none.toml", "none.toml");
+  expect_refused(3, "frame femur.ply", "femur.ply: line 1: not TOML");
+  expect_refused(3, "frame .", ".");
+  write_joint("\"right\"", "\"up\"");
+  expect_refused(3, "frame right_hip.toml",
+                 "right_hip.toml: line 4: side: must be \"right\" or \"left\", not \"up\"");
+}
+
+TEST_F(Command, AnUnwritableFolderEndsWithThreeAndLeavesNothing) {
+  const std::size_t before = count_entries(folder.path());
+  expect_refused(3, "inspect femur.ply --out femur.ply", "femur.ply");
+  expect_refused(3, "inspect femur.ply --out femur.ply/below", "femur.ply/below");
+  expect_refused(3, "inspect femur.ply --out /proc/condyle", "/proc/condyle");
+  EXPECT_EQ(count_entries(folder.path()), before);
+}
+
+TEST_F(Command, AnUnfitMeshEndsWithFour) {
+  write_joint("\"fit\"", "\"fit\"\nfit_within = { centre = [0, -300, 0], radius = 20 }");
+  expect_refused(4, "frame right_hip.toml", "no spherical head");
+  TriMesh open = femur;
+  open.triangles.pop_back();
+  write_mesh(here / "open.ply", open);
+  expect_refused(4, "inspect open.ply --repair flip_inverted --out repaired", "open.ply");
+  EXPECT_FALSE(fs::exists(here / "repaired"));
+}
+
+TEST_F(Command, AnAnswerThatCannotBeWrittenEndsWithThree) {
+  for (const char* redirection : {">&-", ">/dev/full"}) {
+    const Ran ran = run("inspect femur.ply", redirection);
+    EXPECT_EQ(ran.exit_code, 3) << redirection;
+    EXPECT_EQ(ran.err, "condyle: standard output: cannot be written\n") << redirection;
+  }
+}
+
+TEST_F(Command, AClosedStandardOutputIsNotMixedIntoResultFiles) {
+  const Ran ran = run("inspect femur.ply --out written", ">&-");
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_EQ(read_mesh(here / "written/femur.ply").mesh, femur);
+}
+
+TEST_F(Command, HelpAndVersionAreAnswers) {
+  for (const char* arguments : {"--help", "inspect --help", "frame --help", "--version"}) {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit_code, 0) << arguments;
+    EXPECT_EQ(ran.err, "") << arguments;
+    EXPECT_NE(ran.out, "") << arguments;
+  }
+  EXPECT_TRUE(run("--version").out.starts_with("condyle "));
+}
+
+/// The examples in the help of every verb, run as they stand.
+TEST_F(Command, TheExamplesOfHelpWork) {
+  for (const char* verb : {"inspect", "frame"}) {
+    const std::string help = run(std::string(verb) + " --help").out;
+    std::size_t examples = 0;
+    for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
+         ++at) {
+      const std::string line = help.substr(at + 8, help.find('\n', at) - at - 8);
+      const Ran ran = run(line);
+      EXPECT_EQ(ran.exit_code, 0) << line << ": " << ran.err;
+      ++examples;
+    }
+    EXPECT_GT(examples, 0u) << help;
+  }
+}
+
+TEST_F(Command, AnswersDoNotDependOnTheNumberOfThreads) {
+  const Ran one = run("--threads 1 frame right_hip.toml --json"),
+            many = run("frame right_hip.toml --json --threads 8");
+  EXPECT_EQ(one.exit_code, 0);
+  EXPECT_EQ(one.out, many.out);
+}
+
+}  // namespace
+}  // namespace condyle::test
