@@ -15,10 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view scope_note =
-    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
-    "device";
-
 constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
 
 double degrees_of(const JointAngles& angles, JointAngle angle) noexcept {

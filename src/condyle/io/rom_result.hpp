@@ -21,6 +21,11 @@ struct RomResult {
   std::vector<std::string> terms;
 };
 
+/// The scope of every result, written into each.
+inline constexpr std::string_view scope_note =
+    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
+    "device";
+
 /// "contact", "end_of_range", "contact_at_start".
 std::string_view name_of(LimitReason reason) noexcept;
 
