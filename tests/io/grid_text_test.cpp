@@ -1,0 +1,40 @@
+#include "condyle/io/grid_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include "condyle/core/error.hpp"
+
+namespace condyle {
+namespace {
+
+void expect_axis(std::string_view text, JointAngle angle, double first, double last, double step) {
+  const GridAxis axis = parse_grid_axis(text);
+  EXPECT_EQ(axis.angle, angle);
+  EXPECT_EQ(axis.first_deg, first);
+  EXPECT_EQ(axis.last_deg, last);
+  EXPECT_EQ(axis.step_deg, step);
+}
+
+TEST(GridText, ReadsFirstLastAndStep) {
+  expect_axis("flexion=-20:120:1", JointAngle::flexion, -20, 120, 1);
+  expect_axis("adduction=-40:30:0.5", JointAngle::adduction, -40, 30, 0.5);
+  expect_axis("internal_rotation=0:30", JointAngle::internal_rotation, 0, 30, 1);
+  expect_axis("flexion=15", JointAngle::flexion, 15, 15, 1);
+}
+
+TEST(GridText, IsReadBackToTheLastBit) {
+  const GridAxis axis{JointAngle::adduction, 0.1, 1.0 / 3, 1e-7};
+  const GridAxis again = parse_grid_axis(to_text(axis));
+  EXPECT_EQ(again.first_deg, axis.first_deg);
+  EXPECT_EQ(again.last_deg, axis.last_deg);
+  EXPECT_EQ(again.step_deg, axis.step_deg);
+}
+
+TEST(GridText, RefusesWhatIsNotAnAxis) {
+  for (const char* text : {"", "flexion", "flexion=", "flexion=a", "flexion=1:", "flexion=1:2:3:4", "=1:2",
+                           "flexion=1:2:nan", "flexion=1:inf", "flexion=1 :2", "knee=1:2", "flexion=0x1"})
+    EXPECT_THROW(parse_grid_axis(text), UsageError) << text;
+}
+
+}  // namespace
+}  // namespace condyle

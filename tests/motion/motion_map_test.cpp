@@ -1,0 +1,202 @@
+#include "condyle/motion/motion_map.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "condyle/core/error.hpp"
+#include "motion/joint_scenes.hpp"
+#include "support/test_meshes.hpp"
+
+/// Maps against single limits, volumes against integrals, and maps made in pieces.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+MapGrid small_grid() {
+  return {.row = {JointAngle::flexion, -20, 40, 20}, .column = {JointAngle::adduction, -15, 15, 7.5}};
+}
+
+void expect_same_end(const TurnEnd& a, const TurnEnd& b) {
+  EXPECT_EQ(a.turned, b.turned);
+  EXPECT_EQ(a.reason, b.reason);
+  EXPECT_EQ(a.articular, b.articular);
+  EXPECT_EQ(a.shortfall, b.shortfall);
+  ASSERT_EQ(a.contact.has_value(), b.contact.has_value());
+  if (!a.contact) return;
+  EXPECT_EQ(a.contact->fixed_feature, b.contact->fixed_feature);
+  EXPECT_EQ(a.contact->mobile_feature, b.contact->mobile_feature);
+  EXPECT_EQ(a.contact->fixed_point, b.contact->fixed_point);
+  EXPECT_EQ(a.contact->mobile_point, b.contact->mobile_point);
+}
+
+void expect_same_points(const MotionMap& a, const MotionMap& b) {
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    ASSERT_EQ(a.points[i].has_value(), b.points[i].has_value());
+    if (!a.points[i]) continue;
+    expect_same_end(a.points[i]->negative, b.points[i]->negative);
+    expect_same_end(a.points[i]->positive, b.points[i]->positive);
+  }
+}
+
+/// Two boxes that never meet.
+Joint free_joint() {
+  return {"free",
+          JointKind::ball,
+          Side::right,
+          {"far", box({90, 90, 90}, {100, 100, 100})},
+          {"near", box({-10, -10, -10}, {10, 10, 10})}};
+}
+
+TEST(GridAxis, CountsItsLastValueWhereStepsAreDecimal) {
+  EXPECT_EQ((GridAxis{JointAngle::flexion, -20, 120, 1}.count()), 141u);
+  EXPECT_EQ((GridAxis{JointAngle::flexion, 0, 1, 0.1}.count()), 11u);
+  EXPECT_EQ((GridAxis{JointAngle::flexion, 0, 0.95, 0.1}.count()), 10u);
+  EXPECT_EQ((GridAxis{JointAngle::flexion, 5, 5, 1}.count()), 1u);
+}
+
+TEST(MotionMap, HoldsTheLimitsOfEachPoint) {
+  const RangeOfMotion joint(bumpy_joint(Side::right));
+  MotionMap map(small_grid());
+  fill(map, joint);
+  ASSERT_TRUE(map.complete());
+  std::size_t contacts = 0, starts = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const double flexion = -20 + 20 * static_cast<double>(i / 5),
+                 adduction = -15 + 7.5 * static_cast<double>(i % 5);
+    const Motion motion{"",
+                        JointAngle::internal_rotation,
+                        TurnSense::positive,
+                        {Angle::degrees(flexion), Angle::degrees(adduction), Angle()},
+                        Angle::degrees(180)};
+    const MotionLimit limit = joint.limit(motion);
+    EXPECT_EQ(map.points[i]->positive.turned, limit.turned);
+    EXPECT_EQ(map.points[i]->positive.reason, limit.reason);
+    contacts += limit.reason == LimitReason::contact;
+    starts += !map.points[i]->free_at_start();
+  }
+  EXPECT_GT(contacts, 5u);
+  EXPECT_GT(starts, 0u);
+}
+
+TEST(MotionMap, GivesTheSameBytesOnOneThreadAndOnMany) {
+  for (const JointAngle vary : {JointAngle::internal_rotation, JointAngle::adduction}) {
+    const RangeOfMotion joint(bumpy_joint(Side::left));
+    MapGrid grid = small_grid();
+    grid.vary = vary;
+    if (vary == JointAngle::adduction)
+      grid.row = {JointAngle::internal_rotation, -10, 10, 5},
+      grid.column = {JointAngle::flexion, -10, 20, 10};
+    MotionMap many(grid), one(grid);
+    fill(many, joint);
+    tbb::task_arena single(1);
+    single.execute([&] { fill(one, joint); });
+    expect_same_points(many, one);
+    EXPECT_EQ(many.work.node_pairs, one.work.node_pairs);
+  }
+}
+
+TEST(MotionMap, StoppedAndResumedGivesTheBytesOfOneGo) {
+  const RangeOfMotion joint(bumpy_joint(Side::right));
+  MotionMap whole(small_grid()), pieces(small_grid());
+  fill(whole, joint);
+  std::stop_source stop;
+  std::size_t last_done = 0;
+  tbb::task_arena single(1);
+  single.execute([&] {
+    fill(pieces, joint,
+         {.progress =
+              [&](std::size_t done, std::size_t total) {
+                EXPECT_EQ(done, last_done + 1);
+                EXPECT_EQ(total, 20u);
+                last_done = done;
+                if (done == 7) stop.request_stop();
+              },
+          .stop = stop.get_token()});
+  });
+  EXPECT_EQ(pieces.done(), 7u);
+  EXPECT_FALSE(free_volume(pieces));
+  std::size_t counted = 0;
+  fill(pieces, joint, {.progress = [&](std::size_t done, std::size_t) { EXPECT_EQ(done, 8 + counted++); }});
+  EXPECT_EQ(counted, 13u);
+  expect_same_points(whole, pieces);
+}
+
+TEST(FreeVolume, OfAJointThatNeverTouchesIsThatOfTheBox) {
+  const RangeOfMotion joint(free_joint());
+  MapGrid grid{.row = {JointAngle::flexion, -30, 50, 2},
+               .column = {JointAngle::adduction, -60, 90, 0.5},
+               .range = {Angle::degrees(-40), Angle::degrees(70)}};
+  MotionMap map(grid);
+  fill(map, joint);
+  const FreeVolume volume = *free_volume(map);
+  EXPECT_NEAR(volume.plain_deg3, 80.0 * 150 * 110, 1e-6);
+  const double deg = 180 / std::numbers::pi;
+  const double exact = 80 * 110 * deg * (std::sin(90 / deg) - std::sin(-60 / deg));
+  // Trapezoids of a cosine are short by h^2 / 12 of the integral, and by less than h^4 more.
+  const double h = 0.5 / deg;
+  EXPECT_NEAR(volume.cosine_weighted_deg3 / exact, 1 - h * h / 12, h * h * h * h);
+  ASSERT_EQ(volume.row_area_deg2.size(), 41u);
+  for (const double area : volume.row_area_deg2) EXPECT_NEAR(area, 150.0 * 110, 1e-8);
+}
+
+TEST(FreeVolume, WithAdductionVariedIntegratesTheCosineExactly) {
+  const RangeOfMotion joint(free_joint());
+  MapGrid grid{.row = {JointAngle::flexion, -30, 50, 20},
+               .column = {JointAngle::internal_rotation, 0, 30, 10},
+               .vary = JointAngle::adduction,
+               .start = Angle::degrees(10),
+               .range = {Angle::degrees(-40), Angle::degrees(50)}};
+  MotionMap map(grid);
+  fill(map, joint);
+  const FreeVolume volume = *free_volume(map);
+  const double deg = 180 / std::numbers::pi;
+  EXPECT_NEAR(volume.cosine_weighted_deg3, 80.0 * 30 * deg * (std::sin(60 / deg) - std::sin(-30 / deg)),
+              1e-6);
+  EXPECT_NEAR(volume.plain_deg3, 80.0 * 30 * 90, 1e-6);
+}
+
+TEST(FreeVolume, OfAllRotationsIsTheirInvariantMeasure) {
+  const RangeOfMotion joint(free_joint());
+  MotionMap map({.row = {JointAngle::flexion, -180, 180, 90},
+                 .column = {JointAngle::internal_rotation, -180, 180, 90},
+                 .vary = JointAngle::adduction,
+                 .range = {Angle::degrees(-90), Angle::degrees(90)}});
+  fill(map, joint);
+  EXPECT_NEAR(free_volume(map)->cosine_weighted_deg3, 360.0 * 360 * 360 / std::numbers::pi, 1e-6);
+}
+
+TEST(MotionMap, RefusesGridsThatMakeNoSenseBeforeAnyWork) {
+  const auto refused = [](auto change, const char* why) {
+    MapGrid grid = small_grid();
+    change(grid);
+    try {
+      check_grid(grid, JointKind::ball);
+      ADD_FAILURE() << "accepted: " << why;
+    } catch (const UsageError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  refused([](MapGrid& g) { g.vary = JointAngle::flexion; }, "named twice");
+  refused([](MapGrid& g) { g.column.angle = JointAngle::flexion; }, "named twice");
+  refused([](MapGrid& g) { g.row.step_deg = 0; }, "step");
+  refused([](MapGrid& g) { g.row.last_deg = -21; }, "ends before");
+  refused([](MapGrid& g) { g.row.first_deg = std::nan(""); }, "finite");
+  refused([](MapGrid& g) { g.range = {Angle(), Angle()}; }, "empty");
+  refused([](MapGrid& g) { g.range.positive = Angle::degrees(181); }, "half a turn");
+  refused(
+      [](MapGrid& g) {
+        g.row = {JointAngle::flexion, 0, 99999, 1}, g.column = {JointAngle::adduction, 0, 9999, 1};
+      },
+      "1000000000");
+  refused([](MapGrid& g) { g.row.step_deg = 1e-300; }, "more than 10000000");
+  EXPECT_THROW(check_grid(small_grid(), JointKind::hinge), UsageError);
+}
+
+}  // namespace
+}  // namespace condyle
