@@ -3,56 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <nlohmann/json.hpp>
+#include <vector>
 
 #include "condyle/io/map_grid_text.hpp"
+#include "condyle/io/map_summary.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
-#include "condyle/io/version.hpp"
 
 namespace condyle {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// How many points end so at one end.
-struct Counts {
-  std::array<std::size_t, 3> of{};
-
-  std::size_t operator[](LimitReason reason) const { return of[static_cast<std::size_t>(reason)]; }
-};
-
-template <class End>
-Counts count_reasons(const MotionMap& map, const End& end) {
-  Counts counts;
-  for (const auto& point : map.points) ++counts.of[static_cast<std::size_t>(end(*point).reason)];
-  return counts;
-}
-
-const TurnEnd& negative_end(const MapPoint& point) noexcept {
-  return point.negative;
-}
-const TurnEnd& positive_end(const MapPoint& point) noexcept {
-  return point.positive;
-}
-
-Json json_of(const Counts& counts) {
-  Json json;
-  for (const LimitReason reason :
-       {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
-    json[name_of(reason)] = counts[reason];
-  return json;
-}
-
-Json json_of(const GridAxis& axis) {
-  return {{"angle", name_of(axis.angle)},
-          {"first_deg", axis.first_deg},
-          {"last_deg", axis.last_deg},
-          {"step_deg", axis.step_deg},
-          {"count", axis.count()}};
-}
 
 /// Blanks for underscores.
 std::string spaced(std::string_view name) {
@@ -132,52 +92,23 @@ std::string_view movement_name(JointAngle angle, TurnSense sense) noexcept {
   return "";
 }
 
-std::string map_json(const MapResult& result) {
-  const MotionMap& map = result.map;
+std::string map_text(const MotionMap& map) {
   assert(map.complete());
-  const auto volume = free_volume(map);
-  const Json json{{"condyle", format_version},
-                  {"joint", result.joint.name},
-                  {"fixed", result.joint.fixed.name},
-                  {"mobile", result.joint.mobile.name},
-                  {"side", name_of(result.joint.side)},
-                  {"terms", result.terms},
-                  {"vary", name_of(map.grid.vary)},
-                  {"start_deg", map.grid.start.degrees()},
-                  {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
-                  {"rows", json_of(map.grid.row)},
-                  {"columns", json_of(map.grid.column)},
-                  {"points", map.points.size()},
-                  {"negative_ends", json_of(count_reasons(map, negative_end))},
-                  {"positive_ends", json_of(count_reasons(map, positive_end))},
-                  {"free_volume_deg3", volume->plain_deg3},
-                  {"free_volume_cosine_weighted_deg3", volume->cosine_weighted_deg3},
-                  {"row_free_area_deg2", volume->row_area_deg2},
-                  {"scope", scope_note}};
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string map_text(const MapResult& result) {
-  const MotionMap& map = result.map;
-  assert(map.complete());
-  const auto volume = free_volume(map);
-  std::string text =
-      fmt::format("{}: {} over {} and {}, {} points\n", result.joint.name, spaced(name_of(map.grid.vary)),
-                  to_text(map.grid.column), to_text(map.grid.row), map.points.size());
-  for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
-  const auto line = [&](TurnSense sense, const Counts& counts) {
+  const MapSummary summary = summarise(map);
+  std::string text = fmt::format("map of {} over {} and {}, {} points\n", spaced(name_of(map.grid.vary)),
+                                 to_text(map.grid.column), to_text(map.grid.row), map.points.size());
+  const auto line = [&](TurnSense sense, const ReasonCounts& counts) {
     text += fmt::format("  {:<18} {} end in contact, {} at the end of the range, {} in contact at start\n",
                         movement_words(map.grid.vary, sense), counts[LimitReason::contact],
                         counts[LimitReason::end_of_range], counts[LimitReason::contact_at_start]);
   };
-  line(TurnSense::positive, count_reasons(map, positive_end));
-  line(TurnSense::negative, count_reasons(map, negative_end));
+  line(TurnSense::positive, summary.positive_ends);
+  line(TurnSense::negative, summary.negative_ends);
   return text + fmt::format("  free volume        {:.6g} deg^3, {:.6g} deg^3 weighted by cos(adduction)\n",
-                            volume->plain_deg3, volume->cosine_weighted_deg3);
+                            summary.volume.plain_deg3, summary.volume.cosine_weighted_deg3);
 }
 
-std::string map_csv(const MapResult& result) {
-  const MotionMap& map = result.map;
+std::string map_csv(const MotionMap& map) {
   assert(map.complete());
   const MapGrid& grid = map.grid;
   const std::string_view varied = name_of(grid.vary);
@@ -198,8 +129,7 @@ std::string map_csv(const MapResult& result) {
   return text;
 }
 
-MapPlot plot_of(const MapResult& result, MapView view) {
-  const MotionMap& map = result.map;
+MapPlot plot_of(const MotionMap& map, MapView view, std::string_view joint_name) {
   assert(map.complete());
   const MapGrid& grid = map.grid;
   const std::string quantity = quantity_of(grid.vary, view);
@@ -207,7 +137,7 @@ MapPlot plot_of(const MapResult& result, MapView view) {
                                     spaced(name_of(grid.row.angle)));
   subject[0] = static_cast<char>(subject[0] - 'a' + 'A');
   MapPlot plot;
-  plot.heading = {result.joint.name, subject};
+  plot.heading = {std::string(joint_name), subject};
   plot.quantity = quantity;
   plot.x_label = axis_label(grid.column.angle);
   plot.y_label = axis_label(grid.row.angle);

@@ -1,32 +1,22 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "condyle/io/plot_map.hpp"
-#include "condyle/kinematics/joint.hpp"
 #include "condyle/motion/motion_map.hpp"
 
 /// What `condyle rom --map` found, as text. Every key, column, unit and sign is in docs/formats.md.
 
 namespace condyle {
 
-/// A complete map of a joint and on which terms it was made.
-struct MapResult {
-  const Joint& joint;
-  const MotionMap& map;
-  std::vector<std::string> terms;  ///< as of RomResult
-};
-
-/// The summary as JSON text: grid, counts by reason, free volume and areas. The points are in the CSV.
-std::string map_json(const MapResult& result);
-
-/// The summary for people, a few lines.
-std::string map_text(const MapResult& result);
+/// The summary for people, a few lines: how the ends are spread over the reasons, and the free volume. The
+/// map is complete, here and below.
+std::string map_text(const MotionMap& map);
 
 /// One line per grid point, row by row, with a header line: the held angles, both limits of the varied angle
 /// as values of that angle, how they end, and the contact points. Numbers to the last bit.
-std::string map_csv(const MapResult& result);
+std::string map_csv(const MotionMap& map);
 
 /// What of a map is drawn.
 enum class MapView {
@@ -35,8 +25,8 @@ enum class MapView {
   free_range,      ///< both together
 };
 
-/// The map as map_plot() draws it, the columns to the right and the rows up.
-MapPlot plot_of(const MapResult& result, MapView view);
+/// The map as map_plot() draws it, the columns to the right and the rows up, under the joint's name.
+MapPlot plot_of(const MotionMap& map, MapView view, std::string_view joint_name);
 
 /// "flexion" or "extension", and so on: the clinical word for turning an angle in a sense.
 std::string_view movement_name(JointAngle angle, TurnSense sense) noexcept;

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "condyle/io/csv_field.hpp"
+#include "condyle/io/map_result.hpp"
+#include "condyle/io/map_summary.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/version.hpp"
 
@@ -98,6 +100,52 @@ Json json_of(const MotionLimit& limit) {
           {"certificate", certificate_text(limit)}};
 }
 
+Json json_of(const ReasonCounts& counts) {
+  Json json;
+  for (const LimitReason reason :
+       {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
+    json[name_of(reason)] = counts[reason];
+  return json;
+}
+
+Json json_of(const GridAxis& axis) {
+  return {{"angle", name_of(axis.angle)},
+          {"first_deg", axis.first_deg},
+          {"last_deg", axis.last_deg},
+          {"step_deg", axis.step_deg},
+          {"count", axis.count()}};
+}
+
+Json json_of(const MotionMap& map) {
+  const MapSummary summary = summarise(map);
+  return {{"vary", name_of(map.grid.vary)},
+          {"start_deg", map.grid.start.degrees()},
+          {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
+          {"columns", json_of(map.grid.column)},
+          {"rows", json_of(map.grid.row)},
+          {"points", map.points.size()},
+          {"negative_ends", json_of(summary.negative_ends)},
+          {"positive_ends", json_of(summary.positive_ends)},
+          {"free_volume_deg3", summary.volume.plain_deg3},
+          {"free_volume_cosine_weighted_deg3", summary.volume.cosine_weighted_deg3},
+          {"row_free_area_deg2", summary.volume.row_area_deg2}};
+}
+
+Json json_of(const std::optional<ArticularRegion>& region) {
+  if (!region) return nullptr;
+  Json json{{"radius_mm", region->radius_mm}};
+  if (region->cone)
+    json["cone"] = {{"axis", json_of(region->cone->axis)},
+                    {"half_angle_deg", region->cone->half_angle.degrees()}};
+  return json;
+}
+
+std::string text_of(const std::optional<ArticularRegion>& region) {
+  if (!region) return "no articular region is known: no contact is called articular";
+  return fmt::format("articular is contact within {:.2f} mm of the joint centre{}", region->radius_mm,
+                     region->cone ? ", in a cone" : "");
+}
+
 std::string_view words_of(const MotionLimit& limit) noexcept {
   switch (limit.reason) {
     case LimitReason::contact:
@@ -172,6 +220,7 @@ std::string rom_json(const RomResult& result) {
             {"side", name_of(result.joint.side)}, {"terms", result.terms}};
   json["motions"] = Json::array();
   for (const MotionLimit& limit : result.limits) json["motions"].push_back(json_of(limit));
+  if (result.map) json["map"] = json_of(*result.map);
   json["scope"] = scope_note;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -195,8 +244,10 @@ std::string rom_text(const RomResult& result) {
   const Joint& joint = result.joint;
   std::string text = fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  name_of(joint.side));
+  text += fmt::format("  {}\n", text_of(result.articular));
   for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
   text += table_text(std::array{name, turned, reason, point, features});
+  if (result.map) text += map_text(*result.map);
   return text + fmt::format("  {}\n", scope_note);
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "condyle/kinematics/joint.hpp"
+#include "condyle/motion/motion_map.hpp"
 #include "condyle/motion/range_of_motion.hpp"
 
 /// What `condyle rom` found, as text for people and for programs. Every key, column, unit and sign is in
@@ -17,8 +19,12 @@ namespace condyle {
 struct RomResult {
   const Joint& joint;
   std::span<const MotionLimit> limits;
+  /// Contacts in here are called articular; empty where no region is known and none is.
+  std::optional<ArticularRegion> articular = {};
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
-  std::vector<std::string> terms;
+  std::vector<std::string> terms = {};
+  /// Complete; null where none was asked for.
+  const MotionMap* map = nullptr;
 };
 
 /// The scope of every result, written into each.
@@ -35,7 +41,7 @@ std::string certificate_text(const MotionLimit& limit);
 /// The summary as JSON text, ending in a newline.
 std::string rom_json(const RomResult& result);
 
-/// A table for people, one line per motion.
+/// A table for people, one line per motion, then what the map comes to.
 std::string rom_text(const RomResult& result);
 
 /// One line per motion, with a header line; numbers to the last bit.
