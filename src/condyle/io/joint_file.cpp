@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "condyle/core/error.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -150,6 +151,50 @@ JointAngles rest_angles(TomlTable& file, JointKind kind) {
   return rest;
 }
 
+/// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
+/// by its order which way it turns.
+Motion own_motion(TomlTable& table, JointKind kind) {
+  Motion motion;
+  motion.name = table.required("name", table.text("name"));
+  if (motion.name.empty()) table.fail("name", "must not be empty");
+  const auto vary = table.required("vary", table.text("vary"));
+  try {
+    motion.vary = joint_angle_named(vary);
+  } catch (const UsageError& error) {
+    table.fail("vary", error.what());
+  }
+  if (table.has(vary)) table.fail(vary, "is the angle that varies: its range says where it starts");
+  const auto [start, end] = table.required("range", table.pair("range"));
+  if (start == end) table.fail("range", "is empty");
+  motion.sense = start < end ? TurnSense::positive : TurnSense::negative;
+  motion.range = Angle::degrees(std::abs(end - start));
+  for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+    const bool varies = angle == motion.vary;
+    const double held = varies ? start : table.number(name_of(angle)).value_or(0);
+    if (kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
+      table.fail(varies ? "vary" : name_of(angle), "a hinge turns in flexion alone");
+    motion.start = turned_by(motion.start, angle, Angle::degrees(held));
+  }
+  table.finish();
+  try {
+    check_motion(motion, kind);
+  } catch (const UsageError& error) {
+    table.fail("range", error.what());
+  }
+  return motion;
+}
+
+std::vector<Motion> own_motions(TomlTable& file, JointKind kind) {
+  std::vector<Motion> motions;
+  for (TomlTable& table : file.tables("motion")) {
+    Motion motion = own_motion(table, kind);
+    for (const Motion& other : motions)
+      if (other.name == motion.name) table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
 }  // namespace
 
 Repair repair_named(std::string_view name) {
@@ -182,6 +227,7 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   for (BodyEntry* body : {&joint.fixed, &joint.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_entry(file, Lengths(joint.units));
   joint.rest = rest_angles(file, joint.kind);
+  joint.motions = own_motions(file, joint.kind);
   file.finish();
   return joint;
 }

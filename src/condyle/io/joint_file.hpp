@@ -12,6 +12,7 @@
 #include "condyle/kinematics/joint_frame.hpp"
 #include "condyle/mesh/inspect.hpp"
 #include "condyle/mesh/length_unit.hpp"
+#include "condyle/motion/range_of_motion.hpp"
 
 /// Joint files: two meshes and how one turns in the other, in TOML. Every key, with its unit and default, is
 /// in docs/joint-file.md. Bad files throw FileError, one line "file: line 7: frame.centre: what is wrong".
@@ -74,7 +75,8 @@ struct JointFile {
   LengthUnit units;  ///< of the meshes
   BodyEntry fixed, mobile;
   FrameEntry frame;
-  JointAngles rest;  ///< of the mobile mesh as it is given
+  JointAngles rest;             ///< of the mobile mesh as it is given
+  std::vector<Motion> motions;  ///< of the [[motion]] tables, in their order, each name once
 };
 JointFile read_joint_file(const std::filesystem::path& path);
 

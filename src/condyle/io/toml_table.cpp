@@ -86,15 +86,26 @@ std::optional<long long> TomlTable::integer(std::string_view key) {
   return *node->value<std::int64_t>();
 }
 
-std::optional<Vec3> TomlTable::triple(std::string_view key) {
+template <std::size_t N>
+std::optional<std::array<double, N>> TomlTable::numbers(std::string_view key, std::string_view count) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   const toml::array* array = node->as_array();
-  if (!array) fail(key, fmt::format("must be a list of three numbers, not {}", kind_of(*node)));
-  if (array->size() != 3) fail(key, fmt::format("must be a list of three numbers, not of {}", array->size()));
-  Vec3 out;
-  for (std::size_t i = 0; i < 3; ++i) out[static_cast<Eigen::Index>(i)] = finite_number((*array)[i], key);
+  if (!array) fail(key, fmt::format("must be a list of {} numbers, not {}", count, kind_of(*node)));
+  if (array->size() != N)
+    fail(key, fmt::format("must be a list of {} numbers, not of {}", count, array->size()));
+  std::array<double, N> out;
+  for (std::size_t i = 0; i < N; ++i) out[i] = finite_number((*array)[i], key);
   return out;
+}
+
+std::optional<std::array<double, 2>> TomlTable::pair(std::string_view key) {
+  return numbers<2>(key, "two");
+}
+
+std::optional<Vec3> TomlTable::triple(std::string_view key) {
+  const auto values = numbers<3>(key, "three");
+  return values ? std::optional(Vec3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
 }
 
 std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
@@ -117,6 +128,20 @@ std::optional<TomlTable> TomlTable::table(std::string_view key) {
   const toml::table* table = node->as_table();
   if (!table) fail(key, fmt::format("must be a table, not {}", kind_of(*node)));
   return TomlTable(*path_, *table, full(key));
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return {};
+  const toml::array* array = node->as_array();
+  if (!array) fail(key, fmt::format("must be tables written as [[{}]], not {}", key, kind_of(*node)));
+  std::vector<TomlTable> out;
+  for (const toml::node& element : *array) {
+    const toml::table* table = element.as_table();
+    if (!table) fail(key, fmt::format("must be tables written as [[{}]], not {}", key, kind_of(element)));
+    out.emplace_back(*path_, *table, fmt::format("{}[{}]", full(key), out.size()));
+  }
+  return out;
 }
 
 std::size_t TomlTable::required_word(std::string_view key, std::initializer_list<std::string_view> words) {

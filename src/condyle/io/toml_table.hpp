@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <array>
 #include <filesystem>
 #include <initializer_list>
 #include <optional>
@@ -33,9 +34,12 @@ class TomlTable {
   std::optional<std::string> text(std::string_view key);
   std::optional<double> number(std::string_view key);
   std::optional<long long> integer(std::string_view key);
+  std::optional<std::array<double, 2>> pair(std::string_view key);
   std::optional<Vec3> triple(std::string_view key);
   std::optional<std::vector<std::string>> texts(std::string_view key);
   std::optional<TomlTable> table(std::string_view key);
+  /// Tables written as [[key]], in their order; none where the key is not there.
+  std::vector<TomlTable> tables(std::string_view key);
 
   /// The same, where the key must be there.
   template <class T>
@@ -52,6 +56,8 @@ class TomlTable {
  private:
   const toml::node* find(std::string_view key);
   double finite_number(const toml::node& node, std::string_view key) const;
+  template <std::size_t N>
+  std::optional<std::array<double, N>> numbers(std::string_view key, std::string_view count);
   std::string full(std::string_view key) const;
 
   const std::filesystem::path* path_;
