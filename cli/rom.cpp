@@ -12,9 +12,9 @@
 
 #include "answer.hpp"
 #include "condyle/core/error.hpp"
+#include "condyle/io/grid_text.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/map_checkpoint.hpp"
-#include "condyle/io/map_grid_text.hpp"
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/plot_limits.hpp"
@@ -154,7 +154,8 @@ void write_results(const fs::path& folder, const RomResult& result) {
 void run(const Options& options) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
-  const std::vector<Motion> motions = chosen_motions(built_in_motions(joint.kind), options.motions);
+  const std::vector<Motion> motions = chosen_motions(
+      with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
   const RangeOptions asked = range_options(options, loaded.report.file.rest);
 

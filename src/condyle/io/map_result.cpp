@@ -6,7 +6,7 @@
 #include <cassert>
 #include <vector>
 
-#include "condyle/io/map_grid_text.hpp"
+#include "condyle/io/grid_text.hpp"
 #include "condyle/io/map_summary.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"

@@ -215,9 +215,13 @@ std::string certificate_text(const MotionLimit& limit) {
 }
 
 std::string rom_json(const RomResult& result) {
-  Json json{{"condyle", format_version},          {"joint", result.joint.name},
-            {"fixed", result.joint.fixed.name},   {"mobile", result.joint.mobile.name},
-            {"side", name_of(result.joint.side)}, {"terms", result.terms}};
+  Json json{{"condyle", format_version},
+            {"joint", result.joint.name},
+            {"fixed", result.joint.fixed.name},
+            {"mobile", result.joint.mobile.name},
+            {"side", name_of(result.joint.side)},
+            {"articular_region", json_of(result.articular)},
+            {"terms", result.terms}};
   json["motions"] = Json::array();
   for (const MotionLimit& limit : result.limits) json["motions"].push_back(json_of(limit));
   if (result.map) json["map"] = json_of(*result.map);
