@@ -19,10 +19,15 @@ using Json = nlohmann::json;
 constexpr const char* deep = "--pose \"flexion=130 internal_rotation=20\"";
 const JointAngles deep_angles{Angle::degrees(130), {}, Angle::degrees(20)};
 
-/// The sample hip as `condyle sample hip` writes it, in the folder `sample`.
+/// The sample hip as `condyle sample hip` writes it, in the folder `sample`: made once, copied for each test.
 class SampleJoint : public ::testing::Test {
  protected:
-  SampleJoint() { made = run("sample hip --out sample"); }
+  SampleJoint() {
+    static const TemporaryFolder once;
+    static const Ran made_once = run_condyle(once.path(), "sample hip --out sample");
+    made = made_once;
+    if (made.exit_code == 0) fs::copy(once / "sample", folder / "sample");
+  }
   Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
   Json answer(const std::string& arguments) const {
     const Ran ran = run(arguments + " --json");
