@@ -198,6 +198,20 @@ TEST(VertexMeetsFace, next_to_the_start_the_side_is_decided_exactly) {
   EXPECT_GT(after.touch[0].angle, two_pi - 1e-15);
 }
 
+TEST(VertexMeetsFace, at_any_scale_of_the_coordinates) {
+  for (const double scale : {0x1p-1000, 0x1p-400, 0x1p-170, 1.0, 0x1p170, 0x1p300}) {
+    const Corners wall = {Point{scale, 0, -5 * scale}, Point{scale, 9 * scale, 0},
+                          Point{scale, 0, 5 * scale}};
+    const auto touches = vertex_meets_face({2 * scale, 0, 0}, wall);
+    ASSERT_EQ(touches.count, 1) << scale;
+    EXPECT_NEAR(touches.touch[0].angle, pi / 3, touches.touch[0].error);
+    const auto edges =
+        edges_meet({scale, 0, 0}, {3 * scale, 0, 0}, {0, 2 * scale, -scale}, {0, 2 * scale, scale});
+    ASSERT_EQ(edges.count, 1) << scale;
+    EXPECT_NEAR(edges.touch[0].angle, pi / 2, edges.touch[0].error);
+  }
+}
+
 TEST(EdgesMeet, where_the_arctangent_says) {
   // A radial spoke at height 0 meets an upright post at distance 2, 90 degrees on.
   const auto touches = edges_meet({1, 0, 0}, {3, 0, 0}, {0, 2, -1}, {0, 2, 1});
