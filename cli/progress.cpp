@@ -12,7 +12,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto silence = 2s;
-constexpr auto between_updates = 200ms, between_lines = 10s;
+constexpr auto between_updates = 200ms;
+constexpr auto between_lines = 10s;
 
 /// To the first column, and everything to the right of it wiped (ECMA-48).
 constexpr std::string_view wipe_line = "\r\x1b[K";
