@@ -22,11 +22,11 @@ enum class TurnSense { positive, negative };
 
 /// A motion as a clinician names it: one joint angle turns from where `start` has it, the other two are held.
 struct Motion {
-  std::string name;
+  std::string name = {};
   JointAngle vary = JointAngle::flexion;
   TurnSense sense = TurnSense::positive;
   JointAngles start = {};
-  Angle range;  ///< how far it may turn from its start, positive
+  Angle range = {};  ///< how far it may turn from its start, positive
 };
 
 /// The built-in motions of the hip, in the order in which clinicians list them: flexion, extension,
@@ -82,12 +82,12 @@ struct TurnEnds {
 
 /// Where one motion ends.
 struct MotionLimit {
-  Motion motion;
-  Angle turned;  ///< from the start, >= 0
+  Motion motion = {};
+  Angle turned = {};  ///< from the start, >= 0
   LimitReason reason = LimitReason::end_of_range;
-  std::optional<ContactPlace> contact;
+  std::optional<ContactPlace> contact = {};
   bool articular = false;  ///< contact inside the articular region (see ArticularRegion), not at rim or neck
-  Angle shortfall;         ///< true contact is at `turned` or past it by at most this
+  Angle shortfall = {};    ///< true contact is at `turned` or past it by at most this
 
   JointAngles angles_at_limit() const noexcept;
 };

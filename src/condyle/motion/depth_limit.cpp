@@ -1,0 +1,147 @@
+#include "condyle/motion/depth_limit.hpp"
+
+#include <cmath>
+
+#include "condyle/core/error.hpp"
+
+namespace condyle {
+namespace {
+
+/// Parts of the first too deep step that are asked before halving.
+constexpr int parts_of_step = 10;
+
+void check(const AllowedDepth& allowed) {
+  if (!(allowed.depth_mm >= 0) || !std::isfinite(allowed.depth_mm))
+    throw UsageError("allowed depth: must be 0 mm or more");
+  if (!(allowed.tolerance.radians() > 0) || !(allowed.step >= allowed.tolerance) ||
+      !std::isfinite(allowed.step.radians()))
+    throw UsageError("allowed depth: the tolerance must be above 0 and at most the step");
+}
+
+std::optional<Index> deepest_vertex(const RadialHits& hits) {
+  std::optional<Index> deepest;
+  for (Index v = 0; v < hits.size(); ++v)
+    if (hits.state[v] == PointState::inside && (!deepest || hits.radial_gap[v] < hits.radial_gap[*deepest]))
+      deepest = v;
+  return deepest;
+}
+
+/// How far along its way a search got: allowed at `free`, too deep at `deep`.
+struct Bracket {
+  Angle free, deep;
+};
+enum class EndOfBracket { unknown, too_deep };
+
+}  // namespace
+
+struct DepthRange::Parts {
+  JointKind kind;
+  Side side;
+  AllowedDepth allowed;
+  std::optional<ArticularRegion> articular;
+  JointContact contact;
+};
+
+DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
+                       const std::optional<ArticularRegion>& articular) {
+  check(allowed);
+  parts_ = std::make_unique<Parts>(Parts{joint.kind, joint.side, allowed,
+                                         articular ? articular : find_articular_region(joint),
+                                         JointContact(joint.fixed.mesh, joint.mobile.mesh)});
+  for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},
+                                    std::pair{&joint.mobile, &parts_->contact.mobile_table()}})
+    if (!table->is_closed()) throw MeshError(body->name + ": is open: depth needs an inside");
+  if (allowed.follow_socket && !parts_->articular)
+    throw MeshError(joint.mobile.name +
+                    ": no head was found to centre in the socket: state the articular region");
+}
+
+DepthRange::~DepthRange() = default;
+
+DeepestPlace DepthRange::deepest(const JointAngles& at) const {
+  Pose X = pose_at(parts_->side, at);
+  DeepestPlace deepest;
+  if (parts_->allowed.follow_socket) {
+    deepest.shift = even_joint_space(parts_->contact, *parts_->articular, X, *parts_->allowed.follow_socket);
+    X.pretranslate(deepest.shift->translation);
+  }
+  const Pose X_MF = X.inverse();
+  const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
+  const RadialHits mobile_hits = parts_->contact.fixed_table().query(posed(X, mobile.vertices.view()));
+  const RadialHits fixed_hits = parts_->contact.mobile_table().query(posed(X_MF, fixed.vertices.view()));
+  const auto m = deepest_vertex(mobile_hits), f = deepest_vertex(fixed_hits);
+  const double of_mobile = m ? -mobile_hits.radial_gap[*m] : 0, of_fixed = f ? -fixed_hits.radial_gap[*f] : 0;
+  if (m && of_mobile >= of_fixed) {
+    const Vec3 p = mobile.vertices[*m];
+    deepest.depth_mm = of_mobile;
+    deepest.ray_to_normal = Angle::radians(mobile_hits.ray_to_normal[*m]);
+    deepest.place = ContactPlace{
+        {FeatureKind::face, mobile_hits.triangle[*m]}, {FeatureKind::vertex, *m}, posed(X, p), p};
+  } else if (f) {
+    const Vec3 p = fixed.vertices[*f];
+    deepest.depth_mm = of_fixed;
+    deepest.ray_to_normal = Angle::radians(fixed_hits.ray_to_normal[*f]);
+    deepest.place = ContactPlace{
+        {FeatureKind::vertex, *f}, {FeatureKind::face, fixed_hits.triangle[*f]}, p, posed(X_MF, p)};
+  }
+  return deepest;
+}
+
+DepthLimit DepthRange::limit(const Motion& motion) const {
+  check_motion(motion, parts_->kind);
+  const AllowedDepth& allowed = parts_->allowed;
+  const double sign = motion.sense == TurnSense::positive ? 1 : -1;
+  const auto at = [&](Angle turn) { return deepest(turned_by(motion.start, motion.vary, turn * sign)); };
+
+  DepthLimit out;
+  out.limit.motion = motion;
+  out.limit.shortfall = allowed.tolerance;
+  out.at_limit = at(Angle());
+  out.start_depth_mm = out.at_limit.depth_mm;
+  const auto finish = [&](LimitReason reason, Angle turned) {
+    out.limit.reason = reason, out.limit.turned = turned;
+    if (reason == LimitReason::end_of_range) return out;
+    out.limit.contact = out.at_limit.place;
+    out.limit.articular =
+        out.limit.contact && parts_->articular && parts_->articular->holds(out.limit.contact->fixed_point);
+    return out;
+  };
+  if (out.start_depth_mm > allowed.depth_mm) return finish(LimitReason::contact_at_start, Angle());
+
+  // Moves the bracket to the first of `count` equal parts whose end is too deep; false where none is.
+  const auto narrow = [&](Bracket& bracket, int count, EndOfBracket end) {
+    const Angle from = bracket.free, width = bracket.deep - bracket.free;
+    const int asked = end == EndOfBracket::too_deep ? count - 1 : count;
+    for (int k = 1; k <= asked; ++k) {
+      const Angle turn = k == count ? bracket.deep : from + width * (static_cast<double>(k) / count);
+      DeepestPlace place = at(turn);
+      if (end == EndOfBracket::too_deep && place.depth_mm < out.at_limit.depth_mm) out.depth_grows = false;
+      if (place.depth_mm > allowed.depth_mm) {
+        bracket.deep = turn;
+        return true;
+      }
+      bracket.free = turn;
+      out.at_limit = std::move(place);
+    }
+    return end == EndOfBracket::too_deep;
+  };
+  const int steps = static_cast<int>(std::ceil(motion.range.radians() / allowed.step.radians()));
+  Bracket bracket{Angle(), motion.range};
+  if (!narrow(bracket, steps, EndOfBracket::unknown)) return finish(LimitReason::end_of_range, motion.range);
+  narrow(bracket, parts_of_step, EndOfBracket::too_deep);
+  while (bracket.deep - bracket.free > allowed.tolerance) narrow(bracket, 2, EndOfBracket::too_deep);
+  if (!out.at_limit.place) out.at_limit.place = at(bracket.deep).place;
+  return finish(LimitReason::contact, bracket.free);
+}
+
+std::vector<DepthLimit> DepthRange::limits(std::span<const Motion> motions) const {
+  std::vector<DepthLimit> out;
+  for (const Motion& motion : motions) out.push_back(limit(motion));
+  return out;
+}
+
+const std::optional<ArticularRegion>& DepthRange::articular_region() const noexcept {
+  return parts_->articular;
+}
+
+}  // namespace condyle
