@@ -124,10 +124,18 @@ MotionMap computed_map(const MapGrid& grid, const LoadedJoint& loaded, const Ran
   const std::string done =
       fmt::format("interrupted, {} of {} map points done", map.done(), map.points.size());
   if (checkpoint.empty()) throw Interrupted(done + "; nothing is kept without --out");
-  fs::create_directories(checkpoint.parent_path());
+  std::error_code why_not_is_told_when_writing;
+  fs::create_directories(checkpoint.parent_path(), why_not_is_told_when_writing);
   write_checkpoint(checkpoint, map, key);
   throw Interrupted(
       fmt::format("{} and kept in {}; the same command goes on from there", done, checkpoint.string()));
+}
+
+/// The map is complete and written: the checkpoint, if there was one, has nothing to add.
+void remove_checkpoint(const fs::path& checkpoint) {
+  std::error_code error;
+  fs::remove(checkpoint, error);
+  if (error) note(fmt::format("{}: cannot be removed: {}", checkpoint.string(), error.message()));
 }
 
 void write_results(const fs::path& folder, const RomResult& result) {
@@ -158,6 +166,8 @@ void run(const Options& options) {
       with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
   const RangeOptions asked = range_options(options, loaded.report.file.rest);
+  // A folder that cannot be written to is told before the work, not after it.
+  if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
   const RangeOfMotion range(joint, asked);
   const std::vector<MotionLimit> limits = range.limits(motions);
@@ -169,7 +179,7 @@ void run(const Options& options) {
                          map ? &*map : nullptr};
   if (!options.out.empty()) {
     write_results(options.out, result);
-    if (map) fs::remove(checkpoint);
+    if (map) remove_checkpoint(checkpoint);
   }
   print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
 }
