@@ -78,7 +78,7 @@ struct HipBonePieces {
                                   Skeleton::chain(posterior_tip), Skeleton::chain(posterior_inferior_tip)};
   Socket socket;
   Ball notch_start, notch_end;
-  double scale;
+  double scale = 1;
 
   FieldValue operator()(const Vec3& p) const noexcept {
     const Vec3 nominal = p / scale;
