@@ -1,6 +1,8 @@
 # Holds every #include "condyle/..." against the layers of docs/concepts.md: a folder includes itself and the folders
 # listed for it, nothing else. Run as cmake -DSOURCE=... -P layers.cmake.
 
+cmake_minimum_required(VERSION 3.25)
+
 set(core_sees core)
 set(mesh_sees core mesh)
 set(kinematics_sees core mesh kinematics)
