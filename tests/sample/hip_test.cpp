@@ -106,11 +106,11 @@ TEST(SampleHip, FinerScenariosKeepTheVerticesOfCoarserOnes) {
 }
 
 TEST(SampleHip, TrianglesAreNoSlivers) {
-  // Subdivision keeps the shape of flat triangles; only where midpoints leave a sharp ridge do angles shrink.
-  const double least_deg[] = {25, 15, 12, 10};
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_GT(test::smallest_angles_deg(hip_at(scenarios[i]).femur).front(), least_deg[i]);
-    EXPECT_GT(test::smallest_angles_deg(hip_at(scenarios[i]).hip_bone).front(), least_deg[i]);
+  // Remeshing avoids angles below 30 degrees; laying midpoints on a sharp lip takes some of that away again.
+  constexpr double least_deg = 20;
+  for (const Scenario scenario : scenarios) {
+    EXPECT_GT(test::smallest_angles_deg(hip_at(scenario).femur).front(), least_deg);
+    EXPECT_GT(test::smallest_angles_deg(hip_at(scenario).hip_bone).front(), least_deg);
   }
 }
 
