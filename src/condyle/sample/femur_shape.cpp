@@ -30,8 +30,8 @@ struct FemurPieces {
   Ball greater_tip, greater_side, greater_back;
   Ball lesser, lesser_root;
   Vec3 distal;
-  double cut;
-  double scale;
+  double cut = 0;
+  double scale = 1;
 
   FieldValue operator()(const Vec3& p) const noexcept {
     FieldValue bone = shaft(p);
@@ -61,10 +61,13 @@ FemurAxes femur_axes(const HipParameters& hip) noexcept {
 Solid femur_shape(const HipParameters& hip) {
   const FemurAxes axes = femur_axes(hip);
   const double scale = hip.head_radius_mm / nominal_head_radius;
-  // A point by its distances from the foot, in millimetres at the nominal size: up the shaft, forward, to the
-  // side.
+  // The trochanters turn about the shaft with the neck: torsion takes place below them.
+  const double torsion = (hip.femoral_anteversion - nominal_anteversion).radians();
+  const Vec3 anterior = std::cos(torsion) * Vec3::UnitX() + std::sin(torsion) * axes.lateral;
+  const Vec3 lateral = std::cos(torsion) * axes.lateral - std::sin(torsion) * Vec3::UnitX();
+  // A point by its distances from the foot, in millimetres at the nominal size: up, forward, to the side.
   const auto at = [&](double up, double forward, double side, double radius) {
-    const Vec3 offset = -up * axes.distal + forward * Vec3::UnitX() + side * axes.lateral;
+    const Vec3 offset = -up * axes.distal + forward * anterior + side * lateral;
     return Ball{axes.foot + scale * offset, scale * radius};
   };
   // The neck is higher than it is deep, more so towards its foot.

@@ -1,10 +1,11 @@
 #include "condyle/sample/hip.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -24,16 +25,10 @@ using sample::Solid;
 /// coarsest triangles sag into head and socket together, rounded up.
 constexpr double least_clearance = 1;
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 void check_range(const char* name, double value, double low, double high, const char* unit) {
   if (value >= low && value <= high) return;
-  throw UsageError(std::string("sample hip: ") + name + " is " + text(value) + ", must be " + text(low) +
-                   " to " + text(high) + " " + unit);
+  throw UsageError(
+      fmt::format("sample hip: {} is {:g}, must be {:g} to {:g} {}", name, value, low, high, unit));
 }
 
 void check(const HipParameters& hip) {
@@ -52,9 +47,9 @@ void check(const HipParameters& hip) {
 void check_count(const char* name, std::size_t triangles, std::size_t low) {
   constexpr std::size_t high = 4'000'000;
   if (triangles % 2 == 0 && triangles >= low && triangles <= high) return;
-  throw UsageError(std::string("sample hip: ") + name + " cannot have " + std::to_string(triangles) +
-                   " triangles, must be an even number from " + std::to_string(low) + " to " +
-                   std::to_string(high));
+  throw UsageError(
+      fmt::format("sample hip: {} cannot have {} triangles, must be an even number from {} to {}", name,
+                  triangles, low, high));
 }
 
 /// Wanted edge lengths, relative to the smooth parts far from the joint. Edges about three quarters as long
@@ -91,16 +86,16 @@ TriangleCounts counts(const Resolution& resolution, const Solid& hip_bone, const
 }
 
 std::string place(const Vec3& p) {
-  return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") mm";
+  return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", p.x(), p.y(), p.z());
 }
 
 /// What is wrong with a mesh, if anything.
 std::optional<std::string> defect(const TriMesh& mesh, int wanted_genus) {
   if (const int found = sample::genus(mesh); found != wanted_genus) {
-    return "has " + std::to_string(found) + " holes through it, not " + std::to_string(wanted_genus);
+    return fmt::format("has {} holes through it, not {}", found, wanted_genus);
   }
   if (const auto pair = sample::first_self_intersection(mesh)) {
-    return "runs into itself near " + place(mesh.corner(pair->first, 0));
+    return fmt::format("runs into itself near {}", place(mesh.corner(pair->first, 0)));
   }
   return std::nullopt;
 }
@@ -119,11 +114,11 @@ TriMesh checked_mesh(const char* name, const Solid& solid, Meshing meshing, std:
       if (!found) return mesh;
       why = *found;
     } catch (const MeshError& error) {
-      why = std::string("cannot be meshed: ") + error.what();
+      why = fmt::format("cannot be meshed: {}", error.what());
     }
     meshing.contour_spacing *= finer;
   }
-  throw UsageError(std::string("sample hip: with these parameters the ") + name + " " + why);
+  throw UsageError(fmt::format("sample hip: with these parameters the {} {}", name, why));
 }
 
 /// The vertex that comes nearest to the other bone's solid, by that bone's field.
@@ -155,8 +150,8 @@ SampleHip sample_hip(const HipParameters& parameters, const Resolution& resoluti
 
   for (const auto& [value, at] : {least_value(femur, hip.hip_bone), least_value(hip_bone, hip.femur)}) {
     if (value < least_clearance) {
-      throw UsageError("sample hip: with these parameters the bones touch in the neutral pose, near " +
-                       place(at));
+      throw UsageError(fmt::format(
+          "sample hip: with these parameters the bones touch in the neutral pose, near {}", place(at)));
     }
   }
   return hip;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "condyle/sample/skeleton.hpp"
 
@@ -13,6 +14,9 @@ constexpr double nominal_socket_radius = 27.5;
 
 /// Thickness of the socket's wall, mm at the nominal size: medial walls of 5 to 8 mm are usual.
 constexpr double socket_wall = 8;
+
+/// Width over which the edge between socket and rim is rounded, mm at the nominal size.
+constexpr double room_seam = 4;
 
 /// Room around the skeleton's sheet and ring for tips, seams and the socket's rim, mm at the nominal size.
 constexpr double room_around = 20;
@@ -78,7 +82,7 @@ struct HipBonePieces {
                                   Skeleton::chain(posterior_tip), Skeleton::chain(posterior_inferior_tip)};
   Socket socket;
   Ball notch_start, notch_end;
-  double scale;
+  double scale = 1;
 
   FieldValue operator()(const Vec3& p) const noexcept {
     const Vec3 nominal = p / scale;
@@ -95,7 +99,7 @@ struct HipBonePieces {
     // The head's room, open outwards: a bar from the centre along the opening keeps the way of the neck free.
     const Ball room = {Vec3::Zero(), socket.radius};
     const Ball way_out = {3 * socket.radius * socket.opening, socket.radius};
-    bone = without(bone, bar(room, way_out, p), 4 * scale);
+    bone = without(bone, bar(room, way_out, p), room_seam * scale);
     return without(bone, bar(notch_start, notch_end, p), 7 * scale);
   }
 };
@@ -109,8 +113,13 @@ Socket socket_of(const HipParameters& hip) noexcept {
   socket.radius = hip.head_radius_mm + hip.joint_space_mm;
   socket.opening = Vec3(std::sin(inclination) * std::sin(version), -std::cos(inclination),
                         std::sin(inclination) * std::cos(version));
-  // The rim plane passes through the socket's edge in the frontal plane.
-  socket.rim_offset = socket.radius * Vec3(0, std::cos(edge), std::sin(edge)).dot(socket.opening);
+  // The edge is where a radiograph shows it: in the middle of the rounded seam between socket and rim. There
+  // the rim is sunk by x below its plane: with seam s and depth s / 2 into it, x = s h^2 / 4 where h = 1 - (s
+  // / 2 - x) / s, hence x^2 - 3 s x + s^2 / 4 = 0.
+  const double seam = room_seam * socket.radius / nominal_socket_radius;
+  const double sunk = (1.5 - std::numbers::sqrt2) * seam;
+  const Vec3 roof = (socket.radius + seam / 2) * Vec3(0, std::cos(edge), std::sin(edge));
+  socket.rim_offset = roof.dot(socket.opening) + sunk;
   return socket;
 }
 

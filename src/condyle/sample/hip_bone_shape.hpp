@@ -15,9 +15,9 @@ namespace condyle::sample {
 ///            ` - _ .       rim plane: p . opening = rim_offset, behind the centre where the cover is less
 ///            than half
 struct Socket {
-  double radius;
-  Vec3 opening;
-  double rim_offset;
+  double radius = 0;
+  Vec3 opening = Vec3::UnitZ();
+  double rim_offset = 0;
 };
 Socket socket_of(const HipParameters&) noexcept;
 

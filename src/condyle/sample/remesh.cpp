@@ -1,5 +1,7 @@
 #include "condyle/sample/remesh.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,8 +92,7 @@ class Remesher {
       for (const auto& [negative_length, a, b] : longest) split(a, b);
     }
     if (mesh_.vertex_count() != vertex_count) {
-      throw MeshError("sample: the surface cannot be meshed with " + std::to_string(vertex_count) +
-                      " vertices");
+      throw MeshError(fmt::format("sample: the surface cannot be meshed with {} vertices", vertex_count));
     }
   }
 
