@@ -11,4 +11,8 @@ void print(std::string_view answer) {
   if (std::fflush(stdout) != 0 || !written) throw FileError("standard output: cannot be written");
 }
 
+void note(std::string_view remark) {
+  std::fprintf(stderr, "condyle: note: %.*s\n", static_cast<int>(remark.size()), remark.data());
+}
+
 }  // namespace condyle::cli

@@ -10,4 +10,7 @@ enum class AnswerForm { text, json };
 /// Writes an answer to standard output. Throws FileError where it cannot be written (closed, disk full).
 void print(std::string_view answer);
 
+/// Says something that is no answer and no error, as one line on standard error.
+void note(std::string_view remark);
+
 }  // namespace condyle::cli

@@ -14,16 +14,25 @@
 
 #include "answer.hpp"
 #include "condyle/core/error.hpp"
+#include "interrupt.hpp"
 #include "verbs.hpp"
 
 namespace {
 
 namespace cli = condyle::cli;
 
-enum ExitCode { answered = 0, bad_usage = 2, bad_file = 3, unfit_mesh = 4, internal_error = 5 };
+enum ExitCode {
+  answered = 0,
+  bad_usage = 2,
+  bad_file = 3,
+  unfit_mesh = 4,
+  internal_error = 5,
+  interrupted = 130
+};
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error.";
+    "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error, "
+    "130 interrupted.";
 
 /// A closed standard stream would give its number to the next file that is opened, and answers would be
 /// written into it. Opened for reading, the number is taken and writing still fails.
@@ -76,6 +85,7 @@ int run(int argc, char** argv) {
   cli::add_inspect(app);
   cli::add_frame(app);
   cli::add_depth(app);
+  cli::add_rom(app);
   cli::add_sample(app);
 
   try {
@@ -101,6 +111,8 @@ int main(int argc, char** argv) {
     return fail(bad_file, error.what());
   } catch (const condyle::MeshError& error) {
     return fail(unfit_mesh, error.what());
+  } catch (const cli::Interrupted& stopped) {
+    return fail(interrupted, stopped.what());
   } catch (const std::bad_alloc&) {
     return fail(internal_error, "out of memory");
   } catch (const std::exception& error) {

@@ -11,6 +11,7 @@ namespace condyle::cli {
 void add_inspect(CLI::App& app);
 void add_frame(CLI::App& app);
 void add_depth(CLI::App& app);
+void add_rom(CLI::App& app);
 void add_sample(CLI::App& app);
 
 }  // namespace condyle::cli

@@ -8,17 +8,10 @@
 
 #include "condyle/core/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/io/quoted.hpp"
 
 namespace condyle {
 namespace {
-
-/// As much of a user's text as a message may quote, on one line.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 60;
-  std::string out = "'";
-  for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  return out + (text.size() > longest ? "...'" : "'");
-}
 
 [[noreturn]] void fail(std::string_view text) {
   throw UsageError(fmt::format(

@@ -85,7 +85,7 @@ void draw_legend(SvgCanvas& canvas, const MapPlot& map, std::string_view at_star
   if (any_of_kind(map, MapPointKind::contact_at_start))
     entry(palette::light_grey, at_start, "in contact at the start already");
   if (any_of_kind(map, MapPointKind::end_of_range))
-    entry(sequential_colour(0.6), at_end, "end of the range asked for, no contact");
+    entry(sequential_colour(1), at_end, "end of the range asked for, no contact");
 }
 
 void draw_colour_bar(SvgCanvas& canvas, const Bands& bands, std::string_view quantity) {
@@ -108,7 +108,7 @@ void draw_contours(SvgCanvas& canvas, const MapPlot& map) {
   const std::vector<double> values = known_values(map);
   const PlotScale x = scale_over(map.x, left, right), y = scale_over(map.y, bottom, top);
   const Bands bands = bands_for(values);
-  const std::string at_start = canvas.hatch("#b5b5b5"), at_end = canvas.hatch("#ffffff");
+  const std::string at_start = canvas.hatch("#b5b5b5"), at_end = canvas.hatch("#555555");
 
   canvas.rectangle({left, top}, right - left, bottom - top, {.fill = palette::light_grey});
   canvas.rectangle({left, top}, right - left, bottom - top, {.fill = at_start});

@@ -26,7 +26,7 @@ struct MapPlot {
 };
 
 /// The map as filled contours with a colour bar, SVG text. Points in contact at the start are left out and
-/// hatched; where the range ends without contact the colour is hatched in white. A map of one row or column
+/// hatched; where the range ends without contact the colour is hatched. A map of one row or column
 /// has no area to fill and is drawn as a curve.
 std::string map_plot(const MapPlot& map);
 

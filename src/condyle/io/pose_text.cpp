@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "condyle/core/error.hpp"
+#include "condyle/io/quoted.hpp"
 
 namespace condyle {
 namespace {
@@ -28,14 +29,6 @@ constexpr std::array angle_names{
 };
 
 constexpr std::string_view separators = " \t\r\n,";
-
-/// What a message may quote of a text that can hold anything: its start, on one line.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::string out = "'";
-  for (const char c : text.substr(0, longest)) out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
-  return out + (text.size() > longest ? "...'" : "'");
-}
 
 const AngleName& angle_name(std::string_view name) {
   for (const AngleName& known : angle_names)
@@ -84,7 +77,7 @@ JointAngles parse_pose(std::string_view text, JointKind kind) {
 }
 
 std::string to_text(const JointAngles& angles) {
-  return fmt::format("flexion={} adduction={} internal_rotation={}", angles.flexion.degrees(),
+  return fmt::format("flexion={:.12g} adduction={:.12g} internal_rotation={:.12g}", angles.flexion.degrees(),
                      angles.adduction.degrees(), angles.internal_rotation.degrees());
 }
 

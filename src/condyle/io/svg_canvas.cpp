@@ -44,12 +44,12 @@ bool allowed_in_xml(std::string_view character) noexcept {
 }
 
 std::string point_text(ScreenPoint p) {
-  return svg_number(p.x) + "," + svg_number(p.y);
+  return fmt::format("{},{}", svg_number(p.x), svg_number(p.y));
 }
 
 std::string points_text(std::span<const ScreenPoint> points) {
   std::string text;
-  for (const ScreenPoint& p : points) text += (text.empty() ? "" : " ") + point_text(p);
+  for (const ScreenPoint& p : points) text += fmt::format("{}{}", text.empty() ? "" : " ", point_text(p));
   return text;
 }
 
@@ -179,7 +179,7 @@ void SvgCanvas::circle(ScreenPoint centre, double radius, const Ink& ink) {
 void SvgCanvas::region(std::span<const Ring> rings, const Ink& ink) {
   std::string path;
   for (const Ring& ring : rings)
-    if (!ring.empty()) path += "M" + points_text(ring) + "Z";
+    if (!ring.empty()) path += fmt::format("M{}Z", points_text(ring));
   if (!path.empty()) shape("path", fmt::format("d=\"{}\" fill-rule=\"evenodd\"", path), ink);
 }
 
@@ -210,7 +210,7 @@ std::string SvgCanvas::document() const {
       "role=\"img\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n",
       w, h);
   out += fmt::format("<title>{}</title>\n", xml_escaped(title_));
-  if (!definitions_.empty()) out += "<defs>\n" + definitions_ + "</defs>\n";
+  if (!definitions_.empty()) out += fmt::format("<defs>\n{}</defs>\n", definitions_);
   out += fmt::format("<rect width=\"{}\" height=\"{}\" fill=\"#ffffff\"/>\n", w, h);
   return out + body_ + "</svg>\n";
 }

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// How far a long computation is, on standard error. Short ones say nothing.
+
+namespace condyle::cli {
+
+/// Where progress is shown: a terminal has one line that is written over, anything else gets a line now and
+/// then.
+enum class ProgressPlace { terminal, log };
+
+/// The place that standard error is.
+ProgressPlace standard_error_place();
+
+/// Seconds still to go at the pace since the start, for work of which `before` was done when it started;
+/// nothing where there is no pace yet.
+std::optional<double> remaining_seconds(double elapsed_s, std::size_t before, std::size_t done,
+                                        std::size_t total);
+
+/// "40 s", "12 min", "3 h 05 min": to the precision that an estimate has.
+std::string duration_text(double seconds);
+
+/// Decides what to show and when: nothing for the first two seconds, then at most five times a second on a
+/// terminal, and every ten seconds in a log.
+class Progress {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Now = std::function<Clock::time_point()>;
+  using Show = std::function<void(std::string_view)>;
+
+  /// Shows on standard error.
+  Progress(std::string what, std::size_t before);
+  /// Shows elsewhere, by another clock.
+  Progress(std::string what, std::size_t before, ProgressPlace place, Now now, Show show);
+  /// Wipes the line on a terminal.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(std::size_t done, std::size_t total);
+
+ private:
+  std::string what_;
+  std::size_t before_;
+  ProgressPlace place_;
+  Now now_;
+  Show show_;
+  Clock::time_point start_, next_;
+  bool shown_ = false;
+};
+
+}  // namespace condyle::cli

@@ -1,0 +1,201 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/whole_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// An arm hanging from the joint centre and a post in front of it: flexion ends in closed form.
+class RomCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directory(here);
+    write_mesh(here / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    write_mesh(here / "arm.ply", box({-1, -100, -2}, {1, -10, 2}));
+    write_joint("arm.ply", "");
+  }
+  void write_joint(const std::string& mobile, const std::string& more) const {
+    std::ofstream(here / "joint.toml") << "condyle = 1\nname = \"arm and post\"\nkind = \"ball\"\n"
+                                          "side = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"post.ply\"\n"
+                                          "[mobile]\nmesh = \""
+                                       << mobile
+                                       << "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
+                                          "superior = [0, 1, 0]\n"
+                                       << more;
+  }
+  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
+  void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+    EXPECT_NE(ran.err.find(saying), ran.err.npos) << ran.err;
+    EXPECT_FALSE(fs::exists(here / "out")) << arguments;
+  }
+
+  static constexpr const char* small_map = " --map adduction=-10:10:5 internal_rotation=-20:20:10";
+  /// Hundreds of thousands of points: long enough to be interrupted, never finished here.
+  static constexpr const char* long_map = " --map adduction=-30:30:0.05 internal_rotation=-30:30:0.05";
+
+  const TemporaryFolder folder;
+  const fs::path here = folder / "in";
+};
+
+TEST_F(RomCommand, AnswersInTextAndJson) {
+  const Ran text = run("rom joint.toml");
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_EQ(text.err, "");
+  EXPECT_TRUE(text.out.starts_with("arm and post: "));
+  EXPECT_NE(text.out.find("external_rotation_at_90_flexion"), text.out.npos);
+
+  const Ran json = run("rom joint.toml --motion flexion --motion fadir --json");
+  EXPECT_EQ(json.exit_code, 0) << json.err;
+  const Json motions = Json::parse(json.out)["motions"];
+  ASSERT_EQ(motions.size(), 2u);
+  EXPECT_EQ(motions[0]["name"], "flexion");
+  EXPECT_EQ(motions[0]["reason"], "contact");
+  // The arm's lower front edge, (1, -100), meets the post's wall x = 40. Limits are within 4e-12 rad of the
+  // truth, 3e-10 degrees.
+  const double limit = std::asin(40 / std::hypot(1, 100)) - std::atan2(1, 100);
+  EXPECT_NEAR(motions[0]["limit_deg"].get<double>(), limit * 180 / std::acos(-1), 3e-10);
+  EXPECT_EQ(motions[1]["name"], "fadir");
+}
+
+TEST_F(RomCommand, ReadsMotionsOfTheJointFile) {
+  write_joint("arm.ply", "[[motion]]\nname = \"half_way\"\nvary = \"flexion\"\nrange = [0, 10]\n");
+  const Ran ran = run("rom joint.toml --motion half_way --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(Json::parse(ran.out)["motions"][0]["reason"], "end_of_range");
+  expect_refused(2, "rom joint.toml --motion halfway", "half_way");
+}
+
+TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
+  const std::string command = std::string("rom joint.toml --out out --json") + small_map;
+  const Ran ran = run(command);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(read_whole_file(here / "out/rom.json"), ran.out);
+  for (const char* name :
+       {"limits.csv", "limits.svg", "map.csv", "map_flexion.svg", "map_extension.svg", "map_free_range.svg"})
+    EXPECT_TRUE(fs::exists(here / "out" / name)) << name;
+  EXPECT_FALSE(fs::exists(here / "out/map.checkpoint"));
+  EXPECT_EQ(Json::parse(ran.out)["map"]["points"], 25);
+}
+
+TEST_F(RomCommand, GivesTheSameBytesOnOneThreadAndOnMany) {
+  for (const char* threads : {"1", "4"})
+    ASSERT_EQ(run(std::string("rom joint.toml --threads ") + threads + " --out out" + threads + small_map)
+                  .exit_code,
+              0);
+  for (const auto& entry : fs::directory_iterator(here / "out1"))
+    EXPECT_EQ(read_whole_file(entry.path()), read_whole_file(here / "out4" / entry.path().filename()))
+        << entry.path();
+}
+
+TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
+  expect_refused(2, "rom", "JOINT is required");
+  expect_refused(2, "rom joint.toml --motion fadirr --out out",
+                 "unknown motion \"fadirr\"; there are flexion, extension, ");
+  expect_refused(2, "rom joint.toml --out out --map flexion=10:0:1 adduction=0:1:1", "ends before it begins");
+  expect_refused(2, "rom joint.toml --out out --map flexion=0:99999:1 adduction=0:9999:1",
+                 "1000000000 points");
+  expect_refused(2, "rom joint.toml --out out --map flexion=0:10:0 adduction=0:1:1", "step");
+  expect_refused(2, "rom joint.toml --out out --map flexion=0:a:1 adduction=0:1:1", "'flexion=0:a:1'");
+  expect_refused(2, "rom joint.toml --out out --map flexion adduction=0:1:1", "'flexion'");
+  expect_refused(2, "rom joint.toml --out out --map tilt=0:1:1 adduction=0:1:1", "'tilt'");
+  expect_refused(2, "rom joint.toml --out out --map flexion=0:1:1", "--map");
+  expect_refused(2, "rom joint.toml --out out --map flexion=0:1:1 flexion=0:1:1", "named twice");
+  expect_refused(2, "rom joint.toml --out out --map flexion=0:1:1 adduction=0:1:1 --vary flexion",
+                 "named twice");
+  expect_refused(2, "rom joint.toml --out out --vary flexion", "--vary");
+  expect_refused(2, "rom joint.toml --out out --exclude-radius 0", "above 0 mm");
+}
+
+TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
+  std::ofstream(here / "file") << "in the way";
+  const Ran ran = run(std::string("rom joint.toml --out file") + long_map);
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+}
+
+TEST_F(RomCommand, BodiesInContactAtRestNeedAnOption) {
+  write_mesh(here / "fat.ply", box({-1, -100, -2}, {41, -10, 2}));
+  write_joint("fat.ply", "");
+  expect_refused(4, "rom joint.toml --out out", "in contact at rest");
+  const Ran ran = run("rom joint.toml --accept-rest --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json answer = Json::parse(ran.out);
+  EXPECT_EQ(answer["motions"][0]["reason"], "contact_at_start");
+  EXPECT_EQ(answer["motions"][0]["limit_deg"], 0.0);
+  EXPECT_FALSE(answer["terms"].empty());
+}
+
+/// Runs the command on one thread and ends it by SIGINT once it says how far its map is.
+Ran run_interrupted(const fs::path& folder, const std::string& arguments) {
+  const TemporaryFolder caught;
+  const std::string err = (caught / "err").string();
+  const std::string command = "cd '" + folder.string() + "' && { '" CONDYLE_COMMAND "' --threads 1 " +
+                              arguments + " >'" + (caught / "out").string() + "' 2>'" + err +
+                              "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -q 'map points' '" + err +
+                              "'; do sleep 0.1; done; kill -INT $p; wait $p; }";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_whole_file(caught / "out"),
+          read_whole_file(err)};
+}
+
+/// The last of the lines, without the progress before it.
+std::string last_line(const std::string& text) {
+  return text.substr(text.rfind('\n', text.size() - 2) + 1);
+}
+
+TEST_F(RomCommand, AnInterruptedMapIsKeptAndTheSameCommandGoesOn) {
+  const std::string command = std::string("rom joint.toml --motion flexion --out out") + long_map;
+  const Ran first = run_interrupted(here, command);
+  EXPECT_EQ(first.exit_code, 130) << first.err;
+  EXPECT_EQ(first.out, "");
+  EXPECT_TRUE(is_one_error_line(last_line(first.err))) << first.err;
+  EXPECT_NE(first.err.find("kept in out/map.checkpoint"), first.err.npos) << first.err;
+  ASSERT_TRUE(fs::exists(here / "out/map.checkpoint"));
+  EXPECT_FALSE(fs::exists(here / "out/rom.json"));
+  const auto kept = fs::file_size(here / "out/map.checkpoint");
+
+  const Ran second = run_interrupted(here, command);
+  EXPECT_EQ(second.exit_code, 130) << second.err;
+  EXPECT_GT(fs::file_size(here / "out/map.checkpoint"), kept);
+
+  // Another question says so and starts anew; having finished, it leaves no checkpoint.
+  const Ran other = run(std::string("rom joint.toml --motion flexion --out out") + small_map);
+  EXPECT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_NE(other.err.find("of another joint, mesh, grid or option"), other.err.npos) << other.err;
+  EXPECT_FALSE(fs::exists(here / "out/map.checkpoint"));
+}
+
+TEST_F(RomCommand, InterruptedWithoutAFolderSaysThatNothingIsKept) {
+  const Ran ran = run_interrupted(here, std::string("rom joint.toml") + long_map);
+  EXPECT_EQ(ran.exit_code, 130) << ran.err;
+  EXPECT_NE(ran.err.find("nothing is kept without --out"), ran.err.npos) << ran.err;
+}
+
+TEST_F(RomCommand, ADamagedCheckpointIsRefused) {
+  fs::create_directory(here / "out");
+  std::ofstream(here / "out/map.checkpoint") << "condyle map checkpoint 1\nrubbish that is long enough";
+  const Ran ran = run(std::string("rom joint.toml --out out") + small_map);
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+  EXPECT_NE(ran.err.find("map.checkpoint"), ran.err.npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace condyle::test

@@ -1,0 +1,234 @@
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "condyle/io/plot_clock_face.hpp"
+#include "condyle/io/plot_limits.hpp"
+#include "condyle/io/plot_map.hpp"
+#include "plot_svg_elements.hpp"
+
+namespace condyle::test {
+namespace {
+
+constexpr const char* footer = "osseous contact; research software, not a medical device";
+
+const PlotHeading heading{"Left hip <7> & co", "what is shown"};
+
+MotionLimit limit_of(std::string name, double degrees, LimitReason reason) {
+  MotionLimit limit;
+  limit.motion.name = std::move(name);
+  limit.turned = Angle::degrees(degrees);
+  limit.reason = reason;
+  return limit;
+}
+
+bool has_text(const std::string& document, const std::string& words) {
+  const auto texts = elements_named(document, "text");
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const auto& t) { return t.text.find(words) != t.text.npos; });
+}
+
+std::vector<SvgElement> filled(const std::string& document, const std::string& name, std::string_view fill) {
+  std::vector<SvgElement> out = elements_named(document, name);
+  std::erase_if(out, [&](const SvgElement& e) {
+    const auto at = e.attributes.find("fill");
+    return at == e.attributes.end() || at->second != fill;
+  });
+  return out;
+}
+
+/// Every drawing names the joint, says what it is not, and keeps its words inside.
+void expect_sober(const std::string& document) {
+  const auto elements = svg_elements(document);
+  ASSERT_FALSE(elements.empty()) << "not well-formed XML";
+  EXPECT_EQ(elements[0].attributes.at("viewBox").substr(0, 8), "0 0 800 ");
+  EXPECT_TRUE(has_text(document, "Left hip <7> & co"));
+  EXPECT_TRUE(has_text(document, footer));
+  for (const SvgElement& text : elements_named(document, "text")) {
+    if (text.attributes.contains("transform")) continue;
+    const double width = text_width(text.text, text.number("font-size"));
+    const std::string anchor = text.attributes.at("text-anchor");
+    const double left = text.number("x") - (anchor == "end" ? width : anchor == "middle" ? width / 2 : 0);
+    EXPECT_GE(left, 0) << text.text;
+    EXPECT_LE(left + width, 800) << text.text;
+    EXPECT_LE(text.number("y"), elements[0].number("height")) << text.text;
+  }
+}
+
+TEST(NormalHipRange, Is_given_where_the_source_has_a_value) {
+  EXPECT_EQ(normal_hip_range("flexion"), Angle::degrees(120));
+  EXPECT_EQ(normal_hip_range("extension"), Angle::degrees(30));
+  EXPECT_EQ(normal_hip_range("abduction"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("adduction"), Angle::degrees(30));
+  EXPECT_EQ(normal_hip_range("internal_rotation"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("external_rotation"), Angle::degrees(45));
+  for (const char* none : {"fadir", "faber", "internal_rotation_at_90_flexion", "my_motion", ""})
+    EXPECT_FALSE(normal_hip_range(none)) << none;
+}
+
+TEST(LimitsPlot, Draws_bars_to_scale_with_the_normal_range_behind) {
+  const std::vector limits{limit_of("flexion", 90, LimitReason::contact),
+                           limit_of("abduction", 60, LimitReason::end_of_range)};
+  const std::string plot = limits_plot(heading, limits);
+  expect_sober(plot);
+  const auto contact = filled(plot, "rect", palette::blue), ended = filled(plot, "rect", palette::grey);
+  auto normal = filled(plot, "rect", palette::light_grey);
+  ASSERT_EQ(contact.size(), 1u);
+  ASSERT_EQ(ended.size(), 1u);
+  ASSERT_EQ(normal.size(), 3u);  // one of them in the legend
+  // All widths are written to a hundredth of a pixel, so a ratio of two of some 200 px is right to 1e-4.
+  const double per_degree = contact[0].number("width") / 90;
+  EXPECT_NEAR(ended[0].number("width") / per_degree, 60, 0.01);
+  EXPECT_NEAR(normal[0].number("width") / per_degree, 120, 0.02);
+  EXPECT_NEAR(normal[1].number("width") / per_degree, 45, 0.01);
+  EXPECT_EQ(normal[0].number("x"), contact[0].number("x"));
+  EXPECT_TRUE(has_text(plot, "AAOS, Joint Motion: Method of Measuring and Recording, 1965"));
+  EXPECT_TRUE(has_text(plot, "90.00°"));
+  EXPECT_TRUE(has_text(plot, "degrees"));
+}
+
+TEST(LimitsPlot, Names_no_source_where_no_motion_has_one) {
+  const std::string plot = limits_plot(heading, std::vector{limit_of("fadir", 8, LimitReason::contact)});
+  expect_sober(plot);
+  EXPECT_TRUE(filled(plot, "rect", palette::light_grey).empty());
+  EXPECT_FALSE(has_text(plot, "AAOS"));
+}
+
+TEST(LimitsPlot, Stays_inside_its_canvas_for_many_motions_with_long_names) {
+  std::vector<MotionLimit> limits;
+  for (int i = 0; i < 40; ++i)
+    limits.push_back(limit_of(std::string(200, 'W') + std::to_string(i), 360, LimitReason::end_of_range));
+  expect_sober(limits_plot(heading, limits));
+  expect_sober(limits_plot(heading, {}));
+  expect_sober(limits_plot(heading, std::vector{limit_of("flexion", 0, LimitReason::contact_at_start)}));
+}
+
+MapPlot map_of(int columns, int rows, MapPointKind kind) {
+  MapPlot map{heading, "limit of internal rotation", "flexion, degrees", "adduction, degrees", {}, {}, {},
+              {}};
+  for (int i = 0; i < columns; ++i) map.x.push_back(10 * i - 20);
+  for (int j = 0; j < rows; ++j) map.y.push_back(5 * j - 40);
+  for (int k = 0; k < columns * rows; ++k) map.values.push_back(k), map.kinds.push_back(kind);
+  return map;
+}
+
+TEST(MapPlot, Is_well_formed_for_every_shape_and_kind) {
+  for (const MapPointKind kind :
+       {MapPointKind::contact, MapPointKind::end_of_range, MapPointKind::contact_at_start})
+    for (const int columns : {1, 2, 9})
+      for (const int rows : {1, 2, 7}) {
+        const std::string plot = map_plot(map_of(columns, rows, kind));
+        expect_sober(plot);
+        EXPECT_TRUE(has_text(plot, "limit of internal rotation, degrees") ||
+                    kind == MapPointKind::contact_at_start);
+      }
+}
+
+TEST(MapPlot, Fills_the_whole_plane_with_its_lowest_band) {
+  const std::string plot = map_plot(map_of(5, 4, MapPointKind::contact));
+  const auto bands = elements_named(plot, "path");
+  ASSERT_GT(bands.size(), 3u);
+  // The frame is 548 x 432 px from (92, 84); only its corners are left of the lowest band's outline.
+  EXPECT_EQ(bands[0].attributes.at("d"), "M92,516 640,516 640,84 92,84Z");
+  EXPECT_EQ(bands[0].attributes.at("fill"), "#440154");
+}
+
+TEST(MapPlot, Leaves_out_points_in_contact_at_the_start_and_says_so) {
+  MapPlot map = map_of(5, 4, MapPointKind::contact);
+  EXPECT_FALSE(has_text(map_plot(map), "in contact at the start"));
+  map.kinds[0] = MapPointKind::contact_at_start;
+  map.values[0] = 1e9;  // not read
+  const std::string plot = map_plot(map);
+  EXPECT_TRUE(has_text(plot, "in contact at the start"));
+  EXPECT_EQ(elements_named(plot, "path")[0].attributes.at("d"), "M92,372 229,516 640,516 640,84 92,84Z");
+}
+
+TEST(ClockFace, Puts_twelve_on_top_and_three_to_the_right) {
+  const std::vector<ClockContact> contacts{{"flexion", 0}, {"abduction", 3}, {"adduction", 7.5}};
+  const std::string plot = clock_face_plot(heading, contacts);
+  expect_sober(plot);
+  const auto face = filled(plot, "circle", "#f7f7f7");
+  auto marks = filled(plot, "circle", palette::blue);
+  ASSERT_EQ(face.size(), 1u);
+  ASSERT_EQ(marks.size(), 4u);  // one of them in the legend
+  const double x = face[0].number("cx"), y = face[0].number("cy"), r = face[0].number("r");
+  constexpr double written = 0.005 + 1e-9;  // px: two decimals
+  EXPECT_NEAR(marks[0].number("cx"), x, written);
+  EXPECT_NEAR(marks[0].number("cy"), y - r, written);
+  EXPECT_NEAR(marks[1].number("cx"), x + r, written);
+  EXPECT_NEAR(marks[1].number("cy"), y, written);
+  EXPECT_NEAR(marks[2].number("cx"), x - r * std::numbers::sqrt2 / 2, written);
+  EXPECT_NEAR(marks[2].number("cy"), y + r * std::numbers::sqrt2 / 2, written);
+}
+
+TEST(ClockFace, Names_hours_as_a_clock_does) {
+  EXPECT_EQ(clock_text(0), "12:00");
+  EXPECT_EQ(clock_text(1.5), "1:30");
+  EXPECT_EQ(clock_text(11.999), "12:00");
+  EXPECT_EQ(clock_text(9.1), "9:06");
+}
+
+RC_GTEST_PROP(ClockFace, Never_lets_two_labels_overlap, ()) {
+  std::vector<ClockContact> contacts;
+  const int count = *rc::gen::inRange(0, 30);
+  for (int i = 0; i < count; ++i)
+    contacts.push_back({"motion_number_" + std::to_string(i), *rc::gen::inRange(0, 120) / 10.0});
+  struct Label {
+    double y;
+    std::string anchor;
+  };
+  std::vector<Label> labels;
+  for (const SvgElement& text : elements_named(clock_face_plot(heading, contacts), "text"))
+    if (text.text.find("Motion number") != text.text.npos)
+      labels.push_back({text.number("y"), text.attributes.at("text-anchor")});
+  RC_ASSERT(labels.size() == contacts.size());
+  // Type of 12 px is no higher than 15 px with its descenders.
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (labels[i].anchor == labels[j].anchor) RC_ASSERT(std::abs(labels[i].y - labels[j].y) >= 15);
+}
+
+RC_GTEST_PROP(SpreadApart, Keeps_order_gap_and_bounds_and_no_other_heights_are_nearer, ()) {
+  std::vector<double> wanted;
+  const int count = *rc::gen::inRange(1, 8);
+  for (int i = 0; i < count; ++i) wanted.push_back(*rc::gen::inRange(0, 100));
+  std::sort(wanted.begin(), wanted.end());
+  constexpr double gap = 10, low = 0, high = 100, rounding = 1e-9;
+  const std::vector<double> heights = spread_apart(wanted, gap, low, high);
+  RC_ASSERT(heights.size() == wanted.size());
+  const auto allowed = [&](const std::vector<double>& h) {
+    for (std::size_t i = 0; i < h.size(); ++i) {
+      if (h[i] < low - rounding || h[i] > high + rounding) return false;
+      if (i > 0 && h[i] - h[i - 1] < gap - rounding) return false;
+    }
+    return true;
+  };
+  const auto cost = [&](const std::vector<double>& h) {
+    double sum = 0;
+    for (std::size_t i = 0; i < h.size(); ++i) sum += (h[i] - wanted[i]) * (h[i] - wanted[i]);
+    return sum;
+  };
+  RC_ASSERT(allowed(heights));
+  // The problem is convex: what no shift of any run of neighbours betters is best of all.
+  for (std::size_t first = 0; first < heights.size(); ++first)
+    for (std::size_t last = first; last < heights.size(); ++last)
+      for (const double shift : {-1.0, -0.01, 0.01, 1.0}) {
+        std::vector<double> other = heights;
+        for (std::size_t i = first; i <= last; ++i) other[i] += shift;
+        RC_ASSERT(!allowed(other) || cost(other) >= cost(heights) - rounding);
+      }
+}
+
+TEST(SpreadApart, Makes_the_gap_smaller_where_there_is_no_room) {
+  const std::vector<double> wanted(11, 50.0);
+  const std::vector<double> heights = spread_apart(wanted, 20, 0, 100);
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    EXPECT_NEAR(heights[i], 10.0 * static_cast<double>(i), 1e-9);
+  EXPECT_TRUE(spread_apart({}, 20, 0, 100).empty());
+}
+
+}  // namespace
+}  // namespace condyle::test

@@ -1,0 +1,145 @@
+#include "condyle/io/rom_result.hpp"
+
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "rom_scene.hpp"
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Numbers that no short decimal is equal to, and every kind of feature.
+std::vector<MotionLimit> some_limits() {
+  MotionLimit contact;
+  contact.motion = {"flexion",
+                    JointAngle::flexion,
+                    TurnSense::positive,
+                    {Angle::degrees(0.1), Angle::degrees(1.0 / 3), Angle::degrees(-7)},
+                    Angle::degrees(180)};
+  contact.turned = Angle::radians(1.2345678901234567);
+  contact.reason = LimitReason::contact;
+  contact.contact = {{FeatureKind::edge, 3, 17}, {FeatureKind::face, 40}, {0.1, 1.0 / 3, -2e-17}, {7, 8, 9}};
+  contact.articular = true;
+  contact.shortfall = Angle::radians(1.5e-12);
+  MotionLimit ended;
+  ended.motion = {
+      "own, \"odd\" motion", JointAngle::internal_rotation, TurnSense::negative, {}, Angle::degrees(40)};
+  ended.turned = Angle::degrees(40);
+  MotionLimit swallowed;
+  swallowed.motion = {"schön", JointAngle::adduction, TurnSense::negative, {}, Angle::degrees(90)};
+  swallowed.reason = LimitReason::contact_at_start;
+  return {contact, ended, swallowed};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
+  const Joint joint = arm_and_post();
+  const std::vector<MotionLimit> limits = some_limits();
+  const Json json = Json::parse(rom_json(
+      {joint, limits, ArticularRegion{26.5, ArticularCone{{0, 1, 0}, Angle::degrees(60)}}, {"a term"}}));
+  EXPECT_EQ(json["condyle"], 1);
+  EXPECT_EQ(json["joint"], "arm and post");
+  EXPECT_EQ(json["fixed"], "post");
+  EXPECT_EQ(json["mobile"], "arm");
+  EXPECT_EQ(json["side"], "right");
+  EXPECT_EQ(json["terms"], Json({"a term"}));
+  EXPECT_EQ(json["articular_region"]["radius_mm"], 26.5);
+  EXPECT_EQ(json["articular_region"]["cone"]["axis"], (Json{0.0, 1.0, 0.0}));
+  EXPECT_NE(json["scope"].get<std::string>().find("not a medical device"), std::string::npos);
+  EXPECT_FALSE(json.contains("map"));
+  ASSERT_EQ(json["motions"].size(), 3u);
+
+  const Json& flexion = json["motions"][0];
+  EXPECT_EQ(flexion["name"], "flexion");
+  EXPECT_EQ(flexion["limit_deg"].get<double>(), limits[0].turned.degrees());
+  EXPECT_EQ(flexion["reason"], "contact");
+  EXPECT_EQ(flexion["articular"], true);
+  EXPECT_EQ(flexion["contact_point_mm"], (Json{0.1, 1.0 / 3, -2e-17}));
+  EXPECT_EQ(flexion["contact_point_mobile_mm"], (Json{7.0, 8.0, 9.0}));
+  EXPECT_EQ(flexion["features"]["fixed"], (Json{{"kind", "edge"}, {"vertices", {3, 17}}}));
+  EXPECT_EQ(flexion["features"]["mobile"], (Json{{"kind", "face"}, {"id", 40}}));
+  EXPECT_EQ(flexion["shortfall_deg"].get<double>(), limits[0].shortfall.degrees());
+  EXPECT_EQ(flexion["vary"], "flexion");
+  EXPECT_EQ(flexion["sense"], "positive");
+  EXPECT_EQ(flexion["range_deg"].get<double>(), limits[0].motion.range.degrees());
+  EXPECT_EQ(flexion["start_deg"]["adduction"].get<double>(), limits[0].motion.start.adduction.degrees());
+  EXPECT_EQ(flexion["held_deg"].size(), 2u);
+  EXPECT_EQ(flexion["held_deg"]["internal_rotation"].get<double>(),
+            limits[0].motion.start.internal_rotation.degrees());
+  EXPECT_EQ(flexion["at_limit_deg"]["flexion"].get<double>(), limits[0].angles_at_limit().flexion.degrees());
+  EXPECT_EQ(flexion["certificate"], certificate_text(limits[0]));
+
+  const Json& ended = json["motions"][1];
+  EXPECT_EQ(ended["reason"], "end_of_range");
+  EXPECT_EQ(ended["at_limit_deg"]["internal_rotation"].get<double>(), -ended["limit_deg"].get<double>());
+  for (const char* key : {"articular", "contact_point_mm", "contact_point_mobile_mm", "features"})
+    EXPECT_TRUE(ended.at(key).is_null()) << key;
+  const Json& swallowed = json["motions"][2];
+  EXPECT_EQ(swallowed["reason"], "contact_at_start");
+  EXPECT_EQ(swallowed["limit_deg"], 0.0);
+  EXPECT_EQ(swallowed["articular"], false);
+  EXPECT_TRUE(swallowed["features"].is_null());
+}
+
+TEST(RomJson, IsValidWhateverBytesTheNamesHold) {
+  Joint joint = arm_and_post();
+  joint.name = "\xff\"\n";
+  std::vector<MotionLimit> limits = some_limits();
+  limits[0].motion.name = "\xc3";
+  EXPECT_TRUE(Json::accept(rom_json({joint, limits})));
+}
+
+TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
+  const Joint joint = arm_and_post();
+  const std::vector<MotionLimit> limits = some_limits();
+  const auto lines = lines_of(rom_csv({joint, limits}));
+  ASSERT_EQ(lines.size(), 4u);
+  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  EXPECT_EQ(commas(lines[1]), commas(lines[0]));
+  EXPECT_EQ(commas(lines[2]), commas(lines[0]) + 1);  // one in a quoted name
+  EXPECT_EQ(commas(lines[3]), commas(lines[0]));
+  EXPECT_TRUE(lines[2].starts_with("\"own, \"\"odd\"\" motion\",40,end_of_range,,"));
+  double turned = 0;
+  const char* digits = lines[1].c_str() + std::string("flexion,").size();
+  std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
+  EXPECT_EQ(turned, limits[0].turned.degrees());
+  EXPECT_TRUE(lines[1].ends_with(",edge 3-17,face 40"));
+}
+
+TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
+  const Joint joint = arm_and_post();
+  const std::vector<MotionLimit> limits = some_limits();
+  const auto lines = lines_of(rom_text({joint, limits, std::nullopt, {"left out: nothing"}}));
+  ASSERT_EQ(lines.size(), 8u);
+  EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
+  EXPECT_EQ(lines[2], "  left out: nothing");
+  // Column of the first letter of the reasons; an umlaut is two bytes and one letter.
+  const std::size_t column = lines[3].find("reason");
+  EXPECT_EQ(lines[4].find("contact, articular"), column);
+  EXPECT_EQ(lines[5].find("end of range, no contact"), column);
+  EXPECT_EQ(lines[6].find("in contact at start"), column + 1);
+  EXPECT_NE(lines[4].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
+  EXPECT_NE(lines[5].find(" 40.00 "), std::string::npos);
+}
+
+TEST(Certificate, SaysWhatEachReasonPromises) {
+  const auto limits = some_limits();
+  EXPECT_EQ(certificate_text(limits[0]),
+            "free before the limit; in contact at it or past it by at most 8.6e-11 deg");
+  EXPECT_EQ(certificate_text(limits[1]), "free over the whole range of 40 deg");
+  EXPECT_EQ(certificate_text(limits[2]), "in contact before any turn");
+}
+
+}  // namespace
+}  // namespace condyle::test
