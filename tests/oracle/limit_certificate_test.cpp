@@ -29,9 +29,9 @@ class LimitCertificate : public testing::TestWithParam<std::tuple<HipFiles, std:
 INSTANTIATE_TEST_SUITE_P(SharedData, LimitCertificate,
                          testing::Combine(testing::ValuesIn(hips),
                                           testing::Range<std::size_t>(0, hip_motions().size())),
-                         [](const auto& info) {
-                           return std::string(std::get<0>(info.param).name) + "_" +
-                                  hip_motions()[std::get<1>(info.param)].name;
+                         [](const auto& at) {
+                           return std::string(std::get<0>(at.param).name) + "_" +
+                                  hip_motions()[std::get<1>(at.param)].name;
                          });
 
 TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
@@ -63,7 +63,9 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
   for (int k = 0; k < poses_before; ++k)
     EXPECT_FALSE(touching(limit.turned * (static_cast<double>(k) / poses_before))) << "of 200: " << k;
   EXPECT_FALSE(touching(limit.turned - microdegree));
-  if (limit.reason == LimitReason::contact) EXPECT_TRUE(touching(limit.turned + microdegree));
+  if (limit.reason == LimitReason::contact) {
+    EXPECT_TRUE(touching(limit.turned + microdegree));
+  }
 }
 
 }  // namespace
