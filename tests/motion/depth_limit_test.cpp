@@ -24,8 +24,10 @@ Joint spike_and_wall() {
   const double deg = std::numbers::pi / 180;
   const Vec3 tip(tip_radius * std::sin(tip_angle * deg), -tip_radius * std::cos(tip_angle * deg), 0);
   TriMesh spike;
-  // A thin tetrahedron from near the centre to the tip.
-  for (const Vec3& p : {Vec3(0.5, 0, 0.3), Vec3(-0.5, 0, 0.3), Vec3(0, 0, -0.5), tip})
+  // A thin tetrahedron about the line from behind the centre to the tip: the centre is inside.
+  const Vec3 u = tip.normalized(), v(-u.y(), u.x(), 0), w(0, 0, 1);
+  for (const Vec3& p :
+       {Vec3(-2 * u + 0.5 * v), Vec3(-2 * u - 0.25 * v + 0.5 * w), Vec3(-2 * u - 0.25 * v - 0.5 * w), tip})
     spike.vertices.push_back(p);
   spike.triangles = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
   const Vec3 a = spike.corner(0, 0), n = (spike.corner(0, 1) - a).cross(spike.corner(0, 2) - a);
