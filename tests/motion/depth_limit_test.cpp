@@ -1,0 +1,126 @@
+#include "condyle/motion/depth_limit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condyle/core/error.hpp"
+#include "motion/joint_scenes.hpp"
+#include "support/test_meshes.hpp"
+
+/// Limits by allowed depth and the centre that follows the socket, where the depth is known.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+/// A spike on a wheel about Z: its tip, at radius 30 and 20 degrees from -Y, turns under a flat ceiling over
+/// it. Rays are radial, the ceiling's plane is x = 20, so at flexion f the tip is inside when 30 sin(20 + f)
+/// > 20, and its radial depth is 30 - 20 / sin(20 + f).
+constexpr double tip_radius = 30, tip_angle = 20, wall = 20;
+
+Joint spike_and_wall() {
+  const double deg = std::numbers::pi / 180;
+  const Vec3 tip(tip_radius * std::sin(tip_angle * deg), -tip_radius * std::cos(tip_angle * deg), 0);
+  TriMesh spike;
+  // A thin tetrahedron about the line from behind the centre to the tip: the centre is inside.
+  const Vec3 u = tip.normalized(), v(-u.y(), u.x(), 0), w(0, 0, 1);
+  for (const Vec3& p :
+       {Vec3(-2 * u + 0.5 * v), Vec3(-2 * u - 0.25 * v + 0.5 * w), Vec3(-2 * u - 0.25 * v - 0.5 * w), tip})
+    spike.vertices.push_back(p);
+  spike.triangles = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
+  const Vec3 a = spike.corner(0, 0), n = (spike.corner(0, 1) - a).cross(spike.corner(0, 2) - a);
+  if (n.dot(tip - a) > 0) spike = flipped(spike);
+  return {
+      "spike", JointKind::ball, Side::right, {"wall", box({wall, -80, -50}, {90, 80, 50})}, {"spike", spike}};
+}
+
+double limit_deg(double depth) {
+  return std::asin(wall / (tip_radius - depth)) * 180 / std::numbers::pi - tip_angle;
+}
+
+Motion flexion() {
+  return hip_motions().front();
+}
+
+TEST(DepthLimit, IsWhereTheRadialDepthIsTheAllowedOne) {
+  for (const double depth : {0.0, 0.25, 2.0}) {
+    const DepthLimit found = DepthRange(spike_and_wall(), {.depth_mm = depth}).limit(flexion());
+    EXPECT_EQ(found.limit.reason, LimitReason::contact);
+    // Allowed at the answer, too deep at most the tolerance after it.
+    EXPECT_LE(found.limit.turned.degrees(), limit_deg(depth) + 1e-9);
+    EXPECT_GE(found.limit.turned.degrees(), limit_deg(depth) - 1e-3 - 1e-9);
+    EXPECT_LE(found.at_limit.depth_mm, depth + 1e-9);
+    EXPECT_TRUE(found.depth_grows);
+    EXPECT_EQ(found.limit.contact->mobile_feature, (Feature{FeatureKind::vertex, 3}));
+    EXPECT_EQ(found.start_depth_mm, 0);
+  }
+}
+
+TEST(DepthLimit, WithNothingAllowedIsTheExactLimit) {
+  const Joint joint = spike_and_wall();
+  const MotionLimit exact = RangeOfMotion(joint).limit(flexion());
+  const DepthLimit found = DepthRange(joint, {.depth_mm = 0}).limit(flexion());
+  EXPECT_NEAR(found.limit.turned.degrees(), exact.turned.degrees(), 1e-3);
+}
+
+TEST(DepthLimit, TellsWhereTheStartIsTooDeepOrTheRangeEndsFirst) {
+  const Joint joint = spike_and_wall();
+  Motion late = flexion();
+  late.start.flexion = Angle::degrees(limit_deg(1));
+  const DepthLimit start = DepthRange(joint, {.depth_mm = 0.9}).limit(late);
+  EXPECT_EQ(start.limit.reason, LimitReason::contact_at_start);
+  EXPECT_NEAR(start.start_depth_mm, 1, 1e-9);
+  Motion brief = flexion();
+  brief.range = Angle::degrees(limit_deg(0.5));
+  const DepthLimit end = DepthRange(joint, {.depth_mm = 0.6}).limit(brief);
+  EXPECT_EQ(end.limit.reason, LimitReason::end_of_range);
+  EXPECT_EQ(end.limit.turned, brief.range);
+}
+
+TEST(DepthLimit, RefusesWhatItCannotAnswer) {
+  const Joint joint = spike_and_wall();
+  EXPECT_THROW(DepthRange(joint, {.depth_mm = -1}), UsageError);
+  EXPECT_THROW(DepthRange(joint, {.depth_mm = NAN}), UsageError);
+  EXPECT_THROW(DepthRange(joint, {.step = Angle()}), UsageError);
+  EXPECT_THROW(DepthRange(joint, {.tolerance = Angle::degrees(2)}), UsageError);
+  Joint open = joint;
+  open.fixed.mesh.triangles.pop_back();
+  EXPECT_THROW(DepthRange(open, {.depth_mm = 1}), MeshError);
+  EXPECT_THROW(DepthRange(joint, {.follow_socket = CentreRule{}}), MeshError) << "no head";
+}
+
+/// A ball of radius 20, off by `offset`, in the half shell of radius 23 about the origin.
+JointContact ball_in_socket(const Vec3& offset) {
+  return JointContact(socket({0, 0, 0}, 23, 28, 4), sphere(offset, 20, 4));
+}
+
+TEST(EvenJointSpace, BringsABallBackToTheMiddleOfItsSocket) {
+  // Both discretised spheres sag by up to edge^2 / (8 r): edges of 20 * pi/2 / 16 and 23 * pi/2 / 16 give
+  // 0.025 and 0.028 mm; a fit to either is off by no more than both.
+  const double sag = 0.053;
+  for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(0.7, -0.5, 0.3), Vec3(-1.2, 0.9, 0.6)}) {
+    const CentreShift shift = even_joint_space(ball_in_socket(offset), {22.5}, Pose::Identity());
+    EXPECT_LT((shift.translation + offset).norm(), 2 * sag);
+    EXPECT_NEAR(shift.gap_mm, 3, 2 * sag);
+    EXPECT_FALSE(shift.cut_back);
+    EXPECT_LE(shift.spread_after_mm, shift.spread_before_mm + 1e-12);
+  }
+}
+
+TEST(EvenJointSpace, IsCutBackToTheLargestShift) {
+  const CentreShift shift =
+      even_joint_space(ball_in_socket({1, 0, 0}), {22.5}, Pose::Identity(), {.largest_shift_mm = 0.25});
+  EXPECT_TRUE(shift.cut_back);
+  EXPECT_NEAR(shift.translation.norm(), 0.25, 1e-12);
+  EXPECT_LT(shift.translation.x(), -0.24);
+}
+
+TEST(EvenJointSpace, RefusesJointsWithoutASocket) {
+  const JointContact apart(box({100, 100, 100}, {110, 110, 110}), sphere({0, 0, 0}, 20, 3));
+  EXPECT_THROW(even_joint_space(apart, {22}, Pose::Identity()), MeshError);
+}
+
+}  // namespace
+}  // namespace condyle

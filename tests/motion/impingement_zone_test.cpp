@@ -1,0 +1,115 @@
+#include "condyle/motion/impingement_zone.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "condyle/core/error.hpp"
+#include "motion/joint_scenes.hpp"
+#include "support/test_meshes.hpp"
+
+/// Clock faces, necks and zones with known geometry.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+constexpr double deg = std::numbers::pi / 180;
+
+TEST(ClockFace, SaysTwelveForSuperiorAndThreeForAnterior) {
+  const ClockFace clock = sagittal_clock();
+  EXPECT_EQ(clock.hour_of({0, 1, 5}), 0);
+  EXPECT_DOUBLE_EQ(clock.hour_of({1, 0, -7}), 3);
+  EXPECT_DOUBLE_EQ(clock.hour_of({0, -1, 0}), 6);
+  EXPECT_DOUBLE_EQ(clock.hour_of({-2, 0, 0}), 9);
+  EXPECT_DOUBLE_EQ(clock.hour_of({1, 1, 0}), 1.5);
+  EXPECT_EQ(clock.hour_of({0, 0, 1}), 0) << "along the normal";
+}
+
+TEST(ClockFace, ReadsTheSameOnBothSidesOfTheBody) {
+  // An opening 40 degrees down and 15 forwards, right and mirrored left.
+  const Vec3 right(std::sin(15 * deg), -std::sin(40 * deg), std::cos(40 * deg)),
+      left(right.x(), right.y(), -right.z());
+  const ClockFace one = clock_face(right), other = clock_face(left), reversed = clock_face(-right);
+  for (int k = 0; k < 24; ++k) {
+    const double t = k * 15 * deg;
+    const Vec3 p = std::cos(t) * one.twelve + std::sin(t) * one.three + 3 * right;
+    EXPECT_NEAR(one.hour_of(p), k * 0.5, 1e-12);
+    EXPECT_NEAR(other.hour_of({p.x(), p.y(), -p.z()}), k * 0.5, 1e-12);
+    EXPECT_NEAR(reversed.hour_of(p), k * 0.5, 1e-12);
+  }
+  EXPECT_GT(one.twelve.y(), 0);
+  EXPECT_GT(one.three.x(), 0);
+}
+
+TEST(ClockFace, RefusesPlanesWithoutTwelveOrThree) {
+  for (const Vec3& normal : {Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(NAN, 0, 1)})
+    EXPECT_THROW(clock_face(normal), UsageError);
+}
+
+/// A head of radius 24 with a bar of half width 9 along the direction.
+TriMesh head_and_neck(const Vec3& direction) {
+  TriMesh bar = box({-9, -9, 10}, {9, 9, 80});
+  // Split along its length, so that triangles fit into the shell.
+  bar = TriMesh{};
+  for (int k = 0; k < 35; ++k) bar = joined(bar, box({-9, -9, 10. + 2 * k}, {9, 9, 12. + 2 * k}));
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), direction).toRotationMatrix();
+  return joined(sphere({0, 0, 0}, 24, 3), posed(X, bar));
+}
+
+TEST(NeckAxis, IsTheDirectionOfTheBarThatLeavesTheHead) {
+  for (const Vec3& d : {Vec3(0.2, -0.6, 0.77), Vec3(0, -1, 0), Vec3(-0.5, -0.5, -0.7)}) {
+    const auto neck = find_neck_axis(head_and_neck(d.normalized()), 24);
+    ASSERT_TRUE(neck);
+    // The bar's triangles are symmetric about its axis under a half turn in pairs of sides only: each square
+    // end is cut along one diagonal, but ends of neighbouring pieces lie on each other and their areas cancel
+    // across the axis to the corner triangles in the shell's border, below 2 mm of 34.
+    EXPECT_GT(neck->direction.dot(d.normalized()), std::cos(2.0 / 34));
+  }
+}
+
+TEST(NeckAxis, IsNotInventedForABall) {
+  EXPECT_FALSE(find_neck_axis(sphere({0, 0, 0}, 24, 3), 24));
+  EXPECT_FALSE(find_neck_axis(sphere({0, 0, 0}, 33, 3), 24)) << "a shell all around";
+}
+
+TEST(ImpingementZone, OfAnArmInAPostIsWhereTheyMeet) {
+  const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
+  const MotionLimit limit = RangeOfMotion(scene.joint).limit(hip_motions().front());
+  const auto zone = ZoneFinder(scene.joint, {.past = Angle::degrees(4)}).zone(limit);
+  ASSERT_TRUE(zone);
+  EXPECT_NEAR(*zone->contact_hour, std::atan2(post_x, post_y) / deg / 30, 1e-9);
+  ASSERT_TRUE(zone->fixed.centroid && zone->mobile.centroid);
+  // Areas and centroids once more, from the triangles named.
+  const TriMesh& mesh = scene.joint.fixed.mesh;
+  double area = 0;
+  for (const Index t : zone->fixed.triangles)
+    area += (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).norm() / 2;
+  EXPECT_NEAR(zone->fixed.area_mm2, area, 1e-9);
+  EXPECT_TRUE(std::is_sorted(zone->fixed.triangles.begin(), zone->fixed.triangles.end()));
+  // The arm (2 mm thick) passes through the post's faces; no vertex of either is in the other.
+  for (const double depth : zone->mobile.radial_depth_mm) EXPECT_EQ(depth, 0);
+  EXPECT_EQ(zone->fixed.radial_depth_mm.size(), mesh.vertices.size());
+  EXPECT_FALSE(zone->contact_neck_angle) << "an arm has no head and no neck";
+}
+
+TEST(ImpingementZone, ExistsOnlyWhereAMotionEndedByContact) {
+  const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
+  const ZoneFinder finder(scene.joint);
+  const RangeOfMotion range(scene.joint);
+  Motion brief = hip_motions().front();
+  brief.range = Angle::degrees(3);
+  EXPECT_FALSE(finder.zone(range.limit(brief)));
+}
+
+TEST(ImpingementZone, RefusesAnglesPastTheLimitThatMakeNoSense) {
+  const Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
+  for (const double past : {-1.0, 181.0, static_cast<double>(NAN)})
+    EXPECT_THROW(ZoneFinder(joint, {.past = Angle::degrees(past)}), UsageError);
+}
+
+}  // namespace
+}  // namespace condyle
