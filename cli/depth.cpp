@@ -38,8 +38,9 @@ struct Answer {
 
 Answer by_radial(const DepthQuestion& question, const JointContact& contact) {
   RadialContact found = contact.radial(question.X_FM);
-  return {depth_text(question, found), depth_json(question, found), depth_arrays(found.fixed_in_mobile),
-          depth_arrays(found.mobile_in_fixed), std::move(found.pairs)};
+  const RadialSummary summary = summarise(contact, question.X_FM, found);
+  return {depth_text(question, found, summary), depth_json(question, found, summary),
+          depth_arrays(found.fixed_in_mobile), depth_arrays(found.mobile_in_fixed), std::move(found.pairs)};
 }
 
 Answer by_tangential(const DepthQuestion& question, const JointContact& contact, JointAngle about) {

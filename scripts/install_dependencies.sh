@@ -1,14 +1,18 @@
 #!/usr/bin/env bash
-# Installs every Debian package that Condyle builds, tests and benchmarks with. Quick when nothing is missing.
+# Installs every Debian package that Condyle builds and tests with. Quick when nothing is missing.
+#   install_dependencies.sh           for make demo and make test
+#   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build ccache pkg-config
+  g++ cmake make ninja-build ccache pkg-config
   libeigen3-dev libtbb-dev libboost-dev              # the core
   libvtk9-dev libfmt-dev nlohmann-json3-dev          # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
   libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there and nowhere else
 )
+
+if [ "${1:-}" = clang ]; then packages+=(clang libclang-rt-14-dev clang-format); fi
 
 missing=()
 for package in "${packages[@]}"; do

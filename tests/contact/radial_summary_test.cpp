@@ -12,7 +12,7 @@ RadialBodySummary of_points(const std::vector<Vec3>& points) {
   const RadialTable table(test::box({-10, -10, 5}, {10, 10, 6}));
   Points query;
   for (const Vec3& p : points) query.push_back(p);
-  return summarise(table.query(query));
+  return summarise(table.query(query), query, table.mesh());
 }
 
 TEST(RadialSummary, CountsStatesAndFindsTheDeepestVertexAndTheSmallestGap) {
@@ -23,7 +23,8 @@ TEST(RadialSummary, CountsStatesAndFindsTheDeepestVertexAndTheSmallestGap) {
   ASSERT_TRUE(summary.deepest);
   EXPECT_EQ(summary.deepest->vertex, 3u);
   EXPECT_NEAR(summary.deepest->depth_mm, 0.5, 1e-15);
-  EXPECT_EQ(summary.applies(), DepthKind::radial);
+  EXPECT_EQ(summary.deepest->applies(), DepthKind::radial);
+  EXPECT_NEAR(summary.deepest->shortest_way_out_mm, 0.5, 1e-15);
   EXPECT_EQ(summary.min_gap_mm, 0);
   EXPECT_EQ(summary.oblique_inside, 0u);
 }
@@ -33,7 +34,7 @@ TEST(RadialSummary, AnObliqueDepthDoesNotHideTheDeepestOneThatMeansSomething) {
   const auto summary = of_points({{0, 0, 5.05}, {9.4, 0, 5.1}});
   ASSERT_TRUE(summary.deepest && summary.deepest_facing);
   EXPECT_EQ(summary.deepest->vertex, 1u);
-  EXPECT_EQ(summary.applies(), DepthKind::tangential);
+  EXPECT_EQ(summary.deepest->applies(), DepthKind::tangential);
   EXPECT_EQ(summary.oblique_inside, 1u);
   EXPECT_EQ(summary.deepest_facing->vertex, 0u);
   EXPECT_NEAR(summary.deepest_facing->depth_mm, 0.05, 1e-14);
@@ -43,7 +44,20 @@ TEST(RadialSummary, WithNothingAlongAnyRayThereIsNoGap) {
   const auto summary = of_points({{0, 0, -3}, {0, -3, -0.1}});
   EXPECT_FALSE(summary.min_gap_mm);
   EXPECT_FALSE(summary.deepest);
-  EXPECT_EQ(summary.applies(), DepthKind::radial);
+}
+
+TEST(RadialSummary, ADepthThroughTheFarEndOfANeckIsNotADepth) {
+  // The solid holds the centre, and a neck leads away from it; a point just inside the neck's wall leaves
+  // along its ray through the far end, whose surface faces the ray.
+  const RadialTable neck(test::box({-5, -5, -5}, {100, 5, 5}));
+  Points query;
+  query.push_back({30, 4.9, 0});
+  const auto summary = summarise(neck.query(query), query, neck.mesh());
+  ASSERT_TRUE(summary.deepest);
+  EXPECT_GT(summary.deepest->depth_mm, 0.6);
+  EXPECT_NEAR(summary.deepest->shortest_way_out_mm, 0.1, 1e-14);
+  EXPECT_EQ(summary.deepest->applies(), DepthKind::tangential);
+  EXPECT_FALSE(summary.deepest_facing);
 }
 
 }  // namespace

@@ -65,8 +65,8 @@ RC_GTEST_PROP(PoseText, WhatIsWrittenReadsBack, ()) {
   const auto angle = [] { return *rc::gen::inRange(-180000000, 180000001) * 1e-6; };
   const JointAngles angles = degrees(angle(), angle(), angle());
   const JointAngles back = parse_pose(to_text(angles), JointKind::ball);
-  // Radians to degrees and back: two roundings each way of at most pi.
-  const double tolerance = 4 * 0x1p-53 * 3.2;
+  // Half a unit of the twelfth digit of at most 180 degrees, and rounding far below it.
+  const double tolerance = 1.01 * Angle::degrees(0.5e-9).radians();
   RC_ASSERT(std::abs(back.flexion.radians() - angles.flexion.radians()) <= tolerance);
   RC_ASSERT(std::abs(back.adduction.radians() - angles.adduction.radians()) <= tolerance);
   RC_ASSERT(std::abs(back.internal_rotation.radians() - angles.internal_rotation.radians()) <= tolerance);

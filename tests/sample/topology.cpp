@@ -82,28 +82,4 @@ std::vector<double> smallest_angles_deg(const TriMesh& mesh) {
   return angles;
 }
 
-Vec3 section_centroid(const TriMesh& mesh, const Vec3& normal, double offset) {
-  // The cut is a set of segments, each with the solid on its left: area and moment are sums of the triangles
-  // they make with any fixed point of the plane.
-  const Vec3 base = offset * normal;
-  double area = 0;
-  Vec3 moment = Vec3::Zero();
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Vec3 up = base, down = base;
-    int cuts = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 p = mesh.corner(t, k), q = mesh.corner(t, (k + 1) % 3);
-      const double hp = p.dot(normal) - offset, hq = q.dot(normal) - offset;
-      if ((hp < 0) == (hq < 0)) continue;
-      (hp < 0 ? up : down) = p + hp / (hp - hq) * (q - p);
-      ++cuts;
-    }
-    if (cuts != 2) continue;
-    const double twice = (down - base).cross(up - base).dot(normal);
-    area += twice;
-    moment += twice * (base + up + down) / 3;
-  }
-  return moment / area;
-}
-
 }  // namespace condyle::test

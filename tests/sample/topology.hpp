@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "condyle/mesh/tri_mesh.hpp"
 
 namespace condyle::test {
@@ -16,8 +18,5 @@ Topology topology(const TriMesh& mesh);
 
 /// The smallest angle of every triangle in degrees, ascending.
 std::vector<double> smallest_angles_deg(const TriMesh& mesh);
-
-/// Centroid of the area in which the plane normal . p = offset cuts the solid, for a closed mesh.
-Vec3 section_centroid(const TriMesh& mesh, const Vec3& normal, double offset);
 
 }  // namespace condyle::test

@@ -239,6 +239,30 @@ TEST(RingTable, OneUnitInTheLastPlaceDecidesTheState) {
   }
 }
 
+TEST(RingTable, APointOnAFaceButForRoundingIsAsNearToItFromEitherSide) {
+  // Rounded onto the faces, points fall to either side by less than the crossing's angle is known: which
+  // side, the exact signs tell. Were one wrong, the whole circle would seem solid, or empty.
+  const TriMesh ball = test::sphere({12, 3, 1}, 7, 3);
+  std::mt19937 random(19);
+  std::uniform_real_distribution<double> weight(0, 0.5);
+  Points points;
+  for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
+    const Vec3 a = ball.corner(t, 0), b = ball.corner(t, 1), c = ball.corner(t, 2);
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    for (int i = 0; i < 20; ++i) {
+      const Vec3 p = a + weight(random) * (b - a) + weight(random) * (c - a);
+      // Crossed at no less than 30 degrees.
+      if (std::abs(normal.dot(Vec3(-p.y(), p.x(), 0).normalized())) > 0.5) points.push_back(p);
+    }
+  }
+  const auto hits = RingTable(ball, z_axis).query(points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_LT(std::abs(hits.angular_gap[i]), 2 * angle_error(19, axis_radius(points[i].x(), points[i].y())));
+  }
+  EXPECT_GT(std::count(hits.state.begin(), hits.state.end(), PointState::inside), 500);
+  EXPECT_GT(std::count(hits.state.begin(), hits.state.end(), PointState::outside), 500);
+}
+
 TEST(RingTable, CirclesThroughVerticesAlongEdgesAndWithinFacesAreThoseOfAllTriangles) {
   Points lattice;
   for (int x = -5; x <= 5; ++x) {

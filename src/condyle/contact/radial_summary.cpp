@@ -2,10 +2,13 @@
 
 #include <cmath>
 
+#include "condyle/mesh/surface_distance.hpp"
+
 namespace condyle {
 
-RadialBodySummary summarise(const RadialHits& hits) {
+RadialBodySummary summarise(const RadialHits& hits, PointsView points, const TriMesh& other) {
   RadialBodySummary summary;
+  std::optional<SurfaceDistance> distance;  // built where a vertex is inside
   const auto deepen = [](std::optional<DeepestVertex>& deepest, const DeepestVertex& candidate) {
     if (!deepest || candidate.depth_mm > deepest->depth_mm) deepest = candidate;
   };
@@ -14,9 +17,10 @@ RadialBodySummary summarise(const RadialHits& hits) {
     switch (hits.state[i]) {
       case PointState::inside: {
         ++summary.vertices_inside;
-        const DeepestVertex vertex{i, -gap, Angle::radians(hits.ray_to_normal[i])};
+        if (!distance) distance.emplace(other);
+        const DeepestVertex vertex{i, -gap, (*distance)(points[i]), Angle::radians(hits.ray_to_normal[i])};
         deepen(summary.deepest, vertex);
-        if (vertex.ray_to_normal > oblique_ray) {
+        if (vertex.applies() == DepthKind::tangential) {
           ++summary.oblique_inside;
         } else {
           deepen(summary.deepest_facing, vertex);
@@ -32,6 +36,19 @@ RadialBodySummary summarise(const RadialHits& hits) {
           summary.min_gap_mm = gap;
         break;
     }
+  }
+  return summary;
+}
+
+RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact) {
+  RadialSummary summary;
+  if (contact.mobile_in_fixed) {
+    summary.mobile =
+        summarise(*contact.mobile_in_fixed, posed(X_FM, joint.mobile().vertices.view()), joint.fixed());
+  }
+  if (contact.fixed_in_mobile) {
+    summary.fixed = summarise(*contact.fixed_in_mobile, posed(X_FM.inverse(), joint.fixed().vertices.view()),
+                              joint.mobile());
   }
   return summary;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact/radial_summary.hpp"
 #include "condyle/contact/tangential_contact.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/kinematics/joint.hpp"
@@ -25,11 +26,13 @@ struct TurnAxis {
 };
 
 /// The summary as JSON text, ending in a newline.
-std::string depth_json(const DepthQuestion& question, const RadialContact& contact);
+std::string depth_json(const DepthQuestion& question, const RadialContact& contact,
+                       const RadialSummary& summary);
 std::string depth_json(const DepthQuestion& question, const TurnAxis& axis, const TangentialContact& contact);
 
 /// The summary for people, a few lines.
-std::string depth_text(const DepthQuestion& question, const RadialContact& contact);
+std::string depth_text(const DepthQuestion& question, const RadialContact& contact,
+                       const RadialSummary& summary);
 std::string depth_text(const DepthQuestion& question, const TurnAxis& axis, const TangentialContact& contact);
 
 /// Point arrays of one body: inside, winding, triangle; radial_gap_mm and ray_to_normal_deg, or

@@ -77,7 +77,7 @@ JointAngles parse_pose(std::string_view text, JointKind kind) {
 }
 
 std::string to_text(const JointAngles& angles) {
-  return fmt::format("flexion={} adduction={} internal_rotation={}", angles.flexion.degrees(),
+  return fmt::format("flexion={:.12g} adduction={:.12g} internal_rotation={:.12g}", angles.flexion.degrees(),
                      angles.adduction.degrees(), angles.internal_rotation.degrees());
 }
 

@@ -14,7 +14,7 @@ namespace condyle {
 /// number, and on a hinge for angles other than flexion other than 0.
 JointAngles parse_pose(std::string_view text, JointKind kind);
 
-/// The pose as parse_pose() reads it back to the last bit of degrees: "flexion=90 adduction=-10
+/// The pose as parse_pose() reads it, in degrees with twelve digits: "flexion=90 adduction=-10
 /// internal_rotation=20".
 std::string to_text(const JointAngles& angles);
 

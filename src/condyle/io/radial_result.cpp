@@ -22,13 +22,9 @@ struct BodyView {
   Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices[vertex]); }
 };
 
-std::optional<RadialBodySummary> summary_of(const std::optional<RadialHits>& hits) {
-  return hits ? std::optional(summarise(*hits)) : std::nullopt;
-}
-
-std::array<BodyView, 2> views(const DepthQuestion& question, const RadialContact& contact) {
-  return {{{"mobile", question.joint.mobile, summary_of(contact.mobile_in_fixed), question.X_FM},
-           {"fixed", question.joint.fixed, summary_of(contact.fixed_in_mobile), Pose::Identity()}}};
+std::array<BodyView, 2> views(const DepthQuestion& question, const RadialSummary& summary) {
+  return {{{"mobile", question.joint.mobile, summary.mobile, question.X_FM},
+           {"fixed", question.joint.fixed, summary.fixed, Pose::Identity()}}};
 }
 
 /// The deepest vertex of either body.
@@ -66,10 +62,6 @@ std::optional<double> min_gap(const std::array<BodyView, 2>& bodies) {
   return gap;
 }
 
-DepthKind kind_to_read(const DeepestVertex& vertex) {
-  return vertex.ray_to_normal > oblique_ray ? DepthKind::tangential : DepthKind::radial;
-}
-
 Json body_json(const BodyView& view) {
   if (!view.summary) return nullptr;
   const RadialBodySummary& summary = *view.summary;
@@ -87,8 +79,9 @@ Json body_json(const BodyView& view) {
 
 }  // namespace
 
-std::string depth_json(const DepthQuestion& question, const RadialContact& contact) {
-  const auto bodies = views(question, contact);
+std::string depth_json(const DepthQuestion& question, const RadialContact& contact,
+                       const RadialSummary& summary) {
+  const auto bodies = views(question, summary);
   const auto& [mobile, fixed] = bodies;
   const auto deepest = deepest_of(bodies, any_angle), meaningful = deepest_of(bodies, facing);
   const auto inside = [](const BodyView& view) {
@@ -107,15 +100,17 @@ std::string depth_json(const DepthQuestion& question, const RadialContact& conta
   json["deepest_point_mm"] =
       deepest ? numbers(deepest->view->in_fixed_frame(deepest->vertex.vertex)) : Json(nullptr);
   json["deepest_ray_to_normal_deg"] = deepest ? Json(deepest->vertex.ray_to_normal.degrees()) : Json(nullptr);
-  json["depth_to_read"] = deepest ? Json(name_of(kind_to_read(deepest->vertex))) : Json(nullptr);
+  json["deepest_shortest_way_out_mm"] = deepest ? Json(deepest->vertex.shortest_way_out_mm) : Json(nullptr);
+  json["depth_to_read"] = deepest ? Json(name_of(deepest->vertex.applies())) : Json(nullptr);
   json["min_gap_mm"] = nullable(min_gap(bodies));
   for (const BodyView& view : bodies) json["bodies"][view.key] = body_json(view);
   json["scope"] = scope_note;
   return json.dump(2) + "\n";
 }
 
-std::string depth_text(const DepthQuestion& question, const RadialContact& contact) {
-  const auto bodies = views(question, contact);
+std::string depth_text(const DepthQuestion& question, const RadialContact& contact,
+                       const RadialSummary& summary) {
+  const auto bodies = views(question, summary);
   std::string text = depth_headline(question, contact.in_contact, contact.pairs.size());
   for (const BodyView& view : bodies) {
     if (!view.summary) {
@@ -129,14 +124,15 @@ std::string depth_text(const DepthQuestion& question, const RadialContact& conta
     text += fmt::format(
         "  deepest: {:.3f} mm along the ray, vertex {} of {}, at ({:.2f}, {:.2f}, {:.2f}) mm\n",
         deepest->vertex.depth_mm, deepest->vertex.vertex, deepest->view->body.name, p.x(), p.y(), p.z());
-    if (kind_to_read(deepest->vertex) == DepthKind::tangential) {
+    if (deepest->vertex.applies() == DepthKind::tangential) {
       text += fmt::format(
-          "  that ray grazes the surface, {:.0f} deg from its normal: read the tangential depth there "
-          "(--method tangential)\n",
-          deepest->vertex.ray_to_normal.degrees());
+          "  there it is a length along the bone, not a depth: the nearest surface is {:.3f} mm away; read "
+          "the "
+          "tangential depth (--method tangential)\n",
+          deepest->vertex.shortest_way_out_mm);
       if (const auto meaningful = deepest_of(bodies, facing)) {
         text +=
-            fmt::format("  deepest where the ray faces the surface: {:.3f} mm, vertex {} of {}\n",
+            fmt::format("  deepest where the surface faces the ray: {:.3f} mm, vertex {} of {}\n",
                         meaningful->vertex.depth_mm, meaningful->vertex.vertex, meaningful->view->body.name);
       }
     }

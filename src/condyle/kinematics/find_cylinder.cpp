@@ -80,16 +80,19 @@ std::optional<Cylinder> through(const SurfacePoint& p, const SurfacePoint& q, co
   return Cylinder{p.position - s * p.normal, a, radius};
 }
 
-/// `count` positions spread evenly over the area, the same for the same points.
+/// About `count` positions spread evenly over the area, the same for the same points. A point with the area
+/// of several steps is taken once.
 std::vector<Index> spread_evenly(const std::vector<SurfacePoint>& points, std::size_t count) {
   double total = 0;
   for (const SurfacePoint& p : points) total += p.area;
+  const double step = total / static_cast<double>(count);
   std::vector<Index> out;
-  double sum = 0;
+  double sum = 0, due = step / 2;
   for (std::size_t i = 0; i < points.size(); ++i) {
     sum += points[i].area;
-    const double due = (static_cast<double>(out.size()) + 0.5) * total / static_cast<double>(count);
-    if (sum >= due) out.push_back(static_cast<Index>(i));
+    if (sum < due) continue;
+    out.push_back(static_cast<Index>(i));
+    due += step * (std::floor((sum - due) / step) + 1);
   }
   return out;
 }

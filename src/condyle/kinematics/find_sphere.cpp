@@ -240,6 +240,7 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
     message << "no spherical " << (search.part == SphericalPart::head ? "head" : "socket")
             << " with a radius from " << search.smallest_radius << " to " << search.largest_radius
             << " mm among " << points.size() << " vertices";
+    if (search.part == SphericalPart::head) message << " (a mesh wound inside out has sockets for heads)";
     throw MeshError(message.str());
   }
   const auto best = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {

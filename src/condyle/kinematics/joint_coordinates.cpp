@@ -33,9 +33,11 @@ double sense(Side side) noexcept {
   return side == Side::right ? 1.0 : -1.0;
 }
 
-/// The angle of (x, y) in (-180, 180] degrees: atan2 with -180 given as 180, and -0 taken as 0.
+/// The angle of (x, y) in (-180, 180] degrees: atan2 with -180 given as 180, and -0 taken as 0. Extended
+/// precision as above.
 Angle angle_of(double y, double x) noexcept {
-  const double radians = std::atan2(y + 0.0, x);
+  const auto radians =
+      static_cast<double>(std::atan2(static_cast<long double>(y + 0.0), static_cast<long double>(x)));
   return Angle::radians(radians == -std::numbers::pi ? std::numbers::pi : radians);
 }
 
@@ -58,7 +60,7 @@ JointAngles angles_at(Side side, const Pose& X_FM) noexcept {
   // Column 1 is (-sf ca, cf ca, sa) and row 2 is (-ca sr, sa, ca cr). With f known, row 0 of R_z(-f) R =
   // R_x(a) R_y(r) is (cr, 0, sr): well conditioned even where f itself is not, so that the three always
   // reproduce R.
-  const double ca = std::hypot(R(0, 1), R(1, 1));
+  const double ca = std::sqrt(R(0, 1) * R(0, 1) + R(1, 1) * R(1, 1));
   const Angle adduction = angle_of(R(2, 1), ca);
   // Rounding leaves up to 4u in entries that would be 0 at the gimbal pose: an f from those would be noise.
   if (ca <= 4 * rounding_unit) return {angle_of(R(1, 0), R(0, 0)), adduction * sense(side), Angle()};

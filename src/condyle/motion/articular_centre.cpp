@@ -20,11 +20,13 @@ constexpr double smallest_spread = 0.005;
 constexpr double settled = 1e-6;
 constexpr int most_rounds = 20;
 
-/// Biweight constant: 95 % of the efficiency of least squares on normal residuals, none of its fear of
-/// others.
-constexpr double biweight_reach = 4.685;
-/// Of the weights, at each pose.
-constexpr int weight_rounds = 10;
+/// Residual from which a vertex pulls with a constant force instead of a growing one, in mm: about the
+/// roughness of a segmented joint surface.
+constexpr double rough_mm = 0.3;
+/// Pull of a gap that is too wide, relative to one that is too narrow.
+constexpr double pull_of_wide = 1.0 / 3;
+/// Of the weights at each pose, until they settle.
+constexpr int weight_rounds = 30;
 
 /// The rays and gaps of the head's vertices that face the socket.
 struct JointSpace {
@@ -78,12 +80,11 @@ Evened even(const JointSpace& space) {
   Evened best = as_it_is(space);
   for (int round = 0; round < weight_rounds; ++round) {
     const std::vector<double> r = residuals(space, best);
-    const double reach = biweight_reach * detail::robust_deviation(r);
-    if (!(reach > 0)) break;
     Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
     Eigen::Vector4d right = Eigen::Vector4d::Zero();
     for (std::size_t i = 0; i < r.size(); ++i) {
-      const double x = r[i] / reach, weight = std::abs(x) < 1 ? (1 - x * x) * (1 - x * x) : 0;
+      const double weight =
+          (r[i] > 0 ? pull_of_wide : 1) * std::min(1.0, rough_mm / std::max(std::abs(r[i]), rough_mm));
       const Vec3& u = space.rays[i];
       const Eigen::Vector4d row(u.x(), u.y(), u.z(), 1);
       normal += weight * row * row.transpose();

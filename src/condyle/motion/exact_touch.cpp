@@ -160,7 +160,8 @@ Touches vertex_meets_face(const Triple<double>& vertex, const Corners& face, Bra
 
 Touches edges_meet(const std::array<Triple<double>, 4>& ends, const Triple<double>& across,
                    const Triple<double>& across_turning, Branch branch) {
-  const auto [a, b, c, d] = integers<4>(ends);
+  const auto points = integers<4>(ends);
+  const Point &a = points[0], &b = points[1], &c = points[2], &d = points[3];
   const Point u = b - a, w = d - c;
   Touches touches;
   touches.exact_decisions = 1;
@@ -182,7 +183,8 @@ Touches edges_meet(const std::array<Triple<double>, 4>& ends, const Triple<doubl
 }
 
 Touches edges_meet_in_plane(const std::array<Triple<double>, 4>& ends) {
-  const auto [a, b, c, d] = integers<4>(ends);
+  const auto points = integers<4>(ends);
+  const Point &a = points[0], &b = points[1], &c = points[2], &d = points[3];
   Touches touches;
   add_passes(a, c, d, touches, false);
   add_passes(b, c, d, touches, false);

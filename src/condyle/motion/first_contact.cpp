@@ -195,7 +195,8 @@ TouchingFeatures touching(const RotationTable& resting, TurningBody& turning, co
 Limit limit_in(TurnDirection direction, double range, const RotationTable& resting, TurningBody& turning,
                TurnWork& work) {
   const double sign = static_cast<double>(direction);
-  const auto found = Search(resting, turning, direction, range, work).run();
+  std::optional<Found> found;
+  if (range > 0) found = Search(resting, turning, direction, range, work).run();
   if (!found) return {Angle::radians(sign * range), LimitReason::end_of_range, std::nullopt, Angle()};
   const double turn = sign * found->angle;
   return {Angle::radians(turn), LimitReason::contact, touching(resting, turning, *found, turn),

@@ -66,7 +66,8 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
   const Vec3 p = body.mesh.vertices[summary.deepest->vertex];
   return body.name + " vertex " + std::to_string(summary.deepest->vertex) + " at (" + number(p.x()) + ", " +
          number(p.y()) + ", " + number(p.z()) + ") mm is " + number(summary.deepest->depth_mm) +
-         " mm inside " + other.name + " along its ray";
+         " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_way_out_mm) +
+         " mm from its surface";
 }
 
 }  // namespace
@@ -91,13 +92,15 @@ PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options)
 }
 
 std::string explain_overlap(const Joint& joint, const JointAngles& at) {
-  const RadialContact contact =
-      JointContact(joint.fixed.mesh, joint.mobile.mesh).radial(pose_at(joint.side, at));
+  const JointContact bodies(joint.fixed.mesh, joint.mobile.mesh);
+  const Pose X_FM = pose_at(joint.side, at);
+  const RadialContact contact = bodies.radial(X_FM);
+  const RadialSummary summary = summarise(bodies, X_FM, contact);
   std::string text = joint.mobile.name + " and " + joint.fixed.name +
                      " are in contact at rest: " + std::to_string(contact.pairs.size()) +
                      " pairs of triangles meet";
-  const auto mobile = contact.mobile_in_fixed ? summarise(*contact.mobile_in_fixed) : RadialBodySummary{};
-  const auto fixed = contact.fixed_in_mobile ? summarise(*contact.fixed_in_mobile) : RadialBodySummary{};
+  const RadialBodySummary mobile = summary.mobile.value_or(RadialBodySummary{});
+  const RadialBodySummary fixed = summary.fixed.value_or(RadialBodySummary{});
   const double mobile_depth = mobile.deepest ? mobile.deepest->depth_mm : 0;
   const double fixed_depth = fixed.deepest ? fixed.deepest->depth_mm : 0;
   if (mobile.deepest && mobile_depth >= fixed_depth) {

@@ -42,6 +42,10 @@ struct BoundedRoots {
   double error = 0;
 };
 
+/// Far above what coefficients lose where their products underflow, far below any that matter; its own square
+/// is still a normal number.
+constexpr double underflow = 0x1p-450;
+
 /// Let |T^(t) - T(t)| <= E at all t. T^ has r^ and C^; where |C^| > r^ + E, T has no root. Where S^2 = r^2 -
 /// C^2 >= 16 r E, each root t of T^ has exactly one of T within h = 2 E / S: with T^(t + h) = C (1 - cos h)
 /// -+ S sin h, |T^(t +- h)| >= S sin h - r h^2 / 2 >= 1.97 E - 0.13 E > E, so T changes sign between, and the
@@ -49,10 +53,10 @@ struct BoundedRoots {
 BoundedRoots bounded_roots(const TurnFunction<double>& T, double E) noexcept {
   const double r2 = T.A * T.A + T.B * T.B, r = std::sqrt(r2);
   // Forming S from r and C moves a root by less than 4 u r / S: as if E were this much larger.
-  const double total = E + 8 * rounding_unit * r;
+  const double total = E + 8 * rounding_unit * r + underflow;
   if (std::abs(T.C) > r + total) return {};
   const double S2 = (r - T.C) * (r + T.C);
-  if (!(S2 > 16 * r * total) || !(r2 > filter_floor)) return {BoundedRoots::State::unclear, {}, {}, 0};
+  if (!(S2 > 16 * r * total)) return {BoundedRoots::State::unclear, {}, {}, 0};
   const double S = std::sqrt(S2), scale = 1 / r2;
   return {BoundedRoots::State::two,
           {(-T.A * T.C - T.B * S) * scale, (-T.B * T.C + T.A * S) * scale},
@@ -123,7 +127,7 @@ TurnWindow::TurnWindow(double last, double side) noexcept : side_(side) {
 }
 
 Touches vertex_meets_face(const Point& p, const Corners& face, const TurnWindow& window) {
-  const auto& [a, b, c] = face;
+  const Point &a = face[0], &b = face[1], &c = face[2];
   const bool face_across_axis = a.z == b.z && b.z == c.z, on_axis = p.x == 0 && p.y == 0;
   if (face_across_axis || on_axis) return {};
   const Point ab = b - a, ac = c - a, normal = cross(ab, ac);

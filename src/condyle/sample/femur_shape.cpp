@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "condyle/sample/skeleton.hpp"
+
 namespace condyle::sample {
 namespace {
 
@@ -14,6 +16,9 @@ constexpr Angle shaft_lean = Angle::degrees(7);
 /// Head radius at which the lengths below were chosen, mm.
 constexpr double nominal_head_radius = 24;
 
+/// Anteversion at which the trochanters' places below were chosen.
+constexpr Angle nominal_anteversion = Angle::degrees(15);
+
 /// Room around the balls for filled seams, mm at the nominal size.
 constexpr double room_around = 10;
 
@@ -21,7 +26,7 @@ constexpr double room_around = 10;
 struct FemurPieces {
   Ball head;
   Ball neck_inside_head, neck_upper_foot, neck_lower_foot;
-  Ball shaft_top, shaft_waist, shaft_end;
+  Skeleton shaft;
   Ball greater_tip, greater_side, greater_back;
   Ball lesser, lesser_root;
   Vec3 distal;
@@ -29,12 +34,11 @@ struct FemurPieces {
   double scale;
 
   FieldValue operator()(const Vec3& p) const noexcept {
-    FieldValue bone = bar(shaft_top, shaft_waist, p);
-    bone = joined(bone, bar(shaft_waist, shaft_end, p), 4 * scale);
+    FieldValue bone = shaft(p);
     bone = joined(bone, plate(greater_tip, greater_side, greater_back, p), 14 * scale);
     bone = joined(bone, bar(lesser_root, lesser, p), 12 * scale);
     bone = joined(bone, bar(greater_back, lesser, p), 10 * scale);
-    bone = joined(bone, plate(neck_inside_head, neck_upper_foot, neck_lower_foot, p), 14 * scale);
+    bone = joined(bone, plate(neck_inside_head, neck_upper_foot, neck_lower_foot, p), 10 * scale);
     bone = joined(bone, ball(head, p), 7 * scale);
     return common(bone, half_space(distal, cut, p), 8 * scale);
   }
@@ -73,23 +77,24 @@ Solid femur_shape(const HipParameters& hip) {
   femur.cut = (axes.foot + hip.shaft_length_mm * axes.distal).dot(axes.distal);
   femur.head = {Vec3::Zero(), hip.head_radius_mm};
   femur.neck_inside_head = {0.3 * hip.head_radius_mm * axes.neck, neck_radius};
-  femur.neck_upper_foot = {axes.foot - 0.8 * neck_radius * across, neck_radius};
-  femur.neck_lower_foot = {axes.foot + 0.8 * neck_radius * across, neck_radius};
-  femur.shaft_top = at(4, 0, 0, 17);
-  femur.shaft_waist = at(-55, 0, 0, 14);
-  femur.shaft_end = {axes.foot + (hip.shaft_length_mm + 10 * scale) * axes.distal, 13.5 * scale};
-  femur.greater_tip = at(33, -10, 9, 9);
-  femur.greater_side = at(8, -3, 14, 12);
-  femur.greater_back = at(18, -14, 8, 10);
+  femur.neck_upper_foot = {axes.foot - 0.5 * neck_radius * across, neck_radius};
+  femur.neck_lower_foot = {axes.foot + 0.5 * neck_radius * across, neck_radius};
+  // Widest below the trochanters; its lower end lies beyond the cut.
+  const Ball shaft_end = {axes.foot + (hip.shaft_length_mm + 10 * scale) * axes.distal, 13.5 * scale};
+  const std::array<Ball, 3> shaft = {at(4, 0, 0, 17), at(-50, 0, 0, 13.5), shaft_end};
+  femur.shaft = Skeleton::chain(shaft);
+  femur.greater_tip = at(31, -12, 13, 9);
+  femur.greater_side = at(8, -3, 15, 12);
+  femur.greater_back = at(16, -15, 10, 9.5);
   femur.lesser_root = at(-16, -8, -10, 10);
   femur.lesser = at(-17, -14, -17, 7.5);
 
-  const std::array<Ball, 10> balls = {
-      femur.head,      femur.neck_upper_foot, femur.neck_lower_foot, femur.shaft_top,    femur.shaft_waist,
-      femur.shaft_end, femur.greater_tip,     femur.greater_side,    femur.greater_back, femur.lesser};
+  const std::array<Ball, 9> balls = {
+      femur.head,        femur.neck_upper_foot, femur.neck_lower_foot, shaft[0],    shaft_end,
+      femur.greater_tip, femur.greater_side,    femur.greater_back,    femur.lesser};
   const Box box = box_around(balls);
   const Vec3 room = Vec3::Constant(room_around * scale);
-  return {femur, {box.low - room, box.high + room}};
+  return {femur, {box.low - room, box.high + room}, {}};
 }
 
 }  // namespace condyle::sample

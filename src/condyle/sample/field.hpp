@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "condyle/core/vec3.hpp"
 
@@ -28,16 +29,17 @@ struct Box {
   Vec3 low, high;
 };
 
-/// A solid and a box around it, with some room to spare.
-struct Solid {
-  Field field;
-  Box box;
-};
-
 /// A sphere of the skeleton that a piece of bone is stretched over.
 struct Ball {
   Vec3 centre;
   double radius;
+};
+
+/// A solid, a box around it with some room to spare, and the places with details smaller than elsewhere.
+struct Solid {
+  Field field;
+  Box box;
+  std::vector<Ball> details;
 };
 
 /// A box around balls and what is stretched over them.

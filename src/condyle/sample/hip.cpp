@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -56,13 +57,22 @@ void check_count(const char* name, std::size_t triangles, std::size_t low) {
                    std::to_string(high));
 }
 
-/// Edges about three quarters as long within the joint as elsewhere: flat triangles cut corners off head and
-/// socket, which are only some millimetres apart.
-Meshing meshing_for(double sphere_radius, double contour_spacing, std::size_t least_base) {
-  const auto sizing = [sphere_radius](const Vec3& p) {
-    constexpr double in_joint = 0.75, transition_mm = 20, rim_mm = 5;
-    return in_joint +
-           (1 - in_joint) * std::clamp((p.norm() - sphere_radius - rim_mm) / transition_mm, 0.0, 1.0);
+/// Wanted edge lengths, relative to the smooth parts far from the joint. Edges about three quarters as long
+/// in the joint: flat triangles cut corners off head and socket, which are only some millimetres apart. Half
+/// as long at small details: a cap that a single triangle covers would never be found by midpoints laid on
+/// the surface.
+Meshing meshing_for(const Solid& solid, double sphere_radius, double contour_spacing,
+                    std::size_t least_base) {
+  const auto sizing = [details = solid.details, sphere_radius](const Vec3& p) {
+    constexpr double in_joint = 0.75, at_detail = 0.5, transition_mm = 20, rim_mm = 5;
+    const auto grown = [](double from, double distance) {
+      return from + (1 - from) * std::clamp(distance / transition_mm, 0.0, 1.0);
+    };
+    double size = grown(in_joint, p.norm() - sphere_radius - rim_mm);
+    for (const auto& [centre, radius] : details) {
+      size = std::min(size, grown(at_detail, (p - centre).norm() - radius));
+    }
+    return size;
   };
   return {sizing, contour_spacing, least_base};
 }
@@ -84,25 +94,36 @@ std::string place(const Vec3& p) {
   return "(" + text(p.x()) + ", " + text(p.y()) + ", " + text(p.z()) + ") mm";
 }
 
-TriMesh checked_mesh(const char* name, const Solid& solid, const Meshing& meshing, std::size_t triangles,
-                     int wanted_genus) {
-  const auto impossible = [&](const std::string& why) {
-    return UsageError(std::string("sample hip: with these parameters the ") + name + " " + why);
-  };
-  TriMesh mesh;
-  try {
-    mesh = sample::meshed(solid, meshing, triangles);
-  } catch (const MeshError& error) {
-    throw impossible(std::string("cannot be meshed: ") + error.what());
-  }
+/// What is wrong with a mesh, if anything.
+std::optional<std::string> defect(const TriMesh& mesh, int wanted_genus) {
   if (const int found = sample::genus(mesh); found != wanted_genus) {
-    throw impossible("has " + std::to_string(found) + " holes through it, not " +
-                     std::to_string(wanted_genus));
+    return "has " + std::to_string(found) + " holes through it, not " + std::to_string(wanted_genus);
   }
   if (const auto pair = sample::first_self_intersection(mesh)) {
-    throw impossible("runs into itself near " + place(mesh.corner(pair->first, 0)));
+    return "runs into itself near " + place(mesh.corner(pair->first, 0));
   }
-  return mesh;
+  return std::nullopt;
+}
+
+/// Coarse triangles may happen to cut across a sharp lip; from another contour they fall differently. Defects
+/// that the parameters cause come up every time.
+TriMesh checked_mesh(const char* name, const Solid& solid, Meshing meshing, std::size_t triangles,
+                     int wanted_genus) {
+  constexpr int attempts = 4;
+  constexpr double finer = 0.9;
+  std::string why;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    try {
+      TriMesh mesh = sample::meshed(solid, meshing, triangles);
+      const auto found = defect(mesh, wanted_genus);
+      if (!found) return mesh;
+      why = *found;
+    } catch (const MeshError& error) {
+      why = std::string("cannot be meshed: ") + error.what();
+    }
+    meshing.contour_spacing *= finer;
+  }
+  throw UsageError(std::string("sample hip: with these parameters the ") + name + " " + why);
 }
 
 /// The vertex that comes nearest to the other bone's solid, by that bone's field.
@@ -123,8 +144,8 @@ SampleHip sample_hip(const HipParameters& parameters, const Resolution& resoluti
   // The thinnest parts, the wing and the ischial spine, are three times as thick as the lattice is wide.
   const double contour_spacing = 2.5 * parameters.head_radius_mm / 24;
   const Meshing hip_bone_meshing =
-      meshing_for(parameters.head_radius_mm + parameters.joint_space_mm, contour_spacing, 2000);
-  const Meshing femur_meshing = meshing_for(parameters.head_radius_mm, contour_spacing, 1200);
+      meshing_for(hip_bone, parameters.head_radius_mm + parameters.joint_space_mm, contour_spacing, 2000);
+  const Meshing femur_meshing = meshing_for(femur, parameters.head_radius_mm, contour_spacing, 1200);
 
   const TriangleCounts count = counts(resolution, hip_bone, hip_bone_meshing, femur, femur_meshing);
   check_count("hip bone", count.hip_bone, 1600);

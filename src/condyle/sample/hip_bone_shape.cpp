@@ -52,20 +52,20 @@ constexpr std::array<std::array<Index, 3>, 26> ilium_plates = {
 /// From the body down the pubis, round below the obturator hole, and up the ischium to the body again.
 const std::array<Ball, 13> pubis_and_ischium = {{
     {{6, 22, -14}, 11},
-    {{14, 8, -33}, 11},  // iliopubic eminence
-    {{23, -2, -50}, 9},  // superior ramus
-    {{31, -11, -68}, 8.5},
-    {{36, -20, -90}, 10.5},  // body of the pubis
-    {{25, -42, -90}, 9},
-    {{5, -43, -75}, 8},  // inferior ramus
-    {{-12, -54, -57}, 8},
-    {{-30, -66, -42}, 12.5},  // ischial tuberosity
-    {{-46, -46, -27}, 12},
-    {{-42, -20, -23}, 11},
-    {{-32, 2, -18}, 13},
+    {{14, 8, -33}, 11},    // iliopubic eminence
+    {{22, -3, -50}, 9.5},  // superior ramus
+    {{30, -12, -68}, 9},
+    {{35, -20, -88}, 12},  // body of the pubis
+    {{25, -39, -90}, 11},
+    {{6, -43, -75}, 8.5},  // inferior ramus
+    {{-10, -53, -58}, 9},
+    {{-29, -62, -42}, 14},  // ischial tuberosity
+    {{-44, -44, -27}, 14},
+    {{-41, -20, -23}, 12.5},
+    {{-32, 2, -18}, 14},
     {{-22, 24, -12}, 13},
 }};
-const std::array<Ball, 3> ischial_spine = {{{{-34, 12, -22}, 11}, {{-46, 4, -31}, 6.5}, {{-57, 0, -38}, 4}}};
+const std::array<Ball, 3> ischial_spine = {{{{-34, 12, -22}, 11}, {{-45, 4, -30}, 8}, {{-55, 0, -37}, 5.5}}};
 /// Tips that the sheet's border would round off.
 const std::array<Ball, 2> anterior_tip = {{{{40, 72, 31}, 6.5}, {{51, 63, 36}, 5.5}}};
 const std::array<Ball, 2> posterior_tip = {{{{-86, 97, -39}, 7}, {{-99, 92, -44}, 5.5}}};
@@ -77,7 +77,7 @@ struct HipBonePieces {
   std::array<Skeleton, 4> tips = {Skeleton::chain(ischial_spine), Skeleton::chain(anterior_tip),
                                   Skeleton::chain(posterior_tip), Skeleton::chain(posterior_inferior_tip)};
   Socket socket;
-  Vec3 notch_start, notch_end;
+  Ball notch_start, notch_end;
   double scale;
 
   FieldValue operator()(const Vec3& p) const noexcept {
@@ -87,15 +87,16 @@ struct HipBonePieces {
     bone.value *= scale;
 
     const Ball shell = {Vec3::Zero(), socket.radius + socket_wall * scale};
-    const FieldValue cup =
-        common(ball(shell, p), half_space(socket.opening, socket.rim_offset, p), 6 * scale);
-    bone = joined(bone, cup, 10 * scale);
+    bone = joined(bone, ball(shell, p), 10 * scale);
+    // The rim: what stands beyond its plane goes, out to somewhat more than the shell.
+    const Ball around_rim = {Vec3::Zero(), shell.radius + 4 * scale};
+    const FieldValue beyond_rim = half_space(-socket.opening, -socket.rim_offset, p);
+    bone = without(bone, common(ball(around_rim, p), beyond_rim, 4 * scale), 6 * scale);
     // The head's room, open outwards: a bar from the centre along the opening keeps the way of the neck free.
     const Ball room = {Vec3::Zero(), socket.radius};
     const Ball way_out = {3 * socket.radius * socket.opening, socket.radius};
     bone = without(bone, bar(room, way_out, p), 4 * scale);
-    const Ball notch_in = {notch_start, 8 * scale}, notch_out = {notch_end, 10 * scale};
-    return without(bone, bar(notch_in, notch_out, p), 5 * scale);
+    return without(bone, bar(notch_start, notch_end, p), 7 * scale);
   }
 };
 
@@ -121,13 +122,17 @@ Solid hip_bone_shape(const HipParameters& hip) {
   const Vec3 down(0.15, -1, 0);
   const Vec3 notch = (down - down.dot(bone.socket.opening) * bone.socket.opening).normalized();
   const Vec3 level = bone.socket.rim_offset * bone.socket.opening;
-  bone.notch_start = level + 0.7 * bone.socket.radius * notch;
-  bone.notch_end = level + 1.6 * bone.socket.radius * notch;
+  bone.notch_start = {level + 0.7 * bone.socket.radius * notch, 8 * bone.scale};
+  bone.notch_end = {level + 1.6 * bone.socket.radius * notch, 10 * bone.scale};
 
   const Box sheet = box_around(bone.ilium_sheet.balls()), ring = box_around(bone.ring.balls());
   const Vec3 room = Vec3::Constant(room_around);
   const Vec3 low = sheet.low.cwiseMin(ring.low) - room, high = sheet.high.cwiseMax(ring.high) + room;
-  return {bone, {bone.scale * low, bone.scale * high}};
+  const Ball& tip = ischial_spine.back();
+  const Ball lips = {level + 1.2 * bone.socket.radius * notch, 12 * bone.scale};
+  return {bone,
+          {bone.scale * low, bone.scale * high},
+          {{bone.scale * tip.centre, 2 * bone.scale * tip.radius}, lips}};
 }
 
 }  // namespace condyle::sample

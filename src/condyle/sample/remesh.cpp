@@ -136,14 +136,16 @@ class Remesher {
   bool collapse(const EdgeStar& edge) {
     if (!mesh_.can_collapse(edge)) return false;
     const Vec3 p = laid_on(solid_, (mesh_.position(edge.a) + mesh_.position(edge.b)) / 2);
-    if (!stays_unfolded(edge.a, edge.b, p) || !stays_unfolded(edge.b, edge.a, p)) return false;
+    const Vec3 outward = solid_(p).gradient.normalized();
+    if (!stays_unfolded(edge.a, edge.b, p, outward) || !stays_unfolded(edge.b, edge.a, p, outward))
+      return false;
     mesh_.collapse(edge, p);
     return true;
   }
 
-  /// Whether the triangles at v, but for those at `other`, keep facing outwards when v moves to p.
-  bool stays_unfolded(Index v, Index other, const Vec3& p) const {
-    const Vec3 outward = solid_(p).gradient.normalized();
+  /// Whether the triangles at v, but for those at `other`, keep facing outwards when v moves to p, where the
+  /// surface's normal is `outward`.
+  bool stays_unfolded(Index v, Index other, const Vec3& p, const Vec3& outward) const {
     for (const Index t : mesh_.around(v)) {
       auto corners = mesh_.triangle(t);
       if (std::find(corners.begin(), corners.end(), other) != corners.end()) continue;
@@ -196,7 +198,7 @@ class Remesher {
     const Vec3 outward = solid_(now).gradient.normalized();
     const Vec3 pull = sum / total - now;
     const Vec3 p = laid_on(solid_, now + (pull - pull.dot(outward) * outward));
-    if (stays_unfolded(v, no_index, p)) mesh_.move(v, p);
+    if (stays_unfolded(v, no_index, p, solid_(p).gradient.normalized())) mesh_.move(v, p);
   }
 
   /// Cosine of 10 degrees: a triangle with a smaller angle than that is a sliver.

@@ -11,9 +11,8 @@
 namespace condyle::sample {
 namespace {
 
-/// Subdivisions of a skeleton: 16 plates per control triangle, 4 bars per control bar. Two leave dihedral
-/// angles of a few degrees, less than the meshes made from them show.
-constexpr int levels = 2;
+/// Subdivisions: with one less, the finest meshes show the facets of the wing and the joints of the rami.
+constexpr int sheet_levels = 3, chain_levels = 4;
 
 Ball operator+(const Ball& a, const Ball& b) {
   return {a.centre + b.centre, a.radius + b.radius};
@@ -94,9 +93,9 @@ Skeleton Skeleton::chain(std::span<const Ball> control) {
   assert(control.size() >= 2);
   Skeleton chain;
   chain.balls_.assign(control.begin(), control.end());
-  for (int level = 0; level < levels; ++level) chain.balls_ = subdivided_chain(chain.balls_);
+  for (int level = 0; level < chain_levels; ++level) chain.balls_ = subdivided_chain(chain.balls_);
   for (Index i = 0; i + 1 < chain.balls_.size(); ++i) chain.pieces_.push_back({i, i + 1, i + 1});
-  chain.group(std::size_t{1} << levels);
+  chain.group(std::size_t{1} << chain_levels);
   return chain;
 }
 
@@ -104,9 +103,9 @@ Skeleton Skeleton::sheet(std::span<const Ball> control, std::span<const std::arr
   Skeleton sheet;
   sheet.balls_.assign(control.begin(), control.end());
   Triangles split(triangles.begin(), triangles.end());
-  for (int level = 0; level < levels; ++level) subdivide_sheet(sheet.balls_, split);
+  for (int level = 0; level < sheet_levels; ++level) subdivide_sheet(sheet.balls_, split);
   for (const auto& [a, b, c] : split) sheet.pieces_.push_back({a, b, c});
-  sheet.group(std::size_t{1} << (2 * levels));
+  sheet.group(std::size_t{1} << (2 * sheet_levels));
   return sheet;
 }
 
@@ -153,7 +152,7 @@ FieldValue Skeleton::operator()(const Vec3& p) const noexcept {
     const double here = bound(groups_[g]);
     if (here < least) least = here, first = g;
   }
-  visit(groups_[first]);
+  if (!groups_.empty()) visit(groups_[first]);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (g != first && bound(groups_[g]) < nearest.value) visit(groups_[g]);
   }

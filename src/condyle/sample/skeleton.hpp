@@ -13,6 +13,9 @@ namespace condyle::sample {
 /// its pieces share balls and slope gently into each other.
 class Skeleton {
  public:
+  /// Nothing: infinitely far from everywhere.
+  Skeleton() = default;
+
   /// A bent bar: cubic B-spline through the control balls, radii included, which starts and ends in the first
   /// and last one. At least two balls.
   static Skeleton chain(std::span<const Ball> control);

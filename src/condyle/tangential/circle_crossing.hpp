@@ -54,10 +54,14 @@ struct Circle {
   Vec3 centre() const noexcept { return {0, 0, point.z()}; }
 };
 
-/// The piece of a triangle at the circle's height, walked with the solid on its left (seen from +z).
+/// The piece of a triangle at the circle's height, walked from p to q with the solid on its left (seen from
+/// +z).
 ///
-///          p --------> q        solid
-///        lower          \       -----
+///          upper         upper
+///            |             |          solid: beyond the page
+///     -------p------------>q-------   z = h
+///            |             |          outside: this side of it
+///          lower         lower
 ///
 /// Each end lies on an edge of the triangle, from `lower` (below the height) to `upper` (at it or above), and
 /// is computed from lower to upper: both triangles at the edge get the same bits. Ends err by at most 12u
@@ -74,7 +78,8 @@ struct CircleCut {
 /// Appends the crossings of the circle with one triangle, in no order: none, one or two. Which ones there
 /// are, and on which side of the point each lies, is exact for the doubles given. Angles err by at most e /
 /// (rho sin g), with e = 17u scale the error of an end and g the angle at which circle and triangle meet; in
-/// the worst case, touching, by sqrt(2 e / rho): some 1e-14 of a radian seldom, 1e-7 at a touch.
+/// the worst case, touching, by sqrt(2 e / rho). At rho = scale that is some 1e-14 of a radian, and 1e-7 at a
+/// touch.
 void add_crossings(const Circle& circle, const std::array<Vec3, 3>& triangle, Index number,
                    std::vector<CircleCrossing>& out, TangentialWork& work);
 

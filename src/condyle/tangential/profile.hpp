@@ -66,8 +66,8 @@ struct RadiusInterval {
   double low, high;
 };
 
-/// Some of the rows' height, clipped from a convex planar figure: at most the corners of a triangle and two
-/// per cut.
+/// A convex planar figure, or what is left of it between two heights: a triangle's three corners and one more
+/// for each cut, with two to spare.
 struct ProfilePolygon {
   std::array<Vec3, 7> corner;
   int count = 0;
@@ -103,10 +103,10 @@ void for_each_profile_run(const ProfileGrid& grid, const ProfilePolygon& polygon
   // Heights that fall in row r: a difference, a quotient and the product below, each rounded once, leave it
   // by less than 8u of the largest height.
   const double slack = 8 * rounding_unit * (std::abs(grid.z_min) + std::abs(grid.z_max));
-  const bool reaches_below = z_low<grid.z_min, reaches_above = z_high> grid.z_max;
+  const bool reaches_beyond = z_low < grid.z_min || z_high > grid.z_max;
   for (Index row = first; row <= last; ++row) {
     RadiusInterval radii;
-    if (first == last && !reaches_below && !reaches_above) {
+    if (first == last && !reaches_beyond) {
       radii = radius_interval(polygon);
     } else {
       const double low = grid.z_min + row * grid.z_cell - slack;

@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Makes the built-in sample hip and asks it a handful of poses. Results go to out/demo.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+condyle=build/release/condyle
+out=out/demo
+
+"$condyle" sample hip --scenario 2 --out "$out/sample"
+echo
+while IFS='|' read -r name pose; do
+  "$condyle" depth "$out/sample/hip.toml" --pose "$pose" --out "$out/$name"
+done <<'POSES'
+neutral|
+sitting|flexion=90
+deep_flexion|flexion=140
+flexion_adduction_internal_rotation|flexion=110 adduction=15 internal_rotation=35
+extension_external_rotation|extension=25 external_rotation=50
+abduction|abduction=65
+POSES
+
+echo
+echo "The same deep pose by the tangential method, about the flexion axis:"
+"$condyle" depth "$out/sample/hip.toml" --pose "flexion=140" --method tangential --out "$out/deep_flexion_tangential"
+
+echo
+echo "Results are in $out, a folder for each pose: fixed.vtp and mobile.vtp (open them in ParaView or 3D Slicer),"
+echo "pairs.csv and depth.json. The joint itself is $out/sample/hip.toml."
+echo "Osseous contact only: soft tissue is not modelled. Research software, not a medical device."

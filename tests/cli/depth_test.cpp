@@ -1,0 +1,240 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/contact/joint_contact.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/kinematics/joint_coordinates.hpp"
+#include "condyle/sample/hip.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr const char* deep = "--pose \"flexion=130 internal_rotation=20\"";
+const JointAngles deep_angles{Angle::degrees(130), {}, Angle::degrees(20)};
+
+/// The sample hip as `condyle sample hip` writes it, in the folder `sample`: made once, copied for each test.
+class SampleJoint : public ::testing::Test {
+ protected:
+  SampleJoint() {
+    static const TemporaryFolder once;
+    static const Ran made_once = run_condyle(once.path(), "sample hip --out sample");
+    made = made_once;
+    if (made.exit_code == 0) fs::copy(once / "sample", folder / "sample");
+  }
+  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
+  Json answer(const std::string& arguments) const {
+    const Ran ran = run(arguments + " --json");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.err, "");
+    return Json::parse(ran.out);
+  }
+  void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
+    const std::size_t before = count_entries(folder.path());
+    const Ran ran = run(arguments);
+    EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+    EXPECT_NE(ran.err.find(saying), ran.err.npos) << ran.err;
+    EXPECT_EQ(count_entries(folder.path()), before) << arguments;
+  }
+  void edit_joint(std::string_view from, std::string_view to) const {
+    std::ifstream in(folder / "sample/hip.toml");
+    std::string text((std::istreambuf_iterator<char>(in)), {});
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(folder / "sample/hip.toml") << text;
+  }
+
+  const TemporaryFolder folder;
+  Ran made;
+};
+
+TEST_F(SampleJoint, IsWrittenWithTheCountsOfItsScenario) {
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  const TriMesh femur = read_mesh(folder / "sample/femur.ply").mesh;
+  const TriMesh hip_bone = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  EXPECT_EQ(femur.vertices.size(), 773u);
+  EXPECT_EQ(femur.triangles.size(), 1542u);
+  EXPECT_EQ(hip_bone.vertices.size(), 1221u);
+  EXPECT_EQ(hip_bone.triangles.size(), 2442u);
+}
+
+TEST_F(SampleJoint, DepthIsWhatTheLibraryFinds) {
+  const Json json = answer(std::string("depth sample/hip.toml ") + deep);
+  const JointContact joint(read_mesh(folder / "sample/hip_bone.ply").mesh,
+                           read_mesh(folder / "sample/femur.ply").mesh);
+  const RadialContact contact = joint.radial(pose_at(Side::right, deep_angles));
+  const auto inside = [](const RadialHits& hits) {
+    return std::count(hits.state.begin(), hits.state.end(), PointState::inside);
+  };
+  EXPECT_TRUE(json["in_contact"]);
+  EXPECT_EQ(json["mobile_vertices_inside"], inside(*contact.mobile_in_fixed));
+  EXPECT_EQ(json["fixed_vertices_inside"], inside(*contact.fixed_in_mobile));
+  EXPECT_GT(json["mobile_vertices_inside"], 0);
+  EXPECT_EQ(json["triangle_pairs"], contact.pairs.size());
+  const RadialHits& deepest =
+      json["deepest_body"] == "mobile" ? *contact.mobile_in_fixed : *contact.fixed_in_mobile;
+  EXPECT_EQ(json["max_radial_depth_mm"], -deepest.radial_gap[json["deepest_vertex"].get<std::size_t>()]);
+  EXPECT_EQ(json["deepest_point_mm"].size(), 3u);
+  EXPECT_LE(json["max_facing_radial_depth_mm"], json["max_radial_depth_mm"]);
+  EXPECT_GT(json["min_gap_mm"], 0);
+}
+
+TEST_F(SampleJoint, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
+  const Json json = answer("depth sample/hip.toml");
+  EXPECT_FALSE(json["in_contact"]);
+  EXPECT_EQ(json["mobile_vertices_inside"], 0);
+  EXPECT_EQ(json["triangle_pairs"], 0);
+  EXPECT_EQ(json["max_radial_depth_mm"], 0);
+  EXPECT_TRUE(json["deepest_vertex"].is_null());
+  EXPECT_TRUE(json["deepest_point_mm"].is_null());
+  // A joint space of 3.5 mm between surfaces of flat triangles.
+  EXPECT_GT(json["min_gap_mm"], 3);
+  EXPECT_LT(json["min_gap_mm"], 3.6);
+}
+
+TEST_F(SampleJoint, TheTangentialMethodGivesAnglesAndArcs) {
+  for (const char* about : {"flexion", "adduction", "internal_rotation"}) {
+    const Json radial = answer(std::string("depth sample/hip.toml ") + deep);
+    const Json json =
+        answer(std::string("depth sample/hip.toml --method tangential --about ") + about + " " + deep);
+    EXPECT_EQ(json["method"], "tangential");
+    EXPECT_EQ(json["about"], about);
+    // Axes other than a coordinate axis round once more; no vertex of this sample is that near to a surface.
+    EXPECT_EQ(json["mobile_vertices_inside"], radial["mobile_vertices_inside"]) << about;
+    EXPECT_EQ(json["fixed_vertices_inside"], radial["fixed_vertices_inside"]) << about;
+    EXPECT_EQ(json["triangle_pairs"], radial["triangle_pairs"]);
+    EXPECT_GT(json["max_tangential_depth_deg"], 0);
+    EXPECT_GT(json["max_tangential_depth_mm"], 0);
+    EXPECT_FALSE(json.contains("max_radial_depth_mm"));
+  }
+}
+
+TEST_F(SampleJoint, ResultsAreWrittenTogether) {
+  const Ran ran = run(std::string("depth sample/hip.toml --json --out deep ") + deep);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  std::ifstream written(folder / "deep/depth.json");
+  EXPECT_EQ(Json::parse(written), json);
+
+  std::ifstream csv(folder / "deep/pairs.csv");
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_EQ(line, "fixed_triangle,mobile_triangle");
+  std::size_t rows = 0;
+  while (std::getline(csv, line)) ++rows;
+  EXPECT_EQ(rows, json["triangle_pairs"]);
+
+  const TriMesh femur = read_mesh(folder / "sample/femur.ply").mesh;
+  EXPECT_EQ(read_mesh(folder / "deep/fixed.vtp").mesh, read_mesh(folder / "sample/hip_bone.ply").mesh);
+  EXPECT_EQ(read_mesh(folder / "deep/mobile.vtp").mesh, posed(pose_at(Side::right, deep_angles), femur));
+  for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"}) {
+    std::ifstream file(folder / name, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    for (const char* array :
+         {"inside", "radial_gap_mm", "triangle", "winding", "ray_to_normal_deg", "in_contact"}) {
+      EXPECT_NE(text.find("Name=\"" + std::string(array) + "\""), text.npos) << name << " " << array;
+    }
+  }
+}
+
+TEST_F(SampleJoint, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
+  TriMesh open = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  open.triangles.erase(open.triangles.begin() + 100);
+  write_mesh(folder / "sample/hip_bone.ply", open);
+  expect_refused(4, "depth sample/hip.toml", "hip_bone.ply: an open boundary of 3 edges near (");
+  expect_refused(4, "depth sample/hip.toml --method tangential --out result", "--pairs-only");
+  const Json json = answer(std::string("depth sample/hip.toml --pairs-only ") + deep);
+  EXPECT_TRUE(json["mobile_vertices_inside"].is_null());
+  EXPECT_FALSE(json["fixed_vertices_inside"].is_null());
+  EXPECT_GT(json["triangle_pairs"], 0);
+}
+
+TEST_F(SampleJoint, AMeshInsideOutIsRefusedWithItsRepair) {
+  write_mesh(folder / "sample/femur.ply", flipped(read_mesh(folder / "sample/femur.ply").mesh));
+  expect_refused(4, "depth sample/hip.toml", "femur.ply: wound inside out");
+  edit_joint("mesh = \"femur.ply\"", "mesh = \"femur.ply\"\nrepair = [\"flip_inverted\"]");
+  EXPECT_FALSE(answer("depth sample/hip.toml")["in_contact"]);
+}
+
+TEST_F(SampleJoint, ACentreOnTheSurfaceIsRefused) {
+  const Vec3 vertex = read_mesh(folder / "sample/hip_bone.ply").mesh.vertices[7];
+  edit_joint("centre = [0.0, 0.0, 0.0]",
+             "centre = [" + std::to_string(vertex.x()) + ", " + std::to_string(vertex.y()) + ", 0.0]");
+  edit_joint(", 0.0]", ", " + Json(vertex.z()).dump() + "]");
+  // Six decimals are not the vertex; its own digits are.
+  edit_joint(std::to_string(vertex.x()), Json(vertex.x()).dump());
+  edit_joint(std::to_string(vertex.y()), Json(vertex.y()).dump());
+  expect_refused(4, "depth sample/hip.toml", "the joint centre lies on the surface, in triangle ");
+}
+
+TEST_F(SampleJoint, WrongUsageEndsWithTwo) {
+  expect_refused(2, "depth sample/hip.toml --pose \"flexion=90 twist=3\"", "unknown angle 'twist'");
+  expect_refused(2, "depth sample/hip.toml --pose \"flexion=ninety\"", "flexion='ninety' is not a number");
+  expect_refused(2, "depth sample/hip.toml --method normal", "--method");
+  expect_refused(2, "depth sample/hip.toml --method tangential --about twist", "unknown angle 'twist'");
+  expect_refused(2, "depth", "JOINT is required");
+  expect_refused(2, "sample", "");
+  expect_refused(2, "sample hip", "--out is required");
+  expect_refused(2, "sample hip --out other --scenario 5", "--scenario");
+  expect_refused(2, "sample hip --out other --head-radius 90", "head_radius");
+  expect_refused(2, "sample hip --out other --femur-triangles 2000",
+                 "--femur-triangles requires --hip-bone-triangles");
+}
+
+TEST_F(SampleJoint, AnUnwritableFolderEndsWithThree) {
+  expect_refused(3, "depth sample/hip.toml --out sample/femur.ply", "femur.ply");
+  expect_refused(3, "sample hip --out /proc/condyle", "/proc/condyle");
+}
+
+TEST_F(SampleJoint, AMissingMeshEndsWithThree) {
+  fs::remove(folder / "sample/femur.ply");
+  expect_refused(3, "depth sample/hip.toml --out result", "femur.ply");
+}
+
+TEST_F(SampleJoint, TheSameParametersGiveTheSameBytes) {
+  ASSERT_EQ(run("sample hip --out again --threads 1").exit_code, 0);
+  for (const char* name : {"femur.ply", "hip_bone.ply", "hip.toml"}) {
+    const auto bytes = [&](const char* in) {
+      std::ifstream file(folder / in / name, std::ios::binary);
+      return std::string((std::istreambuf_iterator<char>(file)), {});
+    };
+    EXPECT_EQ(bytes("sample"), bytes("again")) << name;
+  }
+}
+
+TEST_F(SampleJoint, ALeftHipIsTheMirroredRightOne) {
+  ASSERT_EQ(run("sample hip --side left --out left").exit_code, 0);
+  const Json right = answer(std::string("depth sample/hip.toml ") + deep),
+             left = answer(std::string("depth left/hip.toml ") + deep);
+  EXPECT_EQ(left["side"], "left");
+  for (const char* key :
+       {"mobile_vertices_inside", "fixed_vertices_inside", "triangle_pairs", "max_radial_depth_mm"}) {
+    EXPECT_EQ(left[key], right[key]) << key;
+  }
+}
+
+/// The examples in the help of the verbs, run as they stand, in their order.
+TEST_F(SampleJoint, TheExamplesOfHelpWork) {
+  for (const char* verb : {"sample hip", "depth"}) {
+    const std::string help = run(std::string(verb) + " --help").out;
+    std::size_t examples = 0;
+    for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
+         ++at) {
+      const std::string line = help.substr(at + 8, help.find('\n', at) - at - 8);
+      const Ran ran = run(line);
+      EXPECT_EQ(ran.exit_code, 0) << line << ": " << ran.err;
+      ++examples;
+    }
+    EXPECT_GE(examples, 2u) << help;
+  }
+}
+
+}  // namespace
+}  // namespace condyle::test

@@ -1,0 +1,147 @@
+#include "condyle/motion/cylinder_box.hpp"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <numbers>
+#include <random>
+
+namespace condyle {
+namespace {
+
+using Point = Triple<double>;
+using std::numbers::pi;
+
+std::mt19937 any_random() {
+  return std::mt19937(*rc::gen::arbitrary<unsigned>());
+}
+double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+/// Near and far from the axis, near and far from each other, and on the axis at times.
+std::array<Point, 3> random_corners(std::mt19937& random) {
+  const double away = std::pow(10, uniform(random, -3, 4)), size = std::pow(10, uniform(random, -3, 2));
+  const double theta = uniform(random, 0, two_pi);
+  std::array<Point, 3> corners;
+  for (Point& p : corners) {
+    p = {away * std::cos(theta) + uniform(random, -size, size),
+         away * std::sin(theta) + uniform(random, -size, size), uniform(random, -size, size)};
+  }
+  if (std::uniform_int_distribution<int>(0, 9)(random) == 0) corners[0].x = corners[0].y = 0;
+  return corners;
+}
+
+Point mix(const std::array<Point, 3>& t, double a, double b, double c) {
+  return {a * t[0].x + b * t[1].x + c * t[2].x, a * t[0].y + b * t[1].y + c * t[2].y,
+          a * t[0].z + b * t[1].z + c * t[2].z};
+}
+
+/// Computing the point itself and its place rounds, relative to the corners' distance from the axis.
+void expect_held(const CylinderBox& box, const Point& p, double far) {
+  const CylinderPoint at = cylinder_point(p);
+  const double slack = 1e-15 * far;
+  RC_ASSERT(box.rho_lo <= at.rho + slack);
+  RC_ASSERT(at.rho <= box.rho_hi + slack);
+  RC_ASSERT(box.z_lo <= p.z + slack);
+  RC_ASSERT(p.z <= box.z_hi + slack);
+  RC_ASSERT(box.r_lo <= at.r + slack);
+  RC_ASSERT(at.r <= box.r_hi + slack);
+  if (at.rho <= 10 * slack) return;
+  const double angle_slack = slack / at.rho;
+  RC_ASSERT(wrapped(wrapped(at.theta + angle_slack) - box.theta) <= box.theta_width + 2 * angle_slack);
+}
+
+RC_GTEST_PROP(CylinderBox, of_a_triangle_and_of_its_edges_holds_every_point_of_them, ()) {
+  auto random = any_random();
+  for (int i = 0; i < 100; ++i) {
+    const auto t = random_corners(random);
+    std::array<CylinderPoint, 3> at;
+    double far = 0;
+    for (std::size_t k = 0; k < 3; ++k) at[k] = cylinder_point(t[k]), far = std::max(far, at[k].r);
+    const auto face = box_of_triangle(t[0], at[0], t[1], at[1], t[2], at[2]);
+    const auto edge = box_of_edge(t[0], at[0], t[1], at[1]);
+    expect_held(box_of_vertex(t[0], at[0]), t[0], far);
+    for (int k = 0; k < 20; ++k) {
+      const double a = uniform(random, 0, 1), b = uniform(random, 0, 1 - a);
+      expect_held(face, mix(t, a, b, 1 - a - b), far);
+      expect_held(edge, mix(t, a, 1 - a, 0), far);
+    }
+  }
+}
+
+RC_GTEST_PROP(CylinderBox, of_a_ball_holds_every_point_of_it, ()) {
+  auto random = any_random();
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 100; ++i) {
+    const Point centre = random_corners(random)[1];
+    const double radius = std::pow(10, uniform(random, -3, 3)), far = cylinder_point(centre).r + radius;
+    const auto box = box_of_ball(centre, radius);
+    for (int k = 0; k < 20; ++k) {
+      Point d{normal(random), normal(random), normal(random)};
+      const double scale = radius * uniform(random, 0, 1) / std::sqrt(dot(d, d));
+      expect_held(box, {centre.x + scale * d.x, centre.y + scale * d.y, centre.z + scale * d.z}, far);
+    }
+  }
+}
+
+RC_GTEST_PROP(CylinderBox, hull_holds_both, ()) {
+  auto random = any_random();
+  for (int i = 0; i < 100; ++i) {
+    const Point p = random_corners(random)[1], q = random_corners(random)[2];
+    const auto box = hull(box_of_vertex(p, cylinder_point(p)), box_of_vertex(q, cylinder_point(q)));
+    const double far = cylinder_point(p).r + cylinder_point(q).r;
+    expect_held(box, p, far);
+    expect_held(box, q, far);
+  }
+}
+
+TEST(CylinderBox, of_a_triangle_with_the_axis_through_its_inside_reaches_it_all_around) {
+  const std::array<Point, 3> t = {Point{2, 0, 1}, Point{-1, 2, 1}, Point{-1, -2, 1}};
+  const auto box =
+      box_of_triangle(t[0], cylinder_point(t[0]), t[1], cylinder_point(t[1]), t[2], cylinder_point(t[2]));
+  EXPECT_EQ(box.rho_lo, 0);
+  EXPECT_EQ(box.theta_width, two_pi);
+}
+
+TEST(CylinderBox, of_an_edge_is_nearest_to_the_axis_inside_it) {
+  const Point a{1, -1, 0}, b{1, 1, 0};
+  const auto box = box_of_edge(a, cylinder_point(a), b, cylinder_point(b));
+  EXPECT_NEAR(box.rho_lo, 1, 1e-14);
+  EXPECT_LE(box.rho_lo, 1);
+  EXPECT_NEAR(box.theta_width, pi / 2, 1e-12);
+}
+
+CylinderBox arc_from(double start, double width) {
+  return {0, 1, 0, 1, 0, 1, start, width};
+}
+
+TEST(GapInTurn, is_the_angle_between_the_arcs_either_way_round) {
+  const auto m = arc_from(0.5, 0.25), f = arc_from(2, 1);
+  EXPECT_DOUBLE_EQ(gap_in_turn(m, f, TurnDirection::positive), 2 - 0.75);
+  EXPECT_DOUBLE_EQ(gap_in_turn(m, f, TurnDirection::negative), two_pi - 3 + 0.5);
+  const auto across_zero = arc_from(6, 1);
+  EXPECT_EQ(gap_in_turn(m, across_zero, TurnDirection::positive), 0) << "7 - 2 pi is past 0.5";
+  EXPECT_DOUBLE_EQ(gap_in_turn(arc_from(0.8, 0.1), across_zero, TurnDirection::positive), 6 - 0.9);
+  EXPECT_EQ(gap_in_turn(m, arc_from(0, two_pi), TurnDirection::negative), 0);
+}
+
+/// The gap is what it says: no turn smaller than it makes the arcs meet, and one as large does.
+RC_GTEST_PROP(GapInTurn, is_the_smallest_turn_that_makes_the_arcs_meet, ()) {
+  auto random = any_random();
+  const auto m = arc_from(uniform(random, 0, two_pi), uniform(random, 0, 3));
+  const auto f = arc_from(uniform(random, 0, two_pi), uniform(random, 0, 3));
+  for (const TurnDirection direction : {TurnDirection::positive, TurnDirection::negative}) {
+    const double gap = gap_in_turn(m, f, direction), sign = static_cast<double>(direction);
+    const auto meets_after = [&](double turn) {
+      const double start = wrapped(wrapped(m.theta + sign * turn + two_pi));
+      return arcs_meet(arc_from(start, m.theta_width), f);
+    };
+    RC_ASSERT(meets_after(gap + (gap > 0 ? 1e-12 : 0)));
+    for (int k = 0; k < 20 && gap > 0; ++k) RC_ASSERT(!meets_after((gap - 1e-12) * k / 20));
+  }
+}
+
+}  // namespace
+}  // namespace condyle

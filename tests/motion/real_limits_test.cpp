@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "condyle/contact/joint_contact.hpp"
+#include "condyle/motion/impingement_zone.hpp"
+#include "condyle/motion/range_of_motion.hpp"
+#include "support/shared_data.hpp"
+
+/// Every built-in motion of real hips, against the exact sets of intersecting triangles.
+
+namespace condyle {
+namespace {
+
+struct HipFiles {
+  const char* name;
+  const char* fixed;
+  const char* mobile;
+  Side side;
+};
+const HipFiles hips[] = {
+    {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply", Side::right},
+    {"libhip_coarse", "hip_libhip_m1_left/coarse/hip_bone_2442.ply",
+     "hip_libhip_m1_left/coarse/femur_1542.ply", Side::left},
+};
+
+class RealHipLimits : public testing::TestWithParam<HipFiles> {
+ protected:
+  void SetUp() override {
+    const auto data = test::shared_data();
+    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+    joint_ = {GetParam().name,
+              JointKind::ball,
+              GetParam().side,
+              {"hip bone", test::read_ply(*data / GetParam().fixed)},
+              {"femur", test::read_ply(*data / GetParam().mobile)}};
+  }
+  Pose pose_past(const MotionLimit& limit, Angle past) const {
+    const Angle by = limit.motion.sense == TurnSense::positive ? past : -past;
+    return pose_at(joint_.side, turned_by(limit.angles_at_limit(), limit.motion.vary, by));
+  }
+
+  Joint joint_;
+};
+INSTANTIATE_TEST_SUITE_P(SharedData, RealHipLimits, testing::ValuesIn(hips),
+                         [](const auto& hip) { return hip.param.name; });
+
+TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndTouchingAMicrodegreeAfter) {
+  const JointContact exact(joint_.fixed.mesh, joint_.mobile.mesh);
+  const auto limits = RangeOfMotion(joint_).limits(hip_motions());
+  std::size_t contacts = 0;
+  for (const MotionLimit& limit : limits) {
+    SCOPED_TRACE(limit.motion.name);
+    ASSERT_NE(limit.reason, LimitReason::contact_at_start);
+    const Angle microdegree = Angle::degrees(1e-6);
+    EXPECT_TRUE(exact.pairs(pose_past(limit, -microdegree)).empty());
+    // 20 poses on the way.
+    for (int k = 1; k <= 20; ++k)
+      EXPECT_TRUE(exact.pairs(pose_past(limit, limit.turned * (-k / 20.0))).empty());
+    if (limit.reason != LimitReason::contact) continue;
+    ++contacts;
+    const auto pairs = exact.pairs(pose_past(limit, microdegree));
+    ASSERT_FALSE(pairs.empty());
+    // What the limit names is one place on both bones, within the shortfall and the rounding of a pose.
+    const Vec3 seen_from_F = pose_past(limit, Angle()) * limit.contact->mobile_point;
+    EXPECT_LT((seen_from_F - limit.contact->fixed_point).norm(), 1e-9);
+  }
+  EXPECT_GE(contacts, 11u);
+}
+
+TEST_P(RealHipLimits, HaveZonesThatGrowFromTheContactPoint) {
+  const auto limits = RangeOfMotion(joint_).limits(hip_motions());
+  const ZoneFinder shortly_after(joint_, {.past = Angle::degrees(0.5)}),
+      later(joint_, {.past = Angle::degrees(5)});
+  ASSERT_TRUE(later.neck());
+  for (const MotionLimit& limit : limits) {
+    SCOPED_TRACE(limit.motion.name);
+    const auto small = shortly_after.zone(limit), large = later.zone(limit);
+    ASSERT_EQ(small.has_value(), limit.reason == LimitReason::contact);
+    if (!small) continue;
+    EXPECT_GT(small->fixed.area_mm2, 0);
+    EXPECT_GE(large->fixed.triangles.size(), small->fixed.triangles.size());
+    EXPECT_GE(large->mobile.triangles.size(), small->mobile.triangles.size());
+    // Half a degree past the limit the zone is no further from the contact point than some ten triangles.
+    EXPECT_LT((*small->fixed.centroid - limit.contact->fixed_point).norm(), 40);
+    EXPECT_EQ(large->fixed.radial_depth_mm.size(), joint_.fixed.mesh.vertices.size());
+    EXPECT_EQ(large->mobile.tangential_depth_mm.size(), joint_.mobile.mesh.vertices.size());
+    // No vertex is deeper along the arc than the motion went past the limit: turning back by that frees it.
+    for (const double depth : large->mobile.tangential_depth_deg) EXPECT_LE(depth, 5 + 1e-9);
+    for (const double depth : large->fixed.tangential_depth_deg) EXPECT_LE(depth, 5 + 1e-9);
+  }
+}
+
+TEST_P(RealHipLimits, FindTheNeckWhereAnatomyHasIt) {
+  const ZoneFinder finder(joint_);
+  ASSERT_TRUE(finder.neck());
+  const Vec3 d = finder.neck()->direction;
+  // Neck-shaft angles of adults are 110 to 145 degrees, and the femur hangs nearly along -Y.
+  const double to_shaft = std::acos(d.y()) * 180 / std::numbers::pi;
+  EXPECT_GT(to_shaft, 110);
+  EXPECT_LT(to_shaft, 145);
+  EXPECT_GT(d.z() * (joint_.side == Side::right ? 1 : -1), 0.4) << "lateral";
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+
+#include "condyle/motion/contact_set.hpp"
+#include "condyle/motion/first_contact.hpp"
+#include "oracle/cgal_oracle.hpp"
+#include "support/shared_data.hpp"
+
+/// Limits on real hips, certified by CGAL's exact triangle tests on the turned mesh: free just before,
+/// touching just after.
+
+namespace condyle {
+namespace {
+
+using test::CgalOracle;
+
+constexpr double microdegree = 1e-6;
+
+struct Start {
+  const char* name;
+  Vec3 axis;  ///< Through the joint centre, in the fixed body's frame.
+  Pose X_FM;
+};
+
+Pose about(const Vec3& axis, double degrees) {
+  return Pose(Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis));
+}
+
+std::vector<Start> starts() {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const Pose flexed = about(z, 90), apart = about(z, 30) * about(x, -15) * about(y, 10);
+  return {{"flexion", z, Pose::Identity()},
+          {"adduction", x, Pose::Identity()},
+          {"rotation", y, Pose::Identity()},
+          {"adduction at 60 flexion", about(z, 60).linear() * x, about(z, 60)},
+          {"rotation at 90 flexion", flexed.linear() * y, flexed},
+          {"skew axis", Vec3(1, 2, 3).normalized(), apart}};
+}
+
+/// Fixed and mobile mesh by name; skips where the data is missing.
+class RealHip : public testing::TestWithParam<std::pair<const char*, const char*>> {
+ protected:
+  void SetUp() override {
+    const auto data = test::shared_data();
+    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA to the folder of real joints";
+    fixed = test::read_ply(*data / GetParam().first);
+    mobile = test::read_ply(*data / GetParam().second);
+  }
+  TriMesh fixed, mobile;
+};
+
+TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_microdegree_after) {
+  const CgalOracle oracle(fixed);
+  const FeatureTree fixed_tree(fixed), mobile_tree(mobile);
+  TurningBody body(mobile_tree);
+  int contacts = 0;
+  for (const Start& start : starts()) {
+    SCOPED_TRACE(start.name);
+    const AxisFrame frame(Vec3::Zero(), start.axis);
+    const RotationTable table(fixed_tree, frame);
+    body.start_at(frame, start.X_FM);
+    const auto found = first_contact(table, body);
+    const auto touching = [&](double degrees) {
+      return !oracle.pairs(posed(about(start.axis, degrees) * start.X_FM, mobile)).empty();
+    };
+    for (const Limit& limit : {found.negative, found.positive}) {
+      if (limit.reason == LimitReason::contact_at_start) {
+        EXPECT_TRUE(touching(0));
+        continue;
+      }
+      const double end = limit.angle.degrees(), sign = end < 0 ? -1 : 1;
+      for (int k = 0; k < 10; ++k) EXPECT_FALSE(touching(end * k / 10)) << k;
+      EXPECT_FALSE(touching(end - sign * microdegree)) << end;
+      if (limit.reason != LimitReason::contact) continue;
+      ++contacts;
+      EXPECT_TRUE(touching(end + sign * microdegree)) << end;
+      EXPECT_LE(limit.shortfall.radians(), 4e-12);
+      const Vec3 there = about(start.axis, end) * start.X_FM * limit.touching->turning_point;
+      EXPECT_LT((there - limit.touching->resting_point).norm(), 1e-9);
+    }
+  }
+  EXPECT_GE(contacts, 4) << "too few contacts to mean anything";
+}
+
+TEST_P(RealHip, touches_through_a_full_turn_exactly_in_its_contact_set) {
+  const CgalOracle oracle(fixed);
+  const FeatureTree fixed_tree(fixed), mobile_tree(mobile);
+  for (const Start& start : starts()) {
+    SCOPED_TRACE(start.name);
+    const AxisFrame frame(Vec3::Zero(), start.axis);
+    const auto set =
+        contact_set(RotationTable(fixed_tree, frame), RotationTable(mobile_tree, frame, start.X_FM));
+    std::vector<double> angles;
+    for (const Arc& arc : set.arcs()) {
+      const double from = arc.start.degrees(), to = from + arc.width.degrees();
+      angles.insert(angles.end(),
+                    {from - microdegree, from + microdegree, to - microdegree, to + microdegree});
+    }
+    for (int k = 0; k < 12; ++k) angles.push_back(30 * k + 0.123);
+    for (const double degrees : angles) {
+      EXPECT_EQ(!oracle.pairs(posed(about(start.axis, degrees) * start.X_FM, mobile)).empty(),
+                set.contains(Angle::degrees(degrees)))
+          << degrees;
+    }
+  }
+}
+
+using HipFiles = std::pair<const char*, const char*>;
+
+const HipFiles hips[] = {
+    {"hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply"},
+    {"hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply"},
+    {"hip_libhip_m1_left/coarse/hip_bone_2442.ply", "hip_libhip_m1_left/coarse/femur_1542.ply"},
+};
+const char* const hip_names[] = {"vhf", "libhip", "libhip_coarse"};
+
+INSTANTIATE_TEST_SUITE_P(FirstContact, RealHip, testing::ValuesIn(hips),
+                         [](const auto& hip) { return std::string(hip_names[hip.index]); });
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include "condyle/motion/range_of_motion.hpp"
+#include "oracle/cgal_oracle.hpp"
+#include "support/shared_data.hpp"
+
+/// Limits of the built-in motions, certified by CGAL's exact triangle tests, which share no code with the
+/// library: free at 200 angles before the limit and a microdegree before it, in contact a microdegree after.
+
+namespace condyle {
+namespace {
+
+using test::CgalOracle;
+
+struct HipFiles {
+  const char* name;
+  const char* fixed;
+  const char* mobile;
+  Side side;
+};
+const HipFiles hips[] = {
+    {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply", Side::right},
+    {"libhip", "hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply", Side::left},
+    {"libhip_coarse", "hip_libhip_m1_left/coarse/hip_bone_2442.ply",
+     "hip_libhip_m1_left/coarse/femur_1542.ply", Side::left},
+};
+
+class LimitCertificate : public testing::TestWithParam<std::tuple<HipFiles, std::size_t>> {};
+INSTANTIATE_TEST_SUITE_P(SharedData, LimitCertificate,
+                         testing::Combine(testing::ValuesIn(hips),
+                                          testing::Range<std::size_t>(0, hip_motions().size())),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param).name) + "_" +
+                                  hip_motions()[std::get<1>(info.param)].name;
+                         });
+
+TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const auto& [files, number] = GetParam();
+  const Joint joint{files.name,
+                    JointKind::ball,
+                    files.side,
+                    {"hip bone", test::read_ply(*data / files.fixed)},
+                    {"femur", test::read_ply(*data / files.mobile)}};
+  const Motion motion = hip_motions()[number];
+  // Stated, so that no head is searched for.
+  const MotionLimit limit = RangeOfMotion(joint, {.articular = ArticularRegion{30}}).limit(motion);
+  const CgalOracle oracle(joint.fixed.mesh);
+  const auto touching = [&](Angle turned) {
+    const Angle by = motion.sense == TurnSense::positive ? turned : -turned;
+    return !oracle
+                .pairs(
+                    posed(pose_at(joint.side, turned_by(motion.start, motion.vary, by)), joint.mobile.mesh))
+                .empty();
+  };
+  if (limit.reason == LimitReason::contact_at_start) {
+    EXPECT_TRUE(touching(Angle()));
+    return;
+  }
+  const Angle microdegree = Angle::degrees(1e-6);
+  constexpr int poses_before = 200;
+  for (int k = 0; k < poses_before; ++k)
+    EXPECT_FALSE(touching(limit.turned * (static_cast<double>(k) / poses_before))) << "of 200: " << k;
+  EXPECT_FALSE(touching(limit.turned - microdegree));
+  if (limit.reason == LimitReason::contact) EXPECT_TRUE(touching(limit.turned + microdegree));
+}
+
+}  // namespace
+}  // namespace condyle
