@@ -1,5 +1,6 @@
 #include "answer.hpp"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "condyle/core/error.hpp"
@@ -11,8 +12,10 @@ void print(std::string_view answer) {
   if (std::fflush(stdout) != 0 || !written) throw FileError("standard output: cannot be written");
 }
 
-void note(std::string_view remark) {
-  std::fprintf(stderr, "condyle: note: %.*s\n", static_cast<int>(remark.size()), remark.data());
+void note(std::string remark) {
+  std::replace_if(
+      remark.begin(), remark.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  std::fprintf(stderr, "condyle: note: %s\n", remark.c_str());
 }
 
 }  // namespace condyle::cli

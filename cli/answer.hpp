@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace condyle::cli {
@@ -10,7 +11,8 @@ enum class AnswerForm { text, json };
 /// Writes an answer to standard output. Throws FileError where it cannot be written (closed, disk full).
 void print(std::string_view answer);
 
-/// Says something that is no answer and no error, as one line on standard error.
-void note(std::string_view remark);
+/// Says something that is no answer and no error, as one line on standard error,
+/// whatever a name in it holds.
+void note(std::string remark);
 
 }  // namespace condyle::cli

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -14,16 +13,14 @@
 #include "condyle/core/error.hpp"
 #include "condyle/io/grid_text.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/map_checkpoint.hpp"
-#include "condyle/io/map_result.hpp"
 #include "condyle/io/output_folder.hpp"
-#include "condyle/io/plot_limits.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/io/rom_files.hpp"
 #include "condyle/io/rom_result.hpp"
-#include "condyle/io/whole_file.hpp"
+#include "condyle/motion/depth_limit.hpp"
+#include "condyle/motion/impingement_zone.hpp"
 #include "condyle/motion/motion_map.hpp"
-#include "interrupt.hpp"
-#include "progress.hpp"
+#include "resumable_map.hpp"
 #include "verbs.hpp"
 
 namespace condyle::cli {
@@ -31,14 +28,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* checkpoint_name = "map.checkpoint";
-
 enum class RestContacts { count, leave_out };
+enum class Centre { fixed, follows_socket };
 
 struct Options {
   std::string joint, out, vary;
   std::vector<std::string> motions, map;
-  std::optional<double> exclude_radius_mm;
+  std::optional<double> exclude_radius_mm, allow_depth_mm, past_deg;
+  Centre centre = Centre::fixed;
   RestContacts rest_contacts = RestContacts::count;
   ContactAtRest contact_at_rest = ContactAtRest::refuse;
   AnswerForm form = AnswerForm::text;
@@ -82,6 +79,30 @@ RangeOptions range_options(const Options& options, const JointAngles& rest) {
   return range;
 }
 
+/// The limits and what they are labelled by.
+struct Limits {
+  std::vector<MotionLimit> limits;
+  std::vector<DepthLimit> depths;  ///< with a depth allowed
+  std::optional<ArticularRegion> articular;
+  std::vector<std::string> terms;
+};
+
+/// Where the deepest depth exceeds the allowed one.
+Limits depth_limits(const Options& options, const Joint& joint, const std::vector<Motion>& motions) {
+  AllowedDepth allowed;
+  allowed.depth_mm = *options.allow_depth_mm;
+  if (options.centre == Centre::follows_socket) allowed.follow_socket.emplace();
+  const DepthRange range(joint, allowed);
+  Limits found{{}, range.limits(motions), range.articular_region(), {}};
+  for (const DepthLimit& depth : found.depths) found.limits.push_back(depth.limit);
+  found.terms.push_back(fmt::format("allowed: a radial depth of {:g} mm; limits are searched for, not exact",
+                                    allowed.depth_mm));
+  if (allowed.follow_socket)
+    found.terms.push_back(fmt::format("the centre follows the socket, by at most {:g} mm",
+                                      allowed.follow_socket->largest_shift_mm));
+  return found;
+}
+
 /// What the answer must be read with.
 std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMotion& range) {
   std::vector<std::string> terms;
@@ -100,65 +121,6 @@ std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMoti
   return terms;
 }
 
-/// Computes the map, from where it was interrupted if it was. Throws Interrupted.
-MotionMap computed_map(const MapGrid& grid, const LoadedJoint& loaded, const RangeOptions& range_options,
-                       const RangeOfMotion& range, const fs::path& checkpoint) {
-  MotionMap map(grid);
-  const MapKey key = map_key(loaded.joint, range_options, grid);
-  if (!checkpoint.empty() && read_checkpoint(checkpoint, key, map) == Resumed::other_question)
-    note(checkpoint.string() + ": is of another joint, mesh, grid or option; the map starts anew");
-
-  const InterruptWatch watch;
-  std::stop_source stop;
-  {
-    Progress progress("map points", map.done());
-    fill(map, range,
-         {.progress =
-              [&](std::size_t done, std::size_t total) {
-                progress.update(done, total);
-                if (watch.interrupted()) stop.request_stop();
-              },
-          .stop = stop.get_token()});
-  }
-  if (map.complete()) return map;
-  const std::string done =
-      fmt::format("interrupted, {} of {} map points done", map.done(), map.points.size());
-  if (checkpoint.empty()) throw Interrupted(done + "; nothing is kept without --out");
-  std::error_code why_not_is_told_when_writing;
-  fs::create_directories(checkpoint.parent_path(), why_not_is_told_when_writing);
-  write_checkpoint(checkpoint, map, key);
-  throw Interrupted(
-      fmt::format("{} and kept in {}; the same command goes on from there", done, checkpoint.string()));
-}
-
-/// The map is complete and written: the checkpoint, if there was one, has nothing to add.
-void remove_checkpoint(const fs::path& checkpoint) {
-  std::error_code error;
-  fs::remove(checkpoint, error);
-  if (error) note(fmt::format("{}: cannot be removed: {}", checkpoint.string(), error.message()));
-}
-
-void write_results(const fs::path& folder, const RomResult& result) {
-  OutputFolder out(folder);
-  write_whole_file(out.file("rom.json"), rom_json(result));
-  write_whole_file(out.file("limits.csv"), rom_csv(result));
-  write_whole_file(
-      out.file("limits.svg"),
-      limits_plot({result.joint.name, "How far each motion turns from its start"}, result.limits));
-  if (result.map) {
-    const JointAngle varied = result.map->grid.vary;
-    const auto draw = [&](std::string_view name, MapView view) {
-      write_whole_file(out.file(fmt::format("map_{}.svg", name)),
-                       map_plot(plot_of(*result.map, view, result.joint.name)));
-    };
-    write_whole_file(out.file("map.csv"), map_csv(*result.map));
-    draw(movement_name(varied, TurnSense::positive), MapView::positive_limit);
-    draw(movement_name(varied, TurnSense::negative), MapView::negative_limit);
-    draw("free_range", MapView::free_range);
-  }
-  out.commit();
-}
-
 void run(const Options& options) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
@@ -166,19 +128,29 @@ void run(const Options& options) {
       with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
   const RangeOptions asked = range_options(options, loaded.report.file.rest);
+  std::optional<ZoneFinder> finder;
+  if (options.past_deg) finder.emplace(joint, ZoneOptions{.past = Angle::degrees(*options.past_deg)});
   // A folder that cannot be written to is told before the work, not after it.
   if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
-  const RangeOfMotion range(joint, asked);
-  const std::vector<MotionLimit> limits = range.limits(motions);
-  const fs::path checkpoint = options.out.empty() ? fs::path() : fs::path(options.out) / checkpoint_name;
+  Limits found;
   std::optional<MotionMap> map;
-  if (grid) map = computed_map(*grid, loaded, asked, range, checkpoint);
+  const fs::path checkpoint = checkpoint_in(options.out);
+  if (options.allow_depth_mm) {
+    found = depth_limits(options, joint, motions);
+  } else {
+    const RangeOfMotion range(joint, asked);
+    found = {range.limits(motions), {}, range.articular_region(), terms_of(asked, range)};
+    if (grid) map = resumable_map(*grid, {joint, asked, range}, checkpoint);
+  }
+  std::vector<std::optional<ImpingementZone>> zones;
+  if (finder)
+    for (const MotionLimit& limit : found.limits) zones.push_back(finder->zone(limit));
 
-  const RomResult result{joint, limits, range.articular_region(), terms_of(asked, range),
-                         map ? &*map : nullptr};
+  const RomResult result{joint,        found.limits, found.articular,      found.terms,
+                         found.depths, zones,        map ? &*map : nullptr};
   if (!options.out.empty()) {
-    write_results(options.out, result);
+    write_rom(options.out, result);
     if (map) remove_checkpoint(checkpoint);
   }
   print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
@@ -198,22 +170,34 @@ void add_rom(CLI::App& app) {
   verb->add_option("--motion", options->motions, "A motion by its name; all if not given")
       ->expected(1)
       ->take_all();
-  verb->add_option("--map", options->map,
-                   "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
-                   "adduction=-40:30:1; the first one runs to the right")
-      ->expected(2);
+  auto* map =
+      verb->add_option(
+              "--map", options->map,
+              "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
+              "adduction=-40:30:1; the first one runs to the right")
+          ->expected(2);
   verb->add_option("--vary", options->vary, "The angle that turns in the map: the third one");
-  verb->add_option(
+  auto* radius = verb->add_option(
       "--exclude-radius", options->exclude_radius_mm,
       "Leave out what lies within this many mm of the joint centre: sliding surfaces that overlap");
-  verb->add_flag_callback(
+  auto* rest = verb->add_flag_callback(
       "--exclude-rest", [options] { options->rest_contacts = RestContacts::leave_out; },
       "Leave out what is in contact at rest");
+  auto* depth = verb->add_option("--allow-depth", options->allow_depth_mm,
+                                 "End a motion where the radial depth exceeds this many mm, for meshes that "
+                                 "overlap wherever they are: searched for, not exact");
+  for (CLI::Option* other : {map, radius, rest}) depth->excludes(other);
+  verb->add_flag_callback(
+          "--follow-socket", [options] { options->centre = Centre::follows_socket; },
+          "With --allow-depth: shift the mobile body at every pose so that the joint space is even")
+      ->needs(depth);
   verb->add_flag_callback(
       "--accept-rest", [options] { options->contact_at_rest = ContactAtRest::accept; },
       "Answer although the bodies are in contact at rest: motions that start in contact say so");
-  verb->add_option("--out", options->out,
-                   "Folder for rom.json, limits.csv and limits.svg, and map.csv and map_*.svg of a map");
+  verb->add_option(
+      "--out", options->out,
+      "Folder for rom.json, limits.csv, limits.svg and clock_face.svg, map.csv and map_*.svg of a map, "
+      "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
   verb->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
   verb->callback([options] { run(*options); });

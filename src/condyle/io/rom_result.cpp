@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "condyle/io/csv_field.hpp"
@@ -79,25 +80,81 @@ bool ends_in_contact(const MotionLimit& limit) noexcept {
   return limit.reason != LimitReason::end_of_range;
 }
 
-Json json_of(const MotionLimit& limit) {
+/// Direction of the contact on the socket's clock.
+std::optional<double> hour_of(const Joint& joint, const MotionLimit& limit) {
+  if (joint.kind != JointKind::ball || !limit.contact) return std::nullopt;
+  return sagittal_clock().hour_of(limit.contact->fixed_point);
+}
+
+Json nullable(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+Json nullable_degrees(const std::optional<Angle>& angle) {
+  return angle ? Json(angle->degrees()) : Json(nullptr);
+}
+
+Json json_of(const BodyZone& zone) {
+  const auto deepest = [](const std::vector<double>& depths) -> Json {
+    double most = 0;
+    for (const double depth : depths)
+      if (std::isfinite(depth)) most = std::max(most, depth);
+    return depths.empty() ? Json(nullptr) : Json(most);
+  };
+  return {{"triangles", zone.triangles.size()},
+          {"area_mm2", zone.area_mm2},
+          {"centroid_mm", zone.centroid ? json_of(*zone.centroid) : Json(nullptr)},
+          {"max_radial_depth_mm", deepest(zone.radial_depth_mm)},
+          {"max_tangential_depth_deg", deepest(zone.tangential_depth_deg)},
+          {"max_tangential_depth_mm", deepest(zone.tangential_depth_mm)}};
+}
+
+Json json_of(const std::optional<ImpingementZone>& zone) {
+  if (!zone) return nullptr;
+  Json fixed = json_of(zone->fixed), mobile = json_of(zone->mobile);
+  fixed["clock_hour"] = nullable(zone->zone_hour);
+  mobile["neck_angle_deg"] = nullable_degrees(zone->zone_neck_angle);
+  return {{"past_deg", zone->past.degrees()},
+          {"contact_neck_angle_deg", nullable_degrees(zone->contact_neck_angle)},
+          {"fixed", std::move(fixed)},
+          {"mobile", std::move(mobile)}};
+}
+
+Json json_of(const DepthLimit& depth) {
+  Json json{{"at_start_mm", depth.start_depth_mm},
+            {"at_limit_mm", depth.at_limit.depth_mm},
+            {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
+            {"grows", depth.depth_grows}};
+  const auto& shift = depth.at_limit.shift;
+  json["centre_shift_mm"] = shift ? json_of(shift->translation) : Json(nullptr);
+  return json;
+}
+
+/// Of the i-th motion.
+Json motion_json(const RomResult& result, std::size_t i) {
+  const MotionLimit& limit = result.limits[i];
   const auto& contact = limit.contact;
-  return {{"name", limit.motion.name},
-          {"limit_deg", limit.turned.degrees()},
-          {"reason", name_of(limit.reason)},
-          {"articular", ends_in_contact(limit) ? Json(limit.articular) : Json(nullptr)},
-          {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
-          {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
-          {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
-                                      {"mobile", json_of(contact->mobile_feature)}}
-                               : Json(nullptr)},
-          {"shortfall_deg", limit.shortfall.degrees()},
-          {"vary", name_of(limit.motion.vary)},
-          {"sense", limit.motion.sense == TurnSense::positive ? "positive" : "negative"},
-          {"range_deg", limit.motion.range.degrees()},
-          {"start_deg", angles_json(limit.motion.start)},
-          {"held_deg", held_json(limit.motion)},
-          {"at_limit_deg", angles_json(limit.angles_at_limit())},
-          {"certificate", certificate_text(limit)}};
+  Json json{
+      {"name", limit.motion.name},
+      {"limit_deg", limit.turned.degrees()},
+      {"reason", name_of(limit.reason)},
+      {"articular", ends_in_contact(limit) ? Json(limit.articular) : Json(nullptr)},
+      {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
+      {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
+      {"clock_hour", nullable(hour_of(result.joint, limit))},
+      {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
+                                  {"mobile", json_of(contact->mobile_feature)}}
+                           : Json(nullptr)},
+      {"shortfall_deg", limit.shortfall.degrees()},
+      {"vary", name_of(limit.motion.vary)},
+      {"sense", limit.motion.sense == TurnSense::positive ? "positive" : "negative"},
+      {"range_deg", limit.motion.range.degrees()},
+      {"start_deg", angles_json(limit.motion.start)},
+      {"held_deg", held_json(limit.motion)},
+      {"at_limit_deg", angles_json(limit.angles_at_limit())},
+      {"certificate", result.depths.empty() ? certificate_text(limit) : certificate_text(result.depths[i])}};
+  if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
+  if (!result.zones.empty()) json["zone"] = json_of(result.zones[i]);
+  return json;
 }
 
 Json json_of(const ReasonCounts& counts) {
@@ -214,6 +271,32 @@ std::string certificate_text(const MotionLimit& limit) {
   return "";
 }
 
+std::string certificate_text(const DepthLimit& depth) {
+  switch (depth.limit.reason) {
+    case LimitReason::contact:
+      return fmt::format(
+          "searched, not exact: no deeper than allowed at the poses asked before the limit, deeper within "
+          "{:.2g} deg past it{}",
+          depth.limit.shortfall.degrees(),
+          depth.depth_grows ? "" : "; depth does not grow evenly here, a little further on may be as good");
+    case LimitReason::end_of_range:
+      return fmt::format(
+          "searched, not exact: no deeper than allowed at the poses asked over the range of {:g} deg",
+          depth.limit.motion.range.degrees());
+    case LimitReason::contact_at_start:
+      return "deeper than allowed before any turn";
+  }
+  return "";
+}
+
+std::vector<ClockContact> clock_contacts(const RomResult& result) {
+  std::vector<ClockContact> contacts;
+  for (const MotionLimit& limit : result.limits)
+    if (const auto hour = hour_of(result.joint, limit))
+      contacts.push_back({limit.motion.name, *hour, limit.articular});
+  return contacts;
+}
+
 std::string rom_json(const RomResult& result) {
   Json json{{"condyle", format_version},
             {"joint", result.joint.name},
@@ -223,7 +306,7 @@ std::string rom_json(const RomResult& result) {
             {"articular_region", json_of(result.articular)},
             {"terms", result.terms}};
   json["motions"] = Json::array();
-  for (const MotionLimit& limit : result.limits) json["motions"].push_back(json_of(limit));
+  for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);
   json["scope"] = scope_note;
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -232,7 +315,7 @@ std::string rom_json(const RomResult& result) {
 std::string rom_text(const RomResult& result) {
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"reason"}}, point{Align::left, {"contact point (mm, fixed frame)"}},
-      features{Align::left, {"mobile on fixed"}};
+      clock{Align::right, {"clock"}}, features{Align::left, {"mobile on fixed"}};
   for (const MotionLimit& limit : result.limits) {
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(fmt::format("{:.2f}", limit.turned.degrees()));
@@ -241,6 +324,8 @@ std::string rom_text(const RomResult& result) {
     point.cells.push_back(contact ? fmt::format("({:.2f}, {:.2f}, {:.2f})", contact->fixed_point.x(),
                                                 contact->fixed_point.y(), contact->fixed_point.z())
                                   : "-");
+    const auto hour = hour_of(result.joint, limit);
+    clock.cells.push_back(hour ? clock_text(*hour) : "-");
     features.cells.push_back(
         contact ? fmt::format("{} on {}", text_of(contact->mobile_feature), text_of(contact->fixed_feature))
                 : "-");
@@ -250,7 +335,7 @@ std::string rom_text(const RomResult& result) {
                                  name_of(joint.side));
   text += fmt::format("  {}\n", text_of(result.articular));
   for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
-  text += table_text(std::array{name, turned, reason, point, features});
+  text += table_text(std::array{name, turned, reason, clock, point, features});
   if (result.map) text += map_text(*result.map);
   return text + fmt::format("  {}\n", scope_note);
 }
@@ -261,7 +346,7 @@ std::string rom_csv(const RomResult& result) {
       "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
       "limit_flexion_deg,limit_adduction_deg,limit_internal_rotation_deg,"
       "contact_x_mm,contact_y_mm,contact_z_mm,"
-      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature\n";
+      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour\n";
   const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
   const auto angles = [](const JointAngles& a) {
     return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
@@ -273,9 +358,11 @@ std::string rom_csv(const RomResult& result) {
                         shortfall.degrees(), name_of(motion.vary),
                         motion.sense == TurnSense::positive ? "positive" : "negative", motion.range.degrees(),
                         angles(motion.start), angles(limit.angles_at_limit()));
-    text += contact ? fmt::format("{},{},{},{}\n", point(contact->fixed_point), point(contact->mobile_point),
+    const auto hour = hour_of(result.joint, limit);
+    text += contact ? fmt::format("{},{},{},{}", point(contact->fixed_point), point(contact->mobile_point),
                                   text_of(contact->fixed_feature), text_of(contact->mobile_feature))
-                    : std::string(",,,,,,,\n");
+                    : std::string(",,,,,,,");
+    text += hour ? fmt::format(",{}\n", *hour) : ",\n";
   }
   return text;
 }

@@ -6,7 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/io/plot_clock_face.hpp"
 #include "condyle/kinematics/joint.hpp"
+#include "condyle/motion/depth_limit.hpp"
+#include "condyle/motion/impingement_zone.hpp"
 #include "condyle/motion/motion_map.hpp"
 #include "condyle/motion/range_of_motion.hpp"
 
@@ -23,6 +26,10 @@ struct RomResult {
   std::optional<ArticularRegion> articular = {};
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
   std::vector<std::string> terms = {};
+  /// One per limit where a depth was allowed, none where limits are exact.
+  std::span<const DepthLimit> depths = {};
+  /// One per limit where zones were asked for, none where not.
+  std::span<const std::optional<ImpingementZone>> zones = {};
   /// Complete; null where none was asked for.
   const MotionMap* map = nullptr;
 };
@@ -37,6 +44,12 @@ std::string_view name_of(LimitReason reason) noexcept;
 
 /// What the limit promises, in one sentence.
 std::string certificate_text(const MotionLimit& limit);
+/// The same of a limit with a depth allowed, which is searched for and not exact.
+std::string certificate_text(const DepthLimit& limit);
+
+/// Where on the socket's clock face the motions end that end in contact: the sagittal one, 12 superior and 3
+/// anterior on either side. None for a hinge.
+std::vector<ClockContact> clock_contacts(const RomResult& result);
 
 /// The summary as JSON text, ending in a newline.
 std::string rom_json(const RomResult& result);
