@@ -177,6 +177,8 @@ void add_rom(CLI::App& app) {
               "adduction=-40:30:1; the first one runs to the right")
           ->expected(2);
   verb->add_option("--vary", options->vary, "The angle that turns in the map: the third one");
+  verb->add_option("--past", options->past_deg,
+                   "Also find the impingement zones this many degrees past each limit");
   auto* radius = verb->add_option(
       "--exclude-radius", options->exclude_radius_mm,
       "Leave out what lies within this many mm of the joint centre: sliding surfaces that overlap");

@@ -87,11 +87,45 @@ TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
   const Ran ran = run(command);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_EQ(read_whole_file(here / "out/rom.json"), ran.out);
-  for (const char* name :
-       {"limits.csv", "limits.svg", "map.csv", "map_flexion.svg", "map_extension.svg", "map_free_range.svg"})
+  for (const char* name : {"limits.csv", "limits.svg", "clock_face.svg", "map.csv", "map_flexion.svg",
+                           "map_extension.svg", "map_free_range.svg"})
     EXPECT_TRUE(fs::exists(here / "out" / name)) << name;
   EXPECT_FALSE(fs::exists(here / "out/map.checkpoint"));
   EXPECT_EQ(Json::parse(ran.out)["map"]["points"], 25);
+}
+
+TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
+  write_joint("arm.ply", "[[motion]]\nname = \"../up & down\"\nvary = \"flexion\"\nrange = [0, 10]\n");
+  const Ran ran = run("rom joint.toml --motion flexion --motion '../up & down' --past 4 --out out --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json motions = Json::parse(ran.out)["motions"];
+  EXPECT_EQ(motions[0]["zone"]["past_deg"].get<double>(), 4);
+  // The post's wall x = 40 is two triangles, and the arm's corner stands in it.
+  EXPECT_GT(motions[0]["zone"]["fixed"]["area_mm2"].get<double>(), 0);
+  EXPECT_GT(motions[0]["zone"]["mobile"]["max_tangential_depth_deg"].get<double>(), 0);
+  EXPECT_LE(motions[0]["zone"]["mobile"]["max_tangential_depth_deg"].get<double>(), 4 + 1e-9);
+  EXPECT_TRUE(motions[1]["zone"].is_null());
+  const TriMesh fixed = read_mesh(here / "out/zone_01_flexion_fixed.vtp").mesh;
+  EXPECT_EQ(fixed, read_mesh(here / "post.ply").mesh);
+  EXPECT_EQ(read_mesh(here / "out/zone_01_flexion_mobile.vtp").mesh.triangles,
+            read_mesh(here / "arm.ply").mesh.triangles);
+  const std::string bytes = read_whole_file(here / "out/zone_01_flexion_mobile.vtp");
+  for (const char* name :
+       {"radial_depth_mm", "ray_to_normal_deg", "tangential_depth_deg", "tangential_depth_mm", "in_zone"})
+    EXPECT_NE(bytes.find(name), bytes.npos) << name;
+  // No file for the motion without contact, nor one outside the folder.
+  for (const auto& entry : fs::recursive_directory_iterator(here))
+    EXPECT_EQ(entry.path().string().find("down"), std::string::npos) << entry.path();
+}
+
+TEST_F(RomCommand, AllowsADepthOnRequestAndSaysThatTheLimitIsSearchedFor) {
+  const Ran ran = run("rom joint.toml --motion flexion --allow-depth 0.5 --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json answer = Json::parse(ran.out);
+  EXPECT_FALSE(answer["terms"].empty());
+  EXPECT_LE(answer["motions"][0]["depth"]["at_limit_mm"].get<double>(), 0.5);
+  const Json exact = Json::parse(run("rom joint.toml --motion flexion --json").out)["motions"][0];
+  EXPECT_GE(answer["motions"][0]["limit_deg"].get<double>(), exact["limit_deg"].get<double>());
 }
 
 TEST_F(RomCommand, GivesTheSameBytesOnOneThreadAndOnMany) {
@@ -121,6 +155,12 @@ TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
                  "named twice");
   expect_refused(2, "rom joint.toml --out out --vary flexion", "--vary");
   expect_refused(2, "rom joint.toml --out out --exclude-radius 0", "above 0 mm");
+  expect_refused(2, "rom joint.toml --out out --past 200", "past the limit");
+  expect_refused(2, "rom joint.toml --out out --past -1", "past the limit");
+  expect_refused(2, "rom joint.toml --out out --past nan", "past the limit");
+  expect_refused(2, "rom joint.toml --out out --allow-depth -1", "depth");
+  expect_refused(2, "rom joint.toml --out out --allow-depth 1 --exclude-rest", "excludes");
+  expect_refused(2, "rom joint.toml --out out --follow-socket", "requires --allow-depth");
 }
 
 TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
@@ -148,7 +188,7 @@ Ran run_interrupted(const fs::path& folder, const std::string& arguments) {
   const std::string err = (caught / "err").string();
   const std::string command = "cd '" + folder.string() + "' && { '" CONDYLE_COMMAND "' --threads 1 " +
                               arguments + " >'" + (caught / "out").string() + "' 2>'" + err +
-                              "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -q 'map points' '" + err +
+                              "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -qs 'map points' '" + err +
                               "'; do sleep 0.1; done; kill -INT $p; wait $p; }";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_whole_file(caught / "out"),

@@ -50,7 +50,7 @@ MotionMap interrupted_map(std::size_t points) {
 /// Everything that is written about a map.
 std::string written(const MotionMap& map) {
   const Joint joint = arm_and_post();
-  std::string text = map_csv(map) + rom_json({joint, {}, std::nullopt, {}, &map});
+  std::string text = map_csv(map) + rom_json({.joint = joint, .limits = {}, .map = &map});
   for (const MapView view : {MapView::positive_limit, MapView::negative_limit, MapView::free_range})
     text += map_plot(plot_of(map, view, joint.name));
   return text;
@@ -79,7 +79,7 @@ TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
 TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
   const MotionMap map = whole_map();
   const Joint joint = arm_and_post();
-  const Json json = Json::parse(rom_json({joint, {}, std::nullopt, {}, &map}))["map"];
+  const Json json = Json::parse(rom_json({.joint = joint, .limits = {}, .map = &map}))["map"];
   EXPECT_EQ(json["vary"], "flexion");
   EXPECT_EQ(json["columns"], (Json{{"angle", "adduction"},
                                    {"first_deg", -10.0},

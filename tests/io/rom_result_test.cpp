@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -114,7 +115,8 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   const char* digits = lines[1].c_str() + std::string("flexion,").size();
   std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
   EXPECT_EQ(turned, limits[0].turned.degrees());
-  EXPECT_TRUE(lines[1].ends_with(",edge 3-17,face 40"));
+  EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
+  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,"));
 }
 
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
@@ -131,6 +133,63 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_EQ(lines[6].find("in contact at start"), column + 1);
   EXPECT_NE(lines[4].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
   EXPECT_NE(lines[5].find(" 40.00 "), std::string::npos);
+}
+
+/// A limit with contact in this direction from the joint centre.
+MotionLimit contact_towards(const Vec3& p) {
+  MotionLimit limit;
+  limit.motion.name = "flexion";
+  limit.reason = LimitReason::contact;
+  limit.contact = {{}, {}, p, p};
+  return limit;
+}
+
+TEST(ClockContacts, HaveTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
+  // Anterior is +X and superior +Y on both sides; the socket is to the right (+Z) of a right hip's centre.
+  for (const Side side : {Side::right, Side::left}) {
+    Joint joint = arm_and_post();
+    joint.side = side;
+    const double lateral = side == Side::right ? 5 : -5;
+    const std::vector limits{contact_towards({0, 20, lateral}), contact_towards({20, 0, lateral}),
+                             contact_towards({14, 14, lateral}), contact_towards({0, -20, lateral}),
+                             contact_towards({-20, 0, lateral})};
+    const RomResult result{joint, limits};
+    const auto contacts = clock_contacts(result);
+    ASSERT_EQ(contacts.size(), 5u);
+    const std::array hours{0.0, 3.0, 1.5, 6.0, 9.0};
+    // Four roundings of an arctangent, in hours.
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(contacts[i].hour, hours[i], 1e-14);
+    EXPECT_NEAR(Json::parse(rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
+    EXPECT_NE(rom_text(result).find("  1:30  "), std::string::npos);
+    EXPECT_NE(rom_csv(result).find(",1.5\n"), std::string::npos);
+  }
+}
+
+TEST(ClockContacts, LeaveOutWhatDidNotTouchAndHinges) {
+  Joint joint = arm_and_post();
+  const std::vector<MotionLimit> limits = some_limits();
+  EXPECT_EQ(clock_contacts({joint, limits}).size(), 1u);
+  joint.kind = JointKind::hinge;
+  EXPECT_TRUE(clock_contacts({joint, limits}).empty());
+  EXPECT_TRUE(Json::parse(rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
+}
+
+TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
+  const Joint joint = arm_and_post();
+  DepthLimit depth;
+  depth.limit = contact_towards({1, 2, 3});
+  depth.at_limit.depth_mm = 0.4375;
+  depth.start_depth_mm = 0.125;
+  depth.depth_grows = false;
+  depth.at_limit.shift = CentreShift{.translation = {0.5, 0.25, 0}};
+  const Json motion = Json::parse(
+      rom_json({.joint = joint, .limits = {&depth.limit, 1}, .depths = {&depth, 1}}))["motions"][0];
+  EXPECT_EQ(motion["depth"]["at_limit_mm"], 0.4375);
+  EXPECT_EQ(motion["depth"]["at_start_mm"], 0.125);
+  EXPECT_EQ(motion["depth"]["grows"], false);
+  EXPECT_EQ(motion["depth"]["centre_shift_mm"], (Json{0.5, 0.25, 0.0}));
+  EXPECT_TRUE(motion["certificate"].get<std::string>().starts_with("searched, not exact"));
+  EXPECT_FALSE(motion.contains("zone"));
 }
 
 TEST(Certificate, SaysWhatEachReasonPromises) {
