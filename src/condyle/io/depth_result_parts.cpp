@@ -49,6 +49,14 @@ std::string inside_line(const Body& body, std::size_t inside, std::size_t on_sur
   return line + "\n";
 }
 
+std::string place_text(const Vec3& p) {
+  return fmt::format("at ({:.2f}, {:.2f}, {:.2f}) mm", p.x(), p.y(), p.z());
+}
+
+std::string open_line(const Body& body) {
+  return fmt::format("  {}: no answer, the other mesh is open and has no inside\n", body.name);
+}
+
 InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs) {
   std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles.size()),
       mobile(joint.mobile.mesh.triangles.size());

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,67 +9,29 @@
 namespace condyle {
 namespace {
 
-/// One body's vertices against the other body.
-struct BodyView {
-  const char* key;
-  const Body& body;
-  std::optional<TangentialBodySummary> summary;
-  Pose X_F;  // pose of this body in F
+using Views = BodyViews<TangentialBodySummary>;
+using Deepest = Views::Deepest<DeepestTurn>;
 
-  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices[vertex]); }
-};
-
-std::array<BodyView, 2> views(const DepthQuestion& question, const TangentialContact& contact) {
+Views views(const DepthQuestion& question, const TangentialContact& contact) {
   const auto summary_of = [](const std::optional<TangentialHits>& hits) {
     return hits ? std::optional(summarise(*hits)) : std::nullopt;
   };
-  return {{{"mobile", question.joint.mobile, summary_of(contact.mobile_in_fixed), question.X_FM},
-           {"fixed", question.joint.fixed, summary_of(contact.fixed_in_mobile), Pose::Identity()}}};
+  return {question, summary_of(contact.mobile_in_fixed), summary_of(contact.fixed_in_mobile)};
 }
 
-/// The vertex of either body that comes first by `less`, of those that `select` offers.
-struct Deepest {
-  const BodyView* view;
-  DeepestTurn turn;
-};
-
-template <class Select, class Measure>
-std::optional<Deepest> deepest_of(const std::array<BodyView, 2>& bodies, Select select, Measure measure) {
-  std::optional<Deepest> deepest;
-  for (const BodyView& view : bodies) {
-    if (!view.summary) continue;
-    const std::optional<DeepestTurn>& candidate = (*view.summary).*select;
-    if (candidate && (!deepest || (*candidate).*measure > deepest->turn.*measure))
-      deepest = {&view, *candidate};
-  }
-  return deepest;
+std::optional<Deepest> longest(const Views& bodies) {
+  return bodies.deepest(&TangentialBodySummary::deepest, &DeepestTurn::depth_mm);
 }
 
-std::optional<Deepest> longest(const std::array<BodyView, 2>& bodies) {
-  return deepest_of(bodies, &TangentialBodySummary::deepest, &DeepestTurn::depth_mm);
-}
-
-std::optional<Deepest> largest(const std::array<BodyView, 2>& bodies) {
-  return deepest_of(bodies, &TangentialBodySummary::largest_angle, &DeepestTurn::depth);
-}
-
-template <class Value>
-std::optional<Value> least(const std::array<BodyView, 2>& bodies,
-                           std::optional<Value> TangentialBodySummary::*member) {
-  std::optional<Value> gap;
-  for (const BodyView& view : bodies) {
-    if (!view.summary) continue;
-    const std::optional<Value>& candidate = (*view.summary).*member;
-    if (candidate && (!gap || *candidate < *gap)) gap = candidate;
-  }
-  return gap;
+std::optional<Deepest> largest(const Views& bodies) {
+  return bodies.deepest(&TangentialBodySummary::largest_angle, &DeepestTurn::depth);
 }
 
 Json degrees_of(const std::optional<Angle>& angle) {
   return angle ? Json(angle->degrees()) : Json(nullptr);
 }
 
-Json body_json(const BodyView& view) {
+Json body_json(const BodyView<TangentialBodySummary>& view) {
   if (!view.summary) return nullptr;
   const TangentialBodySummary& summary = *view.summary;
   return {{"vertices", view.body.mesh.vertices.size()},
@@ -84,65 +45,54 @@ Json body_json(const BodyView& view) {
           {"min_gap_mm", nullable(summary.min_gap_mm)}};
 }
 
+std::string deepest_line(const char* what, const TurnAxis& axis, const Deepest& deepest) {
+  return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
+                     deepest.vertex.depth_mm, name_of(axis.about), deepest.vertex.depth.degrees(),
+                     deepest.vertex.vertex, deepest.view->body.name,
+                     place_text(deepest.view->in_fixed_frame(deepest.vertex.vertex)));
+}
+
 }  // namespace
 
 std::string depth_json(const DepthQuestion& question, const TurnAxis& axis,
                        const TangentialContact& contact) {
-  const auto bodies = views(question, contact);
-  const auto& [mobile, fixed] = bodies;
+  const Views bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
-  const auto inside = [](const BodyView& view) {
-    return view.summary ? Json(view.summary->vertices_inside) : Json(nullptr);
-  };
-
   Json json = depth_header(question, "tangential");
   json["about"] = name_of(axis.about);
   json["axis"] = numbers(axis.direction_F);
-  json["in_contact"] = contact.in_contact;
-  json["mobile_vertices_inside"] = inside(mobile);
-  json["fixed_vertices_inside"] = inside(fixed);
-  json["triangle_pairs"] = contact.pairs.size();
-  json["max_tangential_depth_deg"] = furthest ? furthest->turn.depth.degrees() : 0.0;
-  json["max_tangential_depth_mm"] = deepest ? deepest->turn.depth_mm : 0.0;
-  json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
-  json["deepest_vertex"] = deepest ? Json(deepest->turn.vertex) : Json(nullptr);
-  json["deepest_point_mm"] =
-      deepest ? numbers(deepest->view->in_fixed_frame(deepest->turn.vertex)) : Json(nullptr);
-  json["min_gap_deg"] = degrees_of(least(bodies, &TangentialBodySummary::min_gap));
-  json["min_gap_mm"] = nullable(least(bodies, &TangentialBodySummary::min_gap_mm));
-  for (const BodyView& view : bodies) json["bodies"][view.key] = body_json(view);
+  bodies.add_counts(json, contact.in_contact, contact.pairs.size());
+  json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
+  json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
+  add_deepest(json, deepest);
+  json["min_gap_deg"] = degrees_of(bodies.least(&TangentialBodySummary::min_gap));
+  json["min_gap_mm"] = nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
+  for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = scope_note;
   return json.dump(2) + "\n";
 }
 
 std::string depth_text(const DepthQuestion& question, const TurnAxis& axis,
                        const TangentialContact& contact) {
-  const auto bodies = views(question, contact);
+  const Views bodies = views(question, contact);
   std::string text = depth_headline(question, contact.in_contact, contact.pairs.size());
-  for (const BodyView& view : bodies) {
-    if (!view.summary) {
-      text += fmt::format("  {}: no answer, the other mesh is open and has no inside\n", view.body.name);
+  for (const auto* view : bodies.both()) {
+    if (!view->summary) {
+      text += open_line(view->body);
       continue;
     }
-    text += inside_line(view.body, view.summary->vertices_inside, view.summary->vertices_on_surface);
-    if (view.summary->without_way_out > 0) {
-      text += fmt::format("  {} of them are inside at every angle of {}\n", view.summary->without_way_out,
+    text += inside_line(view->body, view->summary->vertices_inside, view->summary->vertices_on_surface);
+    if (view->summary->without_way_out > 0) {
+      text += fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_way_out,
                           name_of(axis.about));
     }
   }
-  const auto line = [&](const char* what, const Deepest& deepest) {
-    const Vec3 p = deepest.view->in_fixed_frame(deepest.turn.vertex);
-    text += fmt::format(
-        "  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, at ({:.2f}, {:.2f}, {:.2f}) mm\n",
-        what, deepest.turn.depth_mm, name_of(axis.about), deepest.turn.depth.degrees(), deepest.turn.vertex,
-        deepest.view->body.name, p.x(), p.y(), p.z());
-  };
   const auto deepest = longest(bodies), furthest = largest(bodies);
-  if (deepest) line("deepest", *deepest);
-  if (furthest && (furthest->view != deepest->view || furthest->turn.vertex != deepest->turn.vertex)) {
-    line("largest angle", *furthest);
+  if (deepest) text += deepest_line("deepest", axis, *deepest);
+  if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
+    text += deepest_line("largest angle", axis, *furthest);
   }
-  if (const auto gap = least(bodies, &TangentialBodySummary::min_gap)) {
+  if (const auto gap = bodies.least(&TangentialBodySummary::min_gap)) {
     text += fmt::format("  smallest gap by turning: {:.3f} deg\n", gap->degrees());
   }
   return text;
