@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/contact/joint_contact.hpp"
+#include "condyle/core/error.hpp"
 #include "condyle/motion/impingement_zone.hpp"
 #include "condyle/motion/range_of_motion.hpp"
 #include "support/shared_data.hpp"
@@ -100,6 +101,33 @@ TEST_P(RealHipLimits, FindTheNeckWhereAnatomyHasIt) {
   EXPECT_GT(to_shaft, 110);
   EXPECT_LT(to_shaft, 145);
   EXPECT_GT(d.z() * (joint_.side == Side::right ? 1 : -1), 0.4) << "lateral";
+}
+
+/// Segmented without care for contact: 47 pairs of triangles meet at rest (the data's own table), and the hip
+/// bone is open.
+TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const Joint joint{"gait2392",
+                    JointKind::ball,
+                    Side::right,
+                    {"hip bone", test::read_ply(*data / "hip_gait2392_lowres_dirty/pelvis_r.ply")},
+                    {"femur", test::read_ply(*data / "hip_gait2392_lowres_dirty/femur_r.ply")}};
+  try {
+    const RangeOfMotion refused(joint);
+    FAIL() << "accepted";
+  } catch (const MeshError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("47 pairs of triangles meet; an open mesh has no depth"), std::string::npos) << text;
+  }
+  const RangeOfMotion bones(joint, {.overlap = {.leave_out_rest_contacts = LeaveOutRestContacts{}}});
+  EXPECT_GT(bones.left_out().fixed_triangles, 0u);
+  std::size_t contacts = 0;
+  for (const MotionLimit& limit : bones.limits(hip_motions())) {
+    EXPECT_NE(limit.reason, LimitReason::contact_at_start) << limit.motion.name;
+    contacts += limit.reason == LimitReason::contact;
+  }
+  EXPECT_GT(contacts, 3u);
 }
 
 }  // namespace

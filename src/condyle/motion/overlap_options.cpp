@@ -109,9 +109,10 @@ std::string explain_overlap(const Joint& joint, const JointAngles& at) {
     text += "; " + deepest(joint.fixed, joint.mobile, fixed);
   } else if (!contact.pairs.empty()) {
     const Vec3 p = joint.fixed.mesh.corner(contact.pairs.front().fixed, 0);
-    text += "; no vertex is inside, first at " + joint.fixed.name + " triangle " +
-            std::to_string(contact.pairs.front().fixed) + " at (" + number(p.x()) + ", " + number(p.y()) +
-            ", " + number(p.z()) + ") mm";
+    const bool told = contact.mobile_in_fixed && contact.fixed_in_mobile;
+    text += (told ? "; no vertex is inside, first at " : "; an open mesh has no depth, first at ") +
+            joint.fixed.name + " triangle " + std::to_string(contact.pairs.front().fixed) + " at (" +
+            number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") mm";
   }
   return text +
          ". Allow a radial depth, leave out the articular region, leave out the contacts at rest, start from "
