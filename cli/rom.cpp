@@ -121,6 +121,17 @@ std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMoti
   return terms;
 }
 
+/// The joint made ready; where its bodies touch at rest, the error names the options that go on from there.
+std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const RangeOptions& options) {
+  try {
+    return std::make_unique<RangeOfMotion>(joint, options);
+  } catch (const ContactAtRestError& error) {
+    throw MeshError(
+        std::string(error.what()) +
+        " (--allow-depth, --exclude-radius, --exclude-rest, [rest] in the joint file, --accept-rest)");
+  }
+}
+
 void run(const Options& options) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
@@ -139,9 +150,9 @@ void run(const Options& options) {
   if (options.allow_depth_mm) {
     found = depth_limits(options, joint, motions);
   } else {
-    const RangeOfMotion range(joint, asked);
-    found = {range.limits(motions), {}, range.articular_region(), terms_of(asked, range)};
-    if (grid) map = resumable_map(*grid, {joint, asked, range}, checkpoint);
+    const auto range = ready(joint, asked);
+    found = {range->limits(motions), {}, range->articular_region(), terms_of(asked, *range)};
+    if (grid) map = resumable_map(*grid, {joint, asked, *range}, checkpoint);
   }
   std::vector<std::optional<ImpingementZone>> zones;
   if (finder)
@@ -188,14 +199,14 @@ void add_rom(CLI::App& app) {
   auto* depth = verb->add_option("--allow-depth", options->allow_depth_mm,
                                  "End a motion where the radial depth exceeds this many mm, for meshes that "
                                  "overlap wherever they are: searched for, not exact");
-  for (CLI::Option* other : {map, radius, rest}) depth->excludes(other);
   verb->add_flag_callback(
           "--follow-socket", [options] { options->centre = Centre::follows_socket; },
           "With --allow-depth: shift the mobile body at every pose so that the joint space is even")
       ->needs(depth);
-  verb->add_flag_callback(
+  auto* accept = verb->add_flag_callback(
       "--accept-rest", [options] { options->contact_at_rest = ContactAtRest::accept; },
       "Answer although the bodies are in contact at rest: motions that start in contact say so");
+  for (CLI::Option* other : {map, radius, rest, accept}) depth->excludes(other);
   verb->add_option(
       "--out", options->out,
       "Folder for rom.json, limits.csv, limits.svg and clock_face.svg, map.csv and map_*.svg of a map, "

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/core/error.hpp"
 #include "condyle/kinematics/joint.hpp"
 #include "condyle/motion/articular_region.hpp"
 
@@ -31,7 +32,8 @@ struct LeaveOutRestContacts {
 /// body wholly swallowed by the other one is then not noticed at the start of a motion, and a vertex deep in
 /// the hole touches nothing. Everything else about the limits stays exact.
 struct OverlapOptions {
-  JointAngles rest = {};  ///< the pose in which the meshes are known: checked, and where contacts are left out
+  JointAngles rest =
+      {};  ///< the pose in which the meshes are known: checked, and where contacts are left out
   ContactAtRest contact_at_rest = ContactAtRest::refuse;
   /// Triangles with all three corners in this region are left out: of the fixed body as it is, and of the
   /// mobile body where the region is a ball without a cone (it is then the same in every pose). Every contact
@@ -64,6 +66,12 @@ struct PartsOfJoint {
 /// Both bodies without what the options leave out. Throws UsageError for a radius that is not above 0, a
 /// cone without an axis or fewer than 0 rings, and MeshError where nothing of a body is left.
 PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options);
+
+/// Bodies in contact at rest where the options say nothing about it.
+class ContactAtRestError : public MeshError {
+ public:
+  using MeshError::MeshError;
+};
 
 /// One line for people whose meshes overlap: how much, where it is deepest, and what can be done.
 std::string explain_overlap(const Joint& joint, const JointAngles& at);

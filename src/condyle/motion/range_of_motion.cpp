@@ -95,7 +95,7 @@ RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options)
   const TurnEnds at_rest =
       ends(JointAngle::flexion, options.overlap.rest, {.negative = Angle(), .positive = Angle()});
   if (at_rest.positive.reason == LimitReason::contact_at_start)
-    throw MeshError(explain_overlap(joint, options.overlap.rest));
+    throw ContactAtRestError(explain_overlap(joint, options.overlap.rest));
 }
 
 RangeOfMotion::~RangeOfMotion() = default;
