@@ -48,7 +48,7 @@ TEST(PathLimit, OnDiagonalPathsIsNeverPastAContactAndEndsBesideOne) {
         angles = turned_by(angles, a, angle_of(end, a) * share);
       return pose_at(Side::right, angles);
     };
-    for (int k = 0; k <= 200; ++k) EXPECT_TRUE(exact.pairs(at(limit.share * k / 200)).empty());
+    for (int k = 0; k <= 50; ++k) EXPECT_TRUE(exact.pairs(at(limit.share * k / 50)).empty());
     if (limit.reason != LimitReason::contact) continue;
     ++contacts;
     // Within the tolerance at the mobile triangle's largest radius, here below 50 mm.
