@@ -7,13 +7,13 @@
 namespace condyle::sample {
 namespace {
 
-/// Radius of the bump in head radii. Its height over the head follows from it and the steepness:
-/// sqrt(1 + b^2 - 2 b cos s) + b - 1 = 0.14, 3.4 mm on a head of 24 mm.
+/// Radius of the bump in head radii.
 constexpr double bump_radius = 0.55;
 
-/// Angle between the two circles where they cross. Flatter, and the place where the contour leaves the head
-/// depends on how closely one looks; steeper, and the bump is a wart.
-constexpr Angle steepness = Angle::degrees(30);
+/// Between the circles where they cross, at first and when full grown. The height over the head is
+/// sqrt(1 + b^2 - 2 b cos s) + b - 1 head radii: 0.04 and 0.14. Flatter, and where the contour leaves the
+/// head depends on how closely one looks; steeper, and the bump is a wart.
+constexpr Angle least_steepness = Angle::degrees(15), full_steepness = Angle::degrees(30);
 
 /// How far the bump is swept around the neck to either side: three quarters of an hour.
 constexpr Angle sweep = Angle::degrees(22.5);
@@ -44,7 +44,7 @@ FieldValue Cam::seam(const Vec3& p) const noexcept {
   return {narrow + wide * t * t / sum, (2 * wide * t * half * half / (sum * sum)) * neck};
 }
 
-Cam cam_crossing_at(const HipParameters& hip, Angle crossing) noexcept {
+Cam cam_crossing_at(const HipParameters& hip, Angle crossing, double grown) noexcept {
   const FemurAxes axes = femur_axes(hip);
   const Vec3 out = cam_direction(axes);
   const double radius = hip.head_radius_mm;
@@ -52,10 +52,12 @@ Cam cam_crossing_at(const HipParameters& hip, Angle crossing) noexcept {
     return Vec3(std::cos(angle.radians()) * axes.neck + std::sin(angle.radians()) * out);
   };
   // Where they cross, the bump's normal leans away from the neck by the steepness.
+  const Angle steepness = least_steepness + (full_steepness - least_steepness) * grown;
   const Vec3 centre = radius * (towards(crossing) - bump_radius * towards(crossing + steepness));
-  // Its end sinks into the neck on the side of the bump.
+  // A full one sinks into the neck slowly, on its own side.
   const double neck_radius = hip.neck_radius_mm;
-  const Ball end = {0.75 * axes.foot + 0.25 * neck_radius * out, 0.65 * neck_radius};
+  const Ball end = {(0.45 + 0.3 * grown) * axes.foot + 0.25 * grown * neck_radius * out,
+                    (0.4 + 0.25 * grown) * neck_radius};
   return {{centre, bump_radius * radius}, end, radius, axes.neck, out};
 }
 

@@ -16,7 +16,7 @@ inline constexpr double cam_departure = 0.005;
 /// into the neck. In the plane of the neck's axis n and the bump's clock position d:
 ///
 ///     d | . - ~ - .   head
-///       |           *  the circles cut each other
+///       |           *  the circles cross
 ///       |         .-- o --.
 ///       |        (    c    ` - .
 ///     O +---------`---------------` end ---> n
@@ -40,7 +40,9 @@ struct Cam {
   FieldValue seam(const Vec3& p) const noexcept;
 };
 
-/// The cam whose circle crosses the head's at this angle from the neck's axis.
-Cam cam_crossing_at(const HipParameters& hip, Angle crossing) noexcept;
+/// The cam whose circle crosses the head's at this angle from the neck's axis. `grown` from 0 to 1: from one
+/// that hardly looks out of neck and head, crossing at 15 degrees, to a full one, crossing at 30 degrees and
+/// standing 0.14 head radii out of the head.
+Cam cam_crossing_at(const HipParameters& hip, Angle crossing, double grown) noexcept;
 
 }  // namespace condyle::sample

@@ -1,5 +1,6 @@
 #include "condyle/sample/femur_shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -109,17 +110,21 @@ double sign_change(double positive, double other, const Function& f) {
 }
 
 /// The cam with which the contour leaves the head at this angle: the crossing is moved until it does, as
-/// seams and the neck have a part in it.
+/// seams and the neck have a part in it. It is least at the native angle and full grown 12
+/// degrees above.
 Cam cam_leaving_at(const HipParameters& hip, Angle alpha, FemurPieces femur) {
+  constexpr Angle growth = Angle::degrees(12);
+  const double above_native = (alpha - native_alpha_angle(hip)).radians() / growth.radians();
+  const double grown = std::clamp(above_native, 0.0, 1.0);
   const Vec3 leaving = leaving_at(hip, alpha.radians());
   const auto value = [&](double crossing) {
-    femur.cam = cam_crossing_at(hip, Angle::radians(crossing));
+    femur.cam = cam_crossing_at(hip, Angle::radians(crossing), grown);
     return femur(leaving).value;
   };
   // So far below, the bump is out of reach of that point; so far above, the point is deep in it.
   constexpr Angle below = Angle::degrees(40), above = Angle::degrees(15);
   const double crossing = sign_change((alpha - below).radians(), (alpha + above).radians(), value);
-  return cam_crossing_at(hip, Angle::radians(crossing));
+  return cam_crossing_at(hip, Angle::radians(crossing), grown);
 }
 
 }  // namespace

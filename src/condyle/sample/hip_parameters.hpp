@@ -42,6 +42,8 @@ struct HipParameters {
   /// In the frontal plane through the head's centre, from the vertical to the socket's edge, positive
   /// laterally; 15 to 45 degrees.
   Angle lateral_centre_edge_angle = Angle::degrees(33);
+
+  friend bool operator==(const HipParameters&, const HipParameters&) = default;
 };
 
 }  // namespace condyle
