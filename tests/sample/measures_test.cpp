@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -238,6 +239,34 @@ TEST(SampleHipMeasures, AlphaAngleMeasuredOnTheMeshIsTheOneAskedFor) {
     const auto [radius, alpha] = measured_alpha(femur, axes.neck, sample::cam_direction(axes), beyond);
     EXPECT_NEAR(radius, hips[i].head_radius_mm, 0.025);
     EXPECT_NEAR(alpha.degrees(), asked_deg[i], 1);
+  }
+}
+
+TEST(SampleHipMeasures, AnyFemurLeavesItsHeadAtTheAlphaAngleAskedForAndNotBefore) {
+  std::mt19937 random(1);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  constexpr double step_deg = 0.05;
+  for (int i = 0; i < 300; ++i) {
+    HipParameters hip;
+    hip.head_radius_mm = between(18, 32);
+    hip.neck_radius_mm = between(8, 0.8 * hip.head_radius_mm);
+    hip.neck_length_mm = between(40, 65);
+    hip.neck_shaft_angle = Angle::degrees(between(110, 145));
+    hip.femoral_anteversion = Angle::degrees(between(-15, 45));
+    const double least = std::max(50.0, sample::native_alpha_angle(hip).degrees());
+    const double asked_deg = i % 10 == 0 ? least : between(least, 90);
+    hip.alpha_angle = Angle::degrees(asked_deg);
+    const auto femur = sample::femur_shape(hip).field;
+    const auto axes = sample::femur_axes(hip);
+    double at_deg = 180;
+    for (; at_deg > 0; at_deg -= step_deg) {
+      const double at = Angle::degrees(at_deg).radians();
+      const Vec3 towards = std::cos(at) * axes.neck + std::sin(at) * sample::cam_direction(axes);
+      if (femur(1.005 * hip.head_radius_mm * towards).value <= 0) break;
+    }
+    EXPECT_NEAR(at_deg, asked_deg, 1.01 * step_deg);
   }
 }
 

@@ -28,9 +28,8 @@ struct HipParameters {
   /// Along the shaft's axis from there to the cut at its lower end; mm, 60 to 250.
   double shaft_length_mm = 100;
   /// With this set, a cam bump on the head-neck junction at half past one around the neck's axis,
-  /// anterosuperior, that makes this alpha angle there; from sample::native_alpha_angle(), which the shapes
-  /// of head and neck make without a bump and which hence no constant could stand for, to 90 degrees.
-  /// Without, no bump.
+  /// anterosuperior, that makes this alpha angle there; from sample::native_alpha_angle(), but at least 50,
+  /// to 90 degrees. Without, no bump: head and neck make the native angle, which no constant could stand for.
   std::optional<Angle> alpha_angle = {};
 
   /// Between the socket's opening direction and the vertical, Murray's anatomical inclination; 35 to 65
