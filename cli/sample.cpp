@@ -90,6 +90,10 @@ void add_sample(CLI::App& app) {
              "Half the narrowest front-to-back width of the neck");
   add_length(*verb, "--neck-length", hip.neck_length_mm, "From the head's centre to the shaft's axis");
   add_length(*verb, "--shaft-length", hip.shaft_length_mm, "From the neck's axis to the lower end");
+  verb->add_option_function<double>(
+          "--alpha-angle", [&hip](double degrees) { hip.alpha_angle = Angle::degrees(degrees); },
+          "Alpha angle of a cam at half past one around the neck, up to 90; no cam if not given")
+      ->option_text("DEG");
   add_angle(*verb, "--acetabular-inclination", hip.acetabular_inclination,
             "Of the socket's opening, from the vertical");
   add_angle(*verb, "--acetabular-version", hip.acetabular_version,

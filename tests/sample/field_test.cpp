@@ -81,6 +81,12 @@ TEST(Field, GradientsAreThoseOfTheValuesAndNowhereSteep) {
   expect_gradient([](const Vec3& p) { return without(ball(b, p), ball(c, p), 6); }, box, "without");
   const Solid femur = femur_shape({}), hip_bone = hip_bone_shape({});
   expect_gradient(femur.field, femur.box, "femur");
+  HipParameters with_cam;
+  with_cam.alpha_angle = Angle::degrees(80);
+  expect_gradient(femur_shape(with_cam).field, femur.box, "femur with a cam");
+  const auto widening = [](const Vec3& p) { return FieldValue{6 + 0.3 * p.y(), 0.3 * Vec3::UnitY()}; };
+  expect_gradient([&](const Vec3& p) { return joined(ball(a, p), ball(b, p), widening(p)); }, box,
+                  "joined with a widening seam");
   expect_gradient(hip_bone.field, hip_bone.box, "hip bone");
 }
 

@@ -1,9 +1,12 @@
 #include "condyle/sample/femur_shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "condyle/sample/cam.hpp"
 #include "condyle/sample/skeleton.hpp"
 
 namespace condyle::sample {
@@ -29,6 +32,7 @@ struct FemurPieces {
   Skeleton shaft;
   Ball greater_tip, greater_side, greater_back;
   Ball lesser, lesser_root;
+  std::optional<Cam> cam;
   Vec3 distal;
   double cut = 0;
   double scale = 1;
@@ -40,25 +44,18 @@ struct FemurPieces {
     bone = joined(bone, bar(greater_back, lesser, p), 10 * scale);
     bone = joined(bone, plate(neck_inside_head, neck_upper_foot, neck_lower_foot, p), 10 * scale);
     bone = joined(bone, ball(head, p), 7 * scale);
+    if (cam) bone = joined(bone, (*cam)(p), cam->seam(p));
     return common(bone, half_space(distal, cut, p), 8 * scale);
   }
 };
 
-}  // namespace
-
-FemurAxes femur_axes(const HipParameters& hip) noexcept {
-  const double lean = shaft_lean.radians(), turn = hip.femoral_anteversion.radians();
-  const double bend = std::numbers::pi - hip.neck_shaft_angle.radians();
-  FemurAxes axes;
-  axes.distal = Vec3(0, -std::cos(lean), -std::sin(lean));
-  axes.lateral = Vec3(0, -std::sin(lean), std::cos(lean));
-  axes.neck = std::sin(bend) * (std::cos(turn) * axes.lateral - std::sin(turn) * Vec3::UnitX()) +
-              std::cos(bend) * axes.distal;
-  axes.foot = hip.neck_length_mm * axes.neck;
-  return axes;
+/// Downwards at right angles to the neck, in the plane of neck and shaft.
+Vec3 across_neck(const FemurAxes& axes) noexcept {
+  return axes.neck.cross(axes.distal.cross(axes.neck)).normalized();
 }
 
-Solid femur_shape(const HipParameters& hip) {
+/// Everything but the cam.
+FemurPieces femur_without_cam(const HipParameters& hip) {
   const FemurAxes axes = femur_axes(hip);
   const double scale = hip.head_radius_mm / nominal_head_radius;
   // The trochanters turn about the shaft with the neck: torsion takes place below them.
@@ -71,7 +68,7 @@ Solid femur_shape(const HipParameters& hip) {
     return Ball{axes.foot + scale * offset, scale * radius};
   };
   // The neck is higher than it is deep, more so towards its foot.
-  const Vec3 across = axes.neck.cross(axes.distal.cross(axes.neck)).normalized();
+  const Vec3 across = across_neck(axes);
   const double neck_radius = hip.neck_radius_mm;
 
   FemurPieces femur;
@@ -91,13 +88,91 @@ Solid femur_shape(const HipParameters& hip) {
   femur.greater_back = at(16, -15, 10, 9.5);
   femur.lesser_root = at(-16, -8, -10, 10);
   femur.lesser = at(-17, -14, -17, 7.5);
+  return femur;
+}
 
-  const std::array<Ball, 9> balls = {
-      femur.head,        femur.neck_upper_foot, femur.neck_lower_foot, shaft[0],    shaft_end,
-      femur.greater_tip, femur.greater_side,    femur.greater_back,    femur.lesser};
+/// The point in the cam's plane at this angle from the neck's axis that is just outside the head's circle.
+Vec3 leaving_at(const HipParameters& hip, double angle_rad) noexcept {
+  const FemurAxes axes = femur_axes(hip);
+  const Vec3 towards = std::cos(angle_rad) * axes.neck + std::sin(angle_rad) * cam_direction(axes);
+  return (1 + cam_departure) * hip.head_radius_mm * towards;
+}
+
+/// Where a function changes sign, to the last bit or so: positive at one end, not at the other.
+template <class Function>
+double sign_change(double positive, double other, const Function& f) {
+  constexpr int halvings = 60;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (positive + other) / 2;
+    (f(middle) > 0 ? positive : other) = middle;
+  }
+  return other;
+}
+
+/// The cam with which the contour leaves the head at this angle: the crossing is moved until it does, as
+/// seams and the neck have a part in it. It is least at the native angle and full grown 12
+/// degrees above.
+Cam cam_leaving_at(const HipParameters& hip, Angle alpha, FemurPieces femur) {
+  constexpr Angle growth = Angle::degrees(12);
+  const double above_native = (alpha - native_alpha_angle(hip)).radians() / growth.radians();
+  const double grown = std::clamp(above_native, 0.0, 1.0);
+  const Vec3 leaving = leaving_at(hip, alpha.radians());
+  const auto value = [&](double crossing) {
+    femur.cam = cam_crossing_at(hip, Angle::radians(crossing), grown);
+    return femur(leaving).value;
+  };
+  // So far below, the bump is out of reach of that point; so far above, the point is deep in it.
+  constexpr Angle below = Angle::degrees(40), above = Angle::degrees(15);
+  const double crossing = sign_change((alpha - below).radians(), (alpha + above).radians(), value);
+  return cam_crossing_at(hip, Angle::radians(crossing), grown);
+}
+
+}  // namespace
+
+FemurAxes femur_axes(const HipParameters& hip) noexcept {
+  const double lean = shaft_lean.radians(), turn = hip.femoral_anteversion.radians();
+  const double bend = std::numbers::pi - hip.neck_shaft_angle.radians();
+  FemurAxes axes;
+  axes.distal = Vec3(0, -std::cos(lean), -std::sin(lean));
+  axes.lateral = Vec3(0, -std::sin(lean), std::cos(lean));
+  axes.neck = std::sin(bend) * (std::cos(turn) * axes.lateral - std::sin(turn) * Vec3::UnitX()) +
+              std::cos(bend) * axes.distal;
+  axes.foot = hip.neck_length_mm * axes.neck;
+  return axes;
+}
+
+Vec3 cam_direction(const FemurAxes& axes) noexcept {
+  const Vec3 superior = -across_neck(axes), anterior = superior.cross(axes.neck);
+  return (superior + anterior).normalized();
+}
+
+Angle native_alpha_angle(const HipParameters& hip) {
+  const FemurPieces femur = femur_without_cam(hip);
+  // Straight away from the neck there is nothing but the head; along its axis there is the neck.
+  return Angle::radians(
+      sign_change(std::numbers::pi, 0, [&](double angle) { return femur(leaving_at(hip, angle)).value; }));
+}
+
+Solid femur_shape(const HipParameters& hip) {
+  FemurPieces femur = femur_without_cam(hip);
+  std::vector<Ball> details;
+  if (hip.alpha_angle) {
+    femur.cam = cam_leaving_at(hip, *hip.alpha_angle, femur);
+    const auto places = femur.cam->places();
+    details.assign(places.begin(), places.end());
+  }
+  const std::array<Ball, 9> balls = {femur.head,
+                                     femur.neck_upper_foot,
+                                     femur.neck_lower_foot,
+                                     femur.shaft.balls().front(),
+                                     femur.shaft.balls().back(),
+                                     femur.greater_tip,
+                                     femur.greater_side,
+                                     femur.greater_back,
+                                     femur.lesser};
   const Box box = box_around(balls);
-  const Vec3 room = Vec3::Constant(room_around * scale);
-  return {femur, {box.low - room, box.high + room}, {}};
+  const Vec3 room = Vec3::Constant(room_around * femur.scale);
+  return {femur, {box.low - room, box.high + room}, details};
 }
 
 }  // namespace condyle::sample

@@ -76,6 +76,14 @@ FieldValue joined(const FieldValue& a, const FieldValue& b, double blend) noexce
   return {low.value - blend * h * h / 4, (1 - h / 2) * low.gradient + (h / 2) * high.gradient};
 }
 
+FieldValue joined(const FieldValue& a, const FieldValue& b, const FieldValue& blend) noexcept {
+  FieldValue seam = joined(a, b, blend.value);
+  // With x = |a - b| / blend < 1: d/dblend [-blend (1 - x)^2 / 4] = -(1 - x^2) / 4.
+  const double x = std::abs(a.value - b.value) / blend.value;
+  if (x < 1) seam.gradient -= (1 - x * x) / 4 * blend.gradient;
+  return seam;
+}
+
 FieldValue common(const FieldValue& a, const FieldValue& b, double blend) noexcept {
   return negated(joined(negated(a), negated(b), blend));
 }

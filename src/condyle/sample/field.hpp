@@ -72,6 +72,10 @@ FieldValue half_space(const Vec3& normal, double offset, const Vec3& p) noexcept
 /// continuous.
 FieldValue joined(const FieldValue& a, const FieldValue& b, double blend) noexcept;
 
+/// The same with a width > 0 that changes from place to place. Its slope counts at most a quarter: the
+/// derivative of -blend h^2 / 4 by the width is -(1 - (1 - h)^2) / 4.
+FieldValue joined(const FieldValue& a, const FieldValue& b, const FieldValue& blend) noexcept;
+
 /// Intersection, its edge rounded in the same way.
 FieldValue common(const FieldValue& a, const FieldValue& b, double blend) noexcept;
 

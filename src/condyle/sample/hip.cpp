@@ -39,6 +39,16 @@ void check(const HipParameters& hip) {
   check_range("neck_radius_mm", hip.neck_radius_mm, 8, 0.8 * hip.head_radius_mm, "mm");
   check_range("neck_length_mm", hip.neck_length_mm, 40, 65, "mm");
   check_range("shaft_length_mm", hip.shaft_length_mm, 60, 250, "mm");
+  if (hip.alpha_angle) {
+    // On necks so slender that they make less than 50 degrees, the smallest bump stands out above alpha.
+    constexpr double most = 90, least_for_bump = 50;
+    const double native = sample::native_alpha_angle(hip).degrees();
+    if (native > most) {
+      throw UsageError(fmt::format(
+          "sample hip: alpha_angle cannot be set: so wide a neck makes it {:g} degrees by itself", native));
+    }
+    check_range("alpha_angle", hip.alpha_angle->degrees(), std::max(native, least_for_bump), most, "degrees");
+  }
   check_range("acetabular_inclination", hip.acetabular_inclination.degrees(), 35, 65, "degrees");
   check_range("acetabular_version", hip.acetabular_version.degrees(), -10, 35, "degrees");
   check_range("lateral_centre_edge_angle", hip.lateral_centre_edge_angle.degrees(), 15, 45, "degrees");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "condyle/core/angle.hpp"
 #include "condyle/core/vec3.hpp"
 
@@ -25,6 +27,10 @@ struct HipParameters {
   double neck_length_mm = 50;
   /// Along the shaft's axis from there to the cut at its lower end; mm, 60 to 250.
   double shaft_length_mm = 100;
+  /// With this set, a cam bump on the head-neck junction at half past one around the neck's axis,
+  /// anterosuperior, that makes this alpha angle there; from sample::native_alpha_angle(), but at least 50,
+  /// to 90 degrees. Without, no bump: head and neck make the native angle, which no constant could stand for.
+  std::optional<Angle> alpha_angle = {};
 
   /// Between the socket's opening direction and the vertical, Murray's anatomical inclination; 35 to 65
   /// degrees.
@@ -35,6 +41,8 @@ struct HipParameters {
   /// In the frontal plane through the head's centre, from the vertical to the socket's edge, positive
   /// laterally; 15 to 45 degrees.
   Angle lateral_centre_edge_angle = Angle::degrees(33);
+
+  friend bool operator==(const HipParameters&, const HipParameters&) = default;
 };
 
 }  // namespace condyle

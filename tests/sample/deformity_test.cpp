@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "condyle/motion/range_of_motion.hpp"
+#include "sample/made_hips.hpp"
+
+/// The sample hip behaves as clinicians find deformed hips to behave.
+
+namespace condyle {
+namespace {
+
+double internal_rotation_at_90_flexion_deg(const HipParameters& parameters) {
+  const SampleHip& hip = test::made_hip(Scenario::three, parameters);
+  const RangeOfMotion range(
+      {"sample hip", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}});
+  const auto motions = hip_motions();
+  const MotionLimit limit = range.limit(motion_named(motions, "internal_rotation_at_90_flexion"));
+  EXPECT_EQ(limit.reason, LimitReason::contact);
+  return limit.turned.degrees();
+}
+
+/// What meshing may change in a limit where the solids' own limit does not change: every hip is meshed anew.
+/// Where the bones meet, triangles with edges e up to 2.3 mm on curvatures of r >= 9 mm sag by up to e^2 / (8
+/// r) = 0.07 mm, on both bones, at 40 mm or more from the axis of the turn: 0.14 / 40 rad = 0.2 degrees. On a
+/// cam edges are half as long, and r is 13 mm, at 26 mm from the axis: less.
+constexpr double meshing_deg = 0.2;
+constexpr double clearly_deg = 10;
+
+void expect_lowering(const std::vector<double>& limits_deg) {
+  for (std::size_t i = 0; i + 1 < limits_deg.size(); ++i) {
+    EXPECT_LE(limits_deg[i + 1], limits_deg[i] + meshing_deg) << "from value " << i;
+  }
+  EXPECT_LT(limits_deg.back(), limits_deg.front() - clearly_deg);
+}
+
+TEST(Deformity, RaisingTheAlphaAngleLowersInternalRotationAt90Flexion) {
+  std::vector<double> limits_deg = {internal_rotation_at_90_flexion_deg({})};
+  for (const double alpha_deg : {54, 60, 66, 74, 82, 90}) {
+    HipParameters parameters;
+    parameters.alpha_angle = Angle::degrees(alpha_deg);
+    limits_deg.push_back(internal_rotation_at_90_flexion_deg(parameters));
+  }
+  expect_lowering(limits_deg);
+}
+
+TEST(Deformity, RaisingTheCentreEdgeAngleLowersInternalRotationAt90Flexion) {
+  std::vector<double> limits_deg;
+  for (const double centre_edge_deg : {20, 26, 33, 39, 45}) {
+    HipParameters parameters;
+    parameters.lateral_centre_edge_angle = Angle::degrees(centre_edge_deg);
+    limits_deg.push_back(internal_rotation_at_90_flexion_deg(parameters));
+  }
+  expect_lowering(limits_deg);
+}
+
+}  // namespace
+}  // namespace condyle
