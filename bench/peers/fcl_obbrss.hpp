@@ -17,7 +17,7 @@ class FclObbrss {
   FclObbrss& operator=(const FclObbrss&) = delete;
 
   /// Whether the surfaces touch: its boolean query, which ends at the first pair of triangles found. Decided
-  /// in floating point with its own tolerances: right up to about a millionth of a millimetre.
+  /// in floating point with tolerances of its own.
   bool touch(const condyle::Pose& X_FM) const;
 
  private:
