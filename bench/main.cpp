@@ -49,6 +49,12 @@ bool is_asked(const Question& question, std::string_view scene, const Options& o
          fmt::format("{}/{}", question.name, scene).find(options.filter) != std::string::npos;
 }
 
+/// "full" for everything, which alone is fit to be published.
+std::string description(const Options& options) {
+  const std::string effort = options.effort == Effort::full ? "full" : "quick";
+  return options.filter.empty() ? effort : fmt::format("{}, of {}", effort, options.filter);
+}
+
 /// Asks each scene everything that is to be asked of it, so that it is made once.
 void run(const Options& options, Report& report) {
   for (const std::string_view scene : scene_names()) {
@@ -95,6 +101,7 @@ int main(int argc, char** argv) {
   try {
     bench::Report report;
     report.machine = bench::describe_machine();
+    report.machine.emplace_back("run", description(options));
     const double load_before = bench::load_average();
     bench::run(options, report);
     report.machine.emplace_back("load", fmt::format("{:.1f} before, {:.1f} after (this program included)",

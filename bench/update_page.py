@@ -8,7 +8,7 @@ The page has a place for each table of the run, and for what the run must be rea
     <!-- end machine -->
 
 The rest of the page is left alone. All tables of a page are of one run: a place the run has no table for is
-an error, and so is a run whose answers disagree.
+an error, and so is a run of a part (--filter, --quick) or one whose answers disagree.
 """
 
 import json
@@ -38,13 +38,15 @@ def main(run_path, page_path):
         run = json.load(file)
     if run["disagreements"]:
         sys.exit("update_page.py: answers disagree: " + "; ".join(run["disagreements"]))
+    if run["machine"]["run"] != "full":
+        sys.exit(f"update_page.py: the run is '{run['machine']['run']}', not 'full'")
     content = {table["name"]: result_table(table) for table in run["tables"]}
     content["machine"] = machine_table(run)
 
     def place(match):
         name = match.group(1)
         if name not in content:
-            sys.exit(f"update_page.py: the run has no table '{name}': was it of a part (--filter, --quick) only?")
+            sys.exit(f"update_page.py: the run has no table '{name}': are its scenes there?")
         return f"<!-- begin {name} -->\n{content[name]}\n<!-- end {name} -->"
 
     with open(page_path, encoding="utf-8") as file:

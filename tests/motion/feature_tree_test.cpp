@@ -68,13 +68,11 @@ TEST(FeatureTree, keeps_every_point_of_a_node_between_its_distances_from_the_ori
     const FeatureTree tree(mesh);
     for (const auto& node : tree.nodes()) {
       for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
-        const auto [a, b, c] = tree.triangles()[t];
+        const auto corner = [&](int k) { return tree.vertices()[tree.triangles()[t][k]]; };
         for (int i = 0; i <= 12; ++i) {
           for (int j = 0; i + j <= 12; ++j) {
             const auto along = [&](double Triple<double>::*x) {
-              return (i * tree.vertices()[a].*x + j * tree.vertices()[b].*x +
-                      (12 - i - j) * tree.vertices()[c].*x) /
-                     12;
+              return (i * corner(0).*x + j * corner(1).*x + (12 - i - j) * corner(2).*x) / 12;
             };
             const Vec3 p(along(&Triple<double>::x), along(&Triple<double>::y), along(&Triple<double>::z));
             // The point and its distance are rounded by some 2^-50 of its size.
