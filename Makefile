@@ -1,11 +1,14 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang
+.PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench bench_dependencies
 
 dependencies:
 	@scripts/install_dependencies.sh
 
 clang_dependencies:
 	@scripts/install_dependencies.sh clang
+
+bench_dependencies:
+	@scripts/install_dependencies.sh bench
 
 build/release/build.ninja: | dependencies
 	@cmake --preset release >/dev/null
@@ -34,6 +37,14 @@ fuzz: clang_dependencies
 	@mkdir -p build/fuzz/corpus
 	@build/fuzz/mesh_seeds build/fuzz/corpus
 	@build/fuzz/fuzz_mesh_reader -max_total_time=$(FUZZ_SECONDS) -malloc_limit_mb=256 build/fuzz/corpus
+
+# Condyle beside other libraries; docs/performance.md gets the figures of this run.
+bench: bench_dependencies
+	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
+	@cmake --build --preset release --target condyle_bench
+	@mkdir -p out/bench
+	@build/release/condyle-bench --json out/bench/run.json
+	@bench/update_page.py out/bench/run.json docs/performance.md
 
 format: clang_dependencies
 	@git ls-files '*.hpp' '*.cpp' | xargs clang-format -i

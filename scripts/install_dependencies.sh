@@ -2,6 +2,7 @@
 # Installs every Debian package that Condyle builds and tests with. Quick when nothing is missing.
 #   install_dependencies.sh           for make demo and make test
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
+#   install_dependencies.sh bench     and for make bench
 set -euo pipefail
 
 packages=(
@@ -13,6 +14,7 @@ packages=(
 )
 
 if [ "${1:-}" = clang ]; then packages+=(clang libclang-rt-14-dev clang-format); fi
+if [ "${1:-}" = bench ]; then packages+=(libfcl-dev python3 git); fi
 
 missing=()
 for package in "${packages[@]}"; do

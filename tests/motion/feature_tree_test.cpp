@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "condyle/motion/rotation_table.hpp"
@@ -55,6 +56,68 @@ TEST(FeatureTree, keeps_every_corner_of_a_node_in_its_ball) {
       for (const Index v : tree.triangles()[t]) {
         const auto d = tree.vertices()[v] - node.centre;
         EXPECT_LE(std::sqrt(dot(d, d)), node.radius);
+      }
+    }
+  }
+}
+
+/// A box about the origin, where the nearest points of most faces are inside them, and a ball, where they are
+/// corners or nearly so.
+TEST(FeatureTree, keeps_every_point_of_a_node_between_its_distances_from_the_origin) {
+  for (const TriMesh& mesh : {box({-1, -2, -1.5}, {1, 2, 3}), sphere({0, 0, 0}, 2, 3), torus(3, 1, 20, 12)}) {
+    const FeatureTree tree(mesh);
+    for (const auto& node : tree.nodes()) {
+      for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
+        const auto corner = [&](int k) { return tree.vertices()[tree.triangles()[t][k]]; };
+        for (int i = 0; i <= 12; ++i) {
+          for (int j = 0; i + j <= 12; ++j) {
+            const auto along = [&](double Triple<double>::*x) {
+              return (i * corner(0).*x + j * corner(1).*x + (12 - i - j) * corner(2).*x) / 12;
+            };
+            const Vec3 p(along(&Triple<double>::x), along(&Triple<double>::y), along(&Triple<double>::z));
+            // The point and its distance are rounded by some 2^-50 of its size.
+            EXPECT_LE(node.from_origin.lo, p.norm() * (1 + 1e-15));
+            EXPECT_GE(node.from_origin.hi, p.norm() * (1 - 1e-15));
+          }
+        }
+      }
+    }
+  }
+}
+
+/// The nearest point of a triangle with corners at distance R and edges no longer than e is no nearer than
+/// sqrt(R^2 - e^2 / 3), its circumcentre at the worst.
+TEST(FeatureTree, has_tight_distances_for_a_ball_about_the_origin) {
+  const TriMesh ball = sphere({0, 0, 0}, 2, 3);
+  double longest2 = 0;
+  for (std::size_t t = 0; t < ball.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k)
+      longest2 = std::max(longest2, (ball.corner(t, k) - ball.corner(t, (k + 1) % 3)).squaredNorm());
+  const DistanceRange range = FeatureTree(ball).nodes()[0].from_origin;
+  EXPECT_GE(range.lo, std::sqrt(4 - longest2 / 3) - 1e-12);
+  EXPECT_LE(range.hi, 2 + 1e-12);
+}
+
+TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
+  const TriMesh mesh = sphere({0, 0, 0}, 2, 3);
+  const FeatureTree tree(mesh);
+  TurningBody body(tree);
+  for (const Vec3& axis_point : {Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.1), Vec3(40, 5, -7)}) {
+    for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.5, 0.25, -1), Vec3(40, 5, -7)}) {
+      Pose X_RT = Pose::Identity();
+      X_RT.linear() = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+      X_RT.translation() = shift;
+      body.start_at(AxisFrame(axis_point, {1, -2, 0.5}), X_RT);
+      for (Index i = 0; i < tree.nodes().size(); ++i) {
+        const CylinderBox node_box = body.node_box(i);
+        const auto& node = tree.nodes()[i];
+        for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
+          for (const Index v : tree.triangles()[t]) {
+            const auto p = body.placed_vertex(v);
+            const CylinderBox point = box_of_vertex(p, cylinder_point(p));
+            EXPECT_TRUE(node_box.shares_profile(point) && arcs_meet(node_box, point));
+          }
+        }
       }
     }
   }

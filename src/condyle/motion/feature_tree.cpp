@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "condyle/mesh/edge_balance.hpp"
@@ -156,8 +157,30 @@ FeatureTree::FeatureTree(const TriMesh& mesh) : mesh_triangle_(mesh.triangles.si
     node.edges = {edges_before[node.triangles.first], edges_before[node.triangles.last]};
     node.vertices = {vertices_before[node.triangles.first], vertices_before[node.triangles.last]};
   }
+  set_distances();
   is_closed_ = !unbalanced_edge(mesh).has_value();
   pieces_ = one_of_each_piece(edges_, vertices_.size());
+}
+
+void FeatureTree::set_distances() {
+  // Children come after their parent.
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    DistanceRange& range = node.from_origin;
+    const auto widen = [&](const DistanceRange& more) {
+      range = {std::min(range.lo, more.lo), std::max(range.hi, more.hi)};
+    };
+    if (!node.is_leaf()) {
+      range = nodes_[i + 1].from_origin;
+      widen(nodes_[node.right].from_origin);
+      continue;
+    }
+    range = {std::numeric_limits<double>::infinity(), 0};
+    for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
+      const auto [a, b, c] = triangles_[t];
+      widen(distance_range(vertices_[a], vertices_[b], vertices_[c]));
+    }
+  }
 }
 
 }  // namespace condyle

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "condyle/mesh/tri_mesh.hpp"
-#include "condyle/motion/turn_function.hpp"
+#include "condyle/motion/cylinder_box.hpp"
 
 namespace condyle {
 
@@ -30,6 +30,9 @@ class FeatureTree {
     Index right = 0;  ///< 0 for a leaf.
     Triple<double> centre{0, 0, 0};
     double radius = 0;  ///< Of the ball about all corners of the node's triangles.
+    /// From the origin of the mesh's frame. A head and its socket are two shells about the joint centre,
+    /// which is that origin, and stay so however the joint turns.
+    DistanceRange from_origin{0, 0};
 
     bool is_leaf() const noexcept { return right == 0; }
   };
@@ -53,6 +56,8 @@ class FeatureTree {
   const std::vector<Index>& pieces() const noexcept { return pieces_; }
 
  private:
+  void set_distances();
+
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;
   std::vector<std::array<Index, 2>> edges_;

@@ -97,11 +97,14 @@ class Search {
     return turning.shares_profile(resting) && gap_in_turn(turning, resting, direction_) <= reach_;
   }
 
+  /// Most features of a leaf are out of reach of the whole other leaf: those are not compared one by one.
   void compare_leaves(const NodePair& pair, const Node& m, const Node& f) {
     ++work_.leaf_pairs;
+    const CylinderBox& leaf = resting_.node_box(pair.resting);
     const FeatureTree &mt = turning_.tree(), &ft = resting_.tree();
     const CylinderFeatures &mf = turning_.leaf_features(pair.turning), &ff = resting_.features();
     for (Index v = m.vertices.first; v < m.vertices.last; ++v) {
+      if (!within_reach(mf.vertex_boxes[v], leaf)) continue;
       for (Index t = f.triangles.first; t < f.triangles.last; ++t) {
         if (!within_reach(mf.vertex_boxes[v], ff.triangle_boxes[t])) continue;
         record(vertex_meets_face(mf.points[v], ff.corners(ft, t), window_), FeatureKind::vertex, v,
@@ -109,6 +112,7 @@ class Search {
       }
     }
     for (Index t = m.triangles.first; t < m.triangles.last; ++t) {
+      if (!within_reach(mf.triangle_boxes[t], leaf)) continue;
       for (Index v = f.vertices.first; v < f.vertices.last; ++v) {
         if (!within_reach(mf.triangle_boxes[t], ff.vertex_boxes[v])) continue;
         record(face_meets_vertex(mf.corners(mt, t), ff.points[v], window_), FeatureKind::face, t,
@@ -116,6 +120,7 @@ class Search {
       }
     }
     for (Index e = m.edges.first; e < m.edges.last; ++e) {
+      if (!within_reach(mf.edge_boxes[e], leaf)) continue;
       const auto [a, b] = mt.edges()[e];
       for (Index g = f.edges.first; g < f.edges.last; ++g) {
         if (!within_reach(mf.edge_boxes[e], ff.edge_boxes[g])) continue;

@@ -39,10 +39,10 @@ int crossing(const Point& a, const Point& b, const Point& c, const Point& p) noe
 }
 
 /// Nodes of the turning body with at most so many triangles get their box from their triangles, the others
-/// from their ball. A ball costs one point and is loose, triangles cost all of theirs. On a hip of 30 000 and
-/// 15 000 triangles a limit takes 0.9 ms with balls down to the leaves, 0.4 to 0.5 ms with 16 to 64 here and
-/// twice that with 256.
-constexpr Index tight_triangles = 32;
+/// from their ball. A ball costs one point and is loose across the direction from the origin, triangles cost
+/// all of theirs. On a hip of 30 000 and 15 000 triangles six limits take 0.78 ms in all with 8, 0.97 ms with
+/// 16 and 1.5 ms with 32; on one of 156 000 and 99 000 triangles 3.6, 3.9 and 4.3 ms.
+constexpr Index tight_triangles = 8;
 
 CylinderBox hull_of_triangles(const CylinderFeatures& features, const Node& node) noexcept {
   CylinderBox box = features.triangle_boxes[node.triangles.first];
@@ -114,6 +114,7 @@ void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
   // the point.
   const double size = 3 * extent_ + X_RT.translation().lpNorm<1>() + frame_R.point().lpNorm<1>();
   posing_slack_ = 64 * rounding_unit * size;
+  origins_apart_ = (X_RT.translation() - frame_R.point()).norm() + posing_slack_;
   if (++pose_number_ == 0) {
     for (auto* marks : {&node_mark_, &leaf_mark_, &vertex_mark_}) std::fill(marks->begin(), marks->end(), 0u);
     pose_number_ = 1;
@@ -141,6 +142,8 @@ const CylinderBox& TurningBody::node_box(Index i) {
   } else {
     const Vec3 centre = frame_.to_axis(posed(X_RT_, vec3(node.centre)));
     box = box_of_ball(triple(centre), node.radius + posing_slack_);
+    box.r_lo = std::max(box.r_lo, node.from_origin.lo - origins_apart_);
+    box.r_hi = std::min(box.r_hi, node.from_origin.hi + origins_apart_);
   }
   return box;
 }

@@ -86,6 +86,9 @@ class TurningBody {
   Pose X_RT_ = Pose::Identity();
   /// More than posing a ball's centre and the points in it may have rounded them apart, in mm.
   double posing_slack_ = 0;
+  /// No point is farther from the origin of the axis frame than from that of its own frame by more than this,
+  /// nor nearer.
+  double origins_apart_ = 0;
   double extent_ = 0;
   CylinderFeatures features_;
   /// A node or vertex is ready where its mark is the number of the current pose.

@@ -1,0 +1,60 @@
+#include "condyle/motion/motion_map.hpp"
+
+#include <tbb/task_arena.h>
+
+#include "questions.hpp"
+#include "timing.hpp"
+
+namespace bench {
+namespace {
+
+using condyle::JointAngle;
+
+const TableHead map_head = {
+    "motion_map",
+    "Map: flexion -20:120, adduction -40:30, both ends of internal rotation; all threads, made ready before",
+    {{"scene", "scene"},
+     {"step_deg", "step, °"},
+     {"points", "points"},
+     {"free_points", "free at start"},
+     {"threads", "threads"},
+     {"wall_s", "s on the wall"},
+     {"processor_s", "s on processors"},
+     {"points_per_s", "points per s"},
+     {"processor_ms_per_point", "processor ms per point"}}};
+
+const TableHead work_head = {"motion_map_work",
+                             "Map: what the searches looked at, mean of a point",
+                             {{"scene", "scene"},
+                              {"node_pairs", "pairs of regions"},
+                              {"leaf_pairs", "pairs of leaves"},
+                              {"events", "events solved"},
+                              {"exact_decisions", "exact decisions"},
+                              {"triangle_tests", "triangle tests at the start"}}};
+
+}  // namespace
+
+void ask_motion_map(const condyle::Joint& joint, Effort effort, Report& report) {
+  const double step = effort == Effort::full ? 1 : 10;
+  const condyle::RangeOfMotion range(
+      joint, {.articular = {}, .overlap = {.contact_at_rest = condyle::ContactAtRest::accept}});
+  condyle::MotionMap map({.row = {JointAngle::adduction, -40, 30, step},
+                          .column = {JointAngle::flexion, -20, 120, step},
+                          .vary = JointAngle::internal_rotation});
+  const Stopwatch watch;
+  fill(map, range);
+  const double wall = watch.wall_seconds(), processor = watch.processor_seconds();
+
+  std::int64_t free = 0;
+  for (const auto& point : map.points) free += point->free_at_start() ? 1 : 0;
+  const auto points = static_cast<double>(map.points.size());
+  report.table(map_head).add({joint.name, step, static_cast<std::int64_t>(map.points.size()), free,
+                              std::int64_t{tbb::this_task_arena::max_concurrency()}, wall, processor,
+                              points / wall, processor * 1e3 / points});
+  const auto mean = [&](std::int64_t sum) { return static_cast<double>(sum) / points; };
+  report.table(work_head).add({joint.name, mean(map.work.node_pairs), mean(map.work.leaf_pairs),
+                               mean(map.work.events), mean(map.work.exact_decisions),
+                               mean(map.work.triangle_tests)});
+}
+
+}  // namespace bench

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace bench {
+
+/// A text, a count, or a measured value.
+using Cell = std::variant<std::string, std::int64_t, double>;
+
+struct Column {
+  std::string key;    ///< in JSON, with its unit
+  std::string title;  ///< for people
+  int digits = 3;     ///< that a measured value is shown with; JSON has all of them
+};
+
+struct TableHead {
+  std::string name;  ///< in JSON, and of its place in the page
+  std::string title;
+  std::vector<Column> columns;
+};
+
+struct Table {
+  TableHead head;
+  std::vector<std::vector<Cell>> rows;
+
+  /// One cell per column.
+  void add(std::vector<Cell> row);
+};
+
+/// What a run found.
+struct Report {
+  std::vector<std::pair<std::string, std::string>> machine;
+  std::deque<Table> tables;  ///< references to them last
+  std::vector<std::string> skipped;
+  /// Where an answer and a peer's do not agree: a table of times is worth nothing then.
+  std::vector<std::string> disagreements;
+
+  /// The table of that name, with the rows it has so far.
+  Table& table(const TableHead& head);
+};
+
+/// A cell as people read it.
+std::string text(const Cell& cell, int digits);
+
+/// Columns aligned, numbers to the right.
+std::string terminal_text(const Table& table);
+
+/// Keys in the order of the columns; what a script needs to lay the tables out again is there too.
+nlohmann::ordered_json to_json(const Report& report);
+
+}  // namespace bench

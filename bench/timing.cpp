@@ -1,0 +1,46 @@
+#include "timing.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <ctime>
+
+namespace bench {
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Stopwatch::Stopwatch()
+    : wall_start_(std::chrono::steady_clock::now()), processor_start_(bench::processor_seconds()) {}
+
+double Stopwatch::wall_seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start_).count();
+}
+
+double Stopwatch::processor_seconds() const {
+  return bench::processor_seconds() - processor_start_;
+}
+
+double median(std::vector<double> samples) {
+  assert(!samples.empty());
+  std::sort(samples.begin(), samples.end());
+  const std::size_t half = samples.size() / 2;
+  return samples.size() % 2 == 1 ? samples[half] : (samples[half - 1] + samples[half]) / 2;
+}
+
+std::vector<std::vector<double>> interleaved(int rounds, const std::vector<std::function<void()>>& ways) {
+  for (const auto& way : ways) way();
+  std::vector<std::vector<double>> samples(ways.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const Stopwatch watch;
+      ways[i]();
+      samples[i].push_back(watch.processor_seconds());
+    }
+  }
+  return samples;
+}
+
+}  // namespace bench

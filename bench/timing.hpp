@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+/// How long things take, on machines that others use too.
+
+namespace bench {
+
+/// Seconds that the threads of this process spent computing: where other programs take the processor away,
+/// the clock on the wall goes on and this one stands still.
+double processor_seconds();
+
+/// Both clocks, since its construction.
+class Stopwatch {
+ public:
+  Stopwatch();
+  double wall_seconds() const;
+  double processor_seconds() const;
+
+ private:
+  std::chrono::steady_clock::time_point wall_start_;
+  double processor_start_;
+};
+
+/// Middle one of the samples, the mean of both where there are two; the samples must not be none.
+double median(std::vector<double> samples);
+
+/// Processor time in seconds of each of several ways to do something: `rounds` rounds, each way once a round,
+/// so that whatever slows the machine down for a while slows all of them. A round before the first one warms
+/// up and does not count. Returns the samples of each way.
+std::vector<std::vector<double>> interleaved(int rounds, const std::vector<std::function<void()>>& ways);
+
+}  // namespace bench
