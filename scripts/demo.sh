@@ -23,6 +23,11 @@ echo "The same deep pose by the tangential method, about the flexion axis:"
 "$condyle" depth "$out/sample/hip.toml" --pose "flexion=140" --method tangential --out "$out/deep_flexion_tangential"
 
 echo
+echo "How far it turns in each clinical direction:"
+"$condyle" rom "$out/sample/hip.toml" --out "$out/range_of_motion"
+
+echo
 echo "Results are in $out, a folder for each pose: fixed.vtp and mobile.vtp (open them in ParaView or 3D Slicer),"
-echo "pairs.csv and depth.json. The joint itself is $out/sample/hip.toml."
+echo "pairs.csv and depth.json. Limits, their bar chart and clock face are in $out/range_of_motion. The joint itself is"
+echo "$out/sample/hip.toml."
 echo "Osseous contact only: soft tissue is not modelled. Research software, not a medical device."
