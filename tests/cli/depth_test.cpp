@@ -193,6 +193,26 @@ TEST_F(SampleJoint, AnUnwritableFolderEndsWithThree) {
   expect_refused(3, "sample hip --out /proc/condyle", "/proc/condyle");
 }
 
+TEST_F(SampleJoint, TenMetresFromTheOriginTheAnswersAreTheSame) {
+  const Json near = answer(std::string("depth sample/hip.toml ") + deep);
+  const Vec3 away(10000, -10000, 10000);
+  for (const char* name : {"sample/hip_bone.ply", "sample/femur.ply"}) {
+    TriMesh mesh = read_mesh(folder / name).mesh;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices.set(i, mesh.vertices[i] + away);
+    write_mesh(folder / name, mesh);
+  }
+  edit_joint("centre = [0.0, 0.0, 0.0]", "centre = [10000.0, -10000.0, 10000.0]");
+  const Json far = answer(std::string("depth sample/hip.toml ") + deep);
+  for (const char* key :
+       {"mobile_vertices_inside", "fixed_vertices_inside", "triangle_pairs", "deepest_vertex"}) {
+    EXPECT_EQ(near[key], far[key]) << key;
+  }
+  // Written 10 m away a coordinate moves by 2^-40 mm at most; a depth by that over the cosine between ray and
+  // normal.
+  const double cosine = std::cos(Angle::degrees(near["deepest_ray_to_normal_deg"]).radians());
+  EXPECT_NEAR(near["max_radial_depth_mm"], far["max_radial_depth_mm"], 8 * 0x1p-40 / cosine);
+}
+
 TEST_F(SampleJoint, AMissingMeshEndsWithThree) {
   fs::remove(folder / "sample/femur.ply");
   expect_refused(3, "depth sample/hip.toml --out result", "femur.ply");

@@ -4,7 +4,10 @@
 #include <memory>
 
 #include "condyle/contact/joint_contact.hpp"
+#include "condyle/contact/tangential_contact.hpp"
 #include "condyle/core/angle.hpp"
+#include "condyle/motion/range_of_motion.hpp"
+#include "condyle/sample/hip.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
@@ -23,7 +26,10 @@ struct JointFiles {
   double side;  // +1 right, -1 left
 };
 
+/// Joints with files, and the sample, which needs none.
 const JointFiles joints[] = {
+    {"sample_1", nullptr, nullptr, 1},
+    {"sample_2", nullptr, nullptr, 1},
     {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply", 1},
     {"libhip", "hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply", -1},
     {"libhip_coarse", "hip_libhip_m1_left/coarse/hip_bone_2442.ply",
@@ -75,8 +81,34 @@ struct LoadedJoint {
   TriMesh fixed, mobile;
 };
 
+/// Where surfaces just touch: a ten-thousandth of a degree before and after the end of each clinical motion.
+std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
+  const Side side = side_sign > 0 ? Side::right : Side::left;
+  const Joint joint{"", JointKind::ball, side, {"", meshes.fixed}, {"", meshes.mobile}};
+  const RangeOfMotion range(
+      joint, {.articular = ArticularRegion{25}, .overlap = {.contact_at_rest = ContactAtRest::accept}});
+  std::vector<Pose> poses;
+  for (const MotionLimit& limit : range.limits(hip_motions())) {
+    if (limit.reason != LimitReason::contact) continue;
+    for (const double past : {-1e-4, 1e-4}) {
+      const double sense = limit.motion.sense == TurnSense::positive ? 1 : -1;
+      poses.push_back(
+          pose_at(side, turned_by(limit.angles_at_limit(), limit.motion.vary, Angle::degrees(sense * past))));
+    }
+  }
+  return poses;
+}
+
 const LoadedJoint* load(const JointFiles& files) {
   static std::map<std::string, LoadedJoint> loaded;
+  if (!files.fixed) {
+    const auto [at, is_new] = loaded.try_emplace(files.name);
+    if (is_new) {
+      SampleHip hip = sample_hip({}, std::string(files.name) == "sample_1" ? Scenario::one : Scenario::two);
+      at->second = {std::move(hip.hip_bone), std::move(hip.femur)};
+    }
+    return &at->second;
+  }
   const auto data = test::shared_data();
   if (!data) return nullptr;
   const auto [at, is_new] = loaded.try_emplace(files.name);
@@ -110,7 +142,9 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
   const JointContact joint(meshes->fixed, meshes->mobile);
   const CgalOracle fixed_oracle(meshes->fixed), mobile_oracle(meshes->mobile);
   std::size_t free = 0, touching = 0, deep = 0, overlapping = 0;
-  for (const Pose& X : poses(GetParam().side)) {
+  std::vector<Pose> all = poses(GetParam().side);
+  for (const Pose& X : grazing_poses(*meshes, GetParam().side)) all.push_back(X);
+  for (const Pose& X : all) {
     const TriMesh posed_mobile = posed(X, meshes->mobile);
     const Points fixed_in_M = posed(X.inverse(), meshes->fixed.vertices.view());
     const RadialContact contact = joint.radial(X);
@@ -128,6 +162,59 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
       "%s: %zu poses free, %zu touching without a vertex inside, %zu deeper; %zu states beyond parity\n",
       GetParam().name, free, touching, deep, overlapping);
   EXPECT_GT(deep, 5u);
+}
+
+TEST_P(RealJoint, TheTangentialMethodHasTheSameVerticesInsideAndPairs) {
+  const LoadedJoint* meshes = load(GetParam());
+  if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const JointContact joint(meshes->fixed, meshes->mobile);
+  const std::vector<Pose> all = poses(GetParam().side);
+  for (std::size_t i = 0; i < all.size(); i += 7) {
+    // About Z the axis frame of F only permutes coordinates: both methods see the same doubles, and CGAL has
+    // judged those.
+    const TangentialContact tangential = tangential_contact(joint, all[i], Vec3::UnitZ());
+    const RadialContact radial = joint.radial(all[i]);
+    EXPECT_EQ(tangential.mobile_in_fixed->state, radial.mobile_in_fixed->state) << "pose " << i;
+    EXPECT_EQ(tangential.pairs, radial.pairs) << "pose " << i;
+  }
+}
+
+/// The way out of each vertex inside, again: every triangle, in long double, by the plane's equation and
+/// three volumes.
+double depth_by_all_triangles(const TriMesh& mesh, const Vec3& v) {
+  using Long3 = Eigen::Matrix<long double, 3, 1>;
+  const Long3 ray = v.cast<long double>();
+  long double before = -std::numeric_limits<long double>::infinity(), after = -before;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Long3 a = mesh.corner(t, 0).cast<long double>(), b = mesh.corner(t, 1).cast<long double>(),
+                c = mesh.corner(t, 2).cast<long double>();
+    const long double ab = ray.dot(a.cross(b)), bc = ray.dot(b.cross(c)), ca = ray.dot(c.cross(a));
+    if (!((ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0))) continue;
+    const Long3 normal = (b - a).cross(c - a);
+    const long double way = a.dot(normal) / ray.dot(normal);
+    if (way > 0 && way < 1) before = std::max(before, way);
+    if (way > 1) after = std::min(after, way);
+  }
+  return static_cast<double>(std::min(1 - before, after - 1) * ray.norm());
+}
+
+TEST_P(RealJoint, DepthsAreThoseOfAnIndependentRay) {
+  const LoadedJoint* meshes = load(GetParam());
+  if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const RadialTable fixed(meshes->fixed);
+  std::size_t compared = 0;
+  for (const Pose& X : {turned(120, 10, 30, GetParam().side), turned(-30, 0, -40, GetParam().side)}) {
+    const Points points = posed(X, meshes->mobile.vertices.view());
+    const RadialHits hits = fixed.query(points);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      // Several skins or overlaps are counted by winding number; the plain scan knows one skin.
+      if (hits.state[i] != PointState::inside || hits.winding[i] != 1 || compared > 400) continue;
+      const double expected = depth_by_all_triangles(meshes->fixed, points[i]);
+      EXPECT_NEAR(-hits.radial_gap[i], expected, 1e-9 * points[i].norm()) << "vertex " << i;
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 0u);
 }
 
 TEST_P(RealJoint, BothMapsGiveTheSameBytesInEveryPose) {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "condyle/core/error.hpp"
+#include "condyle/mesh/subdivide.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
@@ -235,23 +236,39 @@ TEST_P(RadialTableOnMap, DepthsAreThoseOfAnIndependentRayInFiftyDigits) {
   }
 }
 
-TEST_P(RadialTableOnMap, MovingMeshAndPointsTenMetresAwayKeepsEveryAnswerExact) {
-  // The joint frame subtracts the centre before a table is made; coordinates that are multiples of 2^-20
-  // survive that exactly, so the answers must be the same to the last bit.
-  const auto snapped = [](const Points& in, const Vec3& offset) {
-    Points out;
-    for (std::size_t i = 0; i < in.size(); ++i) {
-      const Vec3 p = (in[i] * 0x1p20).array().round() * 0x1p-20;
-      out.push_back((p + offset) - offset);
-    }
-    return out;
-  };
-  TriMesh near = sphere({0.3, 0.2, -0.1}, 1, 3), far = near;
-  const Points points = random_points(500, 1.5, 8);
-  near.vertices = snapped(near.vertices, Vec3::Zero());
-  far.vertices = snapped(far.vertices, {10000, -10000, 10000});
-  EXPECT_EQ(table(near).query(snapped(points, Vec3::Zero())),
-            table(far).query(snapped(points, {10000, -10000, 10000})));
+TEST_P(RadialTableOnMap, TurningMeshAndPointsTogetherChangesNothingBeyondRounding) {
+  TriMesh mesh = sphere({0.4, -0.3, 0.2}, 1, 3);
+  const Points points = random_points(2000, 1.3, 8);
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::AngleAxisd(0.7, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+  const RadialHits still = table(mesh).query(points),
+                   turned = table(posed(X, mesh)).query(posed(X, points.view()));
+  // Posing moves a coordinate by at most 4u of its size; no random point is that near to a surface or to an
+  // edge's ray, and a gap moves by that over the cosine between ray and normal.
+  EXPECT_EQ(still.state, turned.state);
+  EXPECT_EQ(still.triangle, turned.triangle);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (still.triangle[i] == no_index) continue;
+    const double moved = 16 * 0x1p-53 * 1.5 / std::cos(still.ray_to_normal[i]);
+    EXPECT_NEAR(still.radial_gap[i], turned.radial_gap[i], moved * 2);
+  }
+}
+
+TEST_P(RadialTableOnMap, RefiningTheMeshWithoutMovingItsSurfaceChangesNoAnswer) {
+  // Corners at multiples of 1/64: the midpoints of two refinements are exact.
+  TriMesh mesh = sphere({0.375, -0.25, 0.125}, 1, 2);
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    mesh.vertices.set(i, (mesh.vertices[i] * 64).array().round() / 64);
+  }
+  const Points points = random_points(2000, 1.3, 12);
+  const RadialHits coarse = table(mesh).query(points),
+                   fine = table(subdivided(subdivided(mesh))).query(points);
+  EXPECT_EQ(coarse.state, fine.state);
+  EXPECT_EQ(coarse.winding, fine.winding);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (coarse.triangle[i] == no_index) continue;
+    EXPECT_NEAR(coarse.radial_gap[i], fine.radial_gap[i], 2e-12 * points[i].norm());
+  }
 }
 
 TEST_P(RadialTableOnMap, OneThreadAndManyGiveTheSameBytes) {
