@@ -5,7 +5,7 @@ Usage: scripts/picture.py FOLDER PICTURE.png
 Needs Debian's python3-vtk9; without a display run it under xvfb-run.
 
 Both bones are drawn as they stand, side by side: the fixed one with the mobile one as glass before it, and the mobile one
-alone, turned to show what is inside. Vertices inside the other bone are red, triangles in contact orange.
+alone. Triangles with all corners inside the other bone are red, those in contact orange.
 """
 import sys
 
@@ -43,12 +43,12 @@ def marked(mesh, array, on_points, colour):
     threshold.SetInputArrayToProcess(0, 0, 0, association, array)
     threshold.SetUpperThreshold(0.5)
     threshold.SetThresholdFunction(vtk.vtkThreshold.THRESHOLD_UPPER)
-    threshold.SetAllScalars(False)
+    threshold.SetAllScalars(True)
     mapper = vtk.vtkDataSetMapper()
     mapper.SetInputConnection(threshold.GetOutputPort())
     mapper.ScalarVisibilityOff()
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-2, -2)
+    mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(-8, -8)
     actor = vtk.vtkActor()
     actor.SetMapper(mapper)
     actor.GetProperty().SetColor(*colour)
