@@ -25,7 +25,7 @@ test: dependencies build/release/build.ninja
 	@ctest --preset release --parallel 2
 
 sanitize clang: clang_dependencies
-	@cmake --preset $@ >/dev/null
+	@cmake --preset $@ -DCONDYLE_TESTS=ON >/dev/null
 	@cmake --build --preset $@
 	@ctest --preset $@ --parallel 2
 
