@@ -1,5 +1,7 @@
 #include "command.hpp"
 
+#include <gtest/gtest.h>
+
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -30,6 +32,13 @@ Ran run_condyle(const std::filesystem::path& folder, const std::string& argument
 
 bool is_one_error_line(const std::string& text) {
   return text.starts_with("condyle: ") && text.find('\n') == text.size() - 1;
+}
+
+void expect_refusal(const Ran& ran, int exit_code, std::string_view saying, const std::string& arguments) {
+  EXPECT_EQ(ran.exit_code, exit_code) << arguments;
+  EXPECT_EQ(ran.out, "") << arguments;
+  EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
+  EXPECT_NE(ran.err.find(saying), ran.err.npos) << ran.err;
 }
 
 }  // namespace condyle::test

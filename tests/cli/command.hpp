@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace condyle::test {
 
@@ -18,5 +19,8 @@ Ran run_condyle(const std::filesystem::path& folder, const std::string& argument
 
 /// Whether a text is one line "condyle: ..." and nothing else.
 bool is_one_error_line(const std::string& text);
+
+/// That a run ended with this exit code and one line on standard error, which says this, and gave no answer.
+void expect_refusal(const Ran& ran, int exit_code, std::string_view saying, const std::string& arguments);
 
 }  // namespace condyle::test

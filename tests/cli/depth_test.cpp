@@ -37,11 +37,7 @@ class SampleJoint : public ::testing::Test {
   }
   void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
     const std::size_t before = count_entries(folder.path());
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit_code, exit_code) << arguments;
-    EXPECT_EQ(ran.out, "") << arguments;
-    EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
-    EXPECT_NE(ran.err.find(saying), ran.err.npos) << ran.err;
+    expect_refusal(run(arguments), exit_code, saying, arguments);
     EXPECT_EQ(count_entries(folder.path()), before) << arguments;
   }
   void edit_joint(std::string_view from, std::string_view to) const {

@@ -46,11 +46,7 @@ class RomCommand : public ::testing::Test {
   }
   Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
   void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
-    const Ran ran = run(arguments);
-    EXPECT_EQ(ran.exit_code, exit_code) << arguments;
-    EXPECT_EQ(ran.out, "") << arguments;
-    EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
-    EXPECT_NE(ran.err.find(saying), ran.err.npos) << ran.err;
+    expect_refusal(run(arguments), exit_code, saying, arguments);
     EXPECT_FALSE(fs::exists(here / "out")) << arguments;
   }
 

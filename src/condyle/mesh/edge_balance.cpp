@@ -1,6 +1,9 @@
 #include "condyle/mesh/edge_balance.hpp"
 
 #include <algorithm>
+#include <string>
+
+#include "condyle/core/error.hpp"
 
 namespace condyle {
 namespace {
@@ -41,6 +44,12 @@ std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
   }
   if (!first) return std::nullopt;
   return first_balance > 0 ? std::pair{first->low(), first->high()} : std::pair{first->high(), first->low()};
+}
+
+void refuse_unbalanced(const std::pair<Index, Index>& edge) {
+  throw MeshError("the surface is open or wound inconsistently at the edge from vertex " +
+                  std::to_string(edge.first) + " to vertex " + std::to_string(edge.second) +
+                  ": it has no inside; intersecting triangle pairs can still be computed");
 }
 
 }  // namespace condyle

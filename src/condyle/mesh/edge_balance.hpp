@@ -15,4 +15,8 @@ namespace condyle {
 /// O(n log n) in the number of triangles.
 std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh);
 
+/// Raises MeshError naming that edge: without an inside there is no winding number; what can still be
+/// computed is said.
+[[noreturn]] void refuse_unbalanced(const std::pair<Index, Index>& edge);
+
 }  // namespace condyle

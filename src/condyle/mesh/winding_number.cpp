@@ -6,7 +6,6 @@
 #include <limits>
 #include <string>
 
-#include "condyle/core/error.hpp"
 #include "condyle/core/parallel.hpp"
 #include "condyle/core/predicates.hpp"
 #include "condyle/mesh/edge_balance.hpp"
@@ -69,15 +68,6 @@ int crossing(const Corners& t, const Vec3& p) noexcept {
   return static_cast<int>(first);
 }
 
-/// A mesh must bound a solid for anything to be inside it.
-void require_closed(const TriMesh& mesh) {
-  const auto edge = unbalanced_edge(mesh);
-  if (!edge) return;
-  throw MeshError("the surface is not closed at the edge from vertex " + std::to_string(edge->first) +
-                  " to " + std::to_string(edge->second) +
-                  ": it has no inside; intersecting triangle pairs can still be computed");
-}
-
 }  // namespace
 
 template <class Visit>
@@ -92,7 +82,7 @@ void WindingNumber::for_each_cell(std::size_t triangle, const Visit& visit) cons
 }
 
 WindingNumber::WindingNumber(TriMesh mesh) : mesh_(std::move(mesh)) {
-  require_closed(mesh_);
+  if (const auto edge = unbalanced_edge(mesh_)) refuse_unbalanced(*edge);
   if (mesh_.triangles.empty()) {
     offset_.assign(2, 0);
     high_.setConstant(-std::numeric_limits<double>::infinity());

@@ -214,11 +214,7 @@ void RadialTable::fill() {
 }
 
 void RadialTable::require_closed() const {
-  if (!boundary_edge_) return;
-  throw MeshError("the surface is open or wound inconsistently at the edge from vertex " +
-                  std::to_string(boundary_edge_->first) + " to vertex " +
-                  std::to_string(boundary_edge_->second) +
-                  ": it has no inside; intersecting triangle pairs can still be computed");
+  if (boundary_edge_) refuse_unbalanced(*boundary_edge_);
 }
 
 void RadialTable::query(PointsView points, RadialHits& out) const {

@@ -19,12 +19,10 @@ namespace condyle {
 enum class TangentialRule {
   /// All crossings in their order, anchored by the exact winding number at the point. Right always.
   alternating,
-  /// The published test: the nearest crossing along the arc, inside where the point is behind that triangle's
-  /// plane.
-  /// Right while the circle does not meet that plane a second time on the way, and away from shared edges; a
-  /// face seen
-  /// from beyond its own plane fails at 75 degrees already (see the tests). Kept to reproduce published
-  /// figures.
+  /// The published test: the nearest crossing along the arc, inside where the point is behind that
+  /// triangle's plane. Right while the circle does not meet that plane a second time on the way, and away
+  /// from shared edges; a face seen from beyond its own plane fails at 75 degrees already (see the tests).
+  /// Kept to reproduce published figures.
   nearest_arc
 };
 
