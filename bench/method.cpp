@@ -1,0 +1,41 @@
+#include "method.hpp"
+
+#include <stdexcept>
+
+#include "methods/kinds.hpp"
+
+namespace bench {
+
+bool Method::touch(const condyle::Pose&) {
+  throw std::logic_error("this method does not answer whether the bodies touch");
+}
+
+void Method::find_pairs(const condyle::Pose&, std::vector<condyle::TrianglePair>&) {
+  throw std::logic_error("this method does not find pairs");
+}
+
+void Method::find_inside(const condyle::Pose&, std::vector<InsideVertex>&) {
+  throw std::logic_error("this method does not find vertices inside");
+}
+
+void Method::deform(condyle::PointsView) {
+  throw std::logic_error("this method does not follow a deforming body");
+}
+
+std::unique_ptr<Method> Method::for_another_thread() {
+  return nullptr;
+}
+
+// What CMake did not find is not compiled, and is listed as skipped.
+std::vector<MethodGroup> method_groups() {
+  return {
+      {"", true, condyle_kinds()},
+#ifdef CONDYLE_BENCH_FCL
+      {"libfcl-dev", true, fcl_kinds()},
+#else
+      {"libfcl-dev", false, {}},
+#endif
+  };
+}
+
+}  // namespace bench

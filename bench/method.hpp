@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "condyle/contact/triangle_pairs.hpp"
+#include "condyle/core/pose.hpp"
+#include "condyle/mesh/tri_mesh.hpp"
+
+/// One way of finding collisions: Condyle's, a library's, or a published one in plain code of our own.
+
+namespace bench {
+
+/// What is measured: the fixed mesh in F, the mobile one in M, the joint centre at both origins. Both closed.
+struct Bodies {
+  const condyle::TriMesh& fixed;
+  const condyle::TriMesh& mobile;
+};
+
+/// A mobile vertex in the fixed solid.
+struct InsideVertex {
+  condyle::Index vertex = condyle::no_index;
+  condyle::Index triangle = condyle::no_index;  ///< Where it leaves the solid; no_index where not told.
+  double depth_mm = std::numeric_limits<double>::quiet_NaN();  ///< Of the method's kind; NaN where not told.
+};
+
+/// Which way a method measures how deep a vertex is: along the ray through the joint centre, along the circle
+/// about the flexion axis, or to the nearest point of the surface. Each is held against its own true value.
+enum class DepthKind { none, along_ray, along_arc, nearest_surface };
+
+/// What a method has looked at, counted since it was made; names are the method's own.
+using Work = std::vector<std::pair<std::string, std::int64_t>>;
+
+/// A method made ready for two bodies. Called from one thread.
+///
+/// X_FM is the pose of the mobile body in the fixed one's frame. Answers go to vectors that are reused, so
+/// that no allocation is timed: each starts by clearing it. What a method cannot answer it need not override:
+/// its kind says so, and it is never asked.
+class Method {
+ public:
+  virtual ~Method() = default;
+
+  /// Whether the two surfaces share a point (one body wholly inside the other is not asked).
+  virtual bool touch(const condyle::Pose& X_FM);
+
+  /// Triangles of both bodies that share a point, in any order.
+  virtual void find_pairs(const condyle::Pose& X_FM, std::vector<condyle::TrianglePair>& out);
+
+  /// Every mobile vertex that is in the fixed solid, in any order.
+  virtual void find_inside(const condyle::Pose& X_FM, std::vector<InsideVertex>& out);
+
+  /// The fixed mesh's vertices have moved here, its triangles are the same: answers from now on are for them.
+  /// The points live as long as the method is asked.
+  virtual void deform(condyle::PointsView fixed_vertices);
+
+  /// The same method for another thread, sharing what was built; null where the method has no such thing.
+  virtual std::unique_ptr<Method> for_another_thread();
+
+  /// Of what was built, without the two meshes it was built from, as far as it can be told; 0 where not.
+  virtual std::size_t bytes() const { return 0; }
+
+  virtual Work work() const { return {}; }
+};
+
+/// What a method can be asked.
+struct Answers {
+  bool touch = false, pairs = false, inside = false;
+  bool deforms = false;  ///< Follows a deforming fixed body otherwise than by being made anew.
+};
+
+struct MethodKind {
+  std::string name;    ///< For --filter and files: "embree_8_robust".
+  std::string family;  ///< "bounding volume hierarchies"
+  std::string title;   ///< For people: "Embree, 8 rays at a time, robust"
+  Answers answers;
+  DepthKind depth = DepthKind::none;
+  /// Whether its answers must be the exact ones; a disagreement then fails the run. For others it is
+  /// reported.
+  bool is_exact = false;
+  std::function<std::unique_ptr<Method>(const Bodies&)> make;
+};
+
+/// A group of methods that one Debian package stands behind, or none.
+struct MethodGroup {
+  std::string package;  ///< Empty for our own.
+  bool is_built;        ///< Whether the package was there when this program was built.
+  std::vector<MethodKind> kinds;
+};
+
+/// All of them, those of absent packages without kinds.
+std::vector<MethodGroup> method_groups();
+
+}  // namespace bench
