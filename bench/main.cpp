@@ -4,6 +4,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "condyle/io/whole_file.hpp"
+#include "experiment_plots.hpp"
 #include "experiment_tables.hpp"
 #include "machine.hpp"
 #include "questions.hpp"
@@ -46,7 +48,7 @@ constexpr std::array<std::string_view, 3> quick_scenes = {"sample_1", "libhip_ca
                                                           "ball_0.1mm_1"};
 
 struct Options {
-  std::string filter, json, csv;
+  std::string filter, json, csv, plots;
   Effort effort = Effort::full;
 };
 
@@ -93,7 +95,7 @@ class LazyScene {
   bool is_made_ = false;
 };
 
-void run(const Options& options, Report& report) {
+ExperimentResult run(const Options& options, Report& report) {
   ExperimentResult experiment;
   const Budget budget = options.effort == Effort::full ? Budget{} : Budget::quick();
   for (const SceneName& name : scene_names()) {
@@ -122,22 +124,23 @@ void run(const Options& options, Report& report) {
   report.skipped.insert(report.skipped.end(), experiment.skipped.begin(), experiment.skipped.end());
   report.disagreements.insert(report.disagreements.end(), experiment.disagreements.begin(),
                               experiment.disagreements.end());
+  return experiment;
 }
 
-void write_files(const Report& report, const Options& options) {
+void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
+  if (!options.plots.empty()) write_plots(experiment, options.plots);
   if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
   if (options.csv.empty()) return;
   for (const Table& table : report.tables)
     if (table.head.is_long) condyle::write_whole_file(options.csv, csv_text(table));
 }
 
-int print(const Report& report, const Options& options) {
+int print(const Report& report) {
   for (const auto& [name, words] : report.machine) fmt::print("{:<10} {}\n", name, words);
   for (const Table& table : report.tables)
     if (!table.head.is_long) fmt::print("\n{}", terminal_text(table));
   for (const std::string& what : report.skipped) fmt::print("\nskipped: {}\n", what);
   for (const std::string& what : report.disagreements) fmt::print("\nDISAGREES: {}\n", what);
-  write_files(report, options);
   if (report.tables.empty()) {
     fmt::print(stderr, "condyle-bench: nothing was measured; --filter matches nothing that is there\n");
     return 2;
@@ -157,6 +160,8 @@ int main(int argc, char** argv) {
       "--quick", [&] { options.effort = bench::Effort::quick; }, "Small scenes, once: answers, hardly times");
   app.add_option("--json", options.json, "Write all tables to this file too");
   app.add_option("--csv", options.csv, "Write every outcome of the experiment to this file, a line each");
+  app.add_option("--plots", options.plots, "Draw the experiment into this folder")
+      ->check(CLI::ExistingDirectory);
   app.footer(
       "Examples:\n"
       "  condyle-bench --quick\n"
@@ -168,10 +173,11 @@ int main(int argc, char** argv) {
     report.machine = bench::describe_machine();
     report.machine.emplace_back("run", description(options));
     const double load_before = bench::load_average();
-    bench::run(options, report);
+    const bench::ExperimentResult experiment = bench::run(options, report);
     report.machine.emplace_back("load", fmt::format("{:.1f} before, {:.1f} after (this program included)",
                                                     load_before, bench::load_average()));
-    return bench::print(report, options);
+    bench::write_files(report, experiment, options);
+    return bench::print(report);
   } catch (const std::exception& error) {
     fmt::print(stderr, "condyle-bench: {}\n", error.what());
     return 2;
