@@ -66,7 +66,7 @@ TEST(Scenes, PosesAreTheSameEachTimeAndTakeTurns) {
 }
 
 TEST(Scenes, ADeformedBodyMovesByAtMostAQuarterOfAMillimetre) {
-  const auto scene = make_scene("sample_1");
+  const auto scene = make_scene("ball_1mm_1");
   ASSERT_TRUE(scene);
   const condyle::Points& at_rest = scene->joint.fixed.mesh.vertices;
   double largest = 0;
