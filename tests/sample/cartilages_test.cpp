@@ -74,7 +74,8 @@ TEST(SampleCartilages, AreAClosedCapAndAClosedRingWoundOutwardsThatDoNotRunIntoT
 }
 
 TEST(SampleCartilages, TrianglesAreNoSlivers) {
-  constexpr double least_deg = 20;
+  // As for bones at the ends of their parameters' ranges: the borders turn round within a triangle or two.
+  constexpr double least_deg = 15;
   for (const CartilageScenario scenario : scenarios) {
     EXPECT_GT(test::smallest_angles_deg(made(scenario).femoral).front(), least_deg);
     EXPECT_GT(test::smallest_angles_deg(made(scenario).acetabular).front(), least_deg);

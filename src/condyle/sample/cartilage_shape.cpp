@@ -23,19 +23,31 @@ constexpr Angle margin = Angle::degrees(15);
 /// Room around the solids, mm.
 constexpr double room_around = 4;
 
+/// Directions from the hip centre that are farther than an angle from an axis of length one: distance to the
+/// cone, negative on that side. A cone cuts every sphere about the centre at a right angle.
+struct FartherThan {
+  Vec3 axis;
+  Angle angle;
+
+  FieldValue operator()(const Vec3& p) const noexcept {
+    const double along = p.dot(axis), sine = std::sin(angle.radians()), cosine = std::cos(angle.radians());
+    const Vec3 across = p - along * axis;
+    const double distance = across.norm();
+    const Vec3 outward = distance > 0 ? Vec3(across / distance) : Vec3(Vec3::Zero());
+    return {sine * along - cosine * distance, sine * axis - cosine * outward};
+  }
+};
+
 struct FemoralCartilagePieces {
   Field femur;
   Ball surface;
-  Vec3 neck;
-  double margin_offset, seam;
+  FartherThan off_neck;
+  double seam;
 
   FieldValue operator()(const Vec3& p) const {
-    const FieldValue cap = common(ball(surface, p), half_space(neck, margin_offset, p), seam);
-    return without(cap, femur(p), seam);
+    return without(common(ball(surface, p), off_neck(p), seam), femur(p), seam);
   }
-  double border_distance(const Vec3& p) const noexcept {
-    return std::abs(half_space(neck, margin_offset, p).value);
-  }
+  double border_distance(const Vec3& p) const noexcept { return std::abs(off_neck(p).value); }
 };
 
 struct AcetabularCartilagePieces {
@@ -78,14 +90,12 @@ ArticularSpheres articular_spheres(const HipParameters& hip, const CartilagePara
 
 Cartilage femoral_cartilage_shape(const HipParameters& hip, const CartilageParameters& parameters) {
   const ArticularSpheres spheres = articular_spheres(hip, parameters);
-  const Angle margin_angle = native_alpha_angle(hip) + margin;
   FemoralCartilagePieces cartilage;
   HipParameters without_cam = hip;
   without_cam.alpha_angle.reset();
   cartilage.femur = femur_shape(without_cam).field;
   cartilage.surface = {Vec3::Zero(), spheres.femoral};
-  cartilage.neck = femur_axes(hip).neck;
-  cartilage.margin_offset = spheres.femoral * std::cos(margin_angle.radians());
+  cartilage.off_neck = {femur_axes(hip).neck, native_alpha_angle(hip) + margin};
   cartilage.seam = rounding * spheres.femoral_thickness();
   return {{cartilage, box_about_centre(spheres.femoral + room_around), {}},
           [cartilage](const Vec3& p) { return cartilage.border_distance(p); }};
@@ -95,9 +105,6 @@ Cartilage acetabular_cartilage_shape(const HipParameters& hip, const CartilagePa
   const ArticularSpheres spheres = articular_spheres(hip, parameters);
   const Socket socket = socket_of(hip);
   const double scale = spheres.socket / nominal_socket_radius;
-  // Towards the notch of the bone, at right angles to the opening.
-  const Vec3 notch = socket.notch;
-
   AcetabularCartilagePieces cartilage;
   cartilage.hip_bone = hip_bone_shape(hip).field;
   cartilage.surface = {Vec3::Zero(), spheres.acetabular};
@@ -111,7 +118,7 @@ Cartilage acetabular_cartilage_shape(const HipParameters& hip, const CartilagePa
   cartilage.rim = {level * socket.opening, socket.opening,
                    std::sqrt(spheres.socket * spheres.socket - level * level) + 1 * scale};
   cartilage.fossa_top = {-spheres.socket * socket.opening, 11 * scale};
-  cartilage.fossa_bottom = {spheres.socket * (-0.75 * socket.opening + 0.66 * notch), 8 * scale};
+  cartilage.fossa_bottom = {spheres.socket * (-0.75 * socket.opening + 0.66 * socket.notch), 8 * scale};
   cartilage.seam = rounding * std::min(spheres.acetabular_thickness(), 2.0 * scale);
   return {{cartilage, box_about_centre(spheres.socket + 2 * cartilage.labrum_radius + room_around), {}},
           [cartilage](const Vec3& p) { return cartilage.border_distance(p); }};

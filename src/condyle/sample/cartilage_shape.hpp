@@ -25,9 +25,9 @@ struct Cartilage {
   std::function<double(const Vec3&)> border_distance;
 };
 
-/// Cap over the femoral head up to a margin at right angles to the neck's axis, short of where head and neck
-/// blend. Its outer side is the exact `femoral` sphere but for the rounded margin, its inner side the surface
-/// of the bone. A cam changes nothing: it is bone that stands out through the cartilage. Genus 0.
+/// Cap over the femoral head up to a margin around the neck's axis, short of where head and neck blend. Its
+/// outer side is the exact `femoral` sphere but for the rounded margin, its inner side the surface of the
+/// bone. A cam changes nothing: it is bone that stands out through the cartilage. Genus 0.
 Cartilage femoral_cartilage_shape(const HipParameters&, const CartilageParameters&);
 
 /// Lining of the socket with the labrum on its rim: a ring around the acetabular fossa, which stays free of

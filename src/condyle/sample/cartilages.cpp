@@ -24,16 +24,15 @@ void require_valid(const HipParameters& hip, const CartilageParameters& cartilag
   sample::require_range("femoral_thickness_mm", cartilage.femoral_thickness_mm, least_thickness_mm, 3, "mm");
   const double left = sample::articular_spheres(hip, cartilage).acetabular_thickness();
   if (left < least_thickness_mm) {
-    throw UsageError(
-        fmt::format("sample hip: with these parameters the joint space leaves {:g} mm for the acetabular "
-                    "cartilage, must be "
-                    "at least {:g}",
-                    left, least_thickness_mm));
+    throw UsageError(fmt::format(
+        "sample hip: the joint space leaves {:g} mm for the acetabular cartilage, must be at least "
+        "{:g} mm",
+        left, least_thickness_mm));
   }
 }
 
-/// Shorter edges at the borders, which are as sharp as the sheet is thin: coarse triangles make
-/// them jagged.
+/// Shorter edges at the borders, which are as sharp as the sheet is thin: coarse triangles make them jagged,
+/// and on thin sheets run into each other.
 Meshing meshing_for(const Cartilage& cartilage, double thickness) {
   const auto sizing = [border_distance = cartilage.border_distance](const Vec3& p) {
     constexpr double at_border = 0.7, border_mm = 1, transition_mm = 8;
