@@ -37,12 +37,12 @@ struct SampleCartilages {
 
 /// The cartilages of the sample hip with these measures, in the neutral pose; they fit sample_hip() of the
 /// same measures. Vertices of the articular surfaces lie on two concentric spheres `clearance_mm` apart, to
-/// 1e-9 mm. Flat triangles bring the meshes nearer to each other by no more than the acetabular ones sag: r^2
-/// / (2 R), with r their circumradius and R that of the sphere, or 0.1 mm at the coarsest.
+/// 1e-9 mm. Flat triangles bring the meshes nearer to each other by no more than the acetabular ones sag:
+/// about r^2 / (2 R), with r their circumradius and R that of the sphere; less than 0.1 mm at the defaults.
 ///
-/// Bones and cartilages share surfaces, but not triangles: each cuts some hundredths of a millimetre into the
-/// other. A cam is bone, and stands out through the cartilage. Same parameters, same bytes, on any number of
-/// threads. Raises UsageError as sample_hip() does.
+/// Bones and cartilages share surfaces, but not triangles: each cuts into the other by what they sag,
+/// tenths of a millimetre at the coarsest. A cam is bone, and stands out through the cartilage. Same
+/// parameters, same bytes, on any number of threads. Raises UsageError as sample_hip() does.
 SampleCartilages sample_cartilages(const HipParameters& hip, const CartilageParameters& cartilage,
                                    const CartilageResolution& resolution);
 
