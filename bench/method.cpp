@@ -35,6 +35,11 @@ std::vector<MethodGroup> method_groups() {
 #else
       {"libfcl-dev", false, {}},
 #endif
+#ifdef CONDYLE_BENCH_EMBREE
+      {"libembree-dev", true, embree_kinds()},
+#else
+      {"libembree-dev", false, {}},
+#endif
   };
 }
 

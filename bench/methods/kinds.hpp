@@ -12,4 +12,7 @@ std::vector<MethodKind> condyle_kinds();
 /// Flexible Collision Library: hierarchies of boxes, slabs and swept rectangles.
 std::vector<MethodKind> fcl_kinds();
 
+/// Embree: rays between vertex and centre.
+std::vector<MethodKind> embree_kinds();
+
 }  // namespace bench
