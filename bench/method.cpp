@@ -30,6 +30,9 @@ std::unique_ptr<Method> Method::for_another_thread() {
 std::vector<MethodGroup> method_groups() {
   return {
       {"", true, condyle_kinds()},
+      {"", true, spherical_sampling_kinds()},
+      {"", true, layered_depth_kinds()},
+      {"", true, dense_distance_kinds()},
 #ifdef CONDYLE_BENCH_FCL
       {"libfcl-dev", true, fcl_kinds()},
 #else
@@ -39,6 +42,11 @@ std::vector<MethodGroup> method_groups() {
       {"libembree-dev", true, embree_kinds()},
 #else
       {"libembree-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_OPENVDB
+      {"libopenvdb-dev", true, openvdb_kinds()},
+#else
+      {"libopenvdb-dev", false, {}},
 #endif
   };
 }
