@@ -53,6 +53,11 @@ std::vector<MethodGroup> method_groups() {
 #else
       {"libopenvdb-dev", false, {}},
 #endif
+#ifdef CONDYLE_BENCH_SPATIAL_HASHING
+      {"libcgal-dev", true, spatial_hashing_kinds()},
+#else
+      {"libcgal-dev", false, {}},
+#endif
   };
 }
 

@@ -27,4 +27,7 @@ std::vector<MethodKind> spherical_sampling_kinds();
 /// A dense grid of signed distances.
 std::vector<MethodKind> dense_distance_kinds();
 
+/// Spatial hashing of tetrahedra.
+std::vector<MethodKind> spatial_hashing_kinds();
+
 }  // namespace bench
