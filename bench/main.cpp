@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "baseline.hpp"
 #include "condyle/io/whole_file.hpp"
 #include "experiment_plots.hpp"
 #include "experiment_tables.hpp"
@@ -48,7 +49,7 @@ constexpr std::array<std::string_view, 3> quick_scenes = {"sample_1", "libhip_ca
                                                           "ball_0.1mm_1"};
 
 struct Options {
-  std::string filter, json, csv, plots;
+  std::string filter, json, csv, plots, baseline, compare;
   Effort effort = Effort::full;
 };
 
@@ -130,9 +131,20 @@ ExperimentResult run(const Options& options, Report& report) {
 void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
   if (!options.plots.empty()) write_plots(experiment, options.plots);
   if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
+  if (!options.baseline.empty())
+    condyle::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
   if (options.csv.empty()) return;
   for (const Table& table : report.tables)
     if (table.head.is_long) condyle::write_whole_file(options.csv, csv_text(table));
+}
+
+/// How many ratios got worse.
+std::size_t print_comparison(const ExperimentResult& experiment, const Options& options) {
+  if (options.compare.empty()) return 0;
+  const std::vector<std::string> worse = worse_than(read_baseline(options.compare), ratios_of(experiment));
+  for (const std::string& line : worse) fmt::print("\nWORSE: {}\n", line);
+  if (worse.empty()) fmt::print("\nNo ratio is worse than in {}\n", options.compare);
+  return worse.size();
 }
 
 int print(const Report& report) {
@@ -162,11 +174,16 @@ int main(int argc, char** argv) {
   app.add_option("--csv", options.csv, "Write every outcome of the experiment to this file, a line each");
   app.add_option("--plots", options.plots, "Draw the experiment into this folder")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--save-baseline", options.baseline, "Write the ratios of this run, for --compare");
+  app.add_option("--compare", options.compare,
+                 "Say which ratios are worse than in this baseline; then exit 1")
+      ->check(CLI::ExistingFile);
   app.footer(
       "Examples:\n"
       "  condyle-bench --quick\n"
       "  condyle-bench --filter inside,sample_4\n"
-      "  condyle-bench --filter embree --csv embree.csv");
+      "  condyle-bench --filter embree --csv embree.csv\n"
+      "  condyle-bench --compare bench/baseline.json");
   CLI11_PARSE(app, argc, argv);
   try {
     bench::Report report;
@@ -177,7 +194,8 @@ int main(int argc, char** argv) {
     report.machine.emplace_back("load", fmt::format("{:.1f} before, {:.1f} after (this program included)",
                                                     load_before, bench::load_average()));
     bench::write_files(report, experiment, options);
-    return bench::print(report);
+    const int printed = bench::print(report);
+    return bench::print_comparison(experiment, options) > 0 ? 1 : printed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "condyle-bench: {}\n", error.what());
     return 2;
