@@ -8,13 +8,21 @@ namespace {
 using condyle::Index;
 using condyle::Vec3;
 
-/// Twice the signed area of (a, b, p), computed from the end with the smaller number, so that it changes its
-/// sign with the edge's direction, bit for bit.
-double turn(const Vec3& a, const Vec3& b, double x, double y, bool is_reversed) noexcept {
-  const Vec3 &from = is_reversed ? b : a, &to = is_reversed ? a : b;
-  const double area = (to.x() - from.x()) * (y - from.y()) - (to.y() - from.y()) * (x - from.x());
-  return is_reversed ? -area : area;
-}
+/// One edge of a triangle on its way round, as a point of the image sees it.
+struct SeenEdge {
+  Vec3 from, to;
+  bool is_reversed;  ///< `from` has the larger number.
+
+  /// Twice the signed area with the point, computed from the end with the smaller number, so that it changes
+  /// its sign with the edge's direction, bit for bit.
+  double side(double x, double y) const noexcept {
+    const Vec3 &a = is_reversed ? to : from, &b = is_reversed ? from : to;
+    const double area = (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+    return is_reversed ? -area : area;
+  }
+  /// Of the point shifted by (e, e^2) where `side` is zero.
+  bool has_left(double side) const noexcept { return is_left(side, {from.y() - to.y(), to.x() - from.x()}); }
+};
 
 struct PixelRange {
   int first, last;
@@ -51,14 +59,16 @@ void DepthRaster::draw(condyle::PointsView vertices, std::span<const condyle::Tr
     const PixelRange columns = middles_between(seen_.x[i], seen_.x[j], seen_.x[k], plane.size[0]);
     if (columns.is_empty() || std::min({seen_.z[i], seen_.z[j], seen_.z[k]}) > far) continue;
     const Vec3 a = seen_[i], b = seen_[j], c = seen_[k];
+    const SeenEdge edges[3] = {{a, b, j < i}, {b, c, k < j}, {c, a, i < k}};
     for (int row = rows.first; row <= rows.last; ++row) {
       for (int column = columns.first; column <= columns.last; ++column) {
         const double x = column + 0.5, y = row + 0.5;
-        const double ab = turn(a, b, x, y, j < i), bc = turn(b, c, x, y, k < j), ca = turn(c, a, x, y, i < k);
-        const bool left = is_left(ab, i, j);
-        if (is_left(bc, j, k) != left || is_left(ca, k, i) != left) continue;
-        const double area = ab + bc + ca;
-        const double depth = area != 0 ? (bc * a.z() + ca * b.z() + ab * c.z()) / area : a.z();
+        const double sides[3] = {edges[0].side(x, y), edges[1].side(x, y), edges[2].side(x, y)};
+        const bool left = edges[0].has_left(sides[0]);
+        if (edges[1].has_left(sides[1]) != left || edges[2].has_left(sides[2]) != left) continue;
+        const double area = sides[0] + sides[1] + sides[2];
+        const double weighted = sides[1] * a.z() + sides[2] * b.z() + sides[0] * c.z();
+        const double depth = area != 0 ? weighted / area : a.z();
         // Counter-clockwise seen from outside: turning left here, the normal points along the axis, out.
         out.add(plane.cell(column, row), {static_cast<float>(depth), left ? -1 : 1, t});
       }

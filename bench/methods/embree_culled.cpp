@@ -93,6 +93,11 @@ struct SortedVertices {
   std::vector<Block> blocks;
 };
 
+/// 1 or 0, without a branch.
+int within(float value, float low, float high) noexcept {
+  return static_cast<int>(value >= low) & static_cast<int>(value <= high);
+}
+
 /// Blocks and vertices that were looked at.
 struct CullCount {
   std::int64_t blocks = 0, blocks_kept = 0;
@@ -164,8 +169,8 @@ class EmbreeCulled final : public Method {
       pz[i] = X.row(2, x[i], y[i], z[i]);
       const float radius2 = px[i] * px[i] + py[i] * py[i] + pz[i] * pz[i];
       reach[i] = 1 - extent_.min_radius / std::sqrt(radius2);
-      is_near[i] = (radius2 >= free2) & (radius2 <= far2) & (px[i] >= low[0]) & (px[i] <= high[0]) &
-                   (py[i] >= low[1]) & (py[i] <= high[1]) & (pz[i] >= low[2]) & (pz[i] <= high[2]);
+      is_near[i] = within(radius2, free2, far2) & within(px[i], low[0], high[0]) &
+                   within(py[i], low[1], high[1]) & within(pz[i], low[2], high[2]);
     }
     const std::size_t size = std::min(block_size, mobile_->count - first);
     for (std::size_t i = 0; i < size; ++i) {

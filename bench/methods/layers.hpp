@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,11 @@ struct Layer {
   std::int32_t step;  ///< of the winding number there, going forwards: +1 into the solid, -1 out of it
   condyle::Index triangle;
 };
+
+/// Of two at one place, where a line touches an edge of the solid's outline, the way in comes first.
+inline bool nearer(const Layer& a, const Layer& b) noexcept {
+  return a.position < b.position || (a.position == b.position && a.step > b.step);
+}
 
 /// The layers of every cell of an image, each cell's from near to far. Filled by `add` in any order, then
 /// `sort`ed once; cleared to be filled again without giving its memory back.
@@ -36,8 +42,7 @@ class LayeredImage {
     next_.assign(offset_.begin(), offset_.end() - 1);
     for (const auto& [cell, layer] : added_) layers_[next_[cell]++] = layer;
     for (std::size_t cell = 0; cell + 1 < offset_.size(); ++cell) {
-      std::sort(layers_.begin() + offset_[cell], layers_.begin() + offset_[cell + 1],
-                [](const Layer& a, const Layer& b) { return a.position < b.position; });
+      std::sort(layers_.begin() + offset_[cell], layers_.begin() + offset_[cell + 1], nearer);
     }
   }
 
@@ -69,11 +74,16 @@ inline int winding_at(std::span<const Layer> layers, double position, int start 
   return start;
 }
 
-/// Which side of an edge something lies on, from a value that changes its sign, bit for bit, with the edge's
-/// direction: a zero goes to one side of the edge for both triangles that share it, so that a line is counted
-/// in one of them and only one.
-inline bool is_left(double value, condyle::Index from, condyle::Index to) noexcept {
-  return value > 0 || (value == 0 && from < to);
+/// Which side of an edge a line goes by: the sign of `side`, and where that is zero, of the first of
+/// `shifted` that is not: how `side` grows when the line is shifted by an infinitesimal step, the same for
+/// all edges, so that a line through an edge or a vertex is counted in one triangle and only one. All change
+/// their signs, bit for bit, with the edge's direction.
+inline bool is_left(double side, std::initializer_list<double> shifted) noexcept {
+  for (const double growth : shifted) {
+    if (side != 0) break;
+    side = growth;
+  }
+  return side > 0;
 }
 
 }  // namespace bench

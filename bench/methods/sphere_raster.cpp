@@ -47,7 +47,7 @@ struct SeenTriangle {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
       const double side = direction.dot(edge_normal[k]);
-      if (is_left(side, v[k], v[(k + 1) % 3]) != leaves) return;
+      if (is_left(side, {edge_normal[k].x(), edge_normal[k].y(), edge_normal[k].z()}) != leaves) return;
       sum += side;
     }
     if (sum == 0) return;
