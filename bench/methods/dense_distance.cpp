@@ -23,7 +23,7 @@ using condyle::Vec3;
 /// Values at low + (i, j, k) * step, k * rows * columns + j * columns + i after one another.
 class DistanceGrid {
  public:
-  DistanceGrid(const condyle::TriMesh& mesh, double step_mm) : step_(step_mm) {
+  DistanceGrid(const condyle::TriMesh& mesh, double step_mm) : step_(step_mm), per_mm_(1 / step_mm) {
     low_ = Vec3::Constant(std::numeric_limits<double>::infinity());
     Vec3 high = -low_;
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
@@ -38,7 +38,7 @@ class DistanceGrid {
 
   /// Interpolated between eight voxels; positive, and no more is promised, outside.
   float at(const Vec3& p) const noexcept {
-    const Vec3 steps = (p - low_) / step_;
+    const Vec3 steps = (p - low_) * per_mm_;
     std::size_t cell = 0, stride = 1;
     float f[3];
     for (int k = 0; k < 3; ++k) {
@@ -117,7 +117,7 @@ class DistanceGrid {
   }
 
   Vec3 low_;
-  double step_;
+  double step_, per_mm_;
   std::size_t size_[3];
   std::vector<float> value_;
 };
