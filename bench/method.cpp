@@ -35,10 +35,28 @@ std::unique_ptr<Method> Method::for_another_thread() {
 std::vector<MethodGroup> method_groups() {
   return {
       {"", true, condyle_kinds()},
+      {"", true, spherical_sampling_kinds()},
+      {"", true, layered_depth_kinds()},
+      {"", true, dense_distance_kinds()},
 #ifdef CONDYLE_BENCH_FCL
       {"libfcl-dev", true, fcl_kinds()},
 #else
       {"libfcl-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_EMBREE
+      {"libembree-dev", true, embree_kinds()},
+#else
+      {"libembree-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_OPENVDB
+      {"libopenvdb-dev", true, openvdb_kinds()},
+#else
+      {"libopenvdb-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_SPATIAL_HASHING
+      {"libcgal-dev", true, spatial_hashing_kinds()},
+#else
+      {"libcgal-dev", false, {}},
 #endif
   };
 }

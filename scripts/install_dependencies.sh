@@ -14,7 +14,7 @@ packages=(
 )
 
 if [ "${1:-}" = clang ]; then packages+=(clang libclang-rt-14-dev clang-format); fi
-if [ "${1:-}" = bench ]; then packages+=(libfcl-dev python3 git); fi
+if [ "${1:-}" = bench ]; then packages+=(libfcl-dev libembree-dev libopenvdb-dev python3 git); fi
 
 missing=()
 for package in "${packages[@]}"; do
