@@ -45,9 +45,12 @@ struct Outcome {
   std::size_t fixed_triangles = 0, mobile_vertices = 0;
   std::size_t poses = 0;
   PoseTimes query;
-  double cold_seconds = 0;   ///< Mean per pose, all caches emptied before; 0 where not taken.
-  double ours_seconds = 0;   ///< Mean per pose of Condyle's answer at the same poses, in turn with it.
-  double build_seconds = 0;  ///< Made ready once.
+  double cold_seconds = 0;  ///< Mean per pose, all caches emptied before; 0 where not taken.
+  double ours_seconds = 0;  ///< Mean per pose of Condyle's answer at the same poses, in turn with it.
+  /// Of `touch` alone: their time over Condyle's at the poses without and with a contact; 0 where there is
+  /// none.
+  double free_ratio = 0, touching_ratio = 0;
+  double build_seconds = 0;               ///< Made ready once.
   std::optional<double> update_seconds;   ///< After a deformation; of `is_deformed` only.
   std::optional<double> thread_speed_up;  ///< Poses a second with all threads over one; where it can.
   std::size_t bytes = 0;
