@@ -237,6 +237,11 @@ class SceneRun {
       measure(asked, kind, outcome);
       finish(kind, std::move(outcome));
     }
+    if (!kind.answers.deforms && build_seconds > budget_.remake_seconds) {
+      result_.skipped.push_back(
+          fmt::format("{}/{}, deformed: made anew in {:.1f} s", stage_.name, kind.name, build_seconds));
+      return build_seconds;
+    }
     for (const Question question : asked_for) {
       Outcome outcome = started(kind, question);
       outcome.build_seconds = build_seconds;
@@ -323,8 +328,7 @@ class SceneRun {
   /// Frame by frame: the body moves, then one pose is asked.
   void measure_deforming(Asked& asked, const MethodKind& kind, Outcome& outcome) {
     const Question question = outcome.question;
-    const double once = outcome.build_seconds;
-    const int frames = once * budget_.frames > 3 * budget_.seconds ? 1 : budget_.frames;
+    const int frames = outcome.build_seconds * budget_.frames > budget_.seconds ? 2 : budget_.frames;
     std::vector<double> updates, queries;
     for (int f = 0; f < frames; ++f) {
       Stage::Frame& frame = stage_.frame(f);
@@ -386,6 +390,10 @@ void run_experiment(const SceneName& name, const Scene& scene, const ExperimentF
       const auto skip = [&](std::string_view why) {
         result.skipped.push_back(fmt::format("{}/{}: {}", name.name, kind.name, why));
       };
+      if (kind.is_slow_to_make && !budget.with_slow_ones) {
+        skip("takes seconds to be made ready: not in a quick run");
+        continue;
+      }
       double& longest = result.longest_build_seconds[{kind.name, std::string(name.family)}];
       if (longest > budget.build_seconds) {
         skip(fmt::format("made ready in {:.1f} s at a smaller one already", longest));

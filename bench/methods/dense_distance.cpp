@@ -152,7 +152,8 @@ MethodKind dense_distance(std::string name, std::string title, double step_mm) {
           {.inside = true},
           DepthKind::nearest_surface,
           false,
-          [step_mm](const Bodies& bodies) { return std::make_unique<DenseDistance>(bodies, step_mm); }};
+          [step_mm](const Bodies& bodies) { return std::make_unique<DenseDistance>(bodies, step_mm); },
+          step_mm < 0.75};
 }
 
 }  // namespace

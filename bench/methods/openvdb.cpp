@@ -84,7 +84,8 @@ MethodKind openvdb(std::string name, std::string title, double voxel_mm) {
           {.inside = true},
           DepthKind::nearest_surface,
           false,
-          [voxel_mm](const Bodies& bodies) { return std::make_unique<OpenVdb>(bodies, voxel_mm); }};
+          [voxel_mm](const Bodies& bodies) { return std::make_unique<OpenVdb>(bodies, voxel_mm); },
+          voxel_mm < 0.75};
 }
 
 }  // namespace
