@@ -41,9 +41,6 @@ struct Budget {
             .with_slow_ones = false};
   }
 };
-}
-}
-;
 
 /// Processor seconds of this thread per pose: the median over rounds for each pose.
 struct PoseTimes {
