@@ -3,13 +3,14 @@
 #include "kinds.hpp"
 
 namespace bench {
-
 namespace {
 
 using condyle::Index;
 using condyle::Pose;
 
-/// A ray for every mobile vertex.
+/// A ray for every mobile vertex, in the mesh's order, with Embree's default traversal. The one for coherent
+/// rays costs 1.7 times as much on the sample hip's scenario 1 and saves a sixth on scenario 3 (16 rays at a
+/// time): it is used where vertices are sorted.
 template <unsigned Width>
 class EmbreeAll final : public Method {
  public:

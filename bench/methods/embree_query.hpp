@@ -49,7 +49,7 @@ class RayQuery {
   void operator()(const EmbreeScene& scene, const RayOrigins& points, std::size_t count,
                   std::vector<InsideVertex>& out) {
     const FlushDenormals flush;
-    inside_.resize(std::max(inside_.vertex.size(), count));
+    inside_.resize(std::max(inside_.x.size(), count));
     std::size_t found = 0;
     const bool centre_is_inside = scene.centre_is_inside();
     trace<Width>(scene, context_, points, count, RayTowards::centre, [&](std::size_t i, const FirstHit& hit) {
@@ -57,7 +57,6 @@ class RayQuery {
       if (is_hit ? !hit.leaves : !centre_is_inside) return;
       inside_.x[found] = points.x[i], inside_.y[found] = points.y[i], inside_.z[found] = points.z[i];
       inside_.reach[found] = is_hit ? hit.fraction : std::numeric_limits<float>::infinity();
-      inside_.vertex[found] = points.vertex[i];
       ++found;
       out.push_back({points.vertex[i], hit.triangle});
     });

@@ -65,13 +65,14 @@ class LayeredImage {
   std::vector<Layer> layers_;
 };
 
-/// Winding number behind the layers before `position`, `start` in front of all.
-inline int winding_at(std::span<const Layer> layers, double position, int start = 0) noexcept {
+/// Winding number behind the layers before `position`; 0 in front of all.
+inline int winding_at(std::span<const Layer> layers, double position) noexcept {
+  int winding = 0;
   for (const Layer& layer : layers) {
     if (layer.position >= position) break;
-    start += layer.step;
+    winding += layer.step;
   }
-  return start;
+  return winding;
 }
 
 /// Which side of an edge a line goes by: the sign of `side`, and where that is zero, of the first of
