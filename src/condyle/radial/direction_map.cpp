@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "condyle/core/predicates.hpp"
+#include "condyle/radial/cube_view.hpp"
 
 namespace condyle {
 namespace {
@@ -305,7 +306,7 @@ void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellO
     const auto side = [&](int k, double s, double direction) {
       Vec3 n = Vec3::Zero();
       n[k] = direction;
-      n[w] = sign * (cell_margin - direction * s);
+      n[w] = sign * (list_margin - direction * s);
       return n;
     };
     const auto range = [&](const Polygon& polygon, int k) {
@@ -318,7 +319,7 @@ void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellO
                                              : -1.0;
         low = std::min(low, s), high = std::max(high, s);
       }
-      return std::pair{column(low - cell_margin), column(high + cell_margin)};
+      return std::pair{column(low - list_margin), column(high + list_margin)};
     };
 
     Polygon on_face = polygon_of(cone);

@@ -68,6 +68,7 @@ class CubeMap {
  public:
   explicit CubeMap(int cells_per_side) : n_(cells_per_side) { assert(n_ > 0); }
 
+  int cells_per_side() const noexcept { return n_; }
   Index cell_count() const noexcept { return static_cast<Index>(6 * n_ * n_); }
 
   /// Cell of the direction of v, which is not zero.

@@ -1,0 +1,375 @@
+#include "condyle/radial/penetration_passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "condyle/radial/penetration_passes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Sixteen lanes at most: a block. Narrower vectors take several steps for one.
+using D = hn::CappedTag<float, 16>;
+using DI = hn::RebindToSigned<D>;
+using DU = hn::RebindToUnsigned<D>;
+using Floats = hn::Vec<D>;
+using Ints = hn::Vec<DI>;
+using Words = hn::Vec<DU>;
+constexpr D d;
+constexpr DI di;
+constexpr DU du;
+
+/// Where rays meet the cube: face, and u, w in [-1, 1] on it, as CubeMap has them.
+struct CubePlace {
+  Ints face;
+  Floats u, w;
+};
+
+HWY_INLINE CubePlace place_on_cube(Floats x, Floats y, Floats z) {
+  const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
+  const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
+  const auto on_y = hn::AndNot(on_x, hn::Ge(ay, az));
+  const auto largest = hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z));
+  const auto u = hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x));
+  const auto w = hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y));
+  const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Abs(largest));
+  const auto axis = hn::IfThenElse(hn::RebindMask(di, on_x), hn::Zero(di),
+                                   hn::IfThenElse(hn::RebindMask(di, on_y), hn::Set(di, 1), hn::Set(di, 2)));
+  const auto negative = hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)), hn::Set(di, 3));
+  return {hn::Add(axis, negative), hn::Mul(u, inverse), hn::Mul(w, inverse)};
+}
+
+/// Column or row of `count` equal ones over [-1, 1].
+HWY_INLINE Ints column(Floats u, int count) {
+  const auto at = hn::Mul(hn::Add(u, hn::Set(d, 1.0f)), hn::Set(d, 0.5f * static_cast<float>(count)));
+  return hn::Min(hn::Max(hn::ConvertTo(di, at), hn::Zero(di)), hn::Set(di, count - 1));
+}
+
+HWY_INLINE Ints radius_code(const RadiusScale& scale, Floats squared) {
+  const auto steps = hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
+  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
+}
+
+/// radius_word(greatest, least): what an interval of radii must not exceed in either half to meet [least,
+/// greatest].
+HWY_INLINE Words reach_word(Ints least, Ints greatest) {
+  const auto complement = hn::Sub(hn::Set(di, greatest_radius_code), least);
+  return hn::BitCast(du, hn::Or(greatest, hn::ShiftLeft<16>(complement)));
+}
+
+/// Whether no half of the entry exceeds the word's: the two intervals meet.
+HWY_INLINE hn::Mask<DU> radii_meet(Words entry, Words word) {
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint32_t e = hn::GetLane(entry), w = hn::GetLane(word);
+  return hn::MaskFromVec(hn::Set(du, (e & 0xffff) <= (w & 0xffff) && e >> 16 <= w >> 16 ? ~0u : 0u));
+#else
+  constexpr hn::Repartition<std::uint16_t, DU> halves;
+  const auto excess = hn::SaturatedSub(hn::BitCast(halves, entry), hn::BitCast(halves, word));
+  return hn::Eq(hn::BitCast(du, excess), hn::Zero(du));
+#endif
+}
+
+HWY_INLINE Floats dot(Floats x, Floats y, Floats z, float a, float b, float c) {
+  return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
+}
+
+/// Level of the pyramid whose cells are at least as wide as a displacement on the face, given in cells of the
+/// finest level: the exponent above it. 2^k <= cells < 2^(k + 1) asks for level k + 1; less than one for 0.
+HWY_INLINE Ints level_for(Floats cells) {
+  const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, cells));
+  return hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
+}
+
+/// Index into the pyramid: level k has 6 n^2 cells, n = N >> k, and starts at 8 (N^2 - n^2).
+HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints level) {
+  const int finest = cube.cells_per_side;
+  const auto shift = hn::BitCast(du, level);
+  const auto at_level = [&](Ints value) { return hn::BitCast(di, hn::Shr(hn::BitCast(du, value), shift)); };
+  const auto n = at_level(hn::Set(di, finest));
+  const auto row = at_level(column(place.w, finest)), col = at_level(column(place.u, finest));
+  const auto start = hn::ShiftLeft<3>(hn::Sub(hn::Set(di, finest * finest), hn::Mul(n, n)));
+  return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), row), n), col));
+}
+
+/// A block's cap about R axis + t / |p| holds the directions of R p + t, and its radii grow as this says.
+///
+///     | R p + t - (|p| / m) (m R axis + t) | <= |p| chord + |t| | |p| / m - 1 |,   1 / m the mean inverse
+///     | R p + t |^2 = |p|^2 + |t|^2 + 2 (R p) . t,   (R p) . t within |p| (R axis . t -+ chord |t|)
+///
+/// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here, those of
+/// the points later, and a rotation that is one to 1e-6.
+template <bool translated>
+std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                        std::size_t first, std::size_t last, std::uint32_t* found) {
+  const auto& r = pose.rotation;
+  const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
+  const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
+  std::size_t count = 0;
+  for (std::size_t block = first; block < last; block += hn::Lanes(d)) {
+    const auto x = hn::LoadU(d, points.axis_x + block), y = hn::LoadU(d, points.axis_y + block);
+    const auto z = hn::LoadU(d, points.axis_z + block), chord = hn::LoadU(d, points.chord + block);
+    auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
+    auto az = dot(x, y, z, r[6], r[7], r[8]);
+    const auto nearest = hn::LoadU(d, points.nearest + block), furthest = hn::LoadU(d, points.furthest + block);
+    auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
+    auto sine = chord;
+    auto certain = hn::Gt(nearest, hn::Zero(d));
+    if constexpr (translated) {
+      const auto inverse = hn::LoadU(d, points.mean_inverse + block);
+      const auto spread = hn::LoadU(d, points.spread + block);
+      const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
+      ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
+      ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
+      az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
+      const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
+      certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
+      sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
+      const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
+      const auto two = hn::Set(d, 2.0f);
+      least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
+      greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
+    }
+    const CubePlace place = place_on_cube(ax, ay, az);
+    const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
+    const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
+    // A cap with that sine moves a coordinate of the face by at most this, in cells.
+    const auto opening = hn::Mul(sine, length);
+    const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
+                                       hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
+                               hn::Sub(one, opening));
+    const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
+    certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
+    const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
+    const auto index = hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
+    const auto entry = hn::GatherIndex(du, cube.pyramid, index);
+    const auto word =
+        reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                   radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+    const auto near = hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
+    const auto asked = hn::And(near, hn::FirstN(du, last - block));
+    const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
+    hn::StoreU(hn::Compress(number, asked), du, found + count);
+    count += hn::CountTrue(du, asked);
+  }
+  return count;
+}
+
+std::size_t near_blocks_any(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                            std::size_t first, std::size_t last, std::uint32_t* found) {
+  return pose.distance > 0 ? near_blocks<true>(cube, points, pose, first, last, found)
+                           : near_blocks<false>(cube, points, pose, first, last, found);
+}
+
+void near_points_any(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  const auto& r = pose.rotation;
+  const auto& t = pose.translation;
+  const int finest = cube.cells_per_side;
+  const auto part_mask = hn::Set(di, parts_per_cell - 1);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < block_count; ++i) {
+    const std::size_t first = std::size_t{16} * blocks[i];
+    for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
+      const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at), pz = hn::LoadU(d, points.z + at);
+      const auto x = hn::Add(dot(px, py, pz, r[0], r[1], r[2]), hn::Set(d, t[0]));
+      const auto y = hn::Add(dot(px, py, pz, r[3], r[4], r[5]), hn::Set(d, t[1]));
+      const auto z = hn::Add(dot(px, py, pz, r[6], r[7], r[8]), hn::Set(d, t[2]));
+      const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+      const auto code = radius_code(cube.scale, squared);
+      const CubePlace place = place_on_cube(x, y, z);
+      const auto u = column(place.u, finest * parts_per_cell), w = column(place.w, finest * parts_per_cell);
+      const auto n = hn::Set(di, finest);
+      const auto cell = hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
+      const auto entry = hn::GatherIndex(du, cube.radii, cell);
+      auto near = radii_meet(entry, reach_word(code, code));
+      if (HWY_UNLIKELY(first + 16 > points.size)) {
+        near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
+      }
+      if (hn::AllFalse(du, near)) continue;
+      const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
+      const auto box = hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
+                              hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
+      const auto near_float = hn::RebindMask(d, near);
+      hn::StoreU(hn::Compress(x, near_float), d, found.x.data() + count);
+      hn::StoreU(hn::Compress(y, near_float), d, found.y.data() + count);
+      hn::StoreU(hn::Compress(z, near_float), d, found.z.data() + count);
+      hn::StoreU(hn::Compress(hn::BitCast(du, cell), near), du, found.cell.data() + count);
+      hn::StoreU(hn::Compress(hn::BitCast(du, box), near), du, found.box.data() + count);
+      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(at)), near), du, found.point.data() + count);
+      count += hn::CountTrue(du, near);
+    }
+  }
+  found.count = count;
+}
+
+/// Triangles of [first, first + lanes) whose boxes hold the point, as bits.
+HWY_INLINE std::uint32_t boxes_holding(const std::uint32_t* box, std::size_t first, std::size_t last, Words point) {
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint32_t e = box[first], p = hn::GetLane(point);
+  static_cast<void>(last);
+  return (e & 0xff) <= (p & 0xff) && (e >> 8 & 0xff) <= (p >> 8 & 0xff) && (e >> 16 & 0xff) <= (p >> 16 & 0xff) &&
+         e >> 24 <= p >> 24;
+#else
+  constexpr hn::Repartition<std::uint8_t, DU> bytes;
+  const auto boxes = hn::LoadU(du, box + first);
+  const auto excess = hn::SaturatedSub(hn::BitCast(bytes, boxes), hn::BitCast(bytes, point));
+  const auto holding = hn::And(hn::Eq(hn::BitCast(du, excess), hn::Zero(du)), hn::FirstN(du, last - first));
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(du, holding, bits);
+  constexpr std::uint32_t lanes = (1u << hn::MaxLanes(du)) - 1;
+  return (static_cast<std::uint32_t>(bits[0]) | static_cast<std::uint32_t>(bits[1]) << 8) & lanes;
+#endif
+}
+
+struct Crossing {
+  float s;      // |v| over the radius of the crossing
+  float error;  // of s
+  std::uint32_t triangle;
+  int outwards;
+};
+
+/// The certain crossings of one ray.
+struct Ray {
+  static constexpr std::size_t most = 24;
+  Crossing crossing[most];
+  std::size_t count;
+  int winding;  // of the point
+  bool doubtful;
+};
+
+/// One triangle's four forms of the point: crossed, not crossed, or in doubt.
+HWY_INLINE void cross(const ConeForms& forms, std::uint32_t triangle, float px, float py, float pz, float bound,
+                      Ray& ray) {
+  constexpr hn::CappedTag<float, 4> d4;
+  alignas(16) float values[4], errors[4];
+  unsigned below = 0, above = 0;
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
+    const auto x = hn::Load(d4, forms.x + k), y = hn::Load(d4, forms.y + k), z = hn::Load(d4, forms.z + k);
+    const auto value =
+        hn::MulAdd(hn::Set(d4, px), x, hn::MulAdd(hn::Set(d4, py), y, hn::Mul(hn::Set(d4, pz), z)));
+    const auto error = hn::Mul(hn::Set(d4, bound), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d4, hn::Lt(value, hn::Neg(error)), bits);
+    below |= static_cast<unsigned>(bits[0]) << k;
+    hn::StoreMaskBits(d4, hn::Gt(value, error), bits);
+    above |= static_cast<unsigned>(bits[0]) << k;
+    hn::Store(value, d4, values + k);
+    hn::Store(error, d4, errors + k);
+  }
+  if (below & 7) return;
+  if ((above & 7) != 7 || ray.count == Ray::most) {
+    ray.doubtful = true;
+    return;
+  }
+  const float s = std::abs(values[3]), beyond = s - 1;
+  if (!(std::abs(beyond) > errors[3])) {
+    ray.doubtful = true;
+    return;
+  }
+  const int outwards = values[3] > 0 ? 1 : -1;
+  if (beyond > 0) ray.winding -= outwards;
+  ray.crossing[ray.count++] = {s, errors[3], triangle, outwards};
+}
+
+/// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
+///
+/// Crossings in order from the centre have falling s. The gaps 1 - 1/s before and 1/s' - 1 behind compare as
+/// 2 s s' does with s + s'.
+HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
+  for (std::size_t i = 1; i < ray.count; ++i) {
+    const Crossing moving = ray.crossing[i];
+    std::size_t k = i;
+    for (; k > 0 && ray.crossing[k - 1].s < moving.s; --k) ray.crossing[k] = ray.crossing[k - 1];
+    ray.crossing[k] = moving;
+  }
+  for (std::size_t i = 1; i < ray.count; ++i) {
+    const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
+    if (!(nearer.s - further.s > nearer.error + further.error)) return false;
+  }
+  const Crossing *before = nullptr, *after = nullptr;
+  int winding = winding_at_centre;
+  for (std::size_t i = 0; i < ray.count; ++i) {
+    const Crossing& crossing = ray.crossing[i];
+    const bool was_inside = winding > 0;
+    winding -= crossing.outwards;
+    if (was_inside == (winding > 0)) continue;
+    if (crossing.s > 1) {
+      before = &crossing;
+    } else if (!after) {
+      after = &crossing;
+    }
+  }
+  if (!after) return false;
+  found.away_from_centre = true;
+  if (before) {
+    const float b = before->s, a = after->s;
+    const float difference = a + b - 2 * a * b;
+    const float error = 1.01f * (before->error * (1 + 2 * a) + after->error * (1 + 2 * b));
+    if (!(std::abs(difference) > error)) return false;
+    found.away_from_centre = difference < 0;
+  }
+  found.triangle = (found.away_from_centre ? after : before)->triangle;
+  return true;
+}
+
+std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found) {
+  std::size_t tried = 0;
+  found.count = 0;
+  Ray ray;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    const float x = points.x[i], y = points.y[i], z = points.z[i];
+    const float bound = form_bound * std::max(std::max(std::abs(x), std::abs(y)), std::abs(z));
+    const CellRow row = cube.row[points.cell[i]];
+    const Words point = hn::Set(du, points.box[i]);
+    ray.count = 0, ray.winding = cube.winding_at_centre;
+    // Nearer to the centre than any surface, floats may have lost the direction.
+    ray.doubtful = cube.winding_at_centre > 0 && x * x + y * y + z * z < cube.nearest_squared;
+    for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+      for (std::uint32_t bits = boxes_holding(cube.box, first, row.last, point); bits != 0; bits &= bits - 1) {
+        const std::uint32_t triangle = cube.triangle[first + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)];
+        cross(cube.forms[triangle], triangle, x, y, z, bound, ray);
+        ++tried;
+      }
+    }
+    if (!ray.doubtful && ray.winding <= 0) continue;
+    FoundPoint& next = found.point[found.count++];
+    next.point = points.point[i];
+    next.winding = static_cast<std::int16_t>(ray.winding);
+    next.doubtful = ray.doubtful || !leave(ray, cube.winding_at_centre, next);
+  }
+  return tried;
+}
+
+}  // namespace
+}  // namespace condyle::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace condyle {
+
+HWY_EXPORT(near_blocks_any);
+HWY_EXPORT(near_points_any);
+HWY_EXPORT(inside_points_any);
+
+std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                        std::size_t first, std::size_t last, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(near_blocks_any)(cube, points, pose, first, last, found);
+}
+
+void near_points(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                 const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
+}
+
+std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found) {
+  return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, found);
+}
+
+}  // namespace condyle
+#endif

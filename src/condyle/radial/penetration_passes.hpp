@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "condyle/radial/cube_view.hpp"
+
+/// The three passes that find penetrating points, each compiled for every instruction set and chosen at run
+/// time. None of them decides what floats cannot: a point that a bound does not settle is handed on as doubtful.
+
+namespace condyle {
+
+/// Blocks that go through the passes together: their points stay in the nearest cache.
+inline constexpr std::size_t blocks_per_batch = 64;
+inline constexpr std::size_t points_per_batch = 16 * blocks_per_batch;
+
+/// Room for one vector more than can be found: vectors are stored whole.
+template <class T>
+using BatchArray = std::array<T, points_per_batch + 16>;
+
+/// Points not rejected by their cell's radii, as floats in the table's frame.
+struct NearPoints {
+  std::size_t count;
+  alignas(64) BatchArray<float> x, y, z;
+  alignas(64) BatchArray<std::uint32_t> cell, box, point;
+};
+
+/// Points that are inside (by certain signs), with the triangle they leave through, and points in doubt.
+struct FoundPoint {
+  std::uint32_t point, triangle;
+  std::int16_t winding;
+  bool away_from_centre, doubtful;
+};
+struct FoundPoints {
+  std::size_t count;
+  std::array<FoundPoint, points_per_batch> point;
+};
+
+/// Blocks of [first, last) that may hold a point within the radii of the surface around them.
+std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                        std::size_t first, std::size_t last, std::uint32_t* found);
+
+/// Points of those blocks within the radii of their cell.
+void near_points(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+                 const std::uint32_t* blocks, std::size_t block_count, NearPoints& found);
+
+/// Those of them that have crossed the surface, or may have. Returns how many listed triangles were tried.
+std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found);
+
+}  // namespace condyle
