@@ -19,6 +19,7 @@ struct CellLists {
   /// For a cube map alone, for its vector code; `box` has room for a vector beyond its last entry.
   UninitialisedVector<std::uint32_t> box;
   UninitialisedVector<ConeForms> forms;
+  UninitialisedVector<Vec3> corner;  ///< the mesh's vertices again, each in one place
 
   std::span<const Index> of(Index cell) const noexcept {
     return {triangle.data() + row[cell].first, triangle.data() + row[cell].last};

@@ -15,7 +15,7 @@ namespace {
 /// Triangles measured and listed together: their radii stay in the nearest cache.
 constexpr std::size_t triangles_per_chunk = 1024;
 
-/// Room beyond the last box, for a vector that starts on it.
+/// Room beyond the last entry, for a vector that starts on it.
 constexpr std::size_t vector_room = 16;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
@@ -47,6 +47,8 @@ class CubeListing {
     lists.forms.resize(triangles);
     UninitialisedVector<FacePoint> vertices(mesh_.vertices.size());
     place_vertices(view_, vertices.data());
+    lists.corner.resize(mesh_.vertices.size());
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) lists.corner[i] = mesh_.vertices[i];
     entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
     std::array<TriangleRadii, triangles_per_chunk> radii;
     std::array<std::uint32_t, triangles_per_chunk> elsewhere;
@@ -221,7 +223,7 @@ class CubeListing {
       first += length_[cell];
       lists.radii[cell] = length_[cell] == 0 ? no_radii : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
     }
-    lists.triangle.resize(count_);
+    lists.triangle.resize(count_ + vector_room);
     lists.box.resize(count_ + vector_room);
     for (std::size_t i = 0; i < count_; ++i) {
       const ListedTriangle& entry = entry_[i];
@@ -229,7 +231,7 @@ class CubeListing {
       lists.triangle[at] = entry.triangle;
       lists.box[at] = entry.box;
     }
-    for (std::size_t i = 0; i < vector_room; ++i) lists.box[count_ + i] = 0;
+    for (std::size_t i = 0; i < vector_room; ++i) lists.box[count_ + i] = 0, lists.triangle[count_ + i] = no_index;
   }
 
   const TriMesh& mesh_;

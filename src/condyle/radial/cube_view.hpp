@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "condyle/core/vec3.hpp"
 #include "condyle/radial/radius_scale.hpp"
 
 /// A cube table as the vector code reads it: plain arrays, borrowed from a RadialTable.
@@ -72,6 +73,14 @@ constexpr std::uint32_t box_word(int least_column, int greatest_column, int leas
          static_cast<std::uint32_t>(least_row) << 16 | static_cast<std::uint32_t>(255 - greatest_row) << 24;
 }
 
+/// Whether no byte of the box exceeds the point's.
+constexpr bool holds(std::uint32_t box, std::uint32_t point) noexcept {
+  for (int shift = 0; shift < 32; shift += 8) {
+    if ((box >> shift & 255) > (point >> shift & 255)) return false;
+  }
+  return true;
+}
+
 /// A pose as the passes read it, about the joint centre: rotation by rows, translation, its length.
 struct FloatPose {
   std::array<float, 9> rotation;
@@ -79,11 +88,14 @@ struct FloatPose {
   float distance;
 };
 
-/// Columns of SortedPoints.
-struct SortedPointsView {
+/// Columns of SortedPoints: its points, and the blocks of one of its levels.
+struct PointColumns {
   const float *x, *y, *z;
+  std::size_t size;
+};
+struct BlockColumns {
   const float *axis_x, *axis_y, *axis_z, *chord, *nearest, *furthest, *mean_inverse, *spread;
-  std::size_t size, block_count;
+  std::size_t count;
 };
 
 }  // namespace condyle

@@ -294,6 +294,18 @@ void CartesianMap::visit_cells(const Cone& cone, const std::function<void(const 
   }
 }
 
+std::uint32_t CubeMap::box_of(const Vec3& v) const noexcept {
+  int axis = 0;
+  const double largest = v.cwiseAbs().maxCoeff(&axis);
+  const auto part = [&](int k) {
+    const double at = (v[k % 3] / largest + 1) * (0.5 * n_);
+    const int cell = std::clamp(static_cast<int>(at), 0, n_ - 1);
+    return std::clamp(static_cast<int>((at - cell) * parts_per_cell), 0, parts_per_cell - 1);
+  };
+  const int column_part = part(axis + 1), row_part = part(axis + 2);
+  return box_word(column_part, column_part, row_part, row_part);
+}
+
 void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const {
   if (is_close(cone, min_radius(cone))) return visit_all(cell_count(), max_radius(cone), visit);
   const PlaneNormal plane(cone);

@@ -84,6 +84,9 @@ class CubeMap {
   /// Calls visit(CellOverlap) once for each cell the cone meets.
   void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
 
+  /// Where in its cell v, which is not zero, falls: see box_word().
+  std::uint32_t box_of(const Vec3& v) const noexcept;
+
  private:
   int column(double s) const noexcept {
     return std::clamp(static_cast<int>((s + 1) * (0.5 * n_)), 0, n_ - 1);

@@ -1,7 +1,12 @@
 #include "condyle/radial/penetration_passes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
+#include <span>
+
+#include <hwy/cache_control.h>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "condyle/radial/penetration_passes.cpp"
@@ -105,24 +110,25 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints
 /// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here, those of
 /// the points later, and a rotation that is one to 1e-6.
 template <bool translated>
-std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
-                        std::size_t first, std::size_t last, std::uint32_t* found) {
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
   const auto& r = pose.rotation;
   const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
   const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
   std::size_t count = 0;
-  for (std::size_t block = first; block < last; block += hn::Lanes(d)) {
-    const auto x = hn::LoadU(d, points.axis_x + block), y = hn::LoadU(d, points.axis_y + block);
-    const auto z = hn::LoadU(d, points.axis_z + block), chord = hn::LoadU(d, points.chord + block);
+  for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
+    const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
+    const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
+    const auto z = hn::LoadU(d, blocks.axis_z + block), chord = hn::LoadU(d, blocks.chord + block);
     auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
     auto az = dot(x, y, z, r[6], r[7], r[8]);
-    const auto nearest = hn::LoadU(d, points.nearest + block), furthest = hn::LoadU(d, points.furthest + block);
+    const auto nearest = hn::LoadU(d, blocks.nearest + block), furthest = hn::LoadU(d, blocks.furthest + block);
     auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
     auto sine = chord;
     auto certain = hn::Gt(nearest, hn::Zero(d));
     if constexpr (translated) {
-      const auto inverse = hn::LoadU(d, points.mean_inverse + block);
-      const auto spread = hn::LoadU(d, points.spread + block);
+      const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
+      const auto spread = hn::LoadU(d, blocks.spread + block);
       const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
       ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
       ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
@@ -152,7 +158,7 @@ std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, co
         reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
                    radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
     const auto near = hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
-    const auto asked = hn::And(near, hn::FirstN(du, last - block));
+    const auto asked = hn::And(near, hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
     hn::StoreU(hn::Compress(number, asked), du, found + count);
     count += hn::CountTrue(du, asked);
@@ -160,13 +166,13 @@ std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, co
   return count;
 }
 
-std::size_t near_blocks_any(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
-                            std::size_t first, std::size_t last, std::uint32_t* found) {
-  return pose.distance > 0 ? near_blocks<true>(cube, points, pose, first, last, found)
-                           : near_blocks<false>(cube, points, pose, first, last, found);
+std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                            const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  return pose.distance > 0 ? near_blocks<true>(cube, blocks, pose, parents, parent_count, found)
+                           : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
 }
 
-void near_points_any(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                      const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
   const auto& r = pose.rotation;
   const auto& t = pose.translation;
@@ -175,6 +181,10 @@ void near_points_any(const CubeView& cube, const SortedPointsView& points, const
   std::size_t count = 0;
   for (std::size_t i = 0; i < block_count; ++i) {
     const std::size_t first = std::size_t{16} * blocks[i];
+    if (i + 4 < block_count) {
+      const std::size_t ahead = std::size_t{16} * blocks[i + 4];
+      hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
+    }
     for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
       const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at), pz = hn::LoadU(d, points.z + at);
       const auto x = hn::Add(dot(px, py, pz, r[0], r[1], r[2]), hn::Set(d, t[0]));
@@ -208,31 +218,87 @@ void near_points_any(const CubeView& cube, const SortedPointsView& points, const
   found.count = count;
 }
 
-/// Triangles of [first, first + lanes) whose boxes hold the point, as bits.
-HWY_INLINE std::uint32_t boxes_holding(const std::uint32_t* box, std::size_t first, std::size_t last, Words point) {
+/// Triangles whose boxes hold a point, with the number of the point among the near ones.
+struct Pairs {
+  static constexpr std::size_t most = 4096;
+  std::array<std::uint32_t, most + vector_room> triangle, point;
+  std::size_t count;
+};
+
+/// Which of the boxes from `first` on hold the point.
+HWY_INLINE hn::Mask<DU> boxes_holding(const std::uint32_t* box, std::size_t first, std::size_t last, Words point) {
 #if HWY_TARGET == HWY_SCALAR
-  const std::uint32_t e = box[first], p = hn::GetLane(point);
   static_cast<void>(last);
-  return (e & 0xff) <= (p & 0xff) && (e >> 8 & 0xff) <= (p >> 8 & 0xff) && (e >> 16 & 0xff) <= (p >> 16 & 0xff) &&
-         e >> 24 <= p >> 24;
+  return hn::MaskFromVec(hn::Set(du, holds(box[first], hn::GetLane(point)) ? ~0u : 0u));
 #else
   constexpr hn::Repartition<std::uint8_t, DU> bytes;
-  const auto boxes = hn::LoadU(du, box + first);
-  const auto excess = hn::SaturatedSub(hn::BitCast(bytes, boxes), hn::BitCast(bytes, point));
-  const auto holding = hn::And(hn::Eq(hn::BitCast(du, excess), hn::Zero(du)), hn::FirstN(du, last - first));
-  std::uint8_t bits[8] = {};
-  hn::StoreMaskBits(du, holding, bits);
-  constexpr std::uint32_t lanes = (1u << hn::MaxLanes(du)) - 1;
-  return (static_cast<std::uint32_t>(bits[0]) | static_cast<std::uint32_t>(bits[1]) << 8) & lanes;
+  const auto excess = hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, box + first)), hn::BitCast(bytes, point));
+  return hn::And(hn::Eq(hn::BitCast(du, excess), hn::Zero(du)), hn::FirstN(du, last - first));
 #endif
 }
 
+/// Pairs of one near point, added to the others; false where there are too many.
+HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
+  const CellRow row = cube.row[points.cell[i]];
+  const Words box = hn::Set(du, points.box[i]), number = hn::Set(du, static_cast<std::uint32_t>(i));
+  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+    const auto holding = boxes_holding(cube.box, first, row.last, box);
+    hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du, pairs.triangle.data() + pairs.count);
+    hn::StoreU(number, du, pairs.point.data() + pairs.count);
+    pairs.count += hn::CountTrue(du, holding);
+    if (pairs.count > Pairs::most - vector_room) return false;
+  }
+  return true;
+}
+
+/// A crossing of a near point's ray: s is |v| over its radius, NaN where floats do not say whether there is one.
 struct Crossing {
-  float s;      // |v| over the radius of the crossing
-  float error;  // of s
-  std::uint32_t triangle;
-  int outwards;
+  float s, error;
+  std::uint32_t triangle, point;
+  std::int32_t outwards;  // 1 where the ray leaves the solid, -1 where it enters
 };
+struct Crossings {
+  std::array<Crossing, Pairs::most + 1> crossing;
+  std::size_t count;
+};
+
+/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
+HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pairs& pairs, float form_bound,
+                      Crossings& out) {
+  constexpr hn::CappedTag<float, 4> d4;
+  constexpr std::size_t ahead = 8;
+  for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) hwy::Prefetch(cube.forms + pairs.triangle[i]);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs.count; ++i) {
+    hwy::Prefetch(cube.forms + pairs.triangle[std::min(i + ahead, pairs.count - 1)]);
+    const std::uint32_t triangle = pairs.triangle[i], point = pairs.point[i];
+    const ConeForms& forms = cube.forms[triangle];
+    const float px = points.x[point], py = points.y[point], pz = points.z[point];
+    const float bound = form_bound * std::max(std::max(std::abs(px), std::abs(py)), std::abs(pz));
+    alignas(16) float values[4], errors[4];
+    unsigned below = 0, above = 0;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
+      const auto x = hn::Load(d4, forms.x + k), y = hn::Load(d4, forms.y + k), z = hn::Load(d4, forms.z + k);
+      const auto value =
+          hn::MulAdd(hn::Set(d4, px), x, hn::MulAdd(hn::Set(d4, py), y, hn::Mul(hn::Set(d4, pz), z)));
+      const auto error = hn::Mul(hn::Set(d4, bound), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d4, hn::Lt(value, hn::Neg(error)), bits);
+      below |= static_cast<unsigned>(bits[0]) << k;
+      hn::StoreMaskBits(d4, hn::Gt(value, error), bits);
+      above |= static_cast<unsigned>(bits[0]) << k;
+      hn::Store(value, d4, values + k);
+      hn::Store(error, d4, errors + k);
+    }
+    // Without branches, which nothing could foretell: all bits of a magnitude set are a NaN.
+    const std::uint32_t bits_of_value = std::bit_cast<std::uint32_t>(values[3]);
+    const std::uint32_t doubt = 0u - static_cast<std::uint32_t>((above & 7) != 7);
+    out.crossing[count] = {std::bit_cast<float>((bits_of_value | doubt) & 0x7fffffffu), errors[3], triangle, point,
+                           1 - 2 * static_cast<std::int32_t>(bits_of_value >> 31)};
+    count += static_cast<std::size_t>((below & 7) == 0);
+  }
+  out.count = count;
+}
 
 /// The certain crossings of one ray.
 struct Ray {
@@ -243,38 +309,16 @@ struct Ray {
   bool doubtful;
 };
 
-/// One triangle's four forms of the point: crossed, not crossed, or in doubt.
-HWY_INLINE void cross(const ConeForms& forms, std::uint32_t triangle, float px, float py, float pz, float bound,
-                      Ray& ray) {
-  constexpr hn::CappedTag<float, 4> d4;
-  alignas(16) float values[4], errors[4];
-  unsigned below = 0, above = 0;
-  for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-    const auto x = hn::Load(d4, forms.x + k), y = hn::Load(d4, forms.y + k), z = hn::Load(d4, forms.z + k);
-    const auto value =
-        hn::MulAdd(hn::Set(d4, px), x, hn::MulAdd(hn::Set(d4, py), y, hn::Mul(hn::Set(d4, pz), z)));
-    const auto error = hn::Mul(hn::Set(d4, bound), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d4, hn::Lt(value, hn::Neg(error)), bits);
-    below |= static_cast<unsigned>(bits[0]) << k;
-    hn::StoreMaskBits(d4, hn::Gt(value, error), bits);
-    above |= static_cast<unsigned>(bits[0]) << k;
-    hn::Store(value, d4, values + k);
-    hn::Store(error, d4, errors + k);
+HWY_INLINE void collect(std::span<const Crossing> crossings, int winding_at_centre, Ray& ray) {
+  ray.count = 0, ray.winding = winding_at_centre;
+  ray.doubtful = crossings.size() > Ray::most;
+  if (ray.doubtful) return;
+  for (const Crossing& crossing : crossings) {
+    const float beyond = crossing.s - 1;
+    ray.doubtful |= !(std::abs(beyond) > crossing.error);
+    ray.winding -= beyond > 0 ? crossing.outwards : 0;
+    ray.crossing[ray.count++] = crossing;
   }
-  if (below & 7) return;
-  if ((above & 7) != 7 || ray.count == Ray::most) {
-    ray.doubtful = true;
-    return;
-  }
-  const float s = std::abs(values[3]), beyond = s - 1;
-  if (!(std::abs(beyond) > errors[3])) {
-    ray.doubtful = true;
-    return;
-  }
-  const int outwards = values[3] > 0 ? 1 : -1;
-  if (beyond > 0) ray.winding -= outwards;
-  ray.crossing[ray.count++] = {s, errors[3], triangle, outwards};
 }
 
 /// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
@@ -318,30 +362,51 @@ HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
   return true;
 }
 
-std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found) {
-  std::size_t tried = 0;
-  found.count = 0;
+/// Decides near points [first, last), whose crossings these are.
+HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
+                       const Crossings& crossings, FoundPoints& found) {
   Ray ray;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    const float x = points.x[i], y = points.y[i], z = points.z[i];
-    const float bound = form_bound * std::max(std::max(std::abs(x), std::abs(y)), std::abs(z));
-    const CellRow row = cube.row[points.cell[i]];
-    const Words point = hn::Set(du, points.box[i]);
-    ray.count = 0, ray.winding = cube.winding_at_centre;
-    // Nearer to the centre than any surface, floats may have lost the direction.
-    ray.doubtful = cube.winding_at_centre > 0 && x * x + y * y + z * z < cube.nearest_squared;
-    for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
-      for (std::uint32_t bits = boxes_holding(cube.box, first, row.last, point); bits != 0; bits &= bits - 1) {
-        const std::uint32_t triangle = cube.triangle[first + hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)];
-        cross(cube.forms[triangle], triangle, x, y, z, bound, ray);
-        ++tried;
-      }
+  const Crossing *next = crossings.crossing.data(), *const end = next + crossings.count;
+  for (std::size_t i = first; i < last; ++i) {
+    const Crossing* const begin = next;
+    while (next != end && next->point == i) ++next;
+    collect({begin, next}, cube.winding_at_centre, ray);
+    if (cube.winding_at_centre > 0) {
+      // Nearer to the centre than any surface, floats may have lost the direction.
+      const float x = points.x[i], y = points.y[i], z = points.z[i];
+      ray.doubtful |= x * x + y * y + z * z < cube.nearest_squared;
     }
     if (!ray.doubtful && ray.winding <= 0) continue;
-    FoundPoint& next = found.point[found.count++];
-    next.point = points.point[i];
-    next.winding = static_cast<std::int16_t>(ray.winding);
-    next.doubtful = ray.doubtful || !leave(ray, cube.winding_at_centre, next);
+    FoundPoint& at = found.point[found.count++];
+    at.point = points.point[i];
+    at.triangle = no_index;
+    at.winding = static_cast<std::int16_t>(ray.winding);
+    at.doubtful = ray.doubtful || !leave(ray, cube.winding_at_centre, at);
+  }
+}
+
+std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found) {
+  Pairs pairs;
+  Crossings crossings;
+  std::size_t tried = 0;
+  found.count = 0;
+  for (std::size_t first = 0; first < points.count;) {
+    std::size_t last = first;
+    pairs.count = 0;
+    bool fits = true;
+    while (last < points.count && fits) {
+      const std::size_t before = pairs.count;
+      fits = pair(cube, points, last, pairs);
+      if (fits) ++last; else pairs.count = before;
+    }
+    cross(cube, points, pairs, form_bound, crossings);
+    decide(cube, points, first, last, crossings, found);
+    tried += pairs.count;
+    if (last == first) {
+      // More triangles at one point than there is room for.
+      found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
+    }
+    first = last;
   }
   return tried;
 }
@@ -357,12 +422,12 @@ HWY_EXPORT(near_blocks_any);
 HWY_EXPORT(near_points_any);
 HWY_EXPORT(inside_points_any);
 
-std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
-                        std::size_t first, std::size_t last, std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(near_blocks_any)(cube, points, pose, first, last, found);
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(near_blocks_any)(cube, blocks, pose, parents, parent_count, found);
 }
 
-void near_points(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
   HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
 }

@@ -5,18 +5,19 @@
 
 #include "condyle/radial/cube_view.hpp"
 
-/// The three passes that find penetrating points, each compiled for every instruction set and chosen at run
-/// time. None of them decides what floats cannot: a point that a bound does not settle is handed on as doubtful.
+/// The passes that find penetrating points, each compiled for every instruction set and chosen at run time. None
+/// of them decides what floats cannot: a point that a bound does not settle is handed on as doubtful.
 
 namespace condyle {
 
-/// Blocks that go through the passes together: their points stay in the nearest cache.
-inline constexpr std::size_t blocks_per_batch = 64;
+/// Blocks of points that go through the passes together. Few of their points are near, and those stay in cache.
+inline constexpr std::size_t blocks_per_batch = 512;
 inline constexpr std::size_t points_per_batch = 16 * blocks_per_batch;
 
-/// Room for one vector more than can be found: vectors are stored whole.
+/// Vectors are stored whole: room for one more than can be found.
+inline constexpr std::size_t vector_room = 16;
 template <class T>
-using BatchArray = std::array<T, points_per_batch + 16>;
+using BatchArray = std::array<T, points_per_batch + vector_room>;
 
 /// Points not rejected by their cell's radii, as floats in the table's frame.
 struct NearPoints {
@@ -36,12 +37,13 @@ struct FoundPoints {
   std::array<FoundPoint, points_per_batch> point;
 };
 
-/// Blocks of [first, last) that may hold a point within the radii of the surface around them.
-std::size_t near_blocks(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
-                        std::size_t first, std::size_t last, std::uint32_t* found);
+/// Blocks that may hold a point within the radii of the surface around them, among the sixteen blocks of each of
+/// `parents`, blocks of the next level. `found` has room for all of them and a vector.
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found);
 
 /// Points of those blocks within the radii of their cell.
-void near_points(const CubeView& cube, const SortedPointsView& points, const FloatPose& pose,
+void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found);
 
 /// Those of them that have crossed the surface, or may have. Returns how many listed triangles were tried.

@@ -36,12 +36,11 @@ FloatPose float_pose(const Pose& X, const Vec3& centre) {
   return pose;
 }
 
-SortedPointsView view_of(const SortedPoints& points) {
+BlockColumns blocks_of(const SortedPoints& points, std::size_t level) {
+  const auto column = [&](SortedPoints::Column c) { return points.block(level, c); };
   using P = SortedPoints;
-  return {points.coordinate(0),       points.coordinate(1),        points.coordinate(2),  points.block(P::axis_x),
-          points.block(P::axis_y),    points.block(P::axis_z),     points.block(P::chord), points.block(P::nearest),
-          points.block(P::furthest),  points.block(P::mean_inverse), points.block(P::spread), points.size(),
-          points.block_count()};
+  return {column(P::axis_x),  column(P::axis_y),   column(P::axis_z),       column(P::chord), column(P::nearest),
+          column(P::furthest), column(P::mean_inverse), column(P::spread), points.block_count(level)};
 }
 
 }  // namespace
@@ -81,40 +80,67 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
   const auto cube = is_rotation(X_FM) ? cube_view(points, pose) : std::nullopt;
   if (!cube) return penetrations_one_by_one(points, X_FM, out);
 
-  const SortedPointsView view = view_of(points);
+  const PointColumns columns{points.coordinate(0), points.coordinate(1), points.coordinate(2), points.size()};
+  const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
   const auto form_bound = static_cast<float>(
       (form_error + form_error_of_translation * pose.distance / std::sqrt(cube->nearest_squared)) * (1 + 0x1p-20));
   RayScan scan(mesh_, *winding_at_centre_);
-  std::array<std::uint32_t, blocks_per_batch + 16> blocks;
+  constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan, sets_per_batch = 16;
+  std::array<std::uint32_t, sets_per_batch> set;
+  std::array<std::uint32_t, sets_per_batch * fan + vector_room> near_group;
+  std::array<std::uint32_t, blocks_per_batch + vector_room> near_block;
   NearPoints near;
   FoundPoints found;
-  for (std::size_t first = 0; first < view.block_count; first += blocks_per_batch) {
-    const std::size_t last = std::min(first + blocks_per_batch, view.block_count);
-    const std::size_t block_count = near_blocks(*cube, view, pose, first, last, blocks.data());
-    if (work) work->blocks += last - first, work->near_blocks += block_count;
-    if (block_count == 0) continue;
-    near_points(*cube, view, pose, blocks.data(), block_count, near);
-    if (work) work->near_points += near.count;
-    if (near.count == 0) continue;
-    const std::size_t tried = inside_points(*cube, near, form_bound, found);
-    finish(points, X_FM, found, scan, out);
-    if (!work) continue;
-    work->triangles += tried;
-    for (std::size_t i = 0; i < found.count; ++i) work->doubtful += found.point[i].doubtful;
+  const std::size_t set_count = (groups.count + fan - 1) / fan;
+  for (std::size_t first_set = 0; first_set < set_count; first_set += sets_per_batch) {
+    const std::size_t sets = std::min(sets_per_batch, set_count - first_set);
+    for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
+    const std::size_t group_count = near_blocks(*cube, groups, pose, set.data(), sets, near_group.data());
+    for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
+      const std::size_t count = near_blocks(*cube, blocks, pose, near_group.data() + first,
+                                            std::min(groups_per_batch, group_count - first), near_block.data());
+      if (work) work->near_blocks += count;
+      if (count == 0) continue;
+      near_points(*cube, columns, pose, near_block.data(), count, near);
+      if (work) work->near_points += near.count;
+      if (near.count == 0) continue;
+      const std::size_t tried = inside_points(*cube, near, form_bound, found);
+      finish(points, X_FM, found, scan, out);
+      if (!work) continue;
+      work->triangles += tried;
+      for (std::size_t i = 0; i < found.count; ++i) work->doubtful += found.point[i].doubtful;
+    }
   }
+  if (work) work->blocks += blocks.count;
 }
 
 /// Depths in double; points in doubt from the start.
 void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, RayScan& scan,
                          Penetrations& out) const {
-  std::size_t count = out.size();
-  out.resize(count + found.count);
+  const std::size_t first = out.size();
+  std::size_t count = first;
+  out.resize(first + found.count);
+  // What a depth needs lies far apart: it is asked for some points ahead, triangles before their corners.
+  constexpr std::size_t ahead = 6;
+  const auto fetch = [&](std::size_t i) {
+    if (i + ahead < found.count) {
+      const std::uint32_t t = found.point[i + ahead].triangle;
+      if (t < mesh_.triangles.size()) __builtin_prefetch(&mesh_.triangles[t]);
+    }
+    if (i + ahead / 2 < found.count) {
+      const std::uint32_t t = found.point[i + ahead / 2].triangle;
+      if (t < mesh_.triangles.size()) {
+        for (const Index corner : mesh_.triangles[t]) __builtin_prefetch(&lists_.corner[corner]);
+      }
+    }
+  };
   for (std::size_t i = 0; i < found.count; ++i) {
+    fetch(i);
     const FoundPoint& at = found.point[i];
     const Vec3 v = posed(X_FM, points.points()[at.point]);
     out.point[count] = points.index()[at.point];
     if (at.doubtful) {
-      const RayAnswer answer = scan.answer(v, lists_.of(v == Vec3::Zero() ? Index{0} : cell_of(v)));
+      const RayAnswer answer = answer_in_doubt(v, scan);
       if (answer.state == PointState::outside) continue;
       out.state[count] = answer.state;
       out.winding[count] = answer.winding;
@@ -122,15 +148,30 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
       out.depth[count] = std::abs(answer.gap);
       out.direction[count] = answer.direction;
     } else {
+      const auto& [a, b, c] = mesh_.triangles[at.triangle];
       out.state[count] = PointState::inside;
       out.winding[count] = at.winding;
       out.triangle[count] = at.triangle;
-      out.depth[count] = std::abs(distance_along_ray(v, cone_of(mesh_, at.triangle)));
+      out.depth[count] = std::abs(distance_along_ray(v, {lists_.corner[a], lists_.corner[b], lists_.corner[c]}));
       out.direction[count] = at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
     }
     ++count;
   }
   out.resize(count);
+}
+
+/// As query() answers, leaving out triangles whose boxes do not hold the point.
+RayAnswer RadialTable::answer_in_doubt(const Vec3& v, RayScan& scan) const {
+  if (v == Vec3::Zero()) return scan.answer(v, {});
+  const Index cell = cell_of(v);
+  const auto* cube = std::get_if<CubeMap>(&map_);
+  if (!cube) return scan.answer(v, lists_.of(cell));
+  const std::uint32_t point = cube->box_of(v);
+  std::vector<Index> candidates;
+  for (std::uint32_t i = lists_.row[cell].first; i < lists_.row[cell].last; ++i) {
+    if (holds(lists_.box[i], point)) candidates.push_back(lists_.triangle[i]);
+  }
+  return scan.answer(v, candidates);
 }
 
 void RadialTable::penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const {

@@ -140,6 +140,7 @@ class RadialTable {
   int find_winding_at_centre() const;
   std::optional<CubeView> cube_view(const SortedPoints& points, const FloatPose& pose) const;
   void penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const;
+  RayAnswer answer_in_doubt(const Vec3& v, RayScan& scan) const;
   void finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, RayScan& scan,
               Penetrations& out) const;
 

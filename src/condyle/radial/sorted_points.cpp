@@ -7,20 +7,21 @@
 namespace condyle {
 namespace {
 
-constexpr std::size_t per_block = SortedPoints::points_per_block;
+constexpr std::size_t fan = SortedPoints::fan;
 
-/// Blocks are read sixteen at a time: columns are filled up to a multiple of that.
-constexpr std::size_t blocks_read_together = 16;
+std::size_t rounded_up_to(std::size_t multiple, std::size_t count) {
+  return (count + multiple - 1) / multiple * multiple;
+}
 
 /// Halves the longest side of the points' box until a block is left, at multiples of a block.
 void sort_into_blocks(PointsView points, std::span<Index> range) {
-  if (range.size() <= per_block) return;
+  if (range.size() <= fan) return;
   Vec3 low = points[range[0]], high = low;
   for (const Index i : range) low = low.cwiseMin(points[i]), high = high.cwiseMax(points[i]);
   int longest = 0;
   (high - low).maxCoeff(&longest);
   const auto along = longest == 0 ? points.x : longest == 1 ? points.y : points.z;
-  const std::size_t half = (range.size() / 2 + per_block - 1) / per_block * per_block;
+  const std::size_t half = rounded_up_to(range.size() > fan * fan ? fan * fan : fan, range.size() / 2);
   std::nth_element(range.begin(), range.begin() + static_cast<std::ptrdiff_t>(half), range.end(),
                    [&](Index a, Index b) { return along[a] != along[b] ? along[a] < along[b] : a < b; });
   sort_into_blocks(points, range.first(half));
@@ -37,13 +38,12 @@ float rounded_down(double value) {
 
 }  // namespace
 
-SortedPoints::SortedPoints(PointsView points, const Vec3& centre)
-    : centre_(centre), block_count_((points.size() + per_block - 1) / per_block), points_(points.size()) {
+SortedPoints::SortedPoints(PointsView points, const Vec3& centre) : centre_(centre), points_(points.size()) {
   index_.resize(points.size());
   for (Index i = 0; i < points.size(); ++i) index_[i] = i;
   sort_into_blocks(points, index_);
-  for (auto& column : rounded_) column.resize(block_count_ * per_block);
-  for (std::size_t i = 0; i < block_count_ * per_block; ++i) {
+  for (auto& column : rounded_) column.resize(rounded_up_to(fan, size()));
+  for (std::size_t i = 0; i < rounded_[0].size(); ++i) {
     const Vec3 p = points[index_[std::min(i, size() - 1)]];
     if (i < size()) points_.set(i, p);
     const Vec3 about_centre = p - centre_;
@@ -52,13 +52,17 @@ SortedPoints::SortedPoints(PointsView points, const Vec3& centre)
     }
     reach_ = std::max(reach_, about_centre.norm());
   }
-  const std::size_t room = (block_count_ + blocks_read_together - 1) / blocks_read_together * blocks_read_together;
-  for (auto& column : block_) column.assign(room, 0.0f);
-  for (std::size_t block = 0; block < block_count_; ++block) describe_block(block);
+  std::size_t count = size();
+  for (std::size_t level = 0; level < levels; ++level) {
+    block_count_[level] = count = (count + fan - 1) / fan;
+    for (auto& column : block_[level]) column.assign(rounded_up_to(fan, count), 0.0f);
+    for (std::size_t block = 0; block < count; ++block) describe_block(level, block);
+  }
 }
 
-void SortedPoints::describe_block(std::size_t block) {
-  const std::size_t first = block * per_block, last = std::min(first + per_block, size());
+void SortedPoints::describe_block(std::size_t level, std::size_t block) {
+  const std::size_t points_per_block = level == 0 ? fan : fan * fan;
+  const std::size_t first = block * points_per_block, last = std::min(first + points_per_block, size());
   Vec3 sum = Vec3::Zero();
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   for (std::size_t i = first; i < last; ++i) {
@@ -75,12 +79,12 @@ void SortedPoints::describe_block(std::size_t block) {
     const Vec3 p = points_[i] - centre_;
     widest = std::max(widest, (p / p.norm() - axis).norm());
   }
-  const auto set = [&](Column column, float value) { block_[column][block] = value; };
+  const auto set = [&](Column column, float value) { block_[level][column][block] = value; };
   for (int k = 0; k < 3; ++k) set(static_cast<Column>(axis_x + k), static_cast<float>(axis[k]));
   set(chord, rounded_up(widest));
   set(nearest, rounded_down(least));
   set(furthest, rounded_up(greatest));
-  // 1 / |p| lies within mean_inverse +- spread; none of that where a point lies at the centre.
+  // With a point at the centre there is no cap and no such interval: `nearest` is zero.
   const double infinity = std::numeric_limits<double>::infinity();
   const double mean = least > 0 ? (1 / least + 1 / greatest) / 2 : infinity;
   set(mean_inverse, static_cast<float>(mean));
