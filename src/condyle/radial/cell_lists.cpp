@@ -14,7 +14,7 @@ struct Entry {
 
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
-         box.size() * sizeof(std::uint32_t) + forms.size() * sizeof(ConeForms) +
+         (box.size() + slant.size()) * sizeof(std::uint32_t) + forms.size() * sizeof(ConeForms) +
          corner.size() * sizeof(Vec3);
 }
 

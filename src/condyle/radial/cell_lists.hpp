@@ -16,8 +16,8 @@ struct CellLists {
   std::vector<RadiusWord> radii;  ///< of each cell; no_radii where no triangle is met
   RadiusScale scale;
 
-  /// For a cube map alone, for its vector code; `box` has room for a vector beyond its last entry.
-  UninitialisedVector<std::uint32_t> box;
+  /// For a cube map alone, for its vector code, which reads up to a vector beyond the last entry.
+  UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
   UninitialisedVector<ConeForms> forms;
   UninitialisedVector<Vec3> corner;  ///< the mesh's vertices again, each in one place
 

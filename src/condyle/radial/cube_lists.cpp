@@ -20,6 +20,8 @@ constexpr std::size_t vector_room = 16;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
+constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
+
 struct FacePosition {
   float u, w;
 };
@@ -45,8 +47,9 @@ class CubeListing {
     const std::size_t triangles = mesh_.triangles.size();
     CellLists lists;
     lists.forms.resize(triangles);
-    UninitialisedVector<FacePoint> vertices(mesh_.vertices.size());
-    place_vertices(view_, vertices.data());
+    face_.resize(mesh_.vertices.size());
+    vertex_.resize(mesh_.vertices.size());
+    place_vertices(view_, face_.data(), vertex_.data());
     lists.corner.resize(mesh_.vertices.size());
     for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) lists.corner[i] = mesh_.vertices[i];
     entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
@@ -57,10 +60,10 @@ class CubeListing {
       measure_triangles(view_, first, last, lists.forms.data(), radii.data());
       make_room(4 * triangles_per_chunk);
       Listing listing{n_, entry_.data(), count_, length_.data(), least_.data(), greatest_.data(), elsewhere.data(), 0};
-      list_small_triangles(view_, vertices.data(), first, last, radii.data(), listing);
+      list_small_triangles(view_, face_.data(), vertex_.data(), first, last, radii.data(), listing);
       count_ = listing.count;
       for (std::size_t i = 0; i < listing.elsewhere_count; ++i) {
-        list_triangle(elsewhere[i], vertices.data(), radii[elsewhere[i] - first], lists.forms[elsewhere[i]]);
+        list_triangle(elsewhere[i], radii[elsewhere[i] - first], lists.forms[elsewhere[i]]);
       }
     }
     sort_into(lists);
@@ -72,9 +75,9 @@ class CubeListing {
     if (entry_.size() < count_ + entries) entry_.resize(std::max(count_ + entries, entry_.size() + entry_.size() / 2));
   }
 
-  void add(std::uint32_t cell, Index triangle, std::uint32_t box, float least, float greatest) {
+  void add(std::uint32_t cell, Index triangle, const CellOctagon& octagon, float least, float greatest) {
     make_room(1);
-    entry_[count_++] = {cell, triangle, box};
+    entry_[count_++] = {cell, triangle, octagon};
     ++length_[cell];
     least_[cell] = std::min(least_[cell], least);
     greatest_[cell] = std::max(greatest_[cell], greatest);
@@ -83,11 +86,12 @@ class CubeListing {
   /// A triangle over many cells, or over several faces. A part of the latter on some face has all corners well in front of that
   /// face where the edges are short against the radii: the face's coordinate p of a point there is its largest
   /// one, corners are within L of it, and so p > |corner|_max - 2 L for each.
-  void list_triangle(Index t, const FacePoint* vertices, const TriangleRadii& radii, const ConeForms& forms) {
+  void list_triangle(Index t, const TriangleRadii& radii, const ConeForms& forms) {
     const auto& [ia, ib, ic] = mesh_.triangles[t];
-    const FacePoint &a = vertices[ia], &b = vertices[ib], &c = vertices[ic];
-    if (a.face == b.face && b.face == c.face && is_off_edges(a) && is_off_edges(b) && is_off_edges(c)) {
-      return list_on_face(static_cast<int>(a.face), {{{a.u, a.w}, {b.u, b.w}, {c.u, c.w}}}, t, radii, forms);
+    const FacePoint &a = vertex_[ia], &b = vertex_[ib], &c = vertex_[ic];
+    const bool on_one_face = face_[ia] == face_[ib] && face_[ib] == face_[ic];
+    if (on_one_face && is_off_edges(a) && is_off_edges(b) && is_off_edges(c)) {
+      return list_on_face(face_[ia], {{{a.u(), a.w()}, {b.u(), b.w()}, {c.u(), c.w()}}}, t, radii, forms);
     }
     const Cone cone{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
     // |v|_max >= |v| / sqrt(3); L <= |v|_max / 4.
@@ -111,29 +115,36 @@ class CubeListing {
   }
 
   static bool is_off_edges(const FacePoint& p) {
-    return std::max(std::abs(p.u), std::abs(p.w)) < 1 - 2 * list_margin;
+    return std::max(std::abs(p.u()), std::abs(p.w())) < 1 - 2 * list_margin;
   }
 
   void list_clipped(const Cone& cone, Index t) {
     map_.visit_cells(cone, [&](const CellOverlap& overlap) {
       const double least = overlap.min_radius * overlap.min_radius, most = overlap.max_radius * overlap.max_radius;
-      add(overlap.cell, t, box_word(0, 255, 0, 255), static_cast<float>(least * (1 - 0x1p-16)),
+      add(overlap.cell, t, whole_cell, static_cast<float>(least * (1 - 0x1p-16)),
           static_cast<float>(most * (1 + 0x1p-16)));
     });
   }
 
-  /// Parts (256 to a cell) from the least to the greatest of three coordinates, widened.
-  struct Parts {
-    int first, last;
-    bool empty;
-  };
-  Parts parts(float a, float b, float c) const {
-    const float low = std::min({a, b, c}) - list_margin, high = std::max({a, b, c}) + list_margin;
+  /// Parts of the face that a triangle takes, widened.
+  FaceParts parts_of(const std::array<FacePosition, 3>& p) const {
     const float scale = 0.5f * static_cast<float>(n_ * parts_per_cell);
-    const auto part = [&](float at) {
-      return std::clamp(static_cast<int>((at + 1) * scale), 0, n_ * parts_per_cell - 1);
+    FaceParts parts{};
+    const auto set = [&](std::size_t k, float a, float b, float c, float start, float margin, int most) {
+      const auto part = [&](float at) { return std::clamp(static_cast<int>((at + start) * scale), 0, most); };
+      parts.least[k] = part(std::min({a, b, c}) - margin), parts.greatest[k] = part(std::max({a, b, c}) + margin);
     };
-    return {part(low), part(high), high < -1 - list_margin || low > 1 + list_margin};
+    // Corners may lie off the face, by no more than its width.
+    const int most = n_ * parts_per_cell - 1;
+    set(0, p[0].u, p[1].u, p[2].u, 1, list_margin, most);
+    set(1, p[0].w, p[1].w, p[2].w, 1, list_margin, most);
+    set(2, p[0].u + p[0].w, p[1].u + p[1].w, p[2].u + p[2].w, 2, 2 * list_margin, 2 * most + 1);
+    set(3, p[0].u - p[0].w, p[1].u - p[1].w, p[2].u - p[2].w, 2, 2 * list_margin, 2 * most + 1);
+    return parts;
+  }
+
+  static bool keeps_off_face(float a, float b, float c) {
+    return std::max({a, b, c}) < -1 - 2 * list_margin || std::min({a, b, c}) > 1 + 2 * list_margin;
   }
 
   /// An edge of the triangle on the face: inside is where normal . (p - start) >= 0.
@@ -150,8 +161,10 @@ class CubeListing {
 
   void list_on_face(int face, const std::array<FacePosition, 3>& p, Index t, const TriangleRadii& radii,
                     const ConeForms& forms) {
-    const Parts us = parts(p[0].u, p[1].u, p[2].u), ws = parts(p[0].w, p[1].w, p[2].w);
-    if (us.empty || ws.empty) return;
+    if (keeps_off_face(p[0].u, p[1].u, p[2].u) || keeps_off_face(p[0].w, p[1].w, p[2].w)) return;
+    const FaceParts parts = parts_of(p);
+    const int first_column = parts.least[0] >> 8, last_column = parts.greatest[0] >> 8;
+    const int first_row = parts.least[1] >> 8, last_row = parts.greatest[1] >> 8;
     const float turn = (p[1].u - p[0].u) * (p[2].w - p[0].w) - (p[1].w - p[0].w) * (p[2].u - p[0].u);
     const float sign = turn < 0 ? -1.0f : 1.0f;
     std::array<Side, 3> side;
@@ -160,20 +173,20 @@ class CubeListing {
       side[k] = {from, sign * (from.w - to.w), sign * (to.u - from.u)};
     }
     // Of a sliver the turn may be rounding: it keeps its bounding box.
-    const float width = static_cast<float>(std::max(us.last - us.first, ws.last - ws.first) + 1) / static_cast<float>(parts_per_cell * n_);
+    const int longest = std::max(parts.greatest[0] - parts.least[0], parts.greatest[1] - parts.least[1]);
+    const float width = 2 * static_cast<float>(longest + 1) / static_cast<float>(parts_per_cell * n_);
     const bool has_sides = std::abs(turn) > 16 * list_margin * width;
     const float step = 2.0f / static_cast<float>(n_);
-    for (int row = ws.first >> 8; row <= ws.last >> 8; ++row) {
+    for (int row = first_row; row <= last_row; ++row) {
       const float low_w = static_cast<float>(row) * step - 1, high_w = low_w + step;
-      for (int column = us.first >> 8; column <= us.last >> 8; ++column) {
+      for (int column = first_column; column <= last_column; ++column) {
         const float low_u = static_cast<float>(column) * step - 1, high_u = low_u + step;
         const auto off = [&](const Side& s) { return s.keeps_off(low_u, high_u, low_w, high_w); };
         if (has_sides && (off(side[0]) || off(side[1]) || off(side[2]))) continue;
+        const auto octagon = octagon_in_cell(parts, n_, column, row);
+        if (!octagon) continue;
         const auto [least, greatest] = radii_in_cell(face, low_u, low_w, step, radii, forms);
-        add(static_cast<std::uint32_t>((face * n_ + row) * n_ + column), t,
-            box_word(column == us.first >> 8 ? us.first & 255 : 0, column == us.last >> 8 ? us.last & 255 : 255,
-                     row == ws.first >> 8 ? ws.first & 255 : 0, row == ws.last >> 8 ? ws.last & 255 : 255),
-            least, greatest);
+        add(static_cast<std::uint32_t>((face * n_ + row) * n_ + column), t, *octagon, least, greatest);
       }
     }
   }
@@ -225,13 +238,18 @@ class CubeListing {
     }
     lists.triangle.resize(count_ + vector_room);
     lists.box.resize(count_ + vector_room);
+    lists.slant.resize(count_ + vector_room);
     for (std::size_t i = 0; i < count_; ++i) {
       const ListedTriangle& entry = entry_[i];
       const std::uint32_t at = lists.row[entry.cell].last++;
       lists.triangle[at] = entry.triangle;
-      lists.box[at] = entry.box;
+      lists.box[at] = entry.octagon.box;
+      lists.slant[at] = entry.octagon.slant;
     }
-    for (std::size_t i = 0; i < vector_room; ++i) lists.box[count_ + i] = 0, lists.triangle[count_ + i] = no_index;
+    for (std::size_t i = count_; i < count_ + vector_room; ++i) {
+      lists.triangle[i] = no_index;
+      lists.box[i] = lists.slant[i] = 0;
+    }
   }
 
   const TriMesh& mesh_;
@@ -239,6 +257,8 @@ class CubeListing {
   int n_;
   MeshView view_;
   float cosine_;
+  UninitialisedVector<std::uint8_t> face_;
+  UninitialisedVector<FacePoint> vertex_;
   UninitialisedVector<ListedTriangle> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;

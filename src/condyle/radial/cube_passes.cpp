@@ -24,7 +24,7 @@ constexpr DF df;
 constexpr DL dl;
 constexpr std::size_t lanes = hn::MaxLanes(dd);
 
-void place_vertices_any(const MeshView& mesh, FacePoint* out) {
+void place_vertices_any(const MeshView& mesh, std::uint8_t* face, FacePoint* out) {
   constexpr hn::RebindToSigned<DF> di;
   const auto load = [&](const double* from, std::size_t i) {
     if (i + lanes <= mesh.vertices) return hn::DemoteTo(df, hn::LoadU(dd, from + i));
@@ -33,6 +33,7 @@ void place_vertices_any(const MeshView& mesh, FacePoint* out) {
     return hn::DemoteTo(df, hn::Load(dd, last));
   };
   alignas(64) float packed[4 * lanes];
+  alignas(64) std::int32_t faces[lanes];
   for (std::size_t i = 0; i < mesh.vertices; i += lanes) {
     const auto x = load(mesh.x, i), y = load(mesh.y, i), z = load(mesh.z, i);
     const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
@@ -42,14 +43,17 @@ void place_vertices_any(const MeshView& mesh, FacePoint* out) {
     const auto u = hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x));
     const auto w = hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y));
     const auto inverse = hn::Div(hn::Set(df, 1.0f), hn::Abs(largest));
-    const auto axis = hn::IfThenElse(on_x, hn::Zero(df),
-                                     hn::IfThenElse(on_y, hn::Set(df, 1.0f), hn::Set(df, 2.0f)));
-    const auto negative = hn::BitCast(df, hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)),
-                                                  hn::BitCast(di, hn::Set(df, 3.0f))));
-    hn::StoreInterleaved4(hn::Mul(u, inverse), hn::Mul(w, inverse), hn::Add(axis, negative), largest, df, packed);
+    const auto zero = hn::Zero(di), one = hn::Set(di, 1);
+    const auto axis = hn::IfThenElse(hn::RebindMask(di, on_x), zero,
+                                     hn::IfThenElse(hn::RebindMask(di, on_y), one, hn::Set(di, 2)));
+    const auto negative = hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)), hn::Set(di, 3));
+    hn::Store(hn::Add(axis, negative), di, faces);
+    const auto on_u = hn::Mul(u, inverse), on_w = hn::Mul(w, inverse);
+    hn::StoreInterleaved4(on_u, on_w, hn::Add(on_u, on_w), hn::Sub(on_u, on_w), df, packed);
     const std::size_t count = std::min(lanes, mesh.vertices - i);
     for (std::size_t k = 0; k < count; ++k) {
-      out[i + k] = {packed[4 * k], packed[4 * k + 1], packed[4 * k + 2], packed[4 * k + 3]};
+      face[i + k] = static_cast<std::uint8_t>(faces[k]);
+      std::copy_n(packed + 4 * k, 4, out[i + k].at);
     }
   }
 }
@@ -153,43 +157,43 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
   }
 }
 
-void list_small_triangles_any(const MeshView& mesh, const FacePoint* vertices, std::size_t first, std::size_t last,
-                              const TriangleRadii* radii, Listing& listing) {
+void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, const FacePoint* vertices,
+                              std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing) {
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToSigned<decltype(d4)> di4;
   const int n = listing.cells_per_side;
   const int last_part = n * parts_per_cell - 1;
-  // (u + 1) * scale is the part that u falls in; the face's number stays what it is.
-  const float scale = 0.5f * static_cast<float>(n * parts_per_cell);
-  alignas(16) const float low_shift[4] = {1 - list_margin, 1 - list_margin, 0, 0};
-  alignas(16) const float high_shift[4] = {1 + list_margin, 1 + list_margin, 0, 0};
-  alignas(16) const float factor[4] = {scale, scale, 1, 0};
+  const auto scale = hn::Set(d4, 0.5f * static_cast<float>(n * parts_per_cell));
+  alignas(16) constexpr float low_shift[4] = {1 - list_margin, 1 - list_margin, 2 - 2 * list_margin, 2 - 2 * list_margin};
+  alignas(16) constexpr float high_shift[4] = {1 + list_margin, 1 + list_margin, 2 + 2 * list_margin, 2 + 2 * list_margin};
   ListedTriangle* next = listing.entry + listing.count;
   for (std::size_t t = first; t < last; ++t) {
     const std::uint32_t* corner = mesh.corner + 3 * t;
-    alignas(16) std::int32_t least[4], most[4];
+    alignas(16) FaceParts parts;
     for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-      const auto load = [&](int i) { return hn::Load(d4, &vertices[corner[i]].u + k); };
-      const auto a = load(0), b = load(1), c = load(2), by = hn::Load(d4, factor + k);
-      const auto low = hn::Mul(hn::Add(hn::Min(a, hn::Min(b, c)), hn::Load(d4, low_shift + k)), by);
-      const auto high = hn::Mul(hn::Add(hn::Max(a, hn::Max(b, c)), hn::Load(d4, high_shift + k)), by);
-      hn::Store(hn::Max(hn::ConvertTo(di4, low), hn::Zero(di4)), di4, least + k);
-      hn::Store(hn::Min(hn::ConvertTo(di4, high), hn::Set(di4, last_part)), di4, most + k);
+      const auto load = [&](int i) { return hn::Load(d4, vertices[corner[i]].at + k); };
+      const auto a = load(0), b = load(1), c = load(2);
+      const auto low = hn::Mul(hn::Add(hn::Min(a, hn::Min(b, c)), hn::Load(d4, low_shift + k)), scale);
+      const auto high = hn::Mul(hn::Add(hn::Max(a, hn::Max(b, c)), hn::Load(d4, high_shift + k)), scale);
+      hn::StoreU(hn::Max(hn::ConvertTo(di4, low), hn::Zero(di4)), di4, parts.least.data() + k);
+      hn::StoreU(hn::ConvertTo(di4, high), di4, parts.greatest.data() + k);
     }
-    const int i0 = least[0] >> 8, j0 = least[1] >> 8, i1 = most[0] >> 8, j1 = most[1] >> 8;
+    const int face = faces[corner[0]];
+    const int i0 = parts.least[0] >> 8, j0 = parts.least[1] >> 8;
+    const int i1 = parts.greatest[0] >> 8, j1 = parts.greatest[1] >> 8;
     // At the face's edge the widened triangle reaches the next face.
-    const bool at_edge = least[0] == 0 || least[1] == 0 || most[0] == last_part || most[1] == last_part;
-    if (least[2] != most[2] || at_edge || i1 - i0 > 1 || j1 - j0 > 1) {
+    const bool at_edge = parts.least[0] == 0 || parts.least[1] == 0 || parts.greatest[0] >= last_part || parts.greatest[1] >= last_part;
+    if (face != faces[corner[1]] || face != faces[corner[2]] || at_edge || i1 - i0 > 1 || j1 - j0 > 1) {
       listing.elsewhere[listing.elsewhere_count++] = static_cast<std::uint32_t>(t);
       continue;
     }
     const TriangleRadii& bounds = radii[t - first];
     for (int j = j0; j <= j1; ++j) {
       for (int i = i0; i <= i1; ++i) {
-        const auto cell = static_cast<std::uint32_t>((least[2] * n + j) * n + i);
-        *next++ = {cell, static_cast<std::uint32_t>(t),
-                   box_word(i == i0 ? least[0] & 255 : 0, i == i1 ? most[0] & 255 : 255,
-                            j == j0 ? least[1] & 255 : 0, j == j1 ? most[1] & 255 : 255)};
+        const auto octagon = octagon_in_cell(parts, n, i, j);
+        if (!octagon) continue;
+        const auto cell = static_cast<std::uint32_t>((face * n + j) * n + i);
+        *next++ = {cell, static_cast<std::uint32_t>(t), *octagon};
         ++listing.length[cell];
         listing.least[cell] = std::min(listing.least[cell], bounds.least);
         listing.greatest[cell] = std::max(listing.greatest[cell], bounds.greatest);
@@ -210,8 +214,8 @@ HWY_EXPORT(place_vertices_any);
 HWY_EXPORT(measure_triangles_any);
 HWY_EXPORT(list_small_triangles_any);
 
-void place_vertices(const MeshView& mesh, FacePoint* out) {
-  HWY_DYNAMIC_DISPATCH(place_vertices_any)(mesh, out);
+void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out) {
+  HWY_DYNAMIC_DISPATCH(place_vertices_any)(mesh, face, out);
 }
 
 void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
@@ -219,9 +223,9 @@ void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last
   HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, forms, radii);
 }
 
-void list_small_triangles(const MeshView& mesh, const FacePoint* vertices, std::size_t first, std::size_t last,
-                          const TriangleRadii* radii, Listing& listing) {
-  HWY_DYNAMIC_DISPATCH(list_small_triangles_any)(mesh, vertices, first, last, radii, listing);
+void list_small_triangles(const MeshView& mesh, const std::uint8_t* face, const FacePoint* vertices,
+                          std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing) {
+  HWY_DYNAMIC_DISPATCH(list_small_triangles_any)(mesh, face, vertices, first, last, radii, listing);
 }
 
 }  // namespace condyle

@@ -10,9 +10,12 @@
 
 namespace condyle {
 
-/// A vertex seen on the cube: its face (0 to 5, as a float) and its coordinates there.
+/// A vertex seen on the cube: u, w, u + w and u - w on its face.
 struct alignas(16) FacePoint {
-  float u, w, face, depth;  ///< depth is the largest coordinate, signed
+  float at[4];
+
+  float u() const noexcept { return at[0]; }
+  float w() const noexcept { return at[1]; }
 };
 
 /// Bounds of a triangle's squared radii, rounded outwards by list_margin, and its longest edge squared.
@@ -29,7 +32,8 @@ struct MeshView {
 
 /// A triangle in one cell, before it is sorted into that cell's list.
 struct ListedTriangle {
-  std::uint32_t cell, triangle, box;
+  std::uint32_t cell, triangle;
+  CellOctagon octagon;
 };
 
 /// Lists that are being made: room for the entries, and what is gathered for each cell.
@@ -43,7 +47,8 @@ struct Listing {
   std::size_t elsewhere_count;
 };
 
-void place_vertices(const MeshView& mesh, FacePoint* out);
+/// Faces (0 to 5) and places of all vertices.
+void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out);
 
 /// Forms and radii of triangles [first, last).
 ///
@@ -54,7 +59,7 @@ void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last
 
 /// Lists those triangles of [first, last) that lie within one face, off its edges, and in at most 2 x 2 cells;
 /// `radii` starts at the first one. At most four entries for each.
-void list_small_triangles(const MeshView& mesh, const FacePoint* vertices, std::size_t first, std::size_t last,
-                          const TriangleRadii* radii, Listing& listing);
+void list_small_triangles(const MeshView& mesh, const std::uint8_t* face, const FacePoint* vertices,
+                          std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing);
 
 }  // namespace condyle

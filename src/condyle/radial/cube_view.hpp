@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "condyle/core/vec3.hpp"
 #include "condyle/radial/radius_scale.hpp"
@@ -58,27 +59,68 @@ struct CubeView {
   const RadiusWord* pyramid;  ///< see DirectionPyramid
   const CellRow* row;
   const std::uint32_t* triangle;
-  const std::uint32_t* box;  ///< of each listed triangle in its cell, see box_word()
+  const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon
   const ConeForms* forms;    ///< of each triangle
   RadiusScale scale;
   int winding_at_centre;
   float nearest_squared;  ///< no surface is nearer to the centre
 };
 
-/// Part of a cell that a triangle takes, in four bytes: least column, 255 - greatest column, least row,
-/// 255 - greatest row. A point at (column, row) has box_word(column, column, row, row), and lies in the box
-/// exactly where no byte of the box exceeds the point's.
-constexpr std::uint32_t box_word(int least_column, int greatest_column, int least_row, int greatest_row) noexcept {
-  return static_cast<std::uint32_t>(least_column) | static_cast<std::uint32_t>(255 - greatest_column) << 8 |
-         static_cast<std::uint32_t>(least_row) << 16 | static_cast<std::uint32_t>(255 - greatest_row) << 24;
+/// Part of a cell that something takes, as an octagon: parts (256 to a cell) from the cell's corner, between a
+/// least and a greatest value of column u, of row w, and of the diagonals u + w and u - w. Four bytes each, least
+/// and 255 - greatest, so that a point is in the octagon exactly where no byte exceeds the point's own.
+///
+///         ____
+///       /     |     box    least u, 255 - greatest u, least w, 255 - greatest w
+///     /       |     slant  the same of (u + w) / 2 and (u - w + 255) / 2
+///    |______/
+struct CellOctagon {
+  std::uint32_t box, slant;
+};
+
+constexpr std::uint32_t range_word(int least_a, int greatest_a, int least_b, int greatest_b) noexcept {
+  return static_cast<std::uint32_t>(least_a) | static_cast<std::uint32_t>(255 - greatest_a) << 8 |
+         static_cast<std::uint32_t>(least_b) << 16 | static_cast<std::uint32_t>(255 - greatest_b) << 24;
 }
 
-/// Whether no byte of the box exceeds the point's.
-constexpr bool holds(std::uint32_t box, std::uint32_t point) noexcept {
+/// The slant of a point, from its box.
+constexpr std::uint32_t slant_of_point(std::uint32_t box) noexcept {
+  const int u = static_cast<int>(box & 255), w = static_cast<int>(box >> 16 & 255);
+  const int sum = (u + w) / 2, difference = (u - w + 255) / 2;
+  return range_word(sum, sum, difference, difference);
+}
+
+/// Whether no byte of the range exceeds the point's.
+constexpr bool holds(std::uint32_t range, std::uint32_t point) noexcept {
   for (int shift = 0; shift < 32; shift += 8) {
-    if ((box >> shift & 255) > (point >> shift & 255)) return false;
+    if ((range >> shift & 255) > (point >> shift & 255)) return false;
   }
   return true;
+}
+
+/// What a triangle takes of a face, in parts from the face's corner: least and greatest u, w, u + w, and
+/// u - w + 256 N.
+struct FaceParts {
+  std::array<int, 4> least, greatest;
+};
+
+/// Its octagon in a cell; nothing where it keeps off the cell. A point's parts are rounded down one by one: their
+/// sum may be 1 less than that of what it is rounded from, their difference 1 more. One part more on either side
+/// is for points on the face's last edge.
+constexpr std::optional<CellOctagon> octagon_in_cell(const FaceParts& parts, int cells_per_side, int column,
+                                                     int row) noexcept {
+  const auto within = [](int value, int most) { return value < 0 ? 0 : value > most ? most : value; };
+  const int sum_start = parts_per_cell * (column + row);
+  const int difference_start = parts_per_cell * (cells_per_side + column - row) - 255;
+  const int sum_least = parts.least[2] - 2 - sum_start, sum_greatest = parts.greatest[2] + 1 - sum_start;
+  const int difference_least = parts.least[3] - 1 - difference_start;
+  const int difference_greatest = parts.greatest[3] + 2 - difference_start;
+  if (sum_greatest < 0 || sum_least > 510 || difference_greatest < 0 || difference_least > 510) return {};
+  const int u = parts_per_cell * column, w = parts_per_cell * row;
+  return CellOctagon{range_word(within(parts.least[0] - u, 255), within(parts.greatest[0] - u, 255),
+                                within(parts.least[1] - w, 255), within(parts.greatest[1] - w, 255)),
+                     range_word(within(sum_least, 510) / 2, within(sum_greatest, 510) / 2,
+                                within(difference_least, 510) / 2, within(difference_greatest, 510) / 2)};
 }
 
 /// A pose as the passes read it, about the joint centre: rotation by rows, translation, its length.

@@ -303,7 +303,7 @@ std::uint32_t CubeMap::box_of(const Vec3& v) const noexcept {
     return std::clamp(static_cast<int>((at - cell) * parts_per_cell), 0, parts_per_cell - 1);
   };
   const int column_part = part(axis + 1), row_part = part(axis + 2);
-  return box_word(column_part, column_part, row_part, row_part);
+  return range_word(column_part, column_part, row_part, row_part);
 }
 
 void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const {

@@ -218,31 +218,37 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
   found.count = count;
 }
 
-/// Triangles whose boxes hold a point, with the number of the point among the near ones.
+/// Triangles whose octagons hold a point, with the number of the point among the near ones.
 struct Pairs {
   static constexpr std::size_t most = 4096;
   std::array<std::uint32_t, most + vector_room> triangle, point;
   std::size_t count;
 };
 
-/// Which of the boxes from `first` on hold the point.
-HWY_INLINE hn::Mask<DU> boxes_holding(const std::uint32_t* box, std::size_t first, std::size_t last, Words point) {
+/// Which of the octagons from `first` on hold the point.
+HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first, std::size_t last, Words box,
+                                         Words slant) {
 #if HWY_TARGET == HWY_SCALAR
   static_cast<void>(last);
-  return hn::MaskFromVec(hn::Set(du, holds(box[first], hn::GetLane(point)) ? ~0u : 0u));
+  const bool held = holds(cube.box[first], hn::GetLane(box)) && holds(cube.slant[first], hn::GetLane(slant));
+  return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
 #else
   constexpr hn::Repartition<std::uint8_t, DU> bytes;
-  const auto excess = hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, box + first)), hn::BitCast(bytes, point));
-  return hn::And(hn::Eq(hn::BitCast(du, excess), hn::Zero(du)), hn::FirstN(du, last - first));
+  const auto excess = [&](const std::uint32_t* from, Words point) {
+    return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
+  };
+  const auto either = hn::Or(excess(cube.box, box), excess(cube.slant, slant));
+  return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
 #endif
 }
 
 /// Pairs of one near point, added to the others; false where there are too many.
 HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]];
-  const Words box = hn::Set(du, points.box[i]), number = hn::Set(du, static_cast<std::uint32_t>(i));
+  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, slant_of_point(points.box[i]));
+  const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
-    const auto holding = boxes_holding(cube.box, first, row.last, box);
+    const auto holding = octagons_holding(cube, first, row.last, box, slant);
     hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du, pairs.triangle.data() + pairs.count);
     hn::StoreU(number, du, pairs.point.data() + pairs.count);
     pairs.count += hn::CountTrue(du, holding);
@@ -267,10 +273,15 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pair
                       Crossings& out) {
   constexpr hn::CappedTag<float, 4> d4;
   constexpr std::size_t ahead = 8;
-  for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) hwy::Prefetch(cube.forms + pairs.triangle[i]);
+  // Forms may lie across two lines of the cache.
+  const auto fetch = [&](std::size_t i) {
+    const ConeForms& forms = cube.forms[pairs.triangle[std::min(i, pairs.count - 1)]];
+    hwy::Prefetch(forms.x), hwy::Prefetch(forms.z + 3);
+  };
+  for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
   std::size_t count = 0;
   for (std::size_t i = 0; i < pairs.count; ++i) {
-    hwy::Prefetch(cube.forms + pairs.triangle[std::min(i + ahead, pairs.count - 1)]);
+    fetch(i + ahead);
     const std::uint32_t triangle = pairs.triangle[i], point = pairs.point[i];
     const ConeForms& forms = cube.forms[triangle];
     const float px = points.x[point], py = points.y[point], pz = points.z[point];
@@ -396,8 +407,16 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
     bool fits = true;
     while (last < points.count && fits) {
       const std::size_t before = pairs.count;
+      hwy::Prefetch(cube.row + points.cell[std::min(last + 8, points.count - 1)]);
+      const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
+      hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
+      hwy::Prefetch(cube.triangle + row_ahead);
       fits = pair(cube, points, last, pairs);
-      if (fits) ++last; else pairs.count = before;
+      if (fits) {
+        ++last;
+      } else {
+        pairs.count = before;
+      }
     }
     cross(cube, points, pairs, form_bound, crossings);
     decide(cube, points, first, last, crossings, found);

@@ -65,6 +65,7 @@ std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const
                   lists_.row.data(),
                   lists_.triangle.data(),
                   lists_.box.data(),
+                  lists_.slant.data(),
                   lists_.forms.data(),
                   lists_.scale,
                   *winding_at_centre_,
@@ -121,9 +122,10 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
   std::size_t count = first;
   out.resize(first + found.count);
   // What a depth needs lies far apart: it is asked for some points ahead, triangles before their corners.
-  constexpr std::size_t ahead = 6;
+  constexpr std::size_t ahead = 12;
   const auto fetch = [&](std::size_t i) {
     if (i + ahead < found.count) {
+      __builtin_prefetch(&points[found.point[i + ahead].point]);
       const std::uint32_t t = found.point[i + ahead].triangle;
       if (t < mesh_.triangles.size()) __builtin_prefetch(&mesh_.triangles[t]);
     }
@@ -137,7 +139,7 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
   for (std::size_t i = 0; i < found.count; ++i) {
     fetch(i);
     const FoundPoint& at = found.point[i];
-    const Vec3 v = posed(X_FM, points.points()[at.point]);
+    const Vec3 v = posed(X_FM, points[at.point]);
     out.point[count] = points.index()[at.point];
     if (at.doubtful) {
       const RayAnswer answer = answer_in_doubt(v, scan);
@@ -169,7 +171,7 @@ RayAnswer RadialTable::answer_in_doubt(const Vec3& v, RayScan& scan) const {
   const std::uint32_t point = cube->box_of(v);
   std::vector<Index> candidates;
   for (std::uint32_t i = lists_.row[cell].first; i < lists_.row[cell].last; ++i) {
-    if (holds(lists_.box[i], point)) candidates.push_back(lists_.triangle[i]);
+    if (holds(lists_.box[i], point) && holds(lists_.slant[i], slant_of_point(point))) candidates.push_back(lists_.triangle[i]);
   }
   return scan.answer(v, candidates);
 }

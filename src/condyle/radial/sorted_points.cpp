@@ -38,14 +38,14 @@ float rounded_down(double value) {
 
 }  // namespace
 
-SortedPoints::SortedPoints(PointsView points, const Vec3& centre) : centre_(centre), points_(points.size()) {
+SortedPoints::SortedPoints(PointsView points, const Vec3& centre) : centre_(centre), point_(points.size()) {
   index_.resize(points.size());
   for (Index i = 0; i < points.size(); ++i) index_[i] = i;
   sort_into_blocks(points, index_);
   for (auto& column : rounded_) column.resize(rounded_up_to(fan, size()));
   for (std::size_t i = 0; i < rounded_[0].size(); ++i) {
     const Vec3 p = points[index_[std::min(i, size() - 1)]];
-    if (i < size()) points_.set(i, p);
+    if (i < size()) point_[i] = p;
     const Vec3 about_centre = p - centre_;
     for (int k = 0; k < 3; ++k) {
       rounded_[static_cast<std::size_t>(k)][i] = static_cast<float>(about_centre[k]);
@@ -66,7 +66,7 @@ void SortedPoints::describe_block(std::size_t level, std::size_t block) {
   Vec3 sum = Vec3::Zero();
   double least = std::numeric_limits<double>::infinity(), greatest = 0;
   for (std::size_t i = first; i < last; ++i) {
-    const Vec3 p = points_[i] - centre_;
+    const Vec3 p = point_[i] - centre_;
     const double radius = p.norm();
     least = std::min(least, radius), greatest = std::max(greatest, radius);
     if (radius > 0) sum += p / radius;
@@ -76,7 +76,7 @@ void SortedPoints::describe_block(std::size_t level, std::size_t block) {
   const Vec3 axis = unit.cast<float>().cast<double>();
   double widest = least > 0 ? 0 : 2;
   for (std::size_t i = first; i < last && least > 0; ++i) {
-    const Vec3 p = points_[i] - centre_;
+    const Vec3 p = point_[i] - centre_;
     widest = std::max(widest, (p / p.norm() - axis).norm());
   }
   const auto set = [&](Column column, float value) { block_[level][column][block] = value; };

@@ -27,7 +27,7 @@ class SortedPoints {
   std::size_t size() const noexcept { return index_.size(); }
   std::size_t block_count(std::size_t level) const noexcept { return block_count_[level]; }
   /// The points given, in the order of the blocks, every bit kept.
-  const Points& points() const noexcept { return points_; }
+  const Vec3& operator[](std::size_t i) const noexcept { return point_[i]; }
   /// Number that each point had among the points given.
   std::span<const Index> index() const noexcept { return index_; }
   const Vec3& centre() const noexcept { return centre_; }
@@ -48,7 +48,7 @@ class SortedPoints {
   Vec3 centre_;
   double reach_ = 0;
   std::array<std::size_t, levels> block_count_;
-  Points points_;
+  std::vector<Vec3> point_;
   std::vector<Index> index_;
   std::array<std::vector<float>, 3> rounded_;
   std::array<std::array<std::vector<float>, columns>, levels> block_;
