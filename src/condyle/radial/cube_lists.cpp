@@ -83,9 +83,9 @@ class CubeListing {
     greatest_[cell] = std::max(greatest_[cell], greatest);
   }
 
-  /// A triangle over many cells, or over several faces. A part of the latter on some face has all corners well in front of that
-  /// face where the edges are short against the radii: the face's coordinate p of a point there is its largest
-  /// one, corners are within L of it, and so p > |corner|_max - 2 L for each.
+  /// A triangle over many cells, or over several faces. A face is seen by those rays whose largest coordinate is
+  /// its own: a triangle with all corners beyond one side of that pyramid keeps off it. With all corners well in
+  /// front of the others, their places on these faces are those of a plane triangle.
   void list_triangle(Index t, const TriangleRadii& radii, const ConeForms& forms) {
     const auto& [ia, ib, ic] = mesh_.triangles[t];
     const FacePoint &a = vertex_[ia], &b = vertex_[ib], &c = vertex_[ic];
@@ -93,25 +93,48 @@ class CubeListing {
     if (on_one_face && is_off_edges(a) && is_off_edges(b) && is_off_edges(c)) {
       return list_on_face(face_[ia], {{{a.u(), a.w()}, {b.u(), b.w()}, {c.u(), c.w()}}}, t, radii, forms);
     }
-    const Cone cone{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
-    // |v|_max >= |v| / sqrt(3); L <= |v|_max / 4.
-    if (radii.longest_edge > radii.least * (1.0f / 50)) return list_clipped(cone, t);
+    const std::array<Vec3, 3> corner = {mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
+    std::array<bool, 6> seen{};
     for (int face = 0; face < 6; ++face) {
-      const int axis = face % 3;
-      const double sign = face < 3 ? 1 : -1;
-      std::array<FacePosition, 3> on_face;
-      const Vec3* corner[3] = {&cone.a, &cone.b, &cone.c};
-      bool in_front = true;
-      for (std::size_t k = 0; k < 3 && in_front; ++k) {
-        const Vec3& v = *corner[k];
-        const double depth = sign * v[axis];
-        in_front = 2 * depth >= v.cwiseAbs().maxCoeff();
-        if (in_front) {
-          on_face[k] = {static_cast<float>(v[(axis + 1) % 3] / depth), static_cast<float>(v[(axis + 2) % 3] / depth)};
-        }
+      seen[static_cast<std::size_t>(face)] = !keeps_off(corner, face);
+      if (seen[static_cast<std::size_t>(face)] && !is_in_front(corner, face)) {
+        return list_clipped({corner[0], corner[1], corner[2]}, t);
       }
-      if (in_front) list_on_face(face, on_face, t, radii, forms);
     }
+    for (int face = 0; face < 6; ++face) {
+      if (seen[static_cast<std::size_t>(face)]) list_on_face(face, places(corner, face), t, radii, forms);
+    }
+  }
+
+  static bool keeps_off(const std::array<Vec3, 3>& corner, int face) {
+    const int axis = face % 3;
+    const double sign = (face < 3 ? 1 : -1) * (1 + 2 * static_cast<double>(list_margin));
+    for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
+      const auto all = [&](double direction) {
+        return std::all_of(corner.begin(), corner.end(),
+                           [&](const Vec3& v) { return sign * v[axis] < direction * v[side]; });
+      };
+      if (all(1) || all(-1)) return true;
+    }
+    return false;
+  }
+
+  /// Places on the face are then within eight times its size.
+  static bool is_in_front(const std::array<Vec3, 3>& corner, int face) {
+    return std::all_of(corner.begin(), corner.end(), [&](const Vec3& v) {
+      return 8 * (face < 3 ? v[face % 3] : -v[face % 3]) >= v.cwiseAbs().maxCoeff();
+    });
+  }
+
+  static std::array<FacePosition, 3> places(const std::array<Vec3, 3>& corner, int face) {
+    const int axis = face % 3;
+    std::array<FacePosition, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double depth = std::abs(corner[k][axis]);
+      p[k] = {static_cast<float>(corner[k][(axis + 1) % 3] / depth),
+              static_cast<float>(corner[k][(axis + 2) % 3] / depth)};
+    }
+    return p;
   }
 
   static bool is_off_edges(const FacePoint& p) {
@@ -134,7 +157,7 @@ class CubeListing {
       const auto part = [&](float at) { return std::clamp(static_cast<int>((at + start) * scale), 0, most); };
       parts.least[k] = part(std::min({a, b, c}) - margin), parts.greatest[k] = part(std::max({a, b, c}) + margin);
     };
-    // Corners may lie off the face, by no more than its width.
+    // Corners may lie off the face.
     const int most = n_ * parts_per_cell - 1;
     set(0, p[0].u, p[1].u, p[2].u, 1, list_margin, most);
     set(1, p[0].w, p[1].w, p[2].w, 1, list_margin, most);

@@ -1,6 +1,7 @@
 #include "condyle/radial/cube_passes.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -157,10 +158,44 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
   }
 }
 
+/// octagon_in_cell() of a triangle in several cells.
+template <class DI>
+struct OctagonsInCells {
+  using Ints = hn::Vec<DI>;
+  hn::Mask<DI> meet;
+  Ints box, slant;
+
+  HWY_INLINE OctagonsInCells(const FaceParts& parts, int n, Ints column, Ints row) {
+    constexpr DI di;
+    const auto set = [](int value) { return hn::Set(DI(), value); };
+    const auto within = [&](Ints value, int most) { return hn::Min(hn::Max(value, hn::Zero(di)), set(most)); };
+    const auto from = [&](int value, Ints start) { return hn::Sub(set(value), start); };
+    const auto word = [&](Ints least_a, Ints greatest_a, Ints least_b, Ints greatest_b) {
+      const auto a = hn::Or(least_a, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_a)));
+      const auto b = hn::Or(least_b, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_b)));
+      return hn::Or(a, hn::ShiftLeft<16>(b));
+    };
+    const auto u = hn::ShiftLeft<8>(column), w = hn::ShiftLeft<8>(row);
+    const auto sum = hn::Add(u, w), difference = hn::Add(hn::Sub(u, w), set(parts_per_cell * n - 255));
+    const auto least_sum = from(parts.least[2] - 2, sum), greatest_sum = from(parts.greatest[2] + 1, sum);
+    const auto least_difference = from(parts.least[3] - 1, difference);
+    const auto greatest_difference = from(parts.greatest[3] + 2, difference);
+    const auto most = set(510);
+    const auto before = hn::Or(hn::Lt(greatest_sum, hn::Zero(di)), hn::Lt(greatest_difference, hn::Zero(di)));
+    meet = hn::Not(hn::Or(before, hn::Or(hn::Gt(least_sum, most), hn::Gt(least_difference, most))));
+    box = word(within(from(parts.least[0], u), 255), within(from(parts.greatest[0], u), 255),
+               within(from(parts.least[1], w), 255), within(from(parts.greatest[1], w), 255));
+    const auto half = [&](Ints value) { return hn::ShiftRight<1>(within(value, 510)); };
+    slant = word(half(least_sum), half(greatest_sum), half(least_difference), half(greatest_difference));
+  }
+};
+
 void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, const FacePoint* vertices,
                               std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing) {
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToSigned<decltype(d4)> di4;
+  constexpr hn::RebindToUnsigned<decltype(d4)> du4;
+  alignas(16) constexpr std::int32_t column_step[4] = {0, 1, 0, 1}, row_step[4] = {0, 0, 1, 1};
   const int n = listing.cells_per_side;
   const int last_part = n * parts_per_cell - 1;
   const auto scale = hn::Set(d4, 0.5f * static_cast<float>(n * parts_per_cell));
@@ -187,17 +222,30 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
       listing.elsewhere[listing.elsewhere_count++] = static_cast<std::uint32_t>(t);
       continue;
     }
+    // Up to four cells, always worked out: which of them there are is not to be foretold.
+    alignas(16) std::uint32_t cell[4], met[4], entry[16];
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
+      const auto i = hn::Add(hn::Set(di4, i0), hn::Load(di4, column_step + k));
+      const auto j = hn::Add(hn::Set(di4, j0), hn::Load(di4, row_step + k));
+      const auto first_cell = hn::Set(di4, (face * n + j0) * n + i0);
+      const OctagonsInCells<decltype(di4)> octagons(parts, n, i, j);
+      const auto in_box = hn::Not(hn::Or(hn::Gt(i, hn::Set(di4, i1)), hn::Gt(j, hn::Set(di4, j1))));
+      const auto meets = hn::And(in_box, octagons.meet);
+      const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di4, face * n), j), hn::Set(di4, n)), i);
+      const auto cells = hn::BitCast(du4, hn::IfThenElse(meets, own, first_cell));
+      hn::Store(cells, du4, cell + k);
+      hn::Store(hn::And(hn::BitCast(du4, hn::VecFromMask(di4, meets)), hn::Set(du4, 1)), du4, met + k);
+      hn::StoreInterleaved4(cells, hn::Set(du4, static_cast<std::uint32_t>(t)), hn::BitCast(du4, octagons.box),
+                            hn::BitCast(du4, octagons.slant), du4, entry + 4 * k);
+    }
     const TriangleRadii& bounds = radii[t - first];
-    for (int j = j0; j <= j1; ++j) {
-      for (int i = i0; i <= i1; ++i) {
-        const auto octagon = octagon_in_cell(parts, n, i, j);
-        if (!octagon) continue;
-        const auto cell = static_cast<std::uint32_t>((face * n + j) * n + i);
-        *next++ = {cell, static_cast<std::uint32_t>(t), *octagon};
-        ++listing.length[cell];
-        listing.least[cell] = std::min(listing.least[cell], bounds.least);
-        listing.greatest[cell] = std::max(listing.greatest[cell], bounds.greatest);
-      }
+    for (std::size_t k = 0; k < 4; ++k) {
+      std::memcpy(next, entry + 4 * k, sizeof *next);
+      next += met[k];
+      listing.length[cell[k]] += met[k];
+      // A cell that is not met gives way to the first one, which these radii belong to, or make too wide.
+      listing.least[cell[k]] = std::min(listing.least[cell[k]], bounds.least);
+      listing.greatest[cell[k]] = std::max(listing.greatest[cell[k]], bounds.greatest);
     }
   }
   listing.count = static_cast<std::size_t>(next - listing.entry);
