@@ -28,19 +28,22 @@ constexpr RadiusWord union_of(RadiusWord a, RadiusWord b) noexcept {
 
 /// Squared radii as codes of 16 bits. The bits of positive floats, read as integers, are in the floats' own
 /// order: a code is a slice of them, so that it rises with the radius and its steps are relative ones (about
-/// 3e-5 of a radius for a hip bone). What lies outside the scale has the code of its end, so an interval of
-/// codes is never narrower than the interval of radii.
+/// 3e-5 of a radius for a hip bone).
 ///
 ///   bits of r^2   |sign|exponent|        fraction        |
-///                      |<----- 16 bits of the difference to the least --->|
+///                      |<----- 16 bits of the difference to the base ---->|
+///
+/// The first and the last code are kept for what lies outside the scale: an interval that ends in one of them
+/// has no end there, and no interval within the scale reaches points outside of it.
 struct RadiusScale {
   std::int32_t base = 0;
   std::int32_t shift = 0;
 
   RadiusScale() = default;
-  RadiusScale(float least_squared, float greatest_squared) noexcept : base(bits(least_squared)) {
+  RadiusScale(float least_squared, float greatest_squared) noexcept {
     assert(least_squared >= 0 && least_squared <= greatest_squared);
-    while ((bits(greatest_squared) - base) >> shift > greatest_radius_code) ++shift;
+    while ((bits(greatest_squared) - bits(least_squared)) >> shift > greatest_radius_code - 2) ++shift;
+    base = bits(least_squared) - (1 << shift);
   }
 
   int code(float squared) const noexcept {
@@ -53,9 +56,9 @@ struct RadiusScale {
     return code == greatest_radius_code ? std::numeric_limits<float>::infinity() : value(code + 1);
   }
 
-  /// Ends of the scale, squared radii.
-  float lower_end() const noexcept { return value(0); }
-  float upper_end() const noexcept { return value(greatest_radius_code + 1); }
+  /// Ends of the scale, squared radii: the least that was given, and no less than the greatest.
+  float lower_end() const noexcept { return value(1); }
+  float upper_end() const noexcept { return value(greatest_radius_code); }
 
  private:
   static std::int32_t bits(float squared) noexcept { return std::bit_cast<std::int32_t>(squared); }
