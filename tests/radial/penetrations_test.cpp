@@ -141,9 +141,9 @@ TEST_P(PenetrationsOn, AnswersAreThoseOfThePlainQueryByteForByte) {
   const Points points = random_points(700, 1.6, 1);
   const auto poses = some_poses(13, 0.8, 2);
   std::size_t found = 0;
-  for (const TriMesh& mesh :
-       {test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4), test::torus(1.2, 0.4, 30, 20), sphere({0.3, 0.2, -0.1}, 1, 3),
-        flipped(sphere({0.1, 0.2, 0.3}, 1, 2)), box({-0.5, -0.1, -1}, {1, 1.2, 1}), cavity(0.7, 2)}) {
+  for (const TriMesh& mesh : {test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4), test::torus(1.2, 0.4, 30, 20),
+                              sphere({0.3, 0.2, -0.1}, 1, 3), flipped(sphere({0.1, 0.2, 0.3}, 1, 2)),
+                              box({-0.5, -0.1, -1}, {1, 1.2, 1}), cavity(0.7, 2)}) {
     found += expect_plain_answers(RadialTable(mesh), points, poses).found;
   }
   EXPECT_GT(found, 5000u);
@@ -162,7 +162,8 @@ TEST_P(PenetrationsOn, SkinsThatOverlapAreCountedByWinding) {
   TriMesh mesh = joined(box({1, -1, -1}, {2, 1, 1}), box({3, -1, -1}, {4, 1, 1}));
   mesh = joined(mesh, box({3.5, -1, -1}, {5, 1, 1}));
   mesh = joined(mesh, subdivided(box({-4, -1, -1}, {-2, 1, 1})));
-  const Compared compared = expect_plain_answers(RadialTable(mesh), random_points(900, 5, 5), some_poses(9, 2, 6));
+  const Compared compared =
+      expect_plain_answers(RadialTable(mesh), random_points(900, 5, 5), some_poses(9, 2, 6));
   EXPECT_GT(compared.found, 100u);
 }
 
@@ -202,7 +203,8 @@ TEST_P(PenetrationsOn, ASolidThatHoldsTheCentreFindsPointsAtAndNearTheCentre) {
   points.push_back({0, 0, 0});
   points.push_back({1e-300, 0, 0});
   points.push_back({1e-9, -1e-9, 3e-9});
-  const Compared compared = expect_plain_answers(table, points, {Pose::Identity(), pose_of(1, {1, 2, 3}, {0.1, 0, 0})});
+  const Compared compared =
+      expect_plain_answers(table, points, {Pose::Identity(), pose_of(1, {1, 2, 3}, {0.1, 0, 0})});
   EXPECT_GT(compared.found, 800u);
 }
 
@@ -212,7 +214,8 @@ TEST_P(PenetrationsOn, BodiesFarFromTheirFramesOriginAndPosesThatAreNoneAreAnswe
   // A mobile body 10 m from its frame's origin, with its joint centre there and without.
   const Vec3 centre(1e4, -2e3, 500);
   Points points;
-  for (std::size_t i = 0; i < 400; ++i) points.push_back(centre + 27 * random_points(1, 1, static_cast<unsigned>(i))[0]);
+  for (std::size_t i = 0; i < 400; ++i)
+    points.push_back(centre + 27 * random_points(1, 1, static_cast<unsigned>(i))[0]);
   const Pose turned = pose_of(0.4, {1, 1, 0}, Vec3::Zero());
   Pose back = turned;
   back.translation() = -(turned * centre) + Vec3(0.5, 0, -0.2);
@@ -239,7 +242,8 @@ TEST_P(PenetrationsOn, LengthsThatFloatsDoNotHoldAreAnsweredToo) {
 TEST_P(PenetrationsOn, AnyNumberOfPointsFillsTheBlocks) {
   const RadialTable table(test::socket(Vec3::Zero(), 1, 1.3, 3));
   for (const std::size_t count : {0u, 1u, 15u, 16u, 17u, 255u, 257u, 4097u}) {
-    expect_plain_answers(table, random_points(count, 1.3, static_cast<unsigned>(count)), some_poses(3, 0.1, 16));
+    expect_plain_answers(table, random_points(count, 1.3, static_cast<unsigned>(count)),
+                         some_poses(3, 0.1, 16));
   }
 }
 
@@ -258,14 +262,17 @@ TEST_P(PenetrationsOn, RealHipsAndCartilagesAtRestAnswerAlike) {
   const auto read = [&](const char* name) { return test::read_ply(*data / "hip_libhip_m1_left" / name); };
   std::vector<Pose> poses = some_poses(3, 2, 18);
   for (const double angle : {0.6, 1.2, 2.0}) poses.push_back(pose_of(angle, {0.1, -0.2, 1}, Vec3::Zero()));
-  const Compared bones = expect_plain_answers(RadialTable(read("hip_bone.ply")), read("femur.ply").vertices, poses);
+  const Compared bones =
+      expect_plain_answers(RadialTable(read("hip_bone.ply")), read("femur.ply").vertices, poses);
   EXPECT_GT(bones.found, 100u);
   EXPECT_LT(bones.work.doubtful, bones.work.near_points / 100);
   // Touching at rest: hundreds of vertices within 1e-4 mm of the other surface.
   const RadialTable acetabular(read("acetabular_cartilage_nogap.ply"));
   const Points femoral = read("femur_cartilage_nogap.ply").vertices;
-  EXPECT_GT(expect_plain_answers(acetabular, femoral, {Pose::Identity(), pose_of(0.01, {0, 0, 1}, {0.1, 0, 0})}).found,
-            300u);
+  EXPECT_GT(
+      expect_plain_answers(acetabular, femoral, {Pose::Identity(), pose_of(0.01, {0, 0, 1}, {0.1, 0, 0})})
+          .found,
+      300u);
 }
 
 TEST(Penetrations, AnOpenMeshIsRefused) {

@@ -16,8 +16,8 @@ struct InstructionSet {
 /// last one is what every processor of the family has.
 std::vector<InstructionSet> instruction_sets();
 
-/// As long as it lives, vector code everywhere in the program runs on the given instruction set. For tests and
-/// measurements: answers do not depend on it.
+/// As long as it lives, vector code everywhere in the program runs on the given instruction set. For tests
+/// and measurements: answers do not depend on it.
 class InstructionSetInUse {
  public:
   explicit InstructionSetInUse(const InstructionSet& set);

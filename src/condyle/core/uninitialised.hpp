@@ -7,9 +7,9 @@
 
 namespace condyle {
 
-/// Memory for large arrays that are read here and there: from 2 MB on in large pages where the system has them.
-/// A table of 10 MB lies on 2500 small pages, more than a processor keeps the addresses of: finding a page then
-/// takes as long as reading from it (a query of 150000 triangles took 1.5 times as long).
+/// Memory for large arrays that are read here and there: from 2 MB on in large pages where the system has
+/// them. A table of 10 MB lies on 2500 small pages, more than a processor keeps the addresses of: finding a
+/// page then takes as long as reading from it (a query of 150000 triangles took 1.5 times as long).
 void* allocate_large(std::size_t bytes);
 void free_large(void* memory, std::size_t bytes) noexcept;
 
@@ -31,7 +31,9 @@ struct UninitialisedAllocator {
   void construct(U* at, Arguments&&... arguments) {
     std::construct_at(at, std::forward<Arguments>(arguments)...);
   }
-  friend bool operator==(const UninitialisedAllocator&, const UninitialisedAllocator&) noexcept { return true; }
+  friend bool operator==(const UninitialisedAllocator&, const UninitialisedAllocator&) noexcept {
+    return true;
+  }
 };
 
 /// A vector of plain values; resize() leaves new elements without a value.

@@ -18,8 +18,8 @@ struct EdgeUse {
   Index high() const { return static_cast<Index>(edge & 0xffffffffu); }
 };
 
-/// Uses of edges from one vertex to higher ones that wait for a use in the other direction. Around a vertex of a
-/// mesh few wait at a time, whatever the order of its triangles.
+/// Uses of edges from one vertex to higher ones that wait for a use in the other direction. Around a vertex
+/// of a mesh few wait at a time, whatever the order of its triangles.
 struct Waiting {
   static constexpr std::size_t most = 7;
   std::uint32_t count = 0;
@@ -39,8 +39,8 @@ struct Waiting {
   }
 };
 
-/// Whether the uses of each edge, the same number but for its last bit, are as many in one direction as in the
-/// other.
+/// Whether the uses of each edge, the same number but for its last bit, are as many in one direction as in
+/// the other.
 bool cancel(std::vector<std::uint64_t> uses) {
   std::sort(uses.begin(), uses.end());
   for (auto at = uses.begin(); at != uses.end();) {
@@ -52,12 +52,14 @@ bool cancel(std::vector<std::uint64_t> uses) {
   return true;
 }
 
-/// Whether every edge is used as often in one direction as in the other: uses cancel in pairs as they come, and
-/// what is left over, if anything, is sorted. Linear for a closed mesh.
+/// Whether every edge is used as often in one direction as in the other: uses cancel in pairs as they come,
+/// and what is left over, if anything, is sorted. Linear for a closed mesh.
 bool edges_balance(const TriMesh& mesh) {
   std::vector<Waiting> waiting(mesh.vertices.size());
   std::vector<std::uint64_t> left_over;
-  const auto keep = [&](Index low, std::uint32_t use) { left_over.push_back(std::uint64_t{low} << 32 | use); };
+  const auto keep = [&](Index low, std::uint32_t use) {
+    left_over.push_back(std::uint64_t{low} << 32 | use);
+  };
   for (const Triangle& triangle : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangle[k], b = triangle[k == 2 ? 0 : k + 1];

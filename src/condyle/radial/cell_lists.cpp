@@ -26,13 +26,14 @@ CellLists list_cells(const TriMesh& mesh, const CartesianMap& map) {
   entries.reserve(4 * mesh.triangles.size());
   double nearest = std::numeric_limits<double>::infinity(), furthest = 0;
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
-    map.visit_cells({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, [&](const CellOverlap& overlap) {
-      entries.push_back({overlap.cell, t});
-      ++length[overlap.cell];
-      least[overlap.cell] = std::min(least[overlap.cell], overlap.min_radius);
-      greatest[overlap.cell] = std::max(greatest[overlap.cell], overlap.max_radius);
-      nearest = std::min(nearest, overlap.min_radius), furthest = std::max(furthest, overlap.max_radius);
-    });
+    map.visit_cells(
+        {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, [&](const CellOverlap& overlap) {
+          entries.push_back({overlap.cell, t});
+          ++length[overlap.cell];
+          least[overlap.cell] = std::min(least[overlap.cell], overlap.min_radius);
+          greatest[overlap.cell] = std::max(greatest[overlap.cell], overlap.max_radius);
+          nearest = std::min(nearest, overlap.min_radius), furthest = std::max(furthest, overlap.max_radius);
+        });
   }
   CellLists lists;
   lists.row.resize(cells);

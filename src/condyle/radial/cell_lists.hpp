@@ -1,9 +1,9 @@
 #pragma once
 
 #include "condyle/core/uninitialised.hpp"
+#include "condyle/mesh/tri_mesh.hpp"
 #include "condyle/radial/cube_view.hpp"
 #include "condyle/radial/direction_map.hpp"
-#include "condyle/mesh/tri_mesh.hpp"
 
 namespace condyle {
 
@@ -30,11 +30,11 @@ struct CellLists {
 /// Listed one by one: exact overlap of each cone with each cell.
 CellLists list_cells(const TriMesh& mesh, const CartesianMap& map);
 
-/// The same for a cube map, with boxes and forms, fast: a triangle that is small against a cell, on one face, is
-/// listed by its bounding box on the face.
+/// The same for a cube map, with boxes and forms, fast: a triangle that is small against a cell, on one face,
+/// is listed by its bounding box on the face.
 ///
-/// Conservative in every step: triangles are widened by list_margin, and a cell's radii hold those of all parts
-/// of its triangles within it.
+/// Conservative in every step: triangles are widened by list_margin, and a cell's radii hold those of all
+/// parts of its triangles within it.
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map);
 
 }  // namespace condyle

@@ -32,8 +32,12 @@ class CubeListing {
       : mesh_(mesh),
         map_(map),
         n_(map.cells_per_side()),
-        view_{mesh.vertices.x.data(), mesh.vertices.y.data(), mesh.vertices.z.data(), mesh.vertices.size(),
-              mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(), mesh.triangles.size()},
+        view_{mesh.vertices.x.data(),
+              mesh.vertices.y.data(),
+              mesh.vertices.z.data(),
+              mesh.vertices.size(),
+              mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
+              mesh.triangles.size()},
         length_(map.cell_count(), 0),
         least_(map.cell_count(), infinity),
         greatest_(map.cell_count(), 0.0f) {
@@ -59,7 +63,8 @@ class CubeListing {
       const std::size_t last = std::min(first + triangles_per_chunk, triangles);
       measure_triangles(view_, first, last, lists.forms.data(), radii.data());
       make_room(4 * triangles_per_chunk);
-      Listing listing{n_, entry_.data(), count_, length_.data(), least_.data(), greatest_.data(), elsewhere.data(), 0};
+      Listing listing{
+          n_, entry_.data(), count_, length_.data(), least_.data(), greatest_.data(), elsewhere.data(), 0};
       list_small_triangles(view_, face_.data(), vertex_.data(), first, last, radii.data(), listing);
       count_ = listing.count;
       for (std::size_t i = 0; i < listing.elsewhere_count; ++i) {
@@ -72,7 +77,8 @@ class CubeListing {
 
  private:
   void make_room(std::size_t entries) {
-    if (entry_.size() < count_ + entries) entry_.resize(std::max(count_ + entries, entry_.size() + entry_.size() / 2));
+    if (entry_.size() < count_ + entries)
+      entry_.resize(std::max(count_ + entries, entry_.size() + entry_.size() / 2));
   }
 
   void add(std::uint32_t cell, Index triangle, const CellOctagon& octagon, float least, float greatest) {
@@ -83,9 +89,9 @@ class CubeListing {
     greatest_[cell] = std::max(greatest_[cell], greatest);
   }
 
-  /// A triangle over many cells, or over several faces. A face is seen by those rays whose largest coordinate is
-  /// its own: a triangle with all corners beyond one side of that pyramid keeps off it. With all corners well in
-  /// front of the others, their places on these faces are those of a plane triangle.
+  /// A triangle over many cells, or over several faces. A face is seen by those rays whose largest coordinate
+  /// is its own: a triangle with all corners beyond one side of that pyramid keeps off it. With all corners
+  /// well in front of the others, their places on these faces are those of a plane triangle.
   void list_triangle(Index t, const TriangleRadii& radii, const ConeForms& forms) {
     const auto& [ia, ib, ic] = mesh_.triangles[t];
     const FacePoint &a = vertex_[ia], &b = vertex_[ib], &c = vertex_[ic];
@@ -143,7 +149,8 @@ class CubeListing {
 
   void list_clipped(const Cone& cone, Index t) {
     map_.visit_cells(cone, [&](const CellOverlap& overlap) {
-      const double least = overlap.min_radius * overlap.min_radius, most = overlap.max_radius * overlap.max_radius;
+      const double least = overlap.min_radius * overlap.min_radius,
+                   most = overlap.max_radius * overlap.max_radius;
       add(overlap.cell, t, whole_cell, static_cast<float>(least * (1 - 0x1p-16)),
           static_cast<float>(most * (1 + 0x1p-16)));
     });
@@ -155,7 +162,8 @@ class CubeListing {
     FaceParts parts{};
     const auto set = [&](std::size_t k, float a, float b, float c, float start, float margin, int most) {
       const auto part = [&](float at) { return std::clamp(static_cast<int>((at + start) * scale), 0, most); };
-      parts.least[k] = part(std::min({a, b, c}) - margin), parts.greatest[k] = part(std::max({a, b, c}) + margin);
+      parts.least[k] = part(std::min({a, b, c}) - margin),
+      parts.greatest[k] = part(std::max({a, b, c}) + margin);
     };
     // Corners may lie off the face.
     const int most = n_ * parts_per_cell - 1;
@@ -218,10 +226,11 @@ class CubeListing {
     float least, greatest;
   };
 
-  /// Radii of the triangle's plane within a cell. In unit direction d the plane has the radius 1 / (n . d), n the
-  /// plane's form. d is a sum of the cell's corner directions with weights >= 0, whose sum is at least 1 and at
-  /// most 1 / cosine (of the angle between middle and corner): so n . d lies between the least n . corner, if
-  /// that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and the floats.
+  /// Radii of the triangle's plane within a cell. In unit direction d the plane has the radius 1 / (n . d), n
+  /// the plane's form. d is a sum of the cell's corner directions with weights >= 0, whose sum is at least 1
+  /// and at most 1 / cosine (of the angle between middle and corner): so n . d lies between the least n .
+  /// corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and the
+  /// floats.
   SquaredRadii radii_in_cell(int face, float low_u, float low_w, float step, const TriangleRadii& radii,
                              const ConeForms& forms) const {
     const int axis = face % 3;
@@ -257,7 +266,9 @@ class CubeListing {
     for (Index cell = 0; cell < cells; ++cell) {
       lists.row[cell] = {first, first};
       first += length_[cell];
-      lists.radii[cell] = length_[cell] == 0 ? no_radii : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
+      lists.radii[cell] =
+          length_[cell] == 0 ? no_radii
+                             : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
     }
     lists.triangle.resize(count_ + vector_room);
     lists.box.resize(count_ + vector_room);

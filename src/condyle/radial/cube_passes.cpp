@@ -84,9 +84,9 @@ HWY_INLINE Doubles largest_magnitude(const Vectors& a) {
   return hn::Max(hn::Max(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
 }
 
-/// Whether a normal, the cross product of p and q, is known well enough: its components err by 6u |p| |q| each
-/// (3u of each product with the rounding of differences in p and q), u = 2^-53, so that the three together stay
-/// below 2^-23 of the normal's sum of magnitudes.
+/// Whether a normal, the cross product of p and q, is known well enough: its components err by 6u |p| |q|
+/// each (3u of each product with the rounding of differences in p and q), u = 2^-53, so that the three
+/// together stay below 2^-23 of the normal's sum of magnitudes.
 HWY_INLINE hn::Mask<DD> well_known(const Vectors& normal, const Vectors& p, const Vectors& q) {
   const auto floor = hn::Mul(hn::Set(dd, 0x1p-25), hn::Mul(largest_magnitude(p), largest_magnitude(q)));
   return hn::Ge(sum_of_magnitudes(normal), floor);
@@ -98,8 +98,8 @@ HWY_INLINE hn::Mask<DD> fits_floats(Doubles largest, Doubles smallest) {
 }
 
 HWY_INLINE void store_interleaved(Doubles ab, Doubles bc, Doubles ca, Doubles plane, float* out) {
-  hn::StoreInterleaved4(hn::DemoteTo(df, ab), hn::DemoteTo(df, bc), hn::DemoteTo(df, ca), hn::DemoteTo(df, plane),
-                        df, out);
+  hn::StoreInterleaved4(hn::DemoteTo(df, ab), hn::DemoteTo(df, bc), hn::DemoteTo(df, ca),
+                        hn::DemoteTo(df, plane), df, out);
 }
 
 void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
@@ -125,7 +125,9 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const Vectors n = cross(ab, ac);
     // D errs by 8u of the sum of its terms' magnitudes, which is at most 2 |a| |b| |c| with |a| a sum.
     const auto volume = dot(a, n_bc);
-    const auto volume_floor = hn::Mul(hn::Set(dd, 0x1p-25), hn::Mul(sum_of_magnitudes(a), hn::Mul(largest_magnitude(b), largest_magnitude(c))));
+    const auto volume_floor =
+        hn::Mul(hn::Set(dd, 0x1p-25),
+                hn::Mul(sum_of_magnitudes(a), hn::Mul(largest_magnitude(b), largest_magnitude(c))));
     const auto inverse = hn::Div(hn::Set(dd, 1.0), volume), size = hn::Abs(inverse);
     const auto s_ab = sum_of_magnitudes(n_ab), s_bc = sum_of_magnitudes(n_bc), s_ca = sum_of_magnitudes(n_ca);
     const auto s_n = sum_of_magnitudes(n);
@@ -146,8 +148,8 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const auto dip = hn::Mul(edge, hn::Set(dd, 1.0 / 3));
     const auto least = hn::Max(hn::Zero(dd), hn::Sub(hn::Min(aa, hn::Min(bb, cc)), dip));
     const auto greatest = hn::Max(aa, hn::Max(bb, cc));
-    store_interleaved(hn::Mul(least, hn::Set(dd, 1 - 0x1p-16)), hn::Mul(greatest, hn::Set(dd, 1 + 0x1p-16)), edge,
-                      edge, packed_radii);
+    store_interleaved(hn::Mul(least, hn::Set(dd, 1 - 0x1p-16)), hn::Mul(greatest, hn::Set(dd, 1 + 0x1p-16)),
+                      edge, edge, packed_radii);
     for (std::size_t k = 0; k < count; ++k) {
       ConeForms& out = forms[t + k];
       std::copy_n(packed[0] + 4 * k, 4, out.x);
@@ -168,7 +170,9 @@ struct OctagonsInCells {
   HWY_INLINE OctagonsInCells(const FaceParts& parts, int n, Ints column, Ints row) {
     constexpr DI di;
     const auto set = [](int value) { return hn::Set(DI(), value); };
-    const auto within = [&](Ints value, int most) { return hn::Min(hn::Max(value, hn::Zero(di)), set(most)); };
+    const auto within = [&](Ints value, int most) {
+      return hn::Min(hn::Max(value, hn::Zero(di)), set(most));
+    };
     const auto from = [&](int value, Ints start) { return hn::Sub(set(value), start); };
     const auto word = [&](Ints least_a, Ints greatest_a, Ints least_b, Ints greatest_b) {
       const auto a = hn::Or(least_a, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_a)));
@@ -191,7 +195,8 @@ struct OctagonsInCells {
 };
 
 void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, const FacePoint* vertices,
-                              std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing) {
+                              std::size_t first, std::size_t last, const TriangleRadii* radii,
+                              Listing& listing) {
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToSigned<decltype(d4)> di4;
   constexpr hn::RebindToUnsigned<decltype(d4)> du4;
@@ -199,8 +204,10 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
   const int n = listing.cells_per_side;
   const int last_part = n * parts_per_cell - 1;
   const auto scale = hn::Set(d4, 0.5f * static_cast<float>(n * parts_per_cell));
-  alignas(16) constexpr float low_shift[4] = {1 - list_margin, 1 - list_margin, 2 - 2 * list_margin, 2 - 2 * list_margin};
-  alignas(16) constexpr float high_shift[4] = {1 + list_margin, 1 + list_margin, 2 + 2 * list_margin, 2 + 2 * list_margin};
+  alignas(16) constexpr float low_shift[4] = {1 - list_margin, 1 - list_margin, 2 - 2 * list_margin,
+                                              2 - 2 * list_margin};
+  alignas(16) constexpr float high_shift[4] = {1 + list_margin, 1 + list_margin, 2 + 2 * list_margin,
+                                               2 + 2 * list_margin};
   ListedTriangle* next = listing.entry + listing.count;
   for (std::size_t t = first; t < last; ++t) {
     const std::uint32_t* corner = mesh.corner + 3 * t;
@@ -217,7 +224,8 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
     const int i0 = parts.least[0] >> 8, j0 = parts.least[1] >> 8;
     const int i1 = parts.greatest[0] >> 8, j1 = parts.greatest[1] >> 8;
     // At the face's edge the widened triangle reaches the next face.
-    const bool at_edge = parts.least[0] == 0 || parts.least[1] == 0 || parts.greatest[0] >= last_part || parts.greatest[1] >= last_part;
+    const bool at_edge = parts.least[0] == 0 || parts.least[1] == 0 || parts.greatest[0] >= last_part ||
+                         parts.greatest[1] >= last_part;
     if (face != faces[corner[1]] || face != faces[corner[2]] || at_edge || i1 - i0 > 1 || j1 - j0 > 1) {
       listing.elsewhere[listing.elsewhere_count++] = static_cast<std::uint32_t>(t);
       continue;
@@ -235,8 +243,9 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
       const auto cells = hn::BitCast(du4, hn::IfThenElse(meets, own, first_cell));
       hn::Store(cells, du4, cell + k);
       hn::Store(hn::And(hn::BitCast(du4, hn::VecFromMask(di4, meets)), hn::Set(du4, 1)), du4, met + k);
-      hn::StoreInterleaved4(cells, hn::Set(du4, static_cast<std::uint32_t>(t)), hn::BitCast(du4, octagons.box),
-                            hn::BitCast(du4, octagons.slant), du4, entry + 4 * k);
+      hn::StoreInterleaved4(cells, hn::Set(du4, static_cast<std::uint32_t>(t)),
+                            hn::BitCast(du4, octagons.box), hn::BitCast(du4, octagons.slant), du4,
+                            entry + 4 * k);
     }
     const TriangleRadii& bounds = radii[t - first];
     for (std::size_t k = 0; k < 4; ++k) {

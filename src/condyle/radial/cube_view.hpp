@@ -20,7 +20,8 @@ inline constexpr int parts_per_cell = 256;
 ///
 ///     23 u + 42 u |t| / r,   u = 2^-24, t the pose's translation, r the radius of the nearest surface
 ///
-/// (`largest_translation` keeps this below 2^-16), and builds boxes by floats, erring by 8u. Twice that is given.
+/// (`largest_translation` keeps this below 2^-16), and builds boxes by floats, erring by 8u. Twice that is
+/// given.
 inline constexpr float list_margin = 0x1p-15f;
 
 /// Greatest translation of a pose, over the distance of the nearest surface, at which floats are trusted.
@@ -31,8 +32,8 @@ struct CellRow {
   std::uint32_t first, last;
 };
 
-/// Four linear forms of a point v, side by side: a . v in lanes x[k] v_x + y[k] v_y + z[k] v_z. For a triangle
-/// (a, b, c) with normal N and D = a . (b x c):
+/// Four linear forms of a point v, side by side: a . v in lanes x[k] v_x + y[k] v_y + z[k] v_z. For a
+/// triangle (a, b, c) with normal N and D = a . (b x c):
 ///
 ///     lanes 0 1 2    (a x b) / D, (b x c) / D, (c x a) / D      all > 0 where the ray through v crosses it
 ///     lane 3         N / |D|        its magnitude is |v| over the crossing's radius, > 1 where the crossing
@@ -44,10 +45,11 @@ struct alignas(16) ConeForms {
   float x[4], y[4], z[4];
 };
 
-/// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v errs by
-/// less than form_error * max|v_k| * (|x| + |y| + |z|), and `form_error_of_translation` times |t| / r more. In
-/// units of u: 1 for rounding a coefficient, 4 for this, 4 for the form's own operations, 10.4 for the point:
-/// 6u (|v| + 2 |t|) in each coordinate, |v| <= sqrt(3) max|v_k|. The bound's own rounding takes the rest.
+/// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v
+/// errs by less than form_error * max|v_k| * (|x| + |y| + |z|), and `form_error_of_translation` times |t| / r
+/// more. In units of u: 1 for rounding a coefficient, 4 for this, 4 for the form's own operations, 10.4 for
+/// the point: 6u (|v| + 2 |t|) in each coordinate, |v| <= sqrt(3) max|v_k|. The bound's own rounding takes
+/// the rest.
 inline constexpr double coefficient_error = 0x1p-22;
 inline constexpr float form_error = 24 * 0x1p-24f;
 inline constexpr float form_error_of_translation = 24 * 0x1p-24f;
@@ -60,15 +62,15 @@ struct CubeView {
   const CellRow* row;
   const std::uint32_t* triangle;
   const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon
-  const ConeForms* forms;    ///< of each triangle
+  const ConeForms* forms;            ///< of each triangle
   RadiusScale scale;
   int winding_at_centre;
   float nearest_squared;  ///< no surface is nearer to the centre
 };
 
-/// Part of a cell that something takes, as an octagon: parts (256 to a cell) from the cell's corner, between a
-/// least and a greatest value of column u, of row w, and of the diagonals u + w and u - w. Four bytes each, least
-/// and 255 - greatest, so that a point is in the octagon exactly where no byte exceeds the point's own.
+/// Part of a cell that something takes, as an octagon: parts (256 to a cell) from the cell's corner, between
+/// a least and a greatest value of column u, of row w, and of the diagonals u + w and u - w. Four bytes each,
+/// least and 255 - greatest, so that a point is in the octagon exactly where no byte exceeds the point's own.
 ///
 ///         ____
 ///       /     |     box    least u, 255 - greatest u, least w, 255 - greatest w
@@ -104,9 +106,9 @@ struct FaceParts {
   std::array<int, 4> least, greatest;
 };
 
-/// Its octagon in a cell; nothing where it keeps off the cell. A point's parts are rounded down one by one: their
-/// sum may be 1 less than that of what it is rounded from, their difference 1 more. One part more on either side
-/// is for points on the face's last edge.
+/// Its octagon in a cell; nothing where it keeps off the cell. A point's parts are rounded down one by one:
+/// their sum may be 1 less than that of what it is rounded from, their difference 1 more. One part more on
+/// either side is for points on the face's last edge.
 constexpr std::optional<CellOctagon> octagon_in_cell(const FaceParts& parts, int cells_per_side, int column,
                                                      int row) noexcept {
   const auto within = [](int value, int most) { return value < 0 ? 0 : value > most ? most : value; };

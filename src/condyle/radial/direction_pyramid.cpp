@@ -37,9 +37,10 @@ void widen_faces(std::span<const RadiusWord> in, int n, RadiusWord* out) {
   }
 }
 
-/// Borders across the edges of the cube. Beyond an edge the neighbouring face is entered by at most one piece: a
-/// coordinate 1 + d is 1 / (1 + d) there, at least 1 - d. The other coordinate is divided by 1 + d too, which
-/// brings it nearer to the middle by at most a piece more: two pieces to either side hold all of it.
+/// Borders across the edges of the cube. Beyond an edge the neighbouring face is entered by at most one
+/// piece: a coordinate 1 + d is 1 / (1 + d) there, at least 1 - d. The other coordinate is divided by 1 + d
+/// too, which brings it nearer to the middle by at most a piece more: two pieces to either side hold all of
+/// it.
 void widen_across_edges(std::span<const RadiusWord> in, int n, RadiusWord* out) {
   const CubeMap map(n);
   const double width = 2.0 / n;
@@ -94,7 +95,8 @@ int DirectionPyramid::level_count(int cells_per_side) noexcept {
 
 std::size_t DirectionPyramid::entry_count(int cells_per_side) noexcept {
   std::size_t count = 0;
-  for (int k = 0; k < level_count(cells_per_side); ++k) count = 8 * (square(cells_per_side) - square(cells_per_side >> k)) + 6 * square(cells_per_side >> k);
+  for (int k = 0; k < level_count(cells_per_side); ++k)
+    count = 8 * (square(cells_per_side) - square(cells_per_side >> k)) + 6 * square(cells_per_side >> k);
   return count;
 }
 

@@ -8,11 +8,11 @@
 
 namespace condyle {
 
-/// Radii of ever larger pieces of a cube map, each piece with a border around it: one look tells about a whole
-/// cap of directions.
+/// Radii of ever larger pieces of a cube map, each piece with a border around it: one look tells about a
+/// whole cap of directions.
 ///
-/// Level k has n = N >> k cells along a side and starts at 8 (N^2 - n^2); there are levels as long as n is even
-/// and at least four. An entry holds the radii of its own 2^k x 2^k cells and of all directions whose
+/// Level k has n = N >> k cells along a side and starts at 8 (N^2 - n^2); there are levels as long as n is
+/// even and at least four. An entry holds the radii of its own 2^k x 2^k cells and of all directions whose
 /// coordinates on the face differ from one of its own by no more than the width of an entry, on other faces
 /// too.
 ///

@@ -57,7 +57,8 @@ HWY_INLINE Ints column(Floats u, int count) {
 }
 
 HWY_INLINE Ints radius_code(const RadiusScale& scale, Floats squared) {
-  const auto steps = hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
+  const auto steps =
+      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
   return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
 }
 
@@ -107,8 +108,8 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints
 ///     | R p + t - (|p| / m) (m R axis + t) | <= |p| chord + |t| | |p| / m - 1 |,   1 / m the mean inverse
 ///     | R p + t |^2 = |p|^2 + |t|^2 + 2 (R p) . t,   (R p) . t within |p| (R axis . t -+ chord |t|)
 ///
-/// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here, those of
-/// the points later, and a rotation that is one to 1e-6.
+/// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
+/// those of the points later, and a rotation that is one to 1e-6.
 template <bool translated>
 std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                         const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
@@ -122,7 +123,8 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
     const auto z = hn::LoadU(d, blocks.axis_z + block), chord = hn::LoadU(d, blocks.chord + block);
     auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
     auto az = dot(x, y, z, r[6], r[7], r[8]);
-    const auto nearest = hn::LoadU(d, blocks.nearest + block), furthest = hn::LoadU(d, blocks.furthest + block);
+    const auto nearest = hn::LoadU(d, blocks.nearest + block),
+               furthest = hn::LoadU(d, blocks.furthest + block);
     auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
     auto sine = chord;
     auto certain = hn::Gt(nearest, hn::Zero(d));
@@ -152,11 +154,11 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
     const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
     certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
     const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
-    const auto index = hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
+    const auto index =
+        hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
     const auto entry = hn::GatherIndex(du, cube.pyramid, index);
-    const auto word =
-        reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
-                   radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+    const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                                 radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
     const auto near = hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
     const auto asked = hn::And(near, hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
@@ -186,7 +188,8 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
     }
     for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
-      const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at), pz = hn::LoadU(d, points.z + at);
+      const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at),
+                 pz = hn::LoadU(d, points.z + at);
       const auto x = hn::Add(dot(px, py, pz, r[0], r[1], r[2]), hn::Set(d, t[0]));
       const auto y = hn::Add(dot(px, py, pz, r[3], r[4], r[5]), hn::Set(d, t[1]));
       const auto z = hn::Add(dot(px, py, pz, r[6], r[7], r[8]), hn::Set(d, t[2]));
@@ -195,7 +198,8 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       const CubePlace place = place_on_cube(x, y, z);
       const auto u = column(place.u, finest * parts_per_cell), w = column(place.w, finest * parts_per_cell);
       const auto n = hn::Set(di, finest);
-      const auto cell = hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
+      const auto cell =
+          hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
       const auto entry = hn::GatherIndex(du, cube.radii, cell);
       auto near = radii_meet(entry, reach_word(code, code));
       if (HWY_UNLIKELY(first + 16 > points.size)) {
@@ -203,15 +207,17 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       }
       if (hn::AllFalse(du, near)) continue;
       const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
-      const auto box = hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
-                              hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
+      const auto box =
+          hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
+                 hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
       const auto near_float = hn::RebindMask(d, near);
       hn::StoreU(hn::Compress(x, near_float), d, found.x.data() + count);
       hn::StoreU(hn::Compress(y, near_float), d, found.y.data() + count);
       hn::StoreU(hn::Compress(z, near_float), d, found.z.data() + count);
       hn::StoreU(hn::Compress(hn::BitCast(du, cell), near), du, found.cell.data() + count);
       hn::StoreU(hn::Compress(hn::BitCast(du, box), near), du, found.box.data() + count);
-      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(at)), near), du, found.point.data() + count);
+      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(at)), near), du,
+                 found.point.data() + count);
       count += hn::CountTrue(du, near);
     }
   }
@@ -249,7 +255,8 @@ HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
     const auto holding = octagons_holding(cube, first, row.last, box, slant);
-    hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du, pairs.triangle.data() + pairs.count);
+    hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du,
+               pairs.triangle.data() + pairs.count);
     hn::StoreU(number, du, pairs.point.data() + pairs.count);
     pairs.count += hn::CountTrue(du, holding);
     if (pairs.count > Pairs::most - vector_room) return false;
@@ -257,7 +264,8 @@ HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t
   return true;
 }
 
-/// A crossing of a near point's ray: s is |v| over its radius, NaN where floats do not say whether there is one.
+/// A crossing of a near point's ray: s is |v| over its radius, NaN where floats do not say whether there is
+/// one.
 struct Crossing {
   float s, error;
   std::uint32_t triangle, point;
@@ -304,8 +312,8 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pair
     // Without branches, which nothing could foretell: all bits of a magnitude set are a NaN.
     const std::uint32_t bits_of_value = std::bit_cast<std::uint32_t>(values[3]);
     const std::uint32_t doubt = 0u - static_cast<std::uint32_t>((above & 7) != 7);
-    out.crossing[count] = {std::bit_cast<float>((bits_of_value | doubt) & 0x7fffffffu), errors[3], triangle, point,
-                           1 - 2 * static_cast<std::int32_t>(bits_of_value >> 31)};
+    out.crossing[count] = {std::bit_cast<float>((bits_of_value | doubt) & 0x7fffffffu), errors[3], triangle,
+                           point, 1 - 2 * static_cast<std::int32_t>(bits_of_value >> 31)};
     count += static_cast<std::size_t>((below & 7) == 0);
   }
   out.count = count;
@@ -396,7 +404,8 @@ HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size
   }
 }
 
-std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found) {
+std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
+                              FoundPoints& found) {
   Pairs pairs;
   Crossings crossings;
   std::size_t tried = 0;
@@ -451,7 +460,8 @@ void near_points(const CubeView& cube, const PointColumns& points, const FloatPo
   HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
 }
 
-std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound, FoundPoints& found) {
+std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
+                          FoundPoints& found) {
   return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, found);
 }
 

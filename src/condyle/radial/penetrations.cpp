@@ -28,7 +28,8 @@ FloatPose float_pose(const Pose& X, const Vec3& centre) {
   FloatPose pose{};
   const Vec3 t = X * centre;
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) pose.rotation[static_cast<std::size_t>(3 * i + k)] = static_cast<float>(X.linear()(i, k));
+    for (int k = 0; k < 3; ++k)
+      pose.rotation[static_cast<std::size_t>(3 * i + k)] = static_cast<float>(X.linear()(i, k));
     pose.translation[static_cast<std::size_t>(i)] = static_cast<float>(t[i]);
   }
   const double distance = t.norm();
@@ -39,8 +40,9 @@ FloatPose float_pose(const Pose& X, const Vec3& centre) {
 BlockColumns blocks_of(const SortedPoints& points, std::size_t level) {
   const auto column = [&](SortedPoints::Column c) { return points.block(level, c); };
   using P = SortedPoints;
-  return {column(P::axis_x),  column(P::axis_y),   column(P::axis_z),       column(P::chord), column(P::nearest),
-          column(P::furthest), column(P::mean_inverse), column(P::spread), points.block_count(level)};
+  return {column(P::axis_x),       column(P::axis_y),  column(P::axis_z),
+          column(P::chord),        column(P::nearest), column(P::furthest),
+          column(P::mean_inverse), column(P::spread),  points.block_count(level)};
 }
 
 }  // namespace
@@ -55,21 +57,16 @@ std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const
   const auto* cube = std::get_if<CubeMap>(&map_);
   if (!cube || mesh_.triangles.empty()) return std::nullopt;
   const double nearest = std::sqrt(lists_.scale.lower_end()), furthest = std::sqrt(lists_.scale.upper_end());
-  const bool in_range = nearest > least_length && furthest < greatest_length && points.reach() < greatest_length;
+  const bool in_range =
+      nearest > least_length && furthest < greatest_length && points.reach() < greatest_length;
   if (!in_range || !(pose.distance <= largest_translation * nearest)) return std::nullopt;
   if (std::abs(*winding_at_centre_) > 1000) return std::nullopt;
-  return CubeView{cube->cells_per_side(),
-                  DirectionPyramid::level_count(cube->cells_per_side()),
-                  lists_.radii.data(),
-                  pyramid_.data(),
-                  lists_.row.data(),
-                  lists_.triangle.data(),
-                  lists_.box.data(),
-                  lists_.slant.data(),
-                  lists_.forms.data(),
-                  lists_.scale,
-                  *winding_at_centre_,
-                  static_cast<float>(nearest * nearest)};
+  return CubeView{cube->cells_per_side(), DirectionPyramid::level_count(cube->cells_per_side()),
+                  lists_.radii.data(),    pyramid_.data(),
+                  lists_.row.data(),      lists_.triangle.data(),
+                  lists_.box.data(),      lists_.slant.data(),
+                  lists_.forms.data(),    lists_.scale,
+                  *winding_at_centre_,    static_cast<float>(nearest * nearest)};
 }
 
 void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
@@ -84,9 +81,11 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
   const PointColumns columns{points.coordinate(0), points.coordinate(1), points.coordinate(2), points.size()};
   const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
   const auto form_bound = static_cast<float>(
-      (form_error + form_error_of_translation * pose.distance / std::sqrt(cube->nearest_squared)) * (1 + 0x1p-20));
+      (form_error + form_error_of_translation * pose.distance / std::sqrt(cube->nearest_squared)) *
+      (1 + 0x1p-20));
   RayScan scan(mesh_, *winding_at_centre_);
-  constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan, sets_per_batch = 16;
+  constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan,
+                        sets_per_batch = 16;
   std::array<std::uint32_t, sets_per_batch> set;
   std::array<std::uint32_t, sets_per_batch * fan + vector_room> near_group;
   std::array<std::uint32_t, blocks_per_batch + vector_room> near_block;
@@ -98,8 +97,9 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
     for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
     const std::size_t group_count = near_blocks(*cube, groups, pose, set.data(), sets, near_group.data());
     for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
-      const std::size_t count = near_blocks(*cube, blocks, pose, near_group.data() + first,
-                                            std::min(groups_per_batch, group_count - first), near_block.data());
+      const std::size_t count =
+          near_blocks(*cube, blocks, pose, near_group.data() + first,
+                      std::min(groups_per_batch, group_count - first), near_block.data());
       if (work) work->near_blocks += count;
       if (count == 0) continue;
       near_points(*cube, columns, pose, near_block.data(), count, near);
@@ -116,8 +116,8 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
 }
 
 /// Depths in double; points in doubt from the start.
-void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, RayScan& scan,
-                         Penetrations& out) const {
+void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found,
+                         RayScan& scan, Penetrations& out) const {
   const std::size_t first = out.size();
   std::size_t count = first;
   out.resize(first + found.count);
@@ -154,8 +154,10 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
       out.state[count] = PointState::inside;
       out.winding[count] = at.winding;
       out.triangle[count] = at.triangle;
-      out.depth[count] = std::abs(distance_along_ray(v, {lists_.corner[a], lists_.corner[b], lists_.corner[c]}));
-      out.direction[count] = at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
+      out.depth[count] =
+          std::abs(distance_along_ray(v, {lists_.corner[a], lists_.corner[b], lists_.corner[c]}));
+      out.direction[count] =
+          at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
     }
     ++count;
   }
@@ -171,12 +173,14 @@ RayAnswer RadialTable::answer_in_doubt(const Vec3& v, RayScan& scan) const {
   const std::uint32_t point = cube->box_of(v);
   std::vector<Index> candidates;
   for (std::uint32_t i = lists_.row[cell].first; i < lists_.row[cell].last; ++i) {
-    if (holds(lists_.box[i], point) && holds(lists_.slant[i], slant_of_point(point))) candidates.push_back(lists_.triangle[i]);
+    if (holds(lists_.box[i], point) && holds(lists_.slant[i], slant_of_point(point)))
+      candidates.push_back(lists_.triangle[i]);
   }
   return scan.answer(v, candidates);
 }
 
-void RadialTable::penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const {
+void RadialTable::penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM,
+                                          Penetrations& out) const {
   RayScan scan(mesh_, *winding_at_centre_);
   FoundPoints all;
   for (std::size_t first = 0; first < points.size(); first += points_per_batch) {

@@ -17,7 +17,8 @@ struct Penetrations {
   std::vector<PointState> state;
   /// Winding number; for a point on the surface that of the side facing the centre.
   std::vector<int> winding;
-  /// Triangle that the point leaves through by the nearer way; for a point on the surface one that it lies on.
+  /// Triangle that the point leaves through by the nearer way; for a point on the surface one that it lies
+  /// on.
   std::vector<Index> triangle;
   /// Along the ray to that triangle, mm; 0 on the surface.
   std::vector<double> depth;
@@ -33,10 +34,11 @@ struct Penetrations {
 
 /// What one question cost; numbers add up over questions.
 struct PenetrationWork {
-  std::uint64_t blocks = 0, near_blocks = 0;  ///< of 16 points: all; those not rejected by the table's pyramid
-  std::uint64_t near_points = 0;              ///< not rejected by the radii of their cell
-  std::uint64_t triangles = 0;                ///< tried in float
-  std::uint64_t doubtful = 0;                 ///< points decided in double, or exactly
+  std::uint64_t blocks = 0,
+                near_blocks = 0;  ///< of 16 points: all; those not rejected by the table's pyramid
+  std::uint64_t near_points = 0;  ///< not rejected by the radii of their cell
+  std::uint64_t triangles = 0;    ///< tried in float
+  std::uint64_t doubtful = 0;     ///< points decided in double, or exactly
 };
 
 }  // namespace condyle

@@ -86,20 +86,21 @@ class RadialTable {
   /// cell has crossed nothing, and one further out than it has crossed everything.
   void query_states(PointsView points, std::vector<PointState>& out) const;
 
-  /// Every point that is not outside at a pose X_FM, with what query() tells of it, byte for byte: points posed
-  /// and rounded once (core/pose.hpp), signs exact, on every instruction set alike. All other points are
-  /// outside.
+  /// Every point that is not outside at a pose X_FM, with what query() tells of it, byte for byte: points
+  /// posed and rounded once (core/pose.hpp), signs exact, on every instruction set alike. All other points
+  /// are outside.
   ///
   /// Three passes in vectors of floats: blocks of points and then points are rejected by the radii of the
-  /// surface around them; what is left is held against the triangles of its cell, and points that floats do not
-  /// settle are decided as query() does. For the paper's map, for a pose that is no rigid motion or moves the
-  /// centre by more than four times the distance of the nearest surface, all points are.
+  /// surface around them; what is left is held against the triangles of its cell, and points that floats do
+  /// not settle are decided as query() does. For the paper's map, for a pose that is no rigid motion or moves
+  /// the centre by more than four times the distance of the nearest surface, all points are.
   ///
-  /// Raises MeshError for an open mesh. Cost: blocks, plus points near the surface. No allocation once `out` has
-  /// its room.
+  /// Raises MeshError for an open mesh. Cost: blocks, plus points near the surface. No allocation once `out`
+  /// has its room.
   void penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                     PenetrationWork* work = nullptr) const;
-  /// Fills out.ray_to_normal; `points` are those that the sorted ones were made from, the pose is the one asked.
+  /// Fills out.ray_to_normal; `points` are those that the sorted ones were made from, the pose is the one
+  /// asked.
   void add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const;
 
   /// Calls visit(triangle of this table) for every triangle that shares a cell and a radius interval with the

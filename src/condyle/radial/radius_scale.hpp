@@ -18,8 +18,8 @@ inline constexpr RadiusWord no_radii = 0xffffffffu;
 inline constexpr int greatest_radius_code = 0xffff;
 
 constexpr RadiusWord radius_word(int least_code, int greatest_code) noexcept {
-  return static_cast<RadiusWord>(least_code) |
-         static_cast<RadiusWord>(greatest_radius_code - greatest_code) << 16;
+  return static_cast<RadiusWord>(least_code) | static_cast<RadiusWord>(greatest_radius_code - greatest_code)
+                                                   << 16;
 }
 
 constexpr RadiusWord union_of(RadiusWord a, RadiusWord b) noexcept {

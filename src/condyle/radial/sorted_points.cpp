@@ -71,9 +71,7 @@ void SortedPoints::describe_block(std::size_t level, std::size_t block) {
     least = std::min(least, radius), greatest = std::max(greatest, radius);
     if (radius > 0) sum += p / radius;
   }
-  // The axis is what its floats say, not what they were rounded from.
-  const Vec3 unit = sum.norm() > 0 ? Vec3(sum.normalized()) : Vec3(1, 0, 0);
-  const Vec3 axis = unit.cast<float>().cast<double>();
+  const Vec3 axis = sum.norm() > 0 ? Vec3(sum.normalized()) : Vec3(1, 0, 0);
   double widest = least > 0 ? 0 : 2;
   for (std::size_t i = first; i < last && least > 0; ++i) {
     const Vec3 p = point_[i] - centre_;
@@ -81,7 +79,8 @@ void SortedPoints::describe_block(std::size_t level, std::size_t block) {
   }
   const auto set = [&](Column column, float value) { block_[level][column][block] = value; };
   for (int k = 0; k < 3; ++k) set(static_cast<Column>(axis_x + k), static_cast<float>(axis[k]));
-  set(chord, rounded_up(widest));
+  // The axis as floats is off by up to 2^-25 in each coordinate.
+  set(chord, rounded_up(widest + 0x1p-24));
   set(nearest, rounded_down(least));
   set(furthest, rounded_up(greatest));
   // With a point at the centre there is no cap and no such interval: `nearest` is zero.

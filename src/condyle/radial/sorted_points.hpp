@@ -7,8 +7,8 @@
 namespace condyle {
 
 /// Points of the mobile body in blocks of neighbours, made once for a mesh and a joint centre: what
-/// RadialTable::penetrations reads. A block lies in a cap of directions about the centre and in an interval of
-/// radii, so that whole blocks can be told to be free with one look at the table.
+/// RadialTable::penetrations reads. A block lies in a cap of directions about the centre and in an interval
+/// of radii, so that whole blocks can be told to be free with one look at the table.
 ///
 ///        . axis        points p of a block:  | p / |p| - axis | <= chord,   nearest <= |p| <= furthest
 ///       /|  cap
@@ -37,9 +37,19 @@ class SortedPoints {
   /// Coordinates about the centre, rounded to float; the last block is filled up with its last point.
   const float* coordinate(std::size_t k) const noexcept { return rounded_[k].data(); }
 
-  /// Blocks as columns of floats, rounded so that every point of the block fulfils what is said above; filled up
-  /// to a multiple of 16 blocks. 1 / |p| lies within mean_inverse -+ spread.
-  enum Column : std::size_t { axis_x, axis_y, axis_z, chord, nearest, furthest, mean_inverse, spread, columns };
+  /// Blocks as columns of floats, rounded so that every point of the block fulfils what is said above; filled
+  /// up to a multiple of 16 blocks. 1 / |p| lies within mean_inverse -+ spread.
+  enum Column : std::size_t {
+    axis_x,
+    axis_y,
+    axis_z,
+    chord,
+    nearest,
+    furthest,
+    mean_inverse,
+    spread,
+    columns
+  };
   const float* block(std::size_t level, Column column) const noexcept { return block_[level][column].data(); }
 
  private:
