@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "condyle/core/predicates.hpp"
+#include "condyle/mesh/vertical_ray.hpp"
 
 namespace condyle {
 namespace {
@@ -16,26 +17,6 @@ Point triple(const Vec3& p) noexcept {
 }
 Vec3 vec3(const Point& p) noexcept {
   return {p.x, p.y, p.z};
-}
-
-/// Which side of the directed line a b, seen along the axis, p lies on; where exactly on it, p shifted by an
-/// infinitesimal in x and one infinitely smaller in y decides. Zero only where a is b.
-Sign side_seen_along_axis(const Point& a, const Point& b, const Point& p) noexcept {
-  const Sign sign = orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y);
-  if (sign != Sign::zero) return sign;
-  if (a.y != b.y) return a.y > b.y ? Sign::positive : Sign::negative;
-  return b.x > a.x ? Sign::positive : b.x < a.x ? Sign::negative : Sign::zero;
-}
-
-/// What the ray from p along the axis adds to the winding number at this triangle.
-int crossing(const Point& a, const Point& b, const Point& c, const Point& p) noexcept {
-  const Sign facing = side_seen_along_axis(a, b, p);
-  if (facing == Sign::zero || side_seen_along_axis(b, c, p) != facing ||
-      side_seen_along_axis(c, a, p) != facing)
-    return 0;
-  // Facing up, the triangle is above p where p is on its back.
-  const Sign height_of_p = orientation(vec3(a), vec3(b), vec3(c), vec3(p)) * facing;
-  return height_of_p == Sign::negative ? static_cast<int>(facing) : 0;
 }
 
 /// Nodes of the turning body with at most so many triangles get their box from their triangles, the others
@@ -184,7 +165,8 @@ int winding_number(Body& body, const Triple<double>& point) {
     const auto& features = body.leaf_features(i);
     for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
       const auto [a, b, c] = tree.triangles()[t];
-      winding += crossing(features.points[a], features.points[b], features.points[c], point);
+      winding += crossing_above(
+          {vec3(features.points[a]), vec3(features.points[b]), vec3(features.points[c])}, vec3(point));
     }
   }
   return winding;
