@@ -36,7 +36,7 @@ TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
   const TriMesh fixed = test::socket({0.05, 0.1, 0}, 1.0, 1.3, 1), mobile = test::torus(1.1, 0.15, 7, 5);
   const BodyPair bodies(fixed, mobile);
   std::size_t found = 0, free_poses = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const Pose X = turned(31 * i, {1, 0.3 * i, -0.5}, Vec3(0.02 * i, i % 4 == 0 ? -2.4 : -0.1, 0));
     const auto pairs = bodies.pairs(X);
     EXPECT_EQ(pairs, brute_pairs(fixed, posed(X, mobile)));
@@ -44,7 +44,7 @@ TEST(BodyPair, HasThePairsOfRationalArithmeticInEveryPose) {
     found += pairs.size();
     free_poses += pairs.empty();
   }
-  EXPECT_GT(found, 100u);
+  EXPECT_GT(found, 30u);
   EXPECT_GT(free_poses, 0u);
 }
 

@@ -1,7 +1,6 @@
 #include "condyle/contact/body_pair.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "condyle/contact/placed_trees.hpp"
 #include "condyle/mesh/edge_balance.hpp"
@@ -12,27 +11,6 @@ namespace condyle {
 namespace {
 
 using Node = TriangleTree::Node;
-
-/// The smallest place of each connected piece: union by smallest number.
-std::vector<Index> one_vertex_of_each_piece(const TriangleTree& tree) {
-  std::vector<Index> root(tree.vertices().size());
-  std::iota(root.begin(), root.end(), Index{0});
-  const auto find = [&](Index v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
-  };
-  for (const auto& [a, b, c] : tree.triangles()) {
-    for (const Index other : {b, c}) {
-      const auto [low, high] = std::minmax({find(a), find(other)});
-      root[high] = low;
-    }
-  }
-  std::vector<Index> pieces;
-  for (Index v = 0; v < root.size(); ++v) {
-    if (root[v] == v) pieces.push_back(v);
-  }
-  return pieces;
-}
 
 struct Box {
   Vec3 low, high;
@@ -120,7 +98,7 @@ BodyPair::Body::Body(const TriMesh& mesh)
     : tree(mesh),
       is_closed(!unbalanced_edge(mesh)),
       place_of_triangle(mesh.triangles.size()),
-      piece_vertices(one_vertex_of_each_piece(tree)) {
+      piece_vertices(tree.one_vertex_of_each_piece()) {
   for (Index place = 0; place < place_of_triangle.size(); ++place)
     place_of_triangle[tree.mesh_triangles()[place]] = place;
 }

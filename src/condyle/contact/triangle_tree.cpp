@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "condyle/core/predicates.hpp"
@@ -198,6 +199,27 @@ void TriangleTree::number_anew(const TriMesh& mesh) {
       triangles_[i][k] = place[v];
     }
   }
+}
+
+/// Union by smallest number.
+std::vector<Index> TriangleTree::one_vertex_of_each_piece() const {
+  std::vector<Index> root(vertices_.size());
+  std::iota(root.begin(), root.end(), Index{0});
+  const auto find = [&](Index v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : triangles_) {
+    for (const Index other : {b, c}) {
+      const auto [low, high] = std::minmax({find(a), find(other)});
+      root[high] = low;
+    }
+  }
+  std::vector<Index> pieces;
+  for (Index v = 0; v < root.size(); ++v) {
+    if (root[v] == v) pieces.push_back(v);
+  }
+  return pieces;
 }
 
 }  // namespace condyle

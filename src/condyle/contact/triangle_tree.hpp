@@ -49,6 +49,9 @@ class TriangleTree {
   const std::vector<Index>& mesh_triangles() const noexcept { return mesh_triangles_; }
   const std::vector<Index>& mesh_vertices() const noexcept { return mesh_vertices_; }
 
+  /// The smallest place of each connected piece. Near linear in triangles.
+  std::vector<Index> one_vertex_of_each_piece() const;
+
   std::array<Vec3, 3> corners(Index triangle) const noexcept {
     const auto [a, b, c] = triangles_[triangle];
     return {vertices_[a], vertices_[b], vertices_[c]};
