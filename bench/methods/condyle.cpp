@@ -1,6 +1,8 @@
 #include <optional>
 
+#include "condyle/contact/body_pair.hpp"
 #include "condyle/radial/radial_table.hpp"
+#include "condyle/radial/sorted_points.hpp"
 #include "condyle/tangential/ring_table.hpp"
 #include "kinds.hpp"
 
@@ -19,6 +21,61 @@ TriMesh with_vertices(condyle::PointsView vertices, const TriMesh& mesh) {
   moved.triangles = mesh.triangles;
   return moved;
 }
+
+/// The radial table asked for penetrating vertices only, in vectors. Depth, triangle and side of each.
+class RadialVectors final : public Method {
+ public:
+  explicit RadialVectors(const Bodies& bodies)
+      : table_(std::make_shared<condyle::RadialTable>(bodies.fixed)),
+        points_(std::make_shared<condyle::SortedPoints>(bodies.mobile.vertices)) {}
+
+  void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
+    table_->penetrations(*points_, X_FM, found_, &work_);
+    out.resize(found_.size());
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      out[i] = {found_.point[i], found_.triangle[i], found_.depth[i]};
+  }
+
+  void deform(condyle::PointsView fixed_vertices) override {
+    table_ = std::make_shared<condyle::RadialTable>(with_vertices(fixed_vertices, table_->mesh()));
+  }
+
+  std::unique_ptr<Method> for_another_thread() override { return std::make_unique<RadialVectors>(*this); }
+  std::size_t bytes() const override { return table_->table_size().bytes; }
+  Work work() const override {
+    const auto count = [](std::uint64_t n) { return static_cast<std::int64_t>(n); };
+    return {{"blocks", count(work_.blocks)},
+            {"blocks near", count(work_.near_blocks)},
+            {"vertices near", count(work_.near_points)},
+            {"triangles tried", count(work_.triangles)},
+            {"vertices in doubt", count(work_.doubtful)}};
+  }
+
+ private:
+  std::shared_ptr<const condyle::RadialTable> table_;
+  std::shared_ptr<const condyle::SortedPoints> points_;
+  condyle::Penetrations found_;
+  condyle::PenetrationWork work_;
+};
+
+/// Trees of boxes and shells on both bodies.
+class Trees final : public Method {
+ public:
+  explicit Trees(const Bodies& bodies)
+      : pair_(std::make_shared<condyle::BodyPair>(bodies.fixed, bodies.mobile)) {}
+
+  bool touch(const Pose& X_FM) override { return pair_->touch(X_FM, last_hit_); }
+
+  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+    out = pair_->pairs(X_FM);
+  }
+
+  std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Trees>(*this); }
+
+ private:
+  std::shared_ptr<const condyle::BodyPair> pair_;
+  std::optional<condyle::TrianglePair> last_hit_;
+};
 
 /// The plain radial table: a vertex at a time.
 class Radial final : public Method {
@@ -87,6 +144,26 @@ class Tangential final : public Method {
   condyle::TangentialHits hits_;
 };
 
+MethodKind radial_vectors() {
+  return {"radial",
+          "Condyle",
+          "radial, cube map, in vectors",
+          {.inside = true},
+          DepthKind::along_ray,
+          true,
+          [](const Bodies& bodies) { return std::make_unique<RadialVectors>(bodies); }};
+}
+
+MethodKind trees() {
+  return {"trees",
+          "Condyle",
+          "trees of boxes and shells",
+          {.touch = true, .pairs = true},
+          DepthKind::none,
+          true,
+          [](const Bodies& bodies) { return std::make_unique<Trees>(bodies); }};
+}
+
 MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind map) {
   return {std::move(name),
           "Condyle",
@@ -95,7 +172,7 @@ MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind
           DepthKind::along_ray,
           true,
           [map](const Bodies& bodies) {
-            return std::make_unique<Radial>(bodies, condyle::RadialOptions{.map = map});
+            return std::make_unique<Radial>(bodies, condyle::RadialOptions{.map = map, .cells_per_side = {}});
           }};
 }
 
@@ -114,6 +191,8 @@ MethodKind tangential(std::string name, std::string title, condyle::TangentialRu
 std::vector<MethodKind> condyle_kinds() {
   using condyle::DirectionMapKind, condyle::TangentialRule;
   return {
+      radial_vectors(),
+      trees(),
       radial("radial_plain", "radial, cube map, a vertex at a time", DirectionMapKind::cube),
       radial("radial_cartesian", "radial, the paper's map", DirectionMapKind::cartesian),
       tangential("tangential", "tangential, all crossings in their order", TangentialRule::alternating, true),
