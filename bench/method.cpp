@@ -30,12 +30,48 @@ std::unique_ptr<Method> Method::for_another_thread() {
 std::vector<MethodGroup> method_groups() {
   return {
       {"", true, condyle_kinds()},
+      {"", true, sphere_tree_kinds()},
+      {"", true, spherical_shell_kinds()},
 #ifdef CONDYLE_BENCH_FCL
       {"libfcl-dev", true, fcl_kinds()},
 #else
       {"libfcl-dev", false, {}},
 #endif
+#ifdef CONDYLE_BENCH_CGAL
+      {"libcgal-dev", true, cgal_kinds()},
+#else
+      {"libcgal-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_VTK
+      {"libvtk9-dev", true, vtk_kinds()},
+#else
+      {"libvtk9-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_BULLET
+      {"libbullet-dev", true, bullet_kinds()},
+#else
+      {"libbullet-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_ODE
+      {"libode-dev", true, ode_kinds()},
+#else
+      {"libode-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_SIMBODY
+      {"libsimbody-dev", true, simbody_kinds()},
+#else
+      {"libsimbody-dev", false, {}},
+#endif
   };
+}
+
+std::optional<MethodKind> method_named(std::string_view name) {
+  for (MethodGroup& group : method_groups()) {
+    for (MethodKind& kind : group.kinds) {
+      if (kind.name == name) return std::move(kind);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace bench

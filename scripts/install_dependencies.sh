@@ -14,7 +14,10 @@ packages=(
 )
 
 if [ "${1:-}" = clang ]; then packages+=(clang libclang-rt-14-dev clang-format); fi
-if [ "${1:-}" = bench ]; then packages+=(libfcl-dev python3 git); fi
+if [ "${1:-}" = bench ]; then
+  packages+=(libfcl-dev libbullet-dev libode-dev libsimbody-dev)  # peers; CGAL and VTK are above
+  packages+=(python3 git)
+fi
 
 missing=()
 for package in "${packages[@]}"; do
