@@ -41,6 +41,10 @@ class Shape {
 
   btCollisionObject& object() { return object_; }
 
+  std::size_t tree_bytes() const {
+    return shape_->getMeshPart(0)->getBoxSet()->getNodeCount() * sizeof(BT_QUANTIZED_BVH_NODE);
+  }
+
  private:
   void set(condyle::PointsView vertices) {
     coordinates_.clear();
@@ -71,8 +75,10 @@ class Collector final : public btManifoldResult {
 /// Bullet 3.24 in double: GImpact meshes, the ones that both may move. Trees of boxes whose corners are
 /// rounded to 16 bits, pairs of triangles by clipping one against the other, in floating point.
 ///
-/// Its algorithm for two such meshes is called as its dispatcher does, without a world about them. It always
-/// finds all contacts: whether bodies touch costs as much as which triangles do.
+/// A pair is in contact where a part of one triangle lies behind the other, within the prism upon it: all
+/// that share a point, and more. Its algorithm for two such meshes is called as its dispatcher does, without
+/// a world about them, and always finds all contacts: whether bodies touch costs as much as which triangles
+/// do.
 class Bullet final : public Method {
  public:
   explicit Bullet(const Bodies& bodies)
@@ -88,6 +94,8 @@ class Bullet final : public Method {
   void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override { collide(X_FM, out); }
 
   void deform(condyle::PointsView fixed_vertices) override { fixed_.move_vertices(fixed_vertices); }
+
+  std::size_t bytes() const override { return fixed_.tree_bytes() + mobile_.tree_bytes(); }
 
  private:
   void collide(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) {

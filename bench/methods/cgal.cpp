@@ -46,6 +46,10 @@ struct MeshAndTree {
     tree.build();
   }
 
+  std::size_t tree_bytes() const {
+    return tree.size() * (sizeof(CGAL::AABB_node<Tree::AABB_traits>) + sizeof(Primitive));
+  }
+
   Mesh mesh;
   Tree tree;
 };
@@ -92,6 +96,9 @@ class CgalTree final : public Method {
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<CgalTree>(*this); }
 
+  /// Without the vertices that it keeps, sorted, to begin its search for the nearest point.
+  std::size_t bytes() const override { return fixed_->body.tree_bytes(); }
+
  private:
   struct Fixed {
     explicit Fixed(const TriMesh& mesh) : body(mesh), side(body.tree) {
@@ -135,6 +142,7 @@ class CgalRigid final : public Method {
   }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<CgalRigid>(*this); }
+  std::size_t bytes() const override { return bodies_->fixed.tree_bytes() + bodies_->mobile.tree_bytes(); }
 
  private:
   struct TwoBodies {

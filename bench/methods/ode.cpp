@@ -1,6 +1,7 @@
 #include <ode/ode.h>
 
-#include <array>
+#include <algorithm>
+#include <cstdarg>
 
 #include "kinds.hpp"
 
@@ -11,10 +12,16 @@ using condyle::Index;
 using condyle::Pose;
 using condyle::TriMesh;
 
+/// It tells the terminal of each overflow of its table of contacts; the accuracy of the answer tells us.
+void say_nothing(int, const char*, va_list) {}
+
 /// The library as a whole, for as long as any mesh of it is alive.
 class Library {
  public:
-  Library() { dInitODE2(0); }
+  Library() {
+    dInitODE2(0);
+    dSetMessageHandler(say_nothing);
+  }
   ~Library() { dCloseODE(); }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
@@ -73,9 +80,8 @@ class Geometry {
 /// The Open Dynamics Engine 0.16, in double: two triangle meshes, by dCollide. Within it, OPCODE finds the
 /// pairs by trees of boxes in single precision, and contact points are made of them one after the other.
 ///
-/// It tells contact points with the two triangles of each, at most 65535, and leaves out a point near to one
-/// that it has: what it tells of the pairs is a part of them. Therefore it is asked only whether bodies
-/// touch.
+/// It tells contact points, 65535 at most, with the two triangles of each, and leaves out points that are
+/// near to others or that it finds no normal for: bodies that touch are found, of their pairs only a part.
 class Ode final : public Method {
  public:
   explicit Ode(const Bodies& bodies) : fixed_(bodies.fixed), mobile_(bodies.mobile) {
@@ -89,6 +95,8 @@ class Ode final : public Method {
     out.clear();
     for (int i = 0; i < count; ++i)
       out.push_back({static_cast<Index>(contacts_[i].side1), static_cast<Index>(contacts_[i].side2)});
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
   }
 
  private:
