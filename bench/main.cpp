@@ -4,17 +4,22 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <CLI/Validators.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "baseline.hpp"
 #include "condyle/io/whole_file.hpp"
+#include "experiment_plots.hpp"
+#include "experiment_tables.hpp"
 #include "machine.hpp"
 #include "questions.hpp"
 #include "scenes.hpp"
@@ -23,13 +28,14 @@
 namespace bench {
 namespace {
 
-struct Question {
+/// What is asked beside the experiment, at these scenes.
+struct JointQuestion {
   std::string_view name;
   void (*ask)(const condyle::Joint&, Effort, Report&);
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<Question, 3> questions = {{
+const std::array<JointQuestion, 3> joint_questions = {{
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
     {"motion_map", ask_motion_map, {"hip_vhf_right", "sample_3"}, {"sample_1"}},
     {"vertex_tables",
@@ -38,15 +44,33 @@ const std::array<Question, 3> questions = {{
      {"sample_1"}},
 }};
 
+/// Small ones of every group.
+constexpr std::array<std::string_view, 3> quick_scenes = {"sample_1", "libhip_cartilage_nogap",
+                                                          "ball_0.1mm_1"};
+
 struct Options {
-  std::string filter, json;
+  std::string filter, json, csv, plots, baseline, compare;
   Effort effort = Effort::full;
 };
 
-bool is_asked(const Question& question, std::string_view scene, const Options& options) {
-  const auto& scenes = options.effort == Effort::full ? question.scenes : question.quick_scenes;
-  return std::find(scenes.begin(), scenes.end(), scene) != scenes.end() &&
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool is_asked(const JointQuestion& question, std::string_view scene, const Options& options) {
+  return contains(options.effort == Effort::full ? question.scenes : question.quick_scenes, scene) &&
          fmt::format("{}/{}", question.name, scene).find(options.filter) != std::string::npos;
+}
+
+/// Whether any method would be asked anything there.
+bool has_experiment(std::string_view scene, const Options& options) {
+  if (options.effort == Effort::quick && !contains(quick_scenes, scene)) return false;
+  const ExperimentFilter filter{options.filter};
+  for (const MethodGroup& group : method_groups())
+    for (const MethodKind& kind : group.kinds)
+      for (const Question question : {Question::touch, Question::pairs, Question::inside})
+        if (filter.takes(question, scene, kind.name)) return true;
+  return false;
 }
 
 /// "full" for everything, which alone is fit to be published.
@@ -55,31 +79,80 @@ std::string description(const Options& options) {
   return options.filter.empty() ? effort : fmt::format("{}, of {}", effort, options.filter);
 }
 
-/// Asks each scene everything that is to be asked of it, so that it is made once.
-void run(const Options& options, Report& report) {
-  for (const std::string_view scene : scene_names()) {
-    std::optional<condyle::Joint> joint;
-    for (const Question& question : questions) {
-      if (!is_asked(question, scene, options)) continue;
-      const std::string name = fmt::format("{}/{}", question.name, scene);
-      if (!joint) joint = make_scene(scene);
-      if (!joint) {
-        report.skipped.push_back(name + ": its meshes are not there");
-        continue;
+/// A scene is made once, when the first one asks for it.
+class LazyScene {
+ public:
+  explicit LazyScene(std::string_view name) : name_(name) {}
+  /// Null where its meshes are not there.
+  const Scene* get() {
+    if (!is_made_) scene_ = make_scene(name_);
+    is_made_ = true;
+    return scene_ ? &*scene_ : nullptr;
+  }
+
+ private:
+  std::string_view name_;
+  std::optional<Scene> scene_;
+  bool is_made_ = false;
+};
+
+ExperimentResult run(const Options& options, Report& report) {
+  ExperimentResult experiment;
+  const Budget budget = options.effort == Effort::full ? Budget{} : Budget::quick();
+  for (const SceneName& name : scene_names()) {
+    LazyScene scene(name.name);
+    const auto timed = [&](std::string_view what, const auto& ask) {
+      if (!scene.get()) {
+        report.skipped.push_back(fmt::format("{}/{}: its meshes are not there", what, name.name));
+        return;
       }
       const Stopwatch watch;
-      question.ask(*joint, options.effort, report);
-      fmt::print(stderr, "{}: {:.1f} s\n", name, watch.wall_seconds());
-    }
+      ask(*scene.get());
+      fmt::print(stderr, "{}/{}: {:.1f} s\n", what, name.name, watch.wall_seconds());
+    };
+    for (const JointQuestion& question : joint_questions)
+      if (is_asked(question, name.name, options))
+        timed(question.name, [&](const Scene& s) { question.ask(s.joint, options.effort, report); });
+    if (has_experiment(name.name, options))
+      timed("experiment", [&](const Scene& s) {
+        run_experiment(name, s, ExperimentFilter{options.filter}, budget, experiment);
+      });
   }
+  add_tables(experiment, report);
+  for (const MethodGroup& group : method_groups())
+    if (!group.is_built)
+      report.skipped.push_back(group.package + " is not installed: its methods are left out");
+  report.skipped.insert(report.skipped.end(), experiment.skipped.begin(), experiment.skipped.end());
+  report.disagreements.insert(report.disagreements.end(), experiment.disagreements.begin(),
+                              experiment.disagreements.end());
+  return experiment;
 }
 
-int print(const Report& report, const Options& options) {
+void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
+  if (!options.plots.empty()) write_plots(experiment, options.plots);
+  if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
+  if (!options.baseline.empty())
+    condyle::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
+  if (options.csv.empty()) return;
+  for (const Table& table : report.tables)
+    if (table.head.is_long) condyle::write_whole_file(options.csv, csv_text(table));
+}
+
+/// How many ratios got worse.
+std::size_t print_comparison(const ExperimentResult& experiment, const Options& options) {
+  if (options.compare.empty()) return 0;
+  const std::vector<std::string> worse = worse_than(read_baseline(options.compare), ratios_of(experiment));
+  for (const std::string& line : worse) fmt::print("\nWORSE: {}\n", line);
+  if (worse.empty()) fmt::print("\nNo ratio is worse than in {}\n", options.compare);
+  return worse.size();
+}
+
+int print(const Report& report) {
   for (const auto& [name, words] : report.machine) fmt::print("{:<10} {}\n", name, words);
-  for (const Table& table : report.tables) fmt::print("\n{}", terminal_text(table));
+  for (const Table& table : report.tables)
+    if (!table.head.is_long) fmt::print("\n{}", terminal_text(table));
   for (const std::string& what : report.skipped) fmt::print("\nskipped: {}\n", what);
   for (const std::string& what : report.disagreements) fmt::print("\nDISAGREES: {}\n", what);
-  if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
   if (report.tables.empty()) {
     fmt::print(stderr, "condyle-bench: nothing was measured; --filter matches nothing that is there\n");
     return 2;
@@ -93,20 +166,36 @@ int print(const Report& report, const Options& options) {
 int main(int argc, char** argv) {
   CLI::App app("How fast Condyle answers, beside other libraries asked the same in the same run");
   bench::Options options;
-  app.add_option("--filter", options.filter, "Only measurements with this in their name, question/scene");
+  app.add_option("--filter", options.filter,
+                 "Only measurements with all these words, parted by commas, in question/scene/method");
   app.add_flag_callback(
       "--quick", [&] { options.effort = bench::Effort::quick; }, "Small scenes, once: answers, hardly times");
-  app.add_option("--json", options.json, "Write the tables to this file too");
+  app.add_option("--json", options.json, "Write all tables to this file too");
+  app.add_option("--csv", options.csv, "Write every outcome of the experiment to this file, a line each");
+  app.add_option("--plots", options.plots, "Draw the experiment into this folder")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--save-baseline", options.baseline, "Write the ratios of this run, for --compare");
+  app.add_option("--compare", options.compare,
+                 "Say which ratios are worse than in this baseline; then exit 1")
+      ->check(CLI::ExistingFile);
+  app.footer(
+      "Examples:\n"
+      "  condyle-bench --quick\n"
+      "  condyle-bench --filter inside,sample_4\n"
+      "  condyle-bench --filter embree --csv embree.csv\n"
+      "  condyle-bench --compare bench/baseline.json");
   CLI11_PARSE(app, argc, argv);
   try {
     bench::Report report;
     report.machine = bench::describe_machine();
     report.machine.emplace_back("run", description(options));
     const double load_before = bench::load_average();
-    bench::run(options, report);
+    const bench::ExperimentResult experiment = bench::run(options, report);
     report.machine.emplace_back("load", fmt::format("{:.1f} before, {:.1f} after (this program included)",
                                                     load_before, bench::load_average()));
-    return bench::print(report, options);
+    bench::write_files(report, experiment, options);
+    const int printed = bench::print(report);
+    return bench::print_comparison(experiment, options) > 0 ? 1 : printed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "condyle-bench: {}\n", error.what());
     return 2;

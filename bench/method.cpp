@@ -2,9 +2,14 @@
 
 #include <stdexcept>
 
+#include "condyle/kinematics/joint_coordinates.hpp"
 #include "methods/kinds.hpp"
 
 namespace bench {
+
+condyle::AxisFrame arc_axis() {
+  return {{0, 0, 0}, axis_of(condyle::JointAngle::flexion, condyle::Side::right, {})};
+}
 
 bool Method::touch(const condyle::Pose&) {
   throw std::logic_error("this method does not answer whether the bodies touch");

@@ -14,6 +14,7 @@
 #include "condyle/contact/triangle_pairs.hpp"
 #include "condyle/core/pose.hpp"
 #include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/tangential/axis_frame.hpp"
 
 /// One way of finding collisions: Condyle's, a library's, or a published one in plain code of our own.
 
@@ -35,6 +36,9 @@ struct InsideVertex {
 /// Which way a method measures how deep a vertex is: along the ray through the joint centre, along the circle
 /// about the flexion axis, or to the nearest point of the surface. Each is held against its own true value.
 enum class DepthKind { none, along_ray, along_arc, nearest_surface };
+
+/// The axis of `along_arc`: that of flexion, through the joint centre.
+condyle::AxisFrame arc_axis();
 
 /// What a method has looked at, counted since it was made; names are the method's own.
 using Work = std::vector<std::pair<std::string, std::int64_t>>;

@@ -3,7 +3,7 @@
 #include "condyle/kinematics/joint.hpp"
 #include "table.hpp"
 
-/// What is asked of a scene and measured: each adds its rows to the report.
+/// What is asked of a joint beside the experiment: each adds its rows to the report.
 
 namespace bench {
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "condyle/io/csv_field.hpp"
+
 namespace bench {
 namespace {
 
@@ -59,6 +61,21 @@ std::string terminal_text(const Table& table) {
     out += "\n";
   }
   return out;
+}
+
+std::string csv_text(const Table& table) {
+  const auto field = [](const Cell& cell) {
+    if (const auto* words = std::get_if<std::string>(&cell)) return condyle::csv_field(*words);
+    if (const auto* count = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *count);
+    return fmt::format("{}", std::get<double>(cell));
+  };
+  std::string out;
+  for (const Column& column : table.head.columns) out += (out.empty() ? "" : ",") + column.key;
+  for (const auto& row : table.rows) {
+    out += "\n";
+    for (std::size_t c = 0; c < row.size(); ++c) out += (c == 0 ? "" : ",") + field(row[c]);
+  }
+  return out + "\n";
 }
 
 nlohmann::ordered_json to_json(const Report& report) {

@@ -23,6 +23,7 @@ struct TableHead {
   std::string name;  ///< in JSON, and of its place in the page
   std::string title;
   std::vector<Column> columns;
+  bool is_long = false;  ///< For scripts: in the files, not on the terminal.
 };
 
 struct Table {
@@ -50,6 +51,9 @@ std::string text(const Cell& cell, int digits);
 
 /// Columns aligned, numbers to the right.
 std::string terminal_text(const Table& table);
+
+/// One line per row after the one of the keys, commas between; texts with a comma in double quotes.
+std::string csv_text(const Table& table);
 
 /// Keys in the order of the columns; what a script needs to lay the tables out again is there too.
 nlohmann::ordered_json to_json(const Report& report);

@@ -13,7 +13,7 @@ double processor_seconds() {
 }
 
 Stopwatch::Stopwatch()
-    : wall_start_(std::chrono::steady_clock::now()), processor_start_(bench::processor_seconds()) {}
+    : processor_start_(bench::processor_seconds()), wall_start_(std::chrono::steady_clock::now()) {}
 
 double Stopwatch::wall_seconds() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start_).count();
@@ -21,6 +21,13 @@ double Stopwatch::wall_seconds() const {
 
 double Stopwatch::processor_seconds() const {
   return bench::processor_seconds() - processor_start_;
+}
+
+void empty_caches() {
+  constexpr std::size_t bytes = std::size_t{1} << 27;  // 128 MiB: more than the last level of caches in use
+  static std::vector<unsigned char> memory(bytes);
+  constexpr std::size_t cache_line = 64;
+  for (std::size_t i = 0; i < bytes; i += cache_line) ++memory[i];
 }
 
 double median(std::vector<double> samples) {

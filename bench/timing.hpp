@@ -20,9 +20,23 @@ class Stopwatch {
   double processor_seconds() const;
 
  private:
-  std::chrono::steady_clock::time_point wall_start_;
   double processor_start_;
+  std::chrono::steady_clock::time_point wall_start_;  ///< Taken last: the other clock is slow to read.
 };
+
+/// Seconds that this takes. Short ones by the clock on the wall, which is read in a few nanoseconds; from a
+/// millisecond on, where others are likely to take the processor away meanwhile, by the processor's.
+template <class Do>
+double seconds_of(const Do& what) {
+  constexpr double short_seconds = 1e-3;
+  const Stopwatch watch;
+  what();
+  const double wall = watch.wall_seconds();
+  return wall < short_seconds ? wall : watch.processor_seconds();
+}
+
+/// Goes through more memory than the caches hold, so that what is asked next comes from memory.
+void empty_caches();
 
 /// Middle one of the samples, the mean of both where there are two; the samples must not be none.
 double median(std::vector<double> samples);

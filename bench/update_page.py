@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Writes the tables of a run of condyle-bench into a page: update_page.py RUN.json PAGE.md
+"""Writes the tables of a run of condyle-bench into pages: update_page.py RUN.json PAGE.md...
 
-The page has a place for each table of the run, and for what the run must be read with:
+A page has places for tables of the run, and for what the run must be read with:
 
     <!-- begin machine -->
     ...                          replaced
     <!-- end machine -->
 
-The rest of the page is left alone. All tables of a page are of one run: a place the run has no table for is
+The rest of a page is left alone. All tables of all pages are of one run: a place the run has no table for is
 an error, and so is a run of a part (--filter, --quick) or one whose answers disagree.
 """
 
@@ -33,7 +33,7 @@ def result_table(table):
     return f"**{table['title']}**\n\n" + markdown(titles, table["shown"], numeric)
 
 
-def main(run_path, page_path):
+def main(run_path, page_paths):
     with open(run_path, encoding="utf-8") as file:
         run = json.load(file)
     if run["disagreements"]:
@@ -42,6 +42,7 @@ def main(run_path, page_path):
         sys.exit(f"update_page.py: the run is '{run['machine']['run']}', not 'full'")
     content = {table["name"]: result_table(table) for table in run["tables"]}
     content["machine"] = machine_table(run)
+    content["skipped"] = "\n".join(f"- {line}" for line in run["skipped"]) or "Nothing was left out."
 
     def place(match):
         name = match.group(1)
@@ -49,14 +50,16 @@ def main(run_path, page_path):
             sys.exit(f"update_page.py: the run has no table '{name}': are its scenes there?")
         return f"<!-- begin {name} -->\n{content[name]}\n<!-- end {name} -->"
 
-    with open(page_path, encoding="utf-8") as file:
-        page = file.read()
-    page = re.sub(r"<!-- begin (\w+) -->.*?<!-- end \1 -->", place, page, flags=re.DOTALL)
-    with open(page_path, "w", encoding="utf-8") as file:
-        file.write(page)
+    pages = {}
+    for path in page_paths:
+        with open(path, encoding="utf-8") as file:
+            pages[path] = re.sub(r"<!-- begin (\w+) -->.*?<!-- end \1 -->", place, file.read(), flags=re.DOTALL)
+    for path, page in pages.items():
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(page)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2])
+    main(sys.argv[1], sys.argv[2:])

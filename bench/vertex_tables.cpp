@@ -1,12 +1,12 @@
 #include <tbb/global_control.h>
 
+#include <array>
 #include <vector>
 
 #include "condyle/contact/triangle_pairs.hpp"
 #include "condyle/radial/radial_table.hpp"
 #include "condyle/tangential/ring_table.hpp"
 #include "questions.hpp"
-#include "scenes.hpp"
 #include "timing.hpp"
 
 namespace bench {
@@ -36,13 +36,24 @@ const TableHead ring_head = {
      {"query_ns_per_vertex", "all answers, ns per vertex"},
      {"arcs_ns_per_vertex", "occupied arcs, ns per vertex"}}};
 
+constexpr condyle::JointAngles angles(double flexion, double adduction, double internal_rotation) {
+  return {condyle::Angle::degrees(flexion), condyle::Angle::degrees(adduction),
+          condyle::Angle::degrees(internal_rotation)};
+}
+
+/// Neutral, free, grazing and deep ones of a usual hip.
+constexpr std::array<condyle::JointAngles, 6> query_poses = {
+    angles(0, 0, 0),     angles(90, 0, 0),    angles(140, 0, 0),
+    angles(110, 15, 35), angles(-25, 0, -50), angles(0, -65, 0),
+};
+
 }  // namespace
 
 void ask_vertex_tables(const condyle::Joint& joint, Effort effort, Report& report) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const TriMesh& fixed = joint.fixed.mesh;
   std::vector<TriMesh> posed_mobile;
-  for (const condyle::JointAngles& angles : query_poses())
+  for (const condyle::JointAngles& angles : query_poses)
     posed_mobile.push_back(posed(condyle::pose_at(joint.side, angles), joint.mobile.mesh));
 
   const condyle::AxisFrame axis({0, 0, 0}, axis_of(condyle::JointAngle::flexion, joint.side, {}));

@@ -1,6 +1,5 @@
 #include <optional>
 
-#include "condyle/kinematics/joint_coordinates.hpp"
 #include "condyle/radial/radial_table.hpp"
 #include "condyle/tangential/ring_table.hpp"
 #include "kinds.hpp"
@@ -62,7 +61,7 @@ class Tangential final : public Method {
   Tangential(const Bodies& bodies, condyle::TangentialRule rule)
       : rule_(rule),
         mobile_(&bodies.mobile),
-        table_(std::make_shared<condyle::RingTable>(bodies.fixed, axis())) {}
+        table_(std::make_shared<condyle::RingTable>(bodies.fixed, arc_axis())) {}
 
   void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
     posed(X_FM, mobile_->vertices.view(), posed_);
@@ -74,15 +73,11 @@ class Tangential final : public Method {
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
-    table_ = std::make_shared<condyle::RingTable>(with_vertices(fixed_vertices, table_->mesh()), axis());
+    table_ = std::make_shared<condyle::RingTable>(with_vertices(fixed_vertices, table_->mesh()), arc_axis());
   }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Tangential>(*this); }
   std::size_t bytes() const override { return table_->table_size().bytes; }
-
-  static condyle::AxisFrame axis() {
-    return {{0, 0, 0}, axis_of(condyle::JointAngle::flexion, condyle::Side::right, {})};
-  }
 
  private:
   condyle::TangentialRule rule_;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "experiment.hpp"
+
+/// Ratios of an earlier run, to see what got worse. Ratios, because they hold on other machines better than
+/// times do.
+
+namespace bench {
+
+/// By "question/scene/method": how many times longer the method took than Condyle did in the same run. More
+/// is better.
+using Ratios = std::map<std::string, double>;
+
+Ratios ratios_of(const ExperimentResult& result);
+
+/// JSON, one ratio a line.
+std::string baseline_text(const Ratios& ratios);
+
+/// Raises std::runtime_error, naming the file, where it is no baseline.
+Ratios read_baseline(const std::string& file);
+
+/// One line for each ratio in both that is now below `tolerated` of what it was, the worst first. Rounds of
+/// one run differ by some hundredths, runs by a tenth: the default is twice that.
+std::vector<std::string> worse_than(const Ratios& baseline, const Ratios& now, double tolerated = 0.8);
+
+}  // namespace bench

@@ -1,0 +1,382 @@
+#include "experiment.hpp"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <map>
+
+#include "timing.hpp"
+
+namespace bench {
+namespace {
+
+using condyle::Pose;
+
+constexpr Question questions[] = {Question::touch, Question::pairs, Question::inside};
+
+bool answers(const MethodKind& kind, Question question) {
+  switch (question) {
+    case Question::touch:
+      return kind.answers.touch;
+    case Question::pairs:
+      return kind.answers.pairs;
+    case Question::inside:
+      return kind.answers.inside;
+  }
+  return false;
+}
+
+/// One method with room for its answers.
+struct Asked {
+  explicit Asked(std::unique_ptr<Method> ready = nullptr) : method(std::move(ready)) {}
+
+  std::unique_ptr<Method> method;
+  bool touches = false;
+  std::vector<condyle::TrianglePair> pairs;
+  std::vector<InsideVertex> inside;
+
+  void ask(Question question, const Pose& X_FM) {
+    switch (question) {
+      case Question::touch:
+        touches = method->touch(X_FM);
+        break;
+      case Question::pairs:
+        method->find_pairs(X_FM, pairs);
+        break;
+      case Question::inside:
+        method->find_inside(X_FM, inside);
+        break;
+    }
+  }
+};
+
+/// A scene as the methods meet it, with what is true there.
+class Stage {
+ public:
+  Stage(std::string_view scene_name, const Scene& scene)
+      : name(scene_name), bodies{scene.joint.fixed.mesh, scene.joint.mobile.mesh} {
+    for (const ScenePose& pose : scene.poses) poses.push_back(pose.X_FM);
+    reference = std::make_unique<Reference>(bodies, poses);
+  }
+
+  /// The fixed body of a frame, and the truth there.
+  struct Frame {
+    condyle::TriMesh fixed;
+    std::unique_ptr<Reference> reference;
+  };
+  Frame& frame(int number) {
+    const auto [at, is_new] = frames_.try_emplace(number);
+    if (is_new) {
+      at->second.fixed = {deformed(bodies.fixed.vertices, number), bodies.fixed.triangles};
+      at->second.reference = std::make_unique<Reference>(Bodies{at->second.fixed, bodies.mobile}, poses);
+    }
+    return at->second;
+  }
+
+  std::string_view name;
+  Bodies bodies;
+  std::vector<Pose> poses;
+  std::unique_ptr<Reference> reference;
+
+ private:
+  std::map<int, Frame> frames_;
+};
+
+void compare(Asked& asked, const MethodKind& kind, Question question, Reference& reference, std::size_t pose,
+             Outcome& outcome) {
+  switch (question) {
+    case Question::touch:
+      if (!outcome.touch) outcome.touch.emplace();
+      bench::compare(asked.touches, reference, pose, *outcome.touch);
+      break;
+    case Question::pairs:
+      if (!outcome.pairs) outcome.pairs.emplace();
+      bench::compare(asked.pairs, reference, pose, *outcome.pairs);
+      break;
+    case Question::inside:
+      if (!outcome.inside) outcome.inside.emplace();
+      bench::compare(asked.inside, reference, pose, kind.depth, *outcome.inside);
+      break;
+  }
+}
+
+bool agrees(const Outcome& outcome) {
+  return (!outcome.touch || outcome.touch->agrees()) && (!outcome.pairs || outcome.pairs->agrees()) &&
+         (!outcome.inside || outcome.inside->agrees());
+}
+
+/// At how many of the scene's poses a method is asked that takes this long.
+std::size_t affordable_poses(double seconds_per_pose, const Budget& budget, std::size_t all) {
+  const double affordable = budget.seconds / (budget.rounds * std::max(seconds_per_pose, 1e-9));
+  std::size_t poses = all;
+  while (poses > 4 && static_cast<double>(poses) > affordable) poses /= 2;
+  return std::min(poses, all);
+}
+
+double quantile(std::vector<double> values, double q) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// rounds[r][p]: seconds of pose p in round r.
+PoseTimes summary(const std::vector<std::vector<double>>& rounds) {
+  std::vector<double> per_pose, per_round;
+  for (std::size_t p = 0; p < rounds.front().size(); ++p) {
+    std::vector<double> samples;
+    for (const auto& round : rounds) samples.push_back(round[p]);
+    per_pose.push_back(median(samples));
+  }
+  for (const auto& round : rounds) per_round.push_back(mean(round));
+  return {mean(per_pose), quantile(per_pose, 0.5), quantile(per_pose, 0.95),
+          (quantile(per_round, 0.75) - quantile(per_round, 0.25)) / (2 * median(per_round))};
+}
+
+/// What the calling thread does without others, whatever parallel loops it meets.
+template <class Do>
+void alone(const Do& what) {
+  tbb::task_arena(1).execute(what);
+}
+
+std::vector<double> sweep(Asked& asked, Question question, const std::vector<Pose>& poses,
+                          std::size_t count) {
+  std::vector<double> seconds(count);
+  alone([&] {
+    for (std::size_t p = 0; p < count; ++p) seconds[p] = seconds_of([&] { asked.ask(question, poses[p]); });
+  });
+  return seconds;
+}
+
+double cold_sweep(Asked& asked, Question question, const std::vector<Pose>& poses, std::size_t count) {
+  std::vector<double> seconds(count);
+  alone([&] {
+    for (std::size_t p = 0; p < count; ++p) {
+      empty_caches();
+      seconds[p] = seconds_of([&] { asked.ask(question, poses[p]); });
+    }
+  });
+  return mean(seconds);
+}
+
+std::optional<double> thread_speed_up(Asked& asked, Question question, const std::vector<Pose>& poses,
+                                      std::size_t count, double least_seconds) {
+  if (!asked.method->for_another_thread()) return std::nullopt;
+  tbb::enumerable_thread_specific<Asked> per_thread(
+      [&] { return Asked{asked.method->for_another_thread()}; });
+  const auto all = [&](std::size_t repeats) {
+    tbb::parallel_for(std::size_t{0}, count * repeats,
+                      [&](std::size_t i) { per_thread.local().ask(question, poses[i % count]); });
+  };
+  const auto wall = [&](std::size_t repeats) {
+    const Stopwatch watch;
+    all(repeats);
+    return watch.wall_seconds();
+  };
+  all(1);
+  const auto repeats = static_cast<std::size_t>(std::ceil(least_seconds / std::max(wall(1), 1e-7)));
+  std::vector<double> ratios;
+  for (int round = 0; round < 3; ++round) {
+    double one_thread = 0;
+    alone([&] { one_thread = wall(repeats); });
+    ratios.push_back(one_thread / wall(repeats));
+  }
+  return median(ratios);
+}
+
+Work per_pose(const Work& before, Work after, std::size_t asked) {
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const std::int64_t counted = after[i].second - (i < before.size() ? before[i].second : 0);
+    after[i].second = counted / static_cast<std::int64_t>(std::max<std::size_t>(asked, 1));
+  }
+  return after;
+}
+
+/// Every kind that the filter takes at this scene, and Condyle's own to measure against.
+class SceneRun {
+ public:
+  SceneRun(Stage& stage, const ExperimentFilter& filter, const Budget& budget, ExperimentResult& result)
+      : stage_(stage), filter_(filter), budget_(budget), result_(result) {}
+
+  /// Seconds that making ready took; 0 where nothing was asked.
+  double run(const MethodKind& kind) {
+    std::vector<Question> asked_for;
+    for (const Question question : questions)
+      if (answers(kind, question) && filter_.takes(question, stage_.name, kind.name))
+        asked_for.push_back(question);
+    if (asked_for.empty()) return 0;
+    Asked asked;
+    double build_seconds = 0;
+    alone([&] { build_seconds = seconds_of([&] { asked.method = kind.make(stage_.bodies); }); });
+    // A short one is done again: the first one also fetches the library's code.
+    if (build_seconds < 0.2 && budget_.rounds > 1) {
+      std::vector<double> builds;
+      alone([&] {
+        for (int i = 0; i < 3; ++i) builds.push_back(seconds_of([&] { kind.make(stage_.bodies); }));
+      });
+      build_seconds = median(builds);
+    }
+    for (const Question question : asked_for) {
+      Outcome outcome = started(kind, question);
+      outcome.build_seconds = build_seconds;
+      measure(asked, kind, outcome);
+      finish(kind, std::move(outcome));
+    }
+    for (const Question question : asked_for) {
+      Outcome outcome = started(kind, question);
+      outcome.build_seconds = build_seconds;
+      outcome.is_deformed = true;
+      measure_deforming(asked, kind, outcome);
+      finish(kind, std::move(outcome));
+    }
+    return build_seconds;
+  }
+
+ private:
+  Outcome started(const MethodKind& kind, Question question) const {
+    Outcome outcome;
+    outcome.scene = stage_.name;
+    outcome.method = kind.name;
+    outcome.question = question;
+    outcome.fixed_triangles = stage_.bodies.fixed.triangles.size();
+    outcome.mobile_vertices = stage_.bodies.mobile.vertices.size();
+    return outcome;
+  }
+
+  void finish(const MethodKind& kind, Outcome outcome) {
+    if (kind.is_exact && !agrees(outcome))
+      result_.disagreements.push_back(fmt::format("{}/{}/{}{}", name_of(outcome.question), outcome.scene,
+                                                  kind.name, outcome.is_deformed ? ", deformed" : ""));
+    result_.outcomes.push_back(std::move(outcome));
+  }
+
+  /// Condyle's first method that answers the question.
+  Asked* ours(Question question) {
+    const auto [at, is_new] = ours_.try_emplace(question);
+    if (is_new) {
+      for (const MethodGroup& group : method_groups())
+        for (const MethodKind& kind : group.kinds)
+          if (group.package.empty() && !at->second.method && answers(kind, question))
+            at->second.method = kind.make(stage_.bodies);
+    }
+    return at->second.method ? &at->second : nullptr;
+  }
+
+  void measure(Asked& asked, const MethodKind& kind, Outcome& outcome) {
+    const Question question = outcome.question;
+    const double first =
+        mean(sweep(asked, question, stage_.poses, std::min<std::size_t>(3, stage_.poses.size())));
+    const std::size_t count = affordable_poses(first, budget_, stage_.poses.size());
+    outcome.poses = count;
+    const Work before = asked.method->work();
+    for (std::size_t p = 0; p < count; ++p) {
+      asked.ask(question, stage_.poses[p]);
+      compare(asked, kind, question, *stage_.reference, p, outcome);
+    }
+    outcome.work = per_pose(before, asked.method->work(), count);
+
+    Asked* const condyle = ours(question);
+    std::vector<std::vector<double>> rounds, our_rounds;
+    for (int round = 0; round < budget_.rounds; ++round) {
+      if (condyle) our_rounds.push_back(sweep(*condyle, question, stage_.poses, count));
+      rounds.push_back(sweep(asked, question, stage_.poses, count));
+    }
+    outcome.query = summary(rounds);
+    if (condyle) outcome.ours_seconds = summary(our_rounds).mean;
+    outcome.bytes = asked.method->bytes();
+    if (budget_.rounds == 1) return;
+    outcome.cold_seconds = cold_sweep(asked, question, stage_.poses, std::min<std::size_t>(count, 6));
+    outcome.thread_speed_up =
+        thread_speed_up(asked, question, stage_.poses, count, std::min(0.05, budget_.seconds / 10));
+  }
+
+  /// Frame by frame: the body moves, then one pose is asked.
+  void measure_deforming(Asked& asked, const MethodKind& kind, Outcome& outcome) {
+    const Question question = outcome.question;
+    const double once = outcome.build_seconds;
+    const int frames = once * budget_.frames > 3 * budget_.seconds ? 1 : budget_.frames;
+    std::vector<double> updates, queries;
+    for (int f = 0; f < frames; ++f) {
+      Stage::Frame& frame = stage_.frame(f);
+      const auto pose = static_cast<std::size_t>(f);
+      alone([&] {
+        updates.push_back(seconds_of([&] {
+          if (kind.answers.deforms)
+            asked.method->deform(frame.fixed.vertices);
+          else
+            asked.method = kind.make({frame.fixed, stage_.bodies.mobile});
+        }));
+        queries.push_back(seconds_of([&] { asked.ask(question, stage_.poses[pose]); }));
+      });
+      compare(asked, kind, question, *frame.reference, pose, outcome);
+    }
+    outcome.poses = static_cast<std::size_t>(frames);
+    outcome.update_seconds = median(updates);
+    outcome.query = summary({queries});
+    outcome.bytes = asked.method->bytes();
+  }
+
+  Stage& stage_;
+  const ExperimentFilter& filter_;
+  const Budget& budget_;
+  ExperimentResult& result_;
+  std::map<Question, Asked> ours_;
+};
+
+}  // namespace
+
+std::string_view name_of(Question question) {
+  switch (question) {
+    case Question::touch:
+      return "touch";
+    case Question::pairs:
+      return "pairs";
+    case Question::inside:
+      return "inside";
+  }
+  return "";
+}
+
+bool ExperimentFilter::takes(Question question, std::string_view scene, std::string_view method) const {
+  const std::string name = fmt::format("{}/{}/{}", name_of(question), scene, method);
+  for (std::size_t first = 0; first <= text.size();) {
+    const std::size_t end = std::min(text.find(',', first), text.size());
+    if (name.find(text.substr(first, end - first)) == std::string::npos) return false;
+    first = end + 1;
+  }
+  return true;
+}
+
+void run_experiment(const SceneName& name, const Scene& scene, const ExperimentFilter& filter,
+                    const Budget& budget, ExperimentResult& result) {
+  Stage stage(name.name, scene);
+  SceneRun scene_run(stage, filter, budget, result);
+  for (const MethodGroup& group : method_groups()) {
+    for (const MethodKind& kind : group.kinds) {
+      const auto skip = [&](std::string_view why) {
+        result.skipped.push_back(fmt::format("{}/{}: {}", name.name, kind.name, why));
+      };
+      double& longest = result.longest_build_seconds[{kind.name, std::string(name.family)}];
+      if (longest > budget.build_seconds) {
+        skip(fmt::format("made ready in {:.1f} s at a smaller one already", longest));
+        continue;
+      }
+      try {
+        longest = std::max(longest, scene_run.run(kind));
+      } catch (const std::exception& error) {
+        skip(error.what());
+      }
+    }
+  }
+}
+
+}  // namespace bench

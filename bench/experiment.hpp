@@ -1,0 +1,79 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "accuracy.hpp"
+#include "method.hpp"
+#include "scenes.hpp"
+
+/// The experiment: every method asked every question it can answer, at the poses of a scene, timed and held
+/// against the exact answers.
+
+namespace bench {
+
+enum class Question { touch, pairs, inside };
+
+std::string_view name_of(Question question);
+
+/// How long one method may take over one question at one scene.
+struct Budget {
+  double seconds = 1;  ///< For all timed rounds together; decides at how many poses the slow are asked.
+  int rounds = 5;
+  int frames = 6;  ///< Of the deforming variant.
+  /// A method that was made ready for longer than this at a scene is not asked at larger ones of the family.
+  double build_seconds = 6;
+
+  static Budget quick() { return {.seconds = 0.1, .rounds = 1, .frames = 2, .build_seconds = 2}; }
+};
+
+/// Processor seconds of this thread per pose: the median over rounds for each pose.
+struct PoseTimes {
+  double mean = 0, p50 = 0, p95 = 0;  ///< Over poses.
+  double spread = 0;  ///< Half the range between the quartiles of the rounds, over their median.
+};
+
+/// One method, one question, one scene.
+struct Outcome {
+  std::string scene, method;
+  Question question;
+  bool is_deformed = false;  ///< At each pose the fixed body was another.
+  std::size_t fixed_triangles = 0, mobile_vertices = 0;
+  std::size_t poses = 0;
+  PoseTimes query;
+  double cold_seconds = 0;   ///< Mean per pose, all caches emptied before; 0 where not taken.
+  double ours_seconds = 0;   ///< Mean per pose of Condyle's answer at the same poses, in turn with it.
+  double build_seconds = 0;  ///< Made ready once.
+  std::optional<double> update_seconds;   ///< After a deformation; of `is_deformed` only.
+  std::optional<double> thread_speed_up;  ///< Poses a second with all threads over one; where it can.
+  std::size_t bytes = 0;
+  std::optional<InsideAccuracy> inside;
+  std::optional<TouchAccuracy> touch;
+  std::optional<PairAccuracy> pairs;
+  Work work;  ///< Per pose asked once.
+};
+
+/// Which are asked: those with every one of the words, parted by commas, in "question/scene/method".
+struct ExperimentFilter {
+  std::string text;
+  bool takes(Question question, std::string_view scene, std::string_view method) const;
+};
+
+struct ExperimentResult {
+  std::vector<Outcome> outcomes;
+  std::vector<std::string> skipped;
+  /// Methods that must be exact and are not.
+  std::vector<std::string> disagreements;
+  /// By method and family of scenes.
+  std::map<std::pair<std::string, std::string>, double> longest_build_seconds;
+};
+
+/// Adds what was found at this scene.
+void run_experiment(const SceneName& name, const Scene& scene, const ExperimentFilter& filter,
+                    const Budget& budget, ExperimentResult& result);
+
+}  // namespace bench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "condyle/mesh/surface_distance.hpp"
+#include "condyle/mesh/winding_number.hpp"
+#include "condyle/radial/radial_table.hpp"
+#include "condyle/tangential/ring_table.hpp"
+#include "method.hpp"
+
+/// What every method's answer is held against.
+
+namespace bench {
+
+/// Exact answers for one fixed body. Whether a vertex is inside comes from the winding number along +z: exact
+/// arithmetic, and no code in common with the tables. Pairs are those of the plain radial table with the
+/// exact test of two triangles. The tests of the repository hold both against CGAL's exact predicates, and
+/// CGAL is among the methods here.
+class Reference {
+ public:
+  Reference(const Bodies& bodies, std::vector<condyle::Pose> poses);
+
+  struct Inside {
+    condyle::Index vertex;
+    bool is_on_surface;
+  };
+
+  /// All vertices inside or on the surface, ascending. Made when first asked for, like all here.
+  const std::vector<Inside>& inside(std::size_t pose);
+
+  /// How deep each of `inside` is, mm. Along the ray and the arc by the plain tables; otherwise the nearest
+  /// point of the surface.
+  const std::vector<double>& depths(std::size_t pose, DepthKind kind);
+
+  /// Ascending.
+  const std::vector<condyle::TrianglePair>& pairs(std::size_t pose);
+
+ private:
+  condyle::Points inside_points(std::size_t pose);
+
+  const condyle::TriMesh* fixed_;
+  const condyle::TriMesh* mobile_;
+  std::vector<condyle::Pose> poses_;
+  condyle::WindingNumber winding_;
+  condyle::RadialTable radial_;
+  std::unique_ptr<condyle::RingTable> rings_;
+  std::unique_ptr<condyle::SurfaceDistance> distance_;
+  std::map<std::size_t, std::vector<Inside>> inside_;
+  std::map<std::pair<std::size_t, DepthKind>, std::vector<double>> depths_;
+  std::map<std::size_t, std::vector<condyle::TrianglePair>> pairs_;
+};
+
+}  // namespace bench
