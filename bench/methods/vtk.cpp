@@ -81,7 +81,11 @@ class VtkFilter final : public Method {
     filter_->SetInputData(1, surface_of(bodies.mobile));
     filter_->SetMatrix(0, vtkNew<vtkMatrix4x4>());
     filter_->SetMatrix(1, X_FM_);
-    detect(Pose::Identity());  // the trees are built by the first detection
+    // The first detection builds the trees; it then sets their tolerance, upon which the second builds them
+    // again.
+    detect(Pose::Identity());
+    filter_->Modified();
+    detect(Pose::Identity());
     box_tests_ = 0;
   }
 
