@@ -129,14 +129,20 @@ double mean(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-/// rounds[r][p]: seconds of pose p in round r.
-PoseTimes summary(const std::vector<std::vector<double>>& rounds) {
-  std::vector<double> per_pose, per_round;
+/// rounds[r][p]: seconds of pose p in round r. Returns the median round of each pose.
+std::vector<double> median_round(const std::vector<std::vector<double>>& rounds) {
+  std::vector<double> per_pose;
   for (std::size_t p = 0; p < rounds.front().size(); ++p) {
     std::vector<double> samples;
     for (const auto& round : rounds) samples.push_back(round[p]);
     per_pose.push_back(median(samples));
   }
+  return per_pose;
+}
+
+PoseTimes summary(const std::vector<std::vector<double>>& rounds) {
+  const std::vector<double> per_pose = median_round(rounds);
+  std::vector<double> per_round;
   for (const auto& round : rounds) per_round.push_back(mean(round));
   return {mean(per_pose), quantile(per_pose, 0.5), quantile(per_pose, 0.95),
           (quantile(per_round, 0.75) - quantile(per_round, 0.25)) / (2 * median(per_round))};
@@ -231,6 +237,11 @@ class SceneRun {
       measure(asked, kind, outcome);
       finish(kind, std::move(outcome));
     }
+    if (!kind.answers.deforms && build_seconds > budget_.remake_seconds) {
+      result_.skipped.push_back(
+          fmt::format("{}/{}, deformed: made anew in {:.1f} s", stage_.name, kind.name, build_seconds));
+      return build_seconds;
+    }
     for (const Question question : asked_for) {
       Outcome outcome = started(kind, question);
       outcome.build_seconds = build_seconds;
@@ -291,7 +302,11 @@ class SceneRun {
       rounds.push_back(sweep(asked, question, stage_.poses, count));
     }
     outcome.query = summary(rounds);
-    if (condyle) outcome.ours_seconds = summary(our_rounds).mean;
+    if (condyle) {
+      outcome.ours_seconds = summary(our_rounds).mean;
+      if (question == Question::touch)
+        split_by_contact(median_round(rounds), median_round(our_rounds), outcome);
+    }
     outcome.bytes = asked.method->bytes();
     if (budget_.rounds == 1) return;
     outcome.cold_seconds = cold_sweep(asked, question, stage_.poses, std::min<std::size_t>(count, 6));
@@ -299,11 +314,21 @@ class SceneRun {
         thread_speed_up(asked, question, stage_.poses, count, std::min(0.05, budget_.seconds / 10));
   }
 
+  void split_by_contact(const std::vector<double>& theirs, const std::vector<double>& ours,
+                        Outcome& outcome) {
+    double free[2] = {0, 0}, touching[2] = {0, 0};
+    for (std::size_t p = 0; p < theirs.size(); ++p) {
+      double* const sums = stage_.reference->pairs(p).empty() ? free : touching;
+      sums[0] += theirs[p], sums[1] += ours[p];
+    }
+    if (free[1] > 0) outcome.free_ratio = free[0] / free[1];
+    if (touching[1] > 0) outcome.touching_ratio = touching[0] / touching[1];
+  }
+
   /// Frame by frame: the body moves, then one pose is asked.
   void measure_deforming(Asked& asked, const MethodKind& kind, Outcome& outcome) {
     const Question question = outcome.question;
-    const double once = outcome.build_seconds;
-    const int frames = once * budget_.frames > 3 * budget_.seconds ? 1 : budget_.frames;
+    const int frames = outcome.build_seconds * budget_.frames > budget_.seconds ? 2 : budget_.frames;
     std::vector<double> updates, queries;
     for (int f = 0; f < frames; ++f) {
       Stage::Frame& frame = stage_.frame(f);
@@ -365,6 +390,10 @@ void run_experiment(const SceneName& name, const Scene& scene, const ExperimentF
       const auto skip = [&](std::string_view why) {
         result.skipped.push_back(fmt::format("{}/{}: {}", name.name, kind.name, why));
       };
+      if (kind.is_slow_to_make && !budget.with_slow_ones) {
+        skip("takes seconds to be made ready: not in a quick run");
+        continue;
+      }
       double& longest = result.longest_build_seconds[{kind.name, std::string(name.family)}];
       if (longest > budget.build_seconds) {
         skip(fmt::format("made ready in {:.1f} s at a smaller one already", longest));

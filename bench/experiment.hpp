@@ -22,13 +22,24 @@ std::string_view name_of(Question question);
 
 /// How long one method may take over one question at one scene.
 struct Budget {
-  double seconds = 1;  ///< For all timed rounds together; decides at how many poses the slow are asked.
+  double seconds = 0.5;  ///< For all timed rounds together; decides at how many poses the slow are asked.
   int rounds = 5;
   int frames = 6;  ///< Of the deforming variant.
   /// A method that was made ready for longer than this at a scene is not asked at larger ones of the family.
-  double build_seconds = 6;
+  double build_seconds = 20;
+  /// One without an update that is made ready for longer than this is not made anew for the deforming
+  /// variant.
+  double remake_seconds = 2;
+  bool with_slow_ones = true;  ///< Those that say of themselves that they are slow to make.
 
-  static Budget quick() { return {.seconds = 0.1, .rounds = 1, .frames = 2, .build_seconds = 2}; }
+  static Budget quick() {
+    return {.seconds = 0.04,
+            .rounds = 1,
+            .frames = 2,
+            .build_seconds = 2,
+            .remake_seconds = 0.2,
+            .with_slow_ones = false};
+  }
 };
 
 /// Processor seconds of this thread per pose: the median over rounds for each pose.
@@ -45,9 +56,12 @@ struct Outcome {
   std::size_t fixed_triangles = 0, mobile_vertices = 0;
   std::size_t poses = 0;
   PoseTimes query;
-  double cold_seconds = 0;   ///< Mean per pose, all caches emptied before; 0 where not taken.
-  double ours_seconds = 0;   ///< Mean per pose of Condyle's answer at the same poses, in turn with it.
-  double build_seconds = 0;  ///< Made ready once.
+  double cold_seconds = 0;  ///< Mean per pose, all caches emptied before; 0 where not taken.
+  double ours_seconds = 0;  ///< Mean per pose of Condyle's answer at the same poses, in turn with it.
+  /// Of `touch` alone: their time over Condyle's at the poses without and with a contact; 0 where there is
+  /// none.
+  double free_ratio = 0, touching_ratio = 0;
+  double build_seconds = 0;               ///< Made ready once.
   std::optional<double> update_seconds;   ///< After a deformation; of `is_deformed` only.
   std::optional<double> thread_speed_up;  ///< Poses a second with all threads over one; where it can.
   std::size_t bytes = 0;

@@ -37,6 +37,9 @@ std::vector<MethodGroup> method_groups() {
       {"", true, condyle_kinds()},
       {"", true, sphere_tree_kinds()},
       {"", true, spherical_shell_kinds()},
+      {"", true, spherical_sampling_kinds()},
+      {"", true, layered_depth_kinds()},
+      {"", true, dense_distance_kinds()},
 #ifdef CONDYLE_BENCH_FCL
       {"libfcl-dev", true, fcl_kinds()},
 #else
@@ -44,6 +47,7 @@ std::vector<MethodGroup> method_groups() {
 #endif
 #ifdef CONDYLE_BENCH_CGAL
       {"libcgal-dev", true, cgal_kinds()},
+      {"libcgal-dev", true, spatial_hashing_kinds()},
 #else
       {"libcgal-dev", false, {}},
 #endif
@@ -66,6 +70,16 @@ std::vector<MethodGroup> method_groups() {
       {"libsimbody-dev", true, simbody_kinds()},
 #else
       {"libsimbody-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_EMBREE
+      {"libembree-dev", true, embree_kinds()},
+#else
+      {"libembree-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_OPENVDB
+      {"libopenvdb-dev", true, openvdb_kinds()},
+#else
+      {"libopenvdb-dev", false, {}},
 #endif
   };
 }

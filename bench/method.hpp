@@ -90,6 +90,7 @@ struct MethodKind {
   /// reported.
   bool is_exact = false;
   std::function<std::unique_ptr<Method>(const Bodies&)> make;
+  bool is_slow_to_make = false;  ///< Seconds even for the smallest scene.
 };
 
 /// A group of methods that one Debian package stands behind, or none.

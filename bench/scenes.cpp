@@ -8,6 +8,7 @@
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/mesh/subdivide.hpp"
+#include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
 #include "scene_poses.hpp"
 #include "support/test_meshes.hpp"
@@ -21,7 +22,7 @@ using condyle::Side;
 using condyle::TriMesh;
 using condyle::Vec3;
 
-constexpr std::array<SceneName, 19> names = {{
+constexpr std::array<SceneName, 23> names = {{
     {"sample_1", "sample bones", "sample_bones"},
     {"sample_2", "sample bones", "sample_bones"},
     {"sample_3", "sample bones", "sample_bones"},
@@ -33,6 +34,10 @@ constexpr std::array<SceneName, 19> names = {{
     {"hip_libhip_m1_left", "hip_libhip_m1_left", "whole_hips"},
     {"hip_vhf_right", "hip_vhf_right", "whole_hips"},
     {"hip_vhf_right_x4", "hip_vhf_right", "whole_hips"},
+    {"sample_5", "sample cartilages", "cartilages"},
+    {"sample_6", "sample cartilages", "cartilages"},
+    {"sample_7", "sample cartilages", "cartilages"},
+    {"sample_8", "sample cartilages", "cartilages"},
     {"libhip_cartilage_gap", "real cartilages apart", "cartilages"},
     {"libhip_cartilage_nogap", "real cartilages touching", "cartilages"},
     {"ball_1mm_1", "ball, 1 mm", "balls"},
@@ -77,6 +82,16 @@ Scene sample_bones(std::string_view name) {
   condyle::SampleHip hip = condyle::sample_hip({}, static_cast<condyle::Scenario>(size_of(name)));
   return {joint(name, Side::right, {"hip bone", std::move(hip.hip_bone)}, {"femur", std::move(hip.femur)}),
           std::move(poses)};
+}
+
+/// Apart by the sample's own clearance.
+Scene sample_cartilages(std::string_view name) {
+  const condyle::CartilageParameters cartilage;
+  condyle::SampleCartilages made =
+      condyle::sample_cartilages({}, cartilage, static_cast<condyle::CartilageScenario>(size_of(name)));
+  return {joint(name, Side::right, {"acetabular cartilage", std::move(made.acetabular)},
+                {"femoral cartilage", std::move(made.femoral)}),
+          poses_in_socket(cartilage.clearance_mm, into_hip_socket(Side::right), Angle::degrees(40))};
 }
 
 Scene real_bones(std::string_view name, Side side, const fs::path& hip_bone, const fs::path& femur,
@@ -135,7 +150,7 @@ std::span<const SceneName> scene_names() {
 }
 
 std::optional<Scene> make_scene(std::string_view name) {
-  if (name.starts_with("sample_")) return sample_bones(name);
+  if (name.starts_with("sample_")) return size_of(name) < 5 ? sample_bones(name) : sample_cartilages(name);
   if (name.starts_with("ball_")) return ball_scene(name);
   const fs::path data = data_folder();
   if (!fs::is_directory(data / (name.find("vhf") != name.npos ? "hip_vhf_right" : "hip_libhip_m1_left")))

@@ -13,30 +13,57 @@
 namespace condyle::cli {
 namespace {
 
+/// What both verbs have.
 struct Options {
   HipParameters hip;
-  int scenario = 1;
-  std::size_t femur_triangles = 0, hip_bone_triangles = 0;
+  int scenario = 0;
   Side side = Side::right;
   std::string out;
 };
 
-Resolution resolution_of(const Options& options) {
+struct HipOptions : Options {
+  std::size_t femur_triangles = 0, hip_bone_triangles = 0;
+};
+
+struct CartilageOptions : Options {
+  CartilageParameters cartilage;
+  std::size_t femoral_triangles = 0, acetabular_triangles = 0;
+};
+
+std::string counts_line(const char* name, const TriMesh& mesh) {
+  return fmt::format("{}: {} vertices, {} triangles\n", name, mesh.vertices.size(), mesh.triangles.size());
+}
+
+Resolution resolution_of(const HipOptions& options) {
   if (options.femur_triangles == 0) return static_cast<Scenario>(options.scenario);
   return TriangleCounts{options.hip_bone_triangles, options.femur_triangles};
 }
 
-void run(const Options& options) {
+void run(const HipOptions& options) {
   SampleHip hip = sample_hip(options.hip, resolution_of(options));
   if (options.side == Side::left) hip = mirrored(hip);
   OutputFolder out(options.out);
   write_sample_hip(out, hip, options.side);
   out.commit();
-  const auto line = [](const char* name, const TriMesh& mesh) {
-    return fmt::format("{}: {} vertices, {} triangles\n", name, mesh.vertices.size(), mesh.triangles.size());
-  };
-  print(line("hip bone", hip.hip_bone) + line("femur", hip.femur) +
+  print(counts_line("hip bone", hip.hip_bone) + counts_line("femur", hip.femur) +
         fmt::format("written to {0}: hip_bone.ply, femur.ply, hip.toml\n", options.out));
+}
+
+CartilageResolution resolution_of(const CartilageOptions& options) {
+  if (options.femoral_triangles == 0) return static_cast<CartilageScenario>(options.scenario);
+  return CartilageCounts{options.acetabular_triangles, options.femoral_triangles};
+}
+
+void run(const CartilageOptions& options) {
+  SampleCartilages cartilages = sample_cartilages(options.hip, options.cartilage, resolution_of(options));
+  if (options.side == Side::left) cartilages = mirrored(cartilages);
+  OutputFolder out(options.out);
+  write_sample_cartilages(out, cartilages, options.side);
+  out.commit();
+  print(counts_line("acetabular cartilage", cartilages.acetabular) +
+        counts_line("femoral cartilage", cartilages.femoral) +
+        fmt::format("written to {0}: acetabular_cartilage.ply, femoral_cartilage.ply, cartilages.toml\n",
+                    options.out));
 }
 
 /// An option in degrees for a parameter that is an Angle.
@@ -50,56 +77,101 @@ void add_length(CLI::App& app, const char* name, double& length, const char* hel
   app.add_option(name, length, help)->option_text(fmt::format("MM ({:g})", length));
 }
 
+/// Two counts that are given together or not at all, in place of a scenario.
+struct Count {
+  const char* option;
+  std::size_t& triangles;
+};
+
+void add_resolution(CLI::App& verb, int& scenario, int first, const char* help, const Count& fixed,
+                    const Count& mobile) {
+  scenario = first;
+  const int last = first + 3;
+  auto* by_scenario = verb.add_option("--scenario", scenario, help)
+                          ->check(CLI::Range(first, last))
+                          ->option_text(fmt::format("{}..{} ({})", first, last, first));
+  const auto add_count = [&](const Count& count) {
+    return verb.add_option(count.option, count.triangles, "Exact number of triangles instead")
+        ->excludes(by_scenario);
+  };
+  auto *of_mobile = add_count(mobile), *of_fixed = add_count(fixed);
+  of_mobile->needs(of_fixed);
+  of_fixed->needs(of_mobile);
+}
+
+void add_side(CLI::App& verb, Side& side) {
+  verb.add_option_function<std::string>(
+          "--side", [&side](const std::string& name) { side = name == "left" ? Side::left : Side::right; },
+          "Side of the body; a left hip is the mirrored right one")
+      ->check(CLI::IsMember({"right", "left"}))
+      ->option_text("right|left (right)");
+}
+
+void add_measures(CLI::App& verb, HipParameters& hip) {
+  add_length(verb, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
+  add_length(verb, "--joint-space", hip.joint_space_mm, "Bony joint space");
+  add_angle(verb, "--neck-shaft-angle", hip.neck_shaft_angle, "Between the axes of neck and shaft");
+  add_angle(verb, "--anteversion", hip.femoral_anteversion, "Of the femoral neck");
+  add_length(verb, "--neck-radius", hip.neck_radius_mm, "Half the narrowest front-to-back width of the neck");
+  add_length(verb, "--neck-length", hip.neck_length_mm, "From the head's centre to the shaft's axis");
+  add_length(verb, "--shaft-length", hip.shaft_length_mm, "From the neck's axis to the lower end");
+  verb.add_option_function<double>(
+          "--alpha-angle", [&hip](double degrees) { hip.alpha_angle = Angle::degrees(degrees); },
+          "Alpha angle of a cam at half past one around the neck, up to 90; no cam if not given")
+      ->option_text("DEG");
+  add_angle(verb, "--acetabular-inclination", hip.acetabular_inclination,
+            "Of the socket's opening, from the vertical");
+  add_angle(verb, "--acetabular-version", hip.acetabular_version,
+            "Of the socket's opening, forward of lateral");
+  add_angle(verb, "--centre-edge-angle", hip.lateral_centre_edge_angle, "Lateral coverage of the head");
+}
+
+void add_hip(CLI::App& sample) {
+  auto* verb = sample.add_subcommand("hip", "A hip: hip bone, femur and joint file");
+  verb->footer(
+      "Example: condyle sample hip --out sample\n"
+      "         condyle sample hip --scenario 2 --neck-shaft-angle 135 --side left --out valgus");
+  auto options = std::make_shared<HipOptions>();
+  verb->add_option("--out", options->out, "Folder for hip_bone.ply, femur.ply and hip.toml")->required();
+  add_resolution(*verb, options->scenario, 1,
+                 "Resolution: 1 is 1542 and 2442 triangles (femur, hip bone), each next four times as many",
+                 {"--hip-bone-triangles", options->hip_bone_triangles},
+                 {"--femur-triangles", options->femur_triangles});
+  add_side(*verb, options->side);
+  add_measures(*verb, options->hip);
+  verb->callback([options] { run(*options); });
+}
+
+void add_cartilages(CLI::App& sample) {
+  auto* verb = sample.add_subcommand("cartilages", "Cartilages and labrum of that hip, and joint file");
+  verb->footer(
+      "Example: condyle sample cartilages --out cartilages\n"
+      "         condyle sample cartilages --scenario 6 --clearance -0.3 --out overlapping");
+  auto options = std::make_shared<CartilageOptions>();
+  verb->add_option("--out", options->out,
+                   "Folder for acetabular_cartilage.ply, femoral_cartilage.ply and cartilages.toml")
+      ->required();
+  add_resolution(*verb, options->scenario, 5,
+                 "Resolution: 2824 and 2876 triangles (femoral, acetabular), 4338 and 4222, 7734 and 7870, "
+                 "17294 and 14824",
+                 {"--acetabular-triangles", options->acetabular_triangles},
+                 {"--femoral-triangles", options->femoral_triangles});
+  add_side(*verb, options->side);
+  add_length(*verb, "--clearance", options->cartilage.clearance_mm,
+             "Gap between the articular spheres; negative: overlap");
+  add_length(*verb, "--femoral-thickness", options->cartilage.femoral_thickness_mm,
+             "Of the femoral cartilage; the acetabular one fills what is left of the joint space");
+  add_measures(*verb, options->hip);
+  verb->callback([options] { run(*options); });
+}
+
 }  // namespace
 
 void add_sample(CLI::App& app) {
   auto* sample = app.add_subcommand("sample", "Make a built-in parametric joint");
   sample->require_subcommand(1);
-  auto* verb = sample->add_subcommand("hip", "A hip: hip bone, femur and joint file");
-  verb->footer(
-      "Example: condyle sample hip --out sample\n"
-      "         condyle sample hip --scenario 2 --neck-shaft-angle 135 --side left --out valgus");
-  auto options = std::make_shared<Options>();
-  HipParameters& hip = options->hip;
-  verb->add_option("--out", options->out, "Folder for hip_bone.ply, femur.ply and hip.toml")->required();
-  auto* scenario =
-      verb->add_option(
-              "--scenario", options->scenario,
-              "Resolution: 1 is 1542 and 2442 triangles (femur, hip bone), each next four times as many")
-          ->check(CLI::Range(1, 4))
-          ->option_text("1..4 (1)");
-  auto* femur =
-      verb->add_option("--femur-triangles", options->femur_triangles, "Exact number of triangles instead")
-          ->excludes(scenario);
-  auto* hip_bone = verb->add_option("--hip-bone-triangles", options->hip_bone_triangles,
-                                    "Exact number of triangles instead")
-                       ->excludes(scenario);
-  femur->needs(hip_bone);
-  hip_bone->needs(femur);
-  verb->add_option_function<std::string>(
-          "--side",
-          [options](const std::string& name) { options->side = name == "left" ? Side::left : Side::right; },
-          "Side of the body; a left hip is the mirrored right one")
-      ->check(CLI::IsMember({"right", "left"}))
-      ->option_text("right|left (right)");
-  add_length(*verb, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
-  add_length(*verb, "--joint-space", hip.joint_space_mm, "Bony joint space");
-  add_angle(*verb, "--neck-shaft-angle", hip.neck_shaft_angle, "Between the axes of neck and shaft");
-  add_angle(*verb, "--anteversion", hip.femoral_anteversion, "Of the femoral neck");
-  add_length(*verb, "--neck-radius", hip.neck_radius_mm,
-             "Half the narrowest front-to-back width of the neck");
-  add_length(*verb, "--neck-length", hip.neck_length_mm, "From the head's centre to the shaft's axis");
-  add_length(*verb, "--shaft-length", hip.shaft_length_mm, "From the neck's axis to the lower end");
-  verb->add_option_function<double>(
-          "--alpha-angle", [&hip](double degrees) { hip.alpha_angle = Angle::degrees(degrees); },
-          "Alpha angle of a cam at half past one around the neck, up to 90; no cam if not given")
-      ->option_text("DEG");
-  add_angle(*verb, "--acetabular-inclination", hip.acetabular_inclination,
-            "Of the socket's opening, from the vertical");
-  add_angle(*verb, "--acetabular-version", hip.acetabular_version,
-            "Of the socket's opening, forward of lateral");
-  add_angle(*verb, "--centre-edge-angle", hip.lateral_centre_edge_angle, "Lateral coverage of the head");
-  verb->callback([options] { run(*options); });
+  add_hip(*sample);
+  add_cartilages(*sample);
 }
 
 }  // namespace condyle::cli

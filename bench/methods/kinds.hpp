@@ -33,4 +33,22 @@ std::vector<MethodKind> ode_kinds();
 /// Simbody: contact of triangle meshes as in musculoskeletal models.
 std::vector<MethodKind> simbody_kinds();
 
+/// Embree: rays between vertex and centre.
+std::vector<MethodKind> embree_kinds();
+
+/// OpenVDB: signed distance fields.
+std::vector<MethodKind> openvdb_kinds();
+
+/// Layered depth images: the fixed body drawn into entries and exits along one axis.
+std::vector<MethodKind> layered_depth_kinds();
+
+/// Rays from the joint centre, sampled over the sphere.
+std::vector<MethodKind> spherical_sampling_kinds();
+
+/// A dense grid of signed distances.
+std::vector<MethodKind> dense_distance_kinds();
+
+/// Spatial hashing of tetrahedra.
+std::vector<MethodKind> spatial_hashing_kinds();
+
 }  // namespace bench

@@ -182,6 +182,8 @@ TEST_F(SampleJoint, WrongUsageEndsWithTwo) {
   expect_refused(2, "sample hip --out other --head-radius 90", "head_radius");
   expect_refused(2, "sample hip --out other --femur-triangles 2000",
                  "--femur-triangles requires --hip-bone-triangles");
+  expect_refused(2, "sample cartilages --out other --scenario 4", "--scenario");
+  expect_refused(2, "sample cartilages --out other --clearance 2", "clearance_mm is 2, must be -0.5 to 1 mm");
 }
 
 TEST_F(SampleJoint, AnUnwritableFolderEndsWithThree) {
@@ -238,7 +240,7 @@ TEST_F(SampleJoint, ALeftHipIsTheMirroredRightOne) {
 
 /// The examples in the help of the verbs, run as they stand, in their order.
 TEST_F(SampleJoint, TheExamplesOfHelpWork) {
-  for (const char* verb : {"sample hip", "depth"}) {
+  for (const char* verb : {"sample hip", "sample cartilages", "depth"}) {
     const std::string help = run(std::string(verb) + " --help").out;
     std::size_t examples = 0;
     for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "condyle/core/error.hpp"
+#include "condyle/sample/cartilage_shape.hpp"
 #include "condyle/sample/femur_shape.hpp"
 #include "condyle/sample/hip_bone_shape.hpp"
 #include "condyle/sample/projection.hpp"
@@ -40,6 +41,13 @@ TEST(Field, APlateIsHalfAsThickAsItsInterpolatedRadius) {
   const Vec3 normal = (b.centre - a.centre).cross(c.centre - a.centre).normalized();
   EXPECT_NEAR(plate(a, b, c, centroid + 6 * normal).value, 2, 1e-12);
   EXPECT_NEAR(plate(a, b, c, centroid - 6 * normal).value, 2, 1e-12);
+}
+
+TEST(Field, ATubeIsTheDistanceToItsTorus) {
+  const Circle circle = {{1, 2, 3}, {0, 0, 1}, 10};
+  EXPECT_DOUBLE_EQ(tube(circle, 2, Vec3(14, 2, 7)).value, 3);
+  EXPECT_DOUBLE_EQ(tube(circle, 2, Vec3(1, 9, 7)).value, 3);
+  EXPECT_DOUBLE_EQ(tube(circle, 2, Vec3(1, -8, 3)).value, -2);
 }
 
 TEST(Field, ASeamFillsOnlyWhereTheValuesDifferByLessThanItsWidth) {
@@ -77,6 +85,8 @@ TEST(Field, GradientsAreThoseOfTheValuesAndNowhereSteep) {
   const Box box = {Vec3(-10, -10, -10), Vec3(20, 20, 12)};
   expect_gradient([](const Vec3& p) { return bar(a, b, p); }, box, "bar");
   expect_gradient([](const Vec3& p) { return plate(a, b, c, p); }, box, "plate");
+  const Circle circle = {{1, 2, 3}, Vec3(2, -1, 2) / 3, 10};
+  expect_gradient([&](const Vec3& p) { return tube(circle, 2, p); }, box, "tube");
   expect_gradient([](const Vec3& p) { return joined(ball(a, p), ball(b, p), 6); }, box, "joined");
   expect_gradient([](const Vec3& p) { return without(ball(b, p), ball(c, p), 6); }, box, "without");
   const Solid femur = femur_shape({}), hip_bone = hip_bone_shape({});
@@ -84,6 +94,9 @@ TEST(Field, GradientsAreThoseOfTheValuesAndNowhereSteep) {
   HipParameters with_cam;
   with_cam.alpha_angle = Angle::degrees(80);
   expect_gradient(femur_shape(with_cam).field, femur.box, "femur with a cam");
+  const Cartilage acetabular = acetabular_cartilage_shape({}, {}), femoral = femoral_cartilage_shape({}, {});
+  expect_gradient(acetabular.solid.field, acetabular.solid.box, "acetabular cartilage");
+  expect_gradient(femoral.solid.field, femoral.solid.box, "femoral cartilage");
   const auto widening = [](const Vec3& p) { return FieldValue{6 + 0.3 * p.y(), 0.3 * Vec3::UnitY()}; };
   expect_gradient([&](const Vec3& p) { return joined(ball(a, p), ball(b, p), widening(p)); }, box,
                   "joined with a widening seam");

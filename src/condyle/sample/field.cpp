@@ -63,6 +63,13 @@ FieldValue plate(const Ball& a, const Ball& b, const Ball& c, const Vec3& p) noe
   return nearest;
 }
 
+FieldValue tube(const Circle& along, double tube_radius, const Vec3& p) noexcept {
+  const Vec3 from_centre = p - along.centre;
+  const Vec3 outward = direction(from_centre - from_centre.dot(along.axis) * along.axis);
+  const Vec3 away = from_centre - along.radius * outward;
+  return {away.norm() - tube_radius, direction(away)};
+}
+
 FieldValue half_space(const Vec3& normal, double offset, const Vec3& p) noexcept {
   return {p.dot(normal) - offset, normal};
 }

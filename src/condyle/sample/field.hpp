@@ -35,6 +35,12 @@ struct Ball {
   double radius;
 };
 
+/// A circle in the plane through its centre at right angles to its axis, which has length one.
+struct Circle {
+  Vec3 centre, axis;
+  double radius;
+};
+
 /// A solid, a box around it with some room to spare, and the places with details smaller than elsewhere.
 struct Solid {
   Field field;
@@ -60,6 +66,10 @@ FieldValue bar(const Ball& a, const Ball& b, const Vec3& p) noexcept;
 
 /// A plate over three balls: distance to the triangle, less the radius interpolated over it.
 FieldValue plate(const Ball& a, const Ball& b, const Ball& c, const Vec3& p) noexcept;
+
+/// Distance to a tube around a circle. No gradient on the circle itself and on its axis, where no direction
+/// is nearer than others.
+FieldValue tube(const Circle& along, double tube_radius, const Vec3& p) noexcept;
 
 /// The side p . normal < offset of a plane; `normal` of length one.
 FieldValue half_space(const Vec3& normal, double offset, const Vec3& p) noexcept;

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "condyle/core/error.hpp"
+#include "condyle/sample/checked_mesh.hpp"
 #include "condyle/sample/femur_shape.hpp"
 #include "condyle/sample/hip_bone_shape.hpp"
-#include "condyle/sample/self_intersection.hpp"
+#include "condyle/sample/parameter_checks.hpp"
 #include "condyle/sample/solid_mesh.hpp"
 
 namespace condyle {
@@ -24,43 +23,6 @@ using sample::Solid;
 /// Vertices of one bone stay at least this far from the other solid in the neutral pose, mm: what the
 /// coarsest triangles sag into head and socket together, rounded up.
 constexpr double least_clearance = 1;
-
-void check_range(const char* name, double value, double low, double high, const char* unit) {
-  if (value >= low && value <= high) return;
-  throw UsageError(
-      fmt::format("sample hip: {} is {:g}, must be {:g} to {:g} {}", name, value, low, high, unit));
-}
-
-void check(const HipParameters& hip) {
-  check_range("head_radius_mm", hip.head_radius_mm, 18, 32, "mm");
-  check_range("joint_space_mm", hip.joint_space_mm, 2, 6, "mm");
-  check_range("neck_shaft_angle", hip.neck_shaft_angle.degrees(), 110, 145, "degrees");
-  check_range("femoral_anteversion", hip.femoral_anteversion.degrees(), -15, 45, "degrees");
-  check_range("neck_radius_mm", hip.neck_radius_mm, 8, 0.8 * hip.head_radius_mm, "mm");
-  check_range("neck_length_mm", hip.neck_length_mm, 40, 65, "mm");
-  check_range("shaft_length_mm", hip.shaft_length_mm, 60, 250, "mm");
-  if (hip.alpha_angle) {
-    // On necks so slender that they make less than 50 degrees, the smallest bump stands out above alpha.
-    constexpr double most = 90, least_for_bump = 50;
-    const double native = sample::native_alpha_angle(hip).degrees();
-    if (native > most) {
-      throw UsageError(fmt::format(
-          "sample hip: alpha_angle cannot be set: so wide a neck makes it {:g} degrees by itself", native));
-    }
-    check_range("alpha_angle", hip.alpha_angle->degrees(), std::max(native, least_for_bump), most, "degrees");
-  }
-  check_range("acetabular_inclination", hip.acetabular_inclination.degrees(), 35, 65, "degrees");
-  check_range("acetabular_version", hip.acetabular_version.degrees(), -10, 35, "degrees");
-  check_range("lateral_centre_edge_angle", hip.lateral_centre_edge_angle.degrees(), 15, 45, "degrees");
-}
-
-void check_count(const char* name, std::size_t triangles, std::size_t low) {
-  constexpr std::size_t high = 4'000'000;
-  if (triangles % 2 == 0 && triangles >= low && triangles <= high) return;
-  throw UsageError(
-      fmt::format("sample hip: {} cannot have {} triangles, must be an even number from {} to {}", name,
-                  triangles, low, high));
-}
 
 /// Wanted edge lengths, relative to the smooth parts far from the joint. Edges about three quarters as long
 /// in the joint: flat triangles cut corners off head and socket, which are only some millimetres apart. Half
@@ -90,45 +52,9 @@ TriangleCounts counts(const Resolution& resolution, const Solid& hip_bone, const
   }
   if (const auto* asked = std::get_if<TriangleCounts>(&resolution)) return *asked;
   const double edge = std::get<EdgeLength>(resolution).mm;
-  check_range("edge_length_mm", edge, 0.3, 9, "mm");
+  sample::require_range("edge_length_mm", edge, 0.3, 9, "mm");
   return {sample::triangles_for(hip_bone, hip_bone_meshing, edge),
           sample::triangles_for(femur, femur_meshing, edge)};
-}
-
-std::string place(const Vec3& p) {
-  return fmt::format("({:.3g}, {:.3g}, {:.3g}) mm", p.x(), p.y(), p.z());
-}
-
-/// What is wrong with a mesh, if anything.
-std::optional<std::string> defect(const TriMesh& mesh, int wanted_genus) {
-  if (const int found = sample::genus(mesh); found != wanted_genus) {
-    return fmt::format("has {} holes through it, not {}", found, wanted_genus);
-  }
-  if (const auto pair = sample::first_self_intersection(mesh)) {
-    return fmt::format("runs into itself near {}", place(mesh.corner(pair->first, 0)));
-  }
-  return std::nullopt;
-}
-
-/// Coarse triangles may happen to cut across a sharp lip; from another contour they fall differently. Defects
-/// that the parameters cause come up every time.
-TriMesh checked_mesh(const char* name, const Solid& solid, Meshing meshing, std::size_t triangles,
-                     int wanted_genus) {
-  constexpr int attempts = 4;
-  constexpr double finer = 0.9;
-  std::string why;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    try {
-      TriMesh mesh = sample::meshed(solid, meshing, triangles);
-      const auto found = defect(mesh, wanted_genus);
-      if (!found) return mesh;
-      why = *found;
-    } catch (const MeshError& error) {
-      why = fmt::format("cannot be meshed: {}", error.what());
-    }
-    meshing.contour_spacing *= finer;
-  }
-  throw UsageError(fmt::format("sample hip: with these parameters the {} {}", name, why));
 }
 
 /// The vertex that comes nearest to the other bone's solid, by that bone's field.
@@ -144,7 +70,7 @@ std::pair<double, Vec3> least_value(const Solid& solid, const TriMesh& mesh) {
 }  // namespace
 
 SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution) {
-  check(parameters);
+  sample::require_valid(parameters);
   const Solid hip_bone = sample::hip_bone_shape(parameters), femur = sample::femur_shape(parameters);
   // The thinnest parts, the wing and the ischial spine, are three times as thick as the lattice is wide.
   const double contour_spacing = 2.5 * parameters.head_radius_mm / 24;
@@ -153,15 +79,16 @@ SampleHip sample_hip(const HipParameters& parameters, const Resolution& resoluti
   const Meshing femur_meshing = meshing_for(femur, parameters.head_radius_mm, contour_spacing, 1200);
 
   const TriangleCounts count = counts(resolution, hip_bone, hip_bone_meshing, femur, femur_meshing);
-  check_count("hip bone", count.hip_bone, 1600);
-  check_count("femur", count.femur, 600);
-  SampleHip hip = {checked_mesh("hip bone", hip_bone, hip_bone_meshing, count.hip_bone, 1),
-                   checked_mesh("femur", femur, femur_meshing, count.femur, 0)};
+  sample::require_count("hip bone", count.hip_bone, 1600);
+  sample::require_count("femur", count.femur, 600);
+  SampleHip hip = {sample::checked_mesh("hip bone", hip_bone, hip_bone_meshing, count.hip_bone, 1),
+                   sample::checked_mesh("femur", femur, femur_meshing, count.femur, 0)};
 
   for (const auto& [value, at] : {least_value(femur, hip.hip_bone), least_value(hip_bone, hip.femur)}) {
     if (value < least_clearance) {
-      throw UsageError(fmt::format(
-          "sample hip: with these parameters the bones touch in the neutral pose, near {}", place(at)));
+      throw UsageError(
+          fmt::format("sample hip: with these parameters the bones touch in the neutral pose, near {}",
+                      sample::place(at)));
     }
   }
   return hip;

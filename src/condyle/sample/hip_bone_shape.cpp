@@ -113,6 +113,8 @@ Socket socket_of(const HipParameters& hip) noexcept {
   socket.radius = hip.head_radius_mm + hip.joint_space_mm;
   socket.opening = Vec3(std::sin(inclination) * std::sin(version), -std::cos(inclination),
                         std::sin(inclination) * std::cos(version));
+  const Vec3 down(0.15, -1, 0);
+  socket.notch = (down - down.dot(socket.opening) * socket.opening).normalized();
   // The edge is where a radiograph shows it: in the middle of the rounded seam between socket and rim. There
   // the rim is sunk by x below its plane: with seam s and depth s / 2 into it, x = s h^2 / 4 where h = 1 - (s
   // / 2 - x) / s, hence x^2 - 3 s x + s^2 / 4 = 0.
@@ -127,9 +129,7 @@ Solid hip_bone_shape(const HipParameters& hip) {
   HipBonePieces bone;
   bone.socket = socket_of(hip);
   bone.scale = bone.socket.radius / nominal_socket_radius;
-  // The notch leaves the rim downwards and slightly forwards.
-  const Vec3 down(0.15, -1, 0);
-  const Vec3 notch = (down - down.dot(bone.socket.opening) * bone.socket.opening).normalized();
+  const Vec3& notch = bone.socket.notch;
   const Vec3 level = bone.socket.rim_offset * bone.socket.opening;
   bone.notch_start = {level + 0.7 * bone.socket.radius * notch, 8 * bone.scale};
   bone.notch_end = {level + 1.6 * bone.socket.radius * notch, 10 * bone.scale};

@@ -18,6 +18,7 @@ struct Socket {
   double radius = 0;
   Vec3 opening = Vec3::UnitZ();
   double rim_offset = 0;
+  Vec3 notch = -Vec3::UnitY();  ///< in the rim plane, to where the rim is notched: down, slightly forwards
 };
 Socket socket_of(const HipParameters&) noexcept;
 
