@@ -9,19 +9,19 @@ namespace bench {
 
 /// A ball that holds triangles, nearly the smallest one.
 struct Ball {
-  Vec3 centre = Vec3::Zero();
+  condyle::Vec3 centre = condyle::Vec3::Zero();
   double radius = 0;
 
   /// Begins at the middle of the box and steps towards the farthest corner, each time less far (Badoiu and
   /// Clarkson 2003); the best of the few is kept.
-  static Ball around(std::span<const Vec3> corners) {
+  static Ball around(std::span<const condyle::Vec3> corners) {
     constexpr int steps = 8;  // within a few percent of the smallest; each costs a pass over the corners
     Eigen::AlignedBox3d box;
-    for (const Vec3& p : corners) box.extend(p);
-    Vec3 centre = box.center();
+    for (const condyle::Vec3& p : corners) box.extend(p);
+    condyle::Vec3 centre = box.center();
     Ball best{centre, std::numeric_limits<double>::infinity()};
     for (int i = 0; i < steps; ++i) {
-      const Vec3 farthest = *std::max_element(corners.begin(), corners.end(), [&](auto& p, auto& q) {
+      const condyle::Vec3 farthest = *std::max_element(corners.begin(), corners.end(), [&](auto& p, auto& q) {
         return (p - centre).squaredNorm() < (q - centre).squaredNorm();
       });
       const double radius = (farthest - centre).norm();
@@ -31,7 +31,7 @@ struct Ball {
     return best.widened(best.centre);
   }
 
-  Ball posed(const Pose& X) const { return Ball{condyle::posed(X, centre), radius}.widened(centre); }
+  Ball posed(const condyle::Pose& X) const { return Ball{condyle::posed(X, centre), radius}.widened(centre); }
 
   bool meets(const Ball& other) const {
     const double reach = radius + other.radius;
@@ -42,7 +42,7 @@ struct Ball {
 
  private:
   /// By the rounding of its centre and of what it holds, where the centre was `before`.
-  Ball widened(const Vec3& before) const {
+  Ball widened(const condyle::Vec3& before) const {
     return {centre, radius + relative_rounding * (before.norm() + centre.norm() + radius)};
   }
 };

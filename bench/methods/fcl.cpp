@@ -3,7 +3,6 @@
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 
-#include <array>
 #include <type_traits>
 
 #include "kinds.hpp"

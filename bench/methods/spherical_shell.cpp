@@ -9,6 +9,8 @@
 namespace bench {
 namespace {
 
+using condyle::Vec3;
+
 /// Where a patch is flat its sphere has no centre: it is put this many times the patch's radius away. The
 /// shell of a flat disc is then half a hundredth of its radius thick, and what rounding takes is 1e-12 of it.
 constexpr double farthest_centre = 100;
@@ -68,7 +70,7 @@ SphericalShell SphericalShell::around(std::span<const Vec3> corners) {
   return shell;
 }
 
-SphericalShell SphericalShell::posed(const Pose& X) const {
+SphericalShell SphericalShell::posed(const condyle::Pose& X) const {
   SphericalShell moved{condyle::posed(X, centre), inner, outer, cap, ball.posed(X)};
   moved.cap.axis = X.linear() * cap.axis;
   moved.widen(centre);

@@ -9,13 +9,13 @@ namespace bench {
 
 /// Directions within an angle of an axis; less than a right angle, so that it is convex, or all directions.
 struct Cap {
-  Vec3 axis = Vec3::UnitX();
+  condyle::Vec3 axis = condyle::Vec3::UnitX();
   double cos = -1, sin = 0;
 
   bool is_all() const { return cos < 0; }
 
   /// The most that d . u reaches over the unit vectors u of the cap.
-  double reach(const Vec3& d) const {
+  double reach(const condyle::Vec3& d) const {
     const double along = d.dot(axis), across = d.cross(axis).norm();
     if (is_all() || across * cos <= along * sin) return d.norm();
     return along * cos + across * sin;
@@ -34,15 +34,15 @@ struct Cap {
 /// queries". It follows a curved patch, so that shells come apart sooner than boxes where surfaces nearly
 /// touch, and costs more to test.
 struct SphericalShell {
-  Vec3 centre = Vec3::Zero();
+  condyle::Vec3 centre = condyle::Vec3::Zero();
   double inner = 0, outer = 0;
   Cap cap;
   Ball ball;  ///< Of the same triangles.
 
   /// About triangles, three corners each; its centre by least squares.
-  static SphericalShell around(std::span<const Vec3> corners);
+  static SphericalShell around(std::span<const condyle::Vec3> corners);
 
-  SphericalShell posed(const Pose& X) const;
+  SphericalShell posed(const condyle::Pose& X) const;
 
   /// Whether nothing shows them apart: the balls, the distances of each from the other's centre, the cones
   /// about each other's balls.
@@ -56,7 +56,7 @@ struct SphericalShell {
  private:
   bool is_beside(const SphericalShell& other) const;
   bool looks_past(const Ball& other) const;
-  void widen(const Vec3& before);
+  void widen(const condyle::Vec3& before);
 };
 
 }  // namespace bench

@@ -21,11 +21,6 @@
 
 namespace bench {
 
-using condyle::Index;
-using condyle::Pose;
-using condyle::TriMesh;
-using condyle::Vec3;
-
 /// Above the rounding of a point that is moved by a pose and then compared, relative to its size: about forty
 /// roundings of 1.1e-16 each.
 inline constexpr double relative_rounding = 1e-14;
@@ -42,19 +37,19 @@ class VolumeTree {
  public:
   struct Node {
     Volume volume;
-    Index first, last;  ///< Triangles, in order_.
-    Index right;        ///< 0 for a leaf.
+    condyle::Index first, last;  ///< Triangles, in order_.
+    condyle::Index right;        ///< 0 for a leaf.
 
     bool is_leaf() const { return right == 0; }
   };
 
-  explicit VolumeTree(const TriMesh& mesh)
+  explicit VolumeTree(const condyle::TriMesh& mesh)
       : vertices_(mesh.vertices.view()), triangles_(&mesh.triangles), order_(mesh.triangles.size()) {
-    std::iota(order_.begin(), order_.end(), Index{0});
-    std::vector<Vec3> centroids(order_.size());
-    for (const Index t : order_) centroids[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
+    std::iota(order_.begin(), order_.end(), condyle::Index{0});
+    std::vector<condyle::Vec3> centroids(order_.size());
+    for (const condyle::Index t : order_) centroids[t] = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
     nodes_.reserve(2 * order_.size());
-    if (!order_.empty()) build(0, static_cast<Index>(order_.size()), centroids);
+    if (!order_.empty()) build(0, static_cast<condyle::Index>(order_.size()), centroids);
     fit();
   }
 
@@ -65,34 +60,34 @@ class VolumeTree {
   }
 
   bool empty() const { return nodes_.empty(); }
-  const Node& node(Index i) const { return nodes_[i]; }
-  Index triangle(Index place) const { return order_[place]; }
-  Vec3 corner(Index t, int k) const { return vertices_[(*triangles_)[t][k]]; }
-  std::size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(Index); }
+  const Node& node(condyle::Index i) const { return nodes_[i]; }
+  condyle::Index triangle(condyle::Index place) const { return order_[place]; }
+  condyle::Vec3 corner(condyle::Index t, int k) const { return vertices_[(*triangles_)[t][k]]; }
+  std::size_t bytes() const { return nodes_.size() * sizeof(Node) + order_.size() * sizeof(condyle::Index); }
 
  private:
-  void build(Index first, Index last, const std::vector<Vec3>& centroids) {
+  void build(condyle::Index first, condyle::Index last, const std::vector<condyle::Vec3>& centroids) {
     const std::size_t at = nodes_.size();
     nodes_.push_back({{}, first, last, 0});
     if (last - first == 1) return;
     Eigen::AlignedBox3d box;
-    for (Index i = first; i < last; ++i) box.extend(centroids[order_[i]]);
+    for (condyle::Index i = first; i < last; ++i) box.extend(centroids[order_[i]]);
     int axis = 0;
     box.sizes().maxCoeff(&axis);
-    const Index middle = first + (last - first) / 2;
+    const condyle::Index middle = first + (last - first) / 2;
     std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                     [&](Index a, Index b) {
+                     [&](condyle::Index a, condyle::Index b) {
                        return std::pair(centroids[a][axis], a) < std::pair(centroids[b][axis], b);
                      });
     build(first, middle, centroids);
-    nodes_[at].right = static_cast<Index>(nodes_.size());
+    nodes_[at].right = static_cast<condyle::Index>(nodes_.size());
     build(middle, last, centroids);
   }
 
   void fit() {
     for (Node& node : nodes_) {
       corners_.clear();
-      for (Index i = node.first; i < node.last; ++i)
+      for (condyle::Index i = node.first; i < node.last; ++i)
         for (int k = 0; k < 3; ++k) corners_.push_back(corner(order_[i], k));
       node.volume = Volume::around(corners_);
     }
@@ -100,9 +95,9 @@ class VolumeTree {
 
   condyle::PointsView vertices_;
   const std::vector<condyle::Triangle>* triangles_;
-  std::vector<Index> order_;
+  std::vector<condyle::Index> order_;
   std::vector<Node> nodes_;
-  std::vector<Vec3> corners_;
+  std::vector<condyle::Vec3> corners_;
 };
 
 /// Both bodies in such trees.
@@ -112,15 +107,15 @@ class TwoTrees final : public Method {
   explicit TwoTrees(const Bodies& bodies)
       : fixed_(std::make_shared<Tree>(bodies.fixed)), mobile_(std::make_shared<Tree>(bodies.mobile)) {}
 
-  bool touch(const Pose& X_FM) override {
+  bool touch(const condyle::Pose& X_FM) override {
     bool found = false;
-    walk(X_FM, [&](Index, Index) { return !(found = true); });
+    walk(X_FM, [&](condyle::Index, condyle::Index) { return !(found = true); });
     return found;
   }
 
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
+  void find_pairs(const condyle::Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
     out.clear();
-    walk(X_FM, [&](Index f, Index m) {
+    walk(X_FM, [&](condyle::Index f, condyle::Index m) {
       out.push_back({f, m});
       return true;
     });
@@ -142,28 +137,29 @@ class TwoTrees final : public Method {
 
   /// Calls visit(fixed triangle, mobile triangle) for every pair that shares a point, until it says no.
   template <class Visit>
-  void walk(const Pose& X_FM, const Visit& visit) {
+  void walk(const condyle::Pose& X_FM, const Visit& visit) {
     if (!fixed_->empty() && !mobile_->empty())
       walk_pair(X_FM, 0, 0, mobile_->node(0).volume.posed(X_FM), visit);
   }
 
   template <class Visit>
-  bool walk_pair(const Pose& X_FM, Index f, Index m, const Volume& posed_m, const Visit& visit) {
+  bool walk_pair(const condyle::Pose& X_FM, condyle::Index f, condyle::Index m, const Volume& posed_m,
+                 const Visit& visit) {
     ++volume_tests_;
     const auto &fixed = fixed_->node(f), &mobile = mobile_->node(m);
     if (!fixed.volume.meets(posed_m)) return true;
     if (fixed.is_leaf() && mobile.is_leaf()) {
-      const Index t = fixed_->triangle(fixed.first), u = mobile_->triangle(mobile.first);
+      const condyle::Index t = fixed_->triangle(fixed.first), u = mobile_->triangle(mobile.first);
       return !triangles_meet(X_FM, t, u) || visit(t, u);
     }
     if (mobile.is_leaf() || (!fixed.is_leaf() && fixed.volume.size() > posed_m.size()))
       return walk_pair(X_FM, f + 1, m, posed_m, visit) && walk_pair(X_FM, fixed.right, m, posed_m, visit);
-    for (const Index child : {m + 1, mobile.right})
+    for (const condyle::Index child : {m + 1, mobile.right})
       if (!walk_pair(X_FM, f, child, mobile_->node(child).volume.posed(X_FM), visit)) return false;
     return true;
   }
 
-  bool triangles_meet(const Pose& X_FM, Index f, Index m) {
+  bool triangles_meet(const condyle::Pose& X_FM, condyle::Index f, condyle::Index m) {
     ++triangle_tests_;
     const auto p = [&](int k) { return fixed_->corner(f, k); };
     const auto q = [&](int k) { return condyle::posed(X_FM, mobile_->corner(m, k)); };

@@ -11,7 +11,11 @@
 namespace bench {
 namespace {
 
+using condyle::Index;
+using condyle::Pose;
 using condyle::TrianglePair;
+using condyle::TriMesh;
+using condyle::Vec3;
 
 constexpr double radius = 25;
 
