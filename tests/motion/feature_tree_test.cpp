@@ -15,87 +15,40 @@ namespace {
 
 using namespace test;
 
-TEST(FeatureTree, gives_every_feature_to_exactly_one_leaf) {
+TEST(FeatureTree, gives_every_edge_and_vertex_to_exactly_one_of_its_triangles) {
   const TriMesh mesh = torus(3, 1, 20, 12);
   const FeatureTree tree(mesh);
-  std::vector<int> triangles(tree.triangles().size()), edges(tree.edges().size()),
-      vertices(tree.vertices().size());
-  const auto count = [](FeatureTree::Range range, std::vector<int>& in) {
-    for (Index i = range.first; i < range.last; ++i) ++in[i];
-  };
-  for (const auto& node : tree.nodes()) {
-    if (!node.is_leaf()) continue;
-    count(node.triangles, triangles), count(node.edges, edges), count(node.vertices, vertices);
+  std::set<std::array<Index, 2>> edges;
+  std::vector<int> vertices(tree.vertices().size());
+  for (Index t = 0; t < tree.triangles().size(); ++t) {
+    const auto& corners = tree.triangles()[t];
+    const auto is_corner = [&](Index v) {
+      return std::find(corners.begin(), corners.end(), v) != corners.end();
+    };
+    for (Index v = tree.vertices_of(t).first; v < tree.vertices_of(t).last; ++v) {
+      EXPECT_TRUE(is_corner(v));
+      ++vertices[v];
+    }
+    for (Index e = tree.edges_of(t).first; e < tree.edges_of(t).last; ++e) {
+      const auto [a, b] = tree.edges()[e];
+      EXPECT_TRUE(is_corner(a) && is_corner(b));
+      EXPECT_TRUE(edges.insert({std::min(a, b), std::max(a, b)}).second);
+    }
   }
-  for (const auto* counts : {&triangles, &edges, &vertices}) {
-    EXPECT_EQ(std::count(counts->begin(), counts->end(), 1), static_cast<long>(counts->size()));
-  }
-  EXPECT_EQ(triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(std::count(vertices.begin(), vertices.end(), 1), static_cast<long>(mesh.vertices.size()));
   EXPECT_EQ(edges.size(), mesh.triangles.size() * 3 / 2);
-  EXPECT_EQ(vertices.size(), mesh.vertices.size());
+  EXPECT_EQ(tree.edges().size(), edges.size());
 }
 
-TEST(FeatureTree, gives_a_leaf_only_features_of_its_own_triangles) {
-  const FeatureTree tree(torus(3, 1, 20, 12));
-  for (const auto& node : tree.nodes()) {
-    std::set<Index> corners;
-    for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
-      corners.insert(tree.triangles()[t].begin(), tree.triangles()[t].end());
-    }
-    for (Index v = node.vertices.first; v < node.vertices.last; ++v) EXPECT_TRUE(corners.count(v));
-    for (Index e = node.edges.first; e < node.edges.last; ++e) {
-      EXPECT_TRUE(corners.count(tree.edges()[e][0]) && corners.count(tree.edges()[e][1]));
-    }
-  }
-}
-
-TEST(FeatureTree, keeps_every_corner_of_a_node_in_its_ball) {
+TEST(FeatureTree, has_every_corner_of_a_node_in_its_ball) {
   const FeatureTree tree(sphere({5, 6, 7}, 2, 3));
   for (const auto& node : tree.nodes()) {
-    for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
-      for (const Index v : tree.triangles()[t]) {
-        const auto d = tree.vertices()[v] - node.centre;
-        EXPECT_LE(std::sqrt(dot(d, d)), node.radius);
-      }
+    const NodeBall ball = ball_of(node);
+    for (Index t = node.first; t < node.last; ++t) {
+      for (const Index v : tree.triangles()[t])
+        EXPECT_LE((tree.vertices()[v] - ball.centre).norm(), ball.radius);
     }
   }
-}
-
-/// A box about the origin, where the nearest points of most faces are inside them, and a ball, where they are
-/// corners or nearly so.
-TEST(FeatureTree, keeps_every_point_of_a_node_between_its_distances_from_the_origin) {
-  for (const TriMesh& mesh : {box({-1, -2, -1.5}, {1, 2, 3}), sphere({0, 0, 0}, 2, 3), torus(3, 1, 20, 12)}) {
-    const FeatureTree tree(mesh);
-    for (const auto& node : tree.nodes()) {
-      for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
-        const auto corner = [&](int k) { return tree.vertices()[tree.triangles()[t][k]]; };
-        for (int i = 0; i <= 12; ++i) {
-          for (int j = 0; i + j <= 12; ++j) {
-            const auto along = [&](double Triple<double>::*x) {
-              return (i * corner(0).*x + j * corner(1).*x + (12 - i - j) * corner(2).*x) / 12;
-            };
-            const Vec3 p(along(&Triple<double>::x), along(&Triple<double>::y), along(&Triple<double>::z));
-            // The point and its distance are rounded by some 2^-50 of its size.
-            EXPECT_LE(node.from_origin.lo, p.norm() * (1 + 1e-15));
-            EXPECT_GE(node.from_origin.hi, p.norm() * (1 - 1e-15));
-          }
-        }
-      }
-    }
-  }
-}
-
-/// The nearest point of a triangle with corners at distance R and edges no longer than e is no nearer than
-/// sqrt(R^2 - e^2 / 3), its circumcentre at the worst.
-TEST(FeatureTree, has_tight_distances_for_a_ball_about_the_origin) {
-  const TriMesh ball = sphere({0, 0, 0}, 2, 3);
-  double longest2 = 0;
-  for (std::size_t t = 0; t < ball.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      longest2 = std::max(longest2, (ball.corner(t, k) - ball.corner(t, (k + 1) % 3)).squaredNorm());
-  const DistanceRange range = FeatureTree(ball).nodes()[0].from_origin;
-  EXPECT_GE(range.lo, std::sqrt(4 - longest2 / 3) - 1e-12);
-  EXPECT_LE(range.hi, 2 + 1e-12);
 }
 
 TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
@@ -111,7 +64,7 @@ TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
       for (Index i = 0; i < tree.nodes().size(); ++i) {
         const CylinderBox node_box = body.node_box(i);
         const auto& node = tree.nodes()[i];
-        for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
+        for (Index t = node.first; t < node.last; ++t) {
           for (const Index v : tree.triangles()[t]) {
             const auto p = body.placed_vertex(v);
             const CylinderBox point = box_of_vertex(p, cylinder_point(p));

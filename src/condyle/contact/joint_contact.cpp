@@ -25,19 +25,19 @@ bool any_not_outside(const std::optional<RadialHits>& hits) {
 
 JointContact::JointContact(TriMesh fixed, TriMesh mobile, RadialOptions options)
     : fixed_(table_of("fixed body", std::move(fixed), options)),
-      mobile_(table_of("mobile body", std::move(mobile), options)) {}
+      mobile_(table_of("mobile body", std::move(mobile), options)),
+      bodies_(fixed_.mesh(), mobile_.mesh()) {}
 
 std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
-  return intersecting_pairs(fixed_, posed(X_FM, mobile()));
+  return bodies_.pairs(X_FM);
 }
 
 RadialContact JointContact::radial(const Pose& X_FM) const {
   RadialContact contact;
-  const TriMesh posed_mobile = posed(X_FM, mobile());
-  if (fixed_.is_closed()) contact.mobile_in_fixed = fixed_.query(posed_mobile.vertices);
+  if (fixed_.is_closed()) contact.mobile_in_fixed = fixed_.query(posed(X_FM, mobile().vertices.view()));
   if (mobile_.is_closed())
     contact.fixed_in_mobile = mobile_.query(posed(X_FM.inverse(), fixed().vertices.view()));
-  contact.pairs = intersecting_pairs(fixed_, posed_mobile);
+  contact.pairs = pairs(X_FM);
   contact.in_contact = !contact.pairs.empty() || any_not_outside(contact.mobile_in_fixed) ||
                        any_not_outside(contact.fixed_in_mobile);
   return contact;

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "condyle/contact/body_pair.hpp"
 #include "condyle/contact/triangle_pairs.hpp"
 #include "condyle/radial/radial_table.hpp"
 
@@ -41,9 +42,12 @@ class JointContact {
   const TriMesh& mobile() const noexcept { return mobile_.mesh(); }
   const RadialTable& fixed_table() const noexcept { return fixed_; }
   const RadialTable& mobile_table() const noexcept { return mobile_; }
+  /// The two surfaces, for "do they touch" alone.
+  const BodyPair& bodies() const noexcept { return bodies_; }
 
  private:
   RadialTable fixed_, mobile_;
+  BodyPair bodies_;
 };
 
 }  // namespace condyle

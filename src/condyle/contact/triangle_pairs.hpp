@@ -18,7 +18,7 @@ struct TrianglePair {
 /// here asks for an inside.
 ///
 /// Candidates share a cell of directions and a radius interval there, then a bounding box; exact arithmetic
-/// decides.
+/// decides. `BodyPair::pairs` gives the same set and is faster by far; this one needs no more than the table.
 std::vector<TrianglePair> intersecting_pairs(const RadialTable& fixed, const TriMesh& posed_mobile);
 
 }  // namespace condyle

@@ -1,7 +1,6 @@
 #include "condyle/mesh/winding_number.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -9,6 +8,7 @@
 #include "condyle/core/parallel.hpp"
 #include "condyle/core/predicates.hpp"
 #include "condyle/mesh/edge_balance.hpp"
+#include "condyle/mesh/vertical_ray.hpp"
 
 namespace condyle {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// Points a thread takes at a time: some 100 us of work, far above the cost of handing it out.
 constexpr std::size_t grain = 256;
 
-using Corners = std::array<Vec3, 3>;
+using Corners = TriangleCorners;
 
 /// Whether p lies within the closed triangle as seen along one axis; of a triangle seen edge on, whether it
 /// may.
@@ -42,30 +42,6 @@ bool holds(const Corners& t, const Vec3& p) noexcept {
     has_area |= orientation_2d(t[0][i], t[0][j], t[1][i], t[1][j], t[2][i], t[2][j]) != Sign::zero;
   }
   return has_area;
-}
-
-/// On which side of the edge a b, seen along z, the shifted point p + e x + e^2 y lies. Zero for a vertical
-/// edge only.
-///
-/// orientation_2d = (b_x - a_x)(p_y - a_y) - (b_y - a_y)(p_x - a_x): its derivative by p_x is a_y - b_y, by
-/// p_y b_x - a_x.
-Sign side_of_shifted(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
-  const Sign side = orientation_2d(a.x(), a.y(), b.x(), b.y(), p.x(), p.y());
-  if (side != Sign::zero) return side;
-  if (a.y() != b.y()) return a.y() > b.y() ? Sign::positive : Sign::negative;
-  if (a.x() != b.x()) return b.x() > a.x() ? Sign::positive : Sign::negative;
-  return Sign::zero;
-}
-
-/// +1 where the vertical line through the shifted point crosses the triangle and its normal points up, -1
-/// where down, 0 where they do not meet.
-int crossing(const Corners& t, const Vec3& p) noexcept {
-  const Sign first = side_of_shifted(t[0], t[1], p);
-  if (first == Sign::zero || side_of_shifted(t[1], t[2], p) != first ||
-      side_of_shifted(t[2], t[0], p) != first) {
-    return 0;
-  }
-  return static_cast<int>(first);
 }
 
 }  // namespace
@@ -136,7 +112,7 @@ PointWinding WindingNumber::at(const Vec3& p) const noexcept {
     if (p.z() > high.z() || p.x() < low.x() || p.x() > high.x() || p.y() < low.y() || p.y() > high.y())
       continue;
     if (p.z() < low.z()) {
-      winding += crossing(t, p);
+      winding += vertical_crossing(t, p);
       continue;
     }
     const Sign side = orientation(t[0], t[1], t[2], p);
@@ -146,7 +122,7 @@ PointWinding WindingNumber::at(const Vec3& p) const noexcept {
     }
     // Below a triangle that faces up, or above-behind one that faces down: the point is on the side the ray
     // comes from.
-    const int sense = crossing(t, p);
+    const int sense = vertical_crossing(t, p);
     if (sense * static_cast<int>(side) < 0) winding += sense;
   }
   return {winding > 0 ? PointState::inside : PointState::outside, winding, no_index};

@@ -52,7 +52,7 @@ class Collector {
       open_.pop_back();
       const auto &m = turning_.tree().nodes()[pair.turning], &f = resting_.tree().nodes()[pair.resting];
       if (m.is_leaf() && f.is_leaf()) {
-        compare(m.triangles, f.triangles);
+        compare({m.first, m.last}, {f.first, f.last});
       } else {
         split(turning_.tree(), resting_.tree(), pair, [&](Index a, Index b) { push(a, b); });
       }
@@ -143,11 +143,11 @@ std::vector<Index> subtrees(const FeatureTree& tree) {
     const Index i = open.back();
     open.pop_back();
     const auto& node = tree.nodes()[i];
-    if (node.is_leaf() || node.triangles.last - node.triangles.first <= size / enough) {
+    if (node.is_leaf() || node.last - node.first <= size / enough) {
       out.push_back(i);
     } else {
-      open.push_back(node.right);
-      open.push_back(i + 1);
+      open.push_back(node.child + 1);
+      open.push_back(node.child);
     }
   }
   return out;

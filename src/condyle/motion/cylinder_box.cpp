@@ -109,16 +109,20 @@ CylinderBox box_of_triangle(const Triple<double>& a, const CylinderPoint& at_a, 
           arc.width};
 }
 
-CylinderBox box_of_ball(const Triple<double>& centre, double radius) noexcept {
+CylinderBox box_of_box(const Triple<double>& centre, const Triple<double>& half) noexcept {
   const CylinderPoint at = cylinder_point(centre);
-  const double reach = radius + 2 * relative_slack * (at.r + radius);
-  CylinderBox box{std::max(0.0, at.rho - reach), at.rho + reach, centre.z - reach, centre.z + reach,
-                  std::max(0.0, at.r - reach),   at.r + reach,   whole_turn.start, whole_turn.width};
-  // Seen from the axis the ball covers asin(reach / rho) on either side.
+  // The radii of the circle and of the ball about the box, and the centre's own rounding.
+  const double flat2 = square(half.x) + square(half.y), slack = 2 * relative_slack;
+  const double reach = std::sqrt(flat2) * (1 + slack) + slack * at.rho;
+  const double ball = std::sqrt(flat2 + square(half.z)) * (1 + slack) + slack * at.r;
+  const double lift = half.z * (1 + slack) + slack * at.r;
+  CylinderBox box{std::max(0.0, at.rho - reach), at.rho + reach, centre.z - lift,  centre.z + lift,
+                  std::max(0.0, at.r - ball),    at.r + ball,    whole_turn.start, whole_turn.width};
+  // Seen from the axis the circle covers asin(reach / rho) on either side.
   if (reach < at.rho) {
-    const double half = std::asin(reach / at.rho) * (1 + relative_slack) + opposite_slack;
-    box.theta = wrapped(at.theta - half);
-    box.theta_width = 2 * half + angle_slack;
+    const double half_arc = std::asin(reach / at.rho) * (1 + relative_slack) + opposite_slack;
+    box.theta = wrapped(at.theta - half_arc);
+    box.theta_width = 2 * half_arc + angle_slack;
   }
   return box;
 }

@@ -86,8 +86,8 @@ CylinderBox box_of_edge(const Triple<double>& a, const CylinderPoint& at_a, cons
 CylinderBox box_of_triangle(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,
                             const CylinderPoint& at_b, const Triple<double>& c,
                             const CylinderPoint& at_c) noexcept;
-/// Of everything within `radius` of the centre.
-CylinderBox box_of_ball(const Triple<double>& centre, double radius) noexcept;
+/// Of everything within `half` of the centre along each axis.
+CylinderBox box_of_box(const Triple<double>& centre, const Triple<double>& half) noexcept;
 /// Around both, its arc the shorter of the two that cover both.
 CylinderBox hull(const CylinderBox& a, const CylinderBox& b) noexcept;
 

@@ -3,52 +3,49 @@
 #include <array>
 #include <vector>
 
+#include "condyle/contact/triangle_tree.hpp"
 #include "condyle/mesh/tri_mesh.hpp"
-#include "condyle/motion/cylinder_box.hpp"
+#include "condyle/motion/turn_function.hpp"
 
 namespace condyle {
 
-/// A tree of balls over the triangles of a mesh, each vertex and each edge belonging to one leaf. Built once
-/// per mesh in its own frame; good for every axis and pose.
+/// A tree over the triangles, edges and vertices of a mesh. Built once per mesh in its own frame; good for
+/// every axis and pose.
 ///
-///   node    0               children of node i: i + 1 and node[i].right
-///          / .
-///         1   4             leaves own ranges of triangle, edge and vertex numbers ("places"), so that
-///        / .  ...           a pair of leaves meets every pair of features exactly once
-///       2   3
+/// Each vertex and each edge belongs to the first triangle that has it, in the order of the tree's places:
+/// nodes own ranges of all three, and a pair of leaves meets every pair of features exactly once.
 ///
 /// Vertices no triangle uses are left out: they are on no surface.
 class FeatureTree {
  public:
+  using Node = TriangleTree::Node;
+
   explicit FeatureTree(const TriMesh& mesh);
 
   struct Range {
     Index first = 0, last = 0;
   };
-  struct Node {
-    Range triangles, edges, vertices;
-    Index right = 0;  ///< 0 for a leaf.
-    Triple<double> centre{0, 0, 0};
-    double radius = 0;  ///< Of the ball about all corners of the node's triangles.
-    /// From the origin of the mesh's frame. A head and its socket are two shells about the joint centre,
-    /// which is that origin, and stay so however the joint turns.
-    DistanceRange from_origin{0, 0};
 
-    bool is_leaf() const noexcept { return right == 0; }
-  };
-
-  const std::vector<Node>& nodes() const noexcept { return nodes_; }
-  bool empty() const noexcept { return triangles_.empty(); }
+  const std::vector<Node>& nodes() const noexcept { return base_.nodes(); }
+  bool empty() const noexcept { return base_.empty(); }
 
   /// Corners and ends are places of vertices: corners in the mesh's order, ends in ascending order of the
   /// mesh's numbers, so that what is computed from a feature does not depend on the tree.
-  const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  const std::vector<Triangle>& triangles() const noexcept { return base_.triangles(); }
   const std::vector<std::array<Index, 2>>& edges() const noexcept { return edges_; }
-  const std::vector<Triple<double>>& vertices() const noexcept { return vertices_; }
+  const std::vector<Vec3>& vertices() const noexcept { return base_.vertices(); }
+
+  /// Features that belong to a triangle.
+  Range edges_of(Index triangle) const noexcept {
+    return {edges_before_[triangle], edges_before_[triangle + 1]};
+  }
+  Range vertices_of(Index triangle) const noexcept {
+    return {vertices_before_[triangle], vertices_before_[triangle + 1]};
+  }
 
   /// Numbers in the mesh the tree was built from.
-  Index mesh_triangle(Index place) const noexcept { return mesh_triangle_[place]; }
-  Index mesh_vertex(Index place) const noexcept { return mesh_vertex_[place]; }
+  Index mesh_triangle(Index place) const noexcept { return base_.mesh_triangles()[place]; }
+  Index mesh_vertex(Index place) const noexcept { return base_.mesh_vertices()[place]; }
 
   /// Whether the mesh bounds a solid: every edge is used as often in one direction as in the other.
   bool is_closed() const noexcept { return is_closed_; }
@@ -56,15 +53,21 @@ class FeatureTree {
   const std::vector<Index>& pieces() const noexcept { return pieces_; }
 
  private:
-  void set_distances();
+  void count_vertices();
+  void gather_edges();
 
-  std::vector<Node> nodes_;
-  std::vector<Triangle> triangles_;
+  TriangleTree base_;
   std::vector<std::array<Index, 2>> edges_;
-  std::vector<Triple<double>> vertices_;
-  std::vector<Index> mesh_triangle_, mesh_vertex_;
+  std::vector<Index> edges_before_, vertices_before_;  ///< One entry per triangle, plus one.
   std::vector<Index> pieces_;
   bool is_closed_ = false;
 };
+
+/// A ball around the node's box.
+struct NodeBall {
+  Vec3 centre;
+  double radius;
+};
+NodeBall ball_of(const TriangleTree::Node& node) noexcept;
 
 }  // namespace condyle

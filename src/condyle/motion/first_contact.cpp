@@ -1,6 +1,7 @@
 #include "condyle/motion/first_contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <tuple>
@@ -97,33 +98,48 @@ class Search {
     return turning.shares_profile(resting) && gap_in_turn(turning, resting, direction_) <= reach_;
   }
 
-  /// Most features of a leaf are out of reach of the whole other leaf: those are not compared one by one.
+  /// A feature is in the box of the triangle that it belongs to: most triangles of a leaf are out of reach of
+  /// the whole other leaf, and most pairs of the rest are out of each other's, so that few features are
+  /// compared one by one.
   void compare_leaves(const NodePair& pair, const Node& m, const Node& f) {
     ++work_.leaf_pairs;
-    const CylinderBox& leaf = resting_.node_box(pair.resting);
-    const FeatureTree &mt = turning_.tree(), &ft = resting_.tree();
+    const CylinderBox &m_leaf = turning_.node_box(pair.turning), &f_leaf = resting_.node_box(pair.resting);
     const CylinderFeatures &mf = turning_.leaf_features(pair.turning), &ff = resting_.features();
-    for (Index v = m.vertices.first; v < m.vertices.last; ++v) {
-      if (!within_reach(mf.vertex_boxes[v], leaf)) continue;
-      for (Index t = f.triangles.first; t < f.triangles.last; ++t) {
-        if (!within_reach(mf.vertex_boxes[v], ff.triangle_boxes[t])) continue;
-        record(vertex_meets_face(mf.points[v], ff.corners(ft, t), window_), FeatureKind::vertex, v,
-               FeatureKind::face, t);
+    std::array<Index, TriangleTree::leaf_triangles> near{};
+    std::size_t count = 0;
+    for (Index t = f.first; t < f.last; ++t) {
+      if (within_reach(m_leaf, ff.triangle_boxes[t])) near[count++] = t;
+    }
+    for (Index s = m.first; s < m.last && count > 0; ++s) {
+      if (!within_reach(mf.triangle_boxes[s], f_leaf)) continue;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (within_reach(mf.triangle_boxes[s], ff.triangle_boxes[near[i]])) compare_triangles(s, near[i]);
       }
     }
-    for (Index t = m.triangles.first; t < m.triangles.last; ++t) {
-      if (!within_reach(mf.triangle_boxes[t], leaf)) continue;
-      for (Index v = f.vertices.first; v < f.vertices.last; ++v) {
-        if (!within_reach(mf.triangle_boxes[t], ff.vertex_boxes[v])) continue;
-        record(face_meets_vertex(mf.corners(mt, t), ff.points[v], window_), FeatureKind::face, t,
-               FeatureKind::vertex, v);
-      }
+  }
+
+  /// The two faces, and the vertices and edges that belong to them.
+  void compare_triangles(Index s, Index t) {
+    const FeatureTree &mt = turning_.tree(), &ft = resting_.tree();
+    const CylinderFeatures &mf = turning_.features(), &ff = resting_.features();
+    const auto m_vertices = mt.vertices_of(s), f_vertices = ft.vertices_of(t);
+    for (Index v = m_vertices.first; v < m_vertices.last; ++v) {
+      if (!within_reach(mf.vertex_box(v), ff.triangle_boxes[t])) continue;
+      record(vertex_meets_face(mf.points[v], ff.corners(ft, t), window_), FeatureKind::vertex, v,
+             FeatureKind::face, t);
     }
-    for (Index e = m.edges.first; e < m.edges.last; ++e) {
-      if (!within_reach(mf.edge_boxes[e], leaf)) continue;
+    for (Index v = f_vertices.first; v < f_vertices.last; ++v) {
+      if (!within_reach(mf.triangle_boxes[s], ff.vertex_box(v))) continue;
+      record(face_meets_vertex(mf.corners(mt, s), ff.points[v], window_), FeatureKind::face, s,
+             FeatureKind::vertex, v);
+    }
+    const auto m_edges = mt.edges_of(s), f_edges = ft.edges_of(t);
+    for (Index e = m_edges.first; e < m_edges.last; ++e) {
+      const CylinderBox box = mf.edge_box(mt, e);
+      if (!within_reach(box, ff.triangle_boxes[t])) continue;
       const auto [a, b] = mt.edges()[e];
-      for (Index g = f.edges.first; g < f.edges.last; ++g) {
-        if (!within_reach(mf.edge_boxes[e], ff.edge_boxes[g])) continue;
+      for (Index g = f_edges.first; g < f_edges.last; ++g) {
+        if (!within_reach(box, ff.edge_box(ft, g))) continue;
         const auto [c, d] = ft.edges()[g];
         record(edges_meet(mf.points[a], mf.points[b], ff.points[c], ff.points[d], window_), FeatureKind::edge,
                e, FeatureKind::edge, g);

@@ -14,12 +14,12 @@ struct NodePair {
 template <class Visit>
 void split(const FeatureTree& turning, const FeatureTree& resting, const NodePair& pair, const Visit& visit) {
   const auto &m = turning.nodes()[pair.turning], &f = resting.nodes()[pair.resting];
-  if (f.is_leaf() || (!m.is_leaf() && m.radius > f.radius)) {
-    visit(pair.turning + 1, pair.resting);
-    visit(m.right, pair.resting);
+  if (f.is_leaf() || (!m.is_leaf() && m.size() > f.size())) {
+    visit(m.child, pair.resting);
+    visit(m.child + 1, pair.resting);
   } else {
-    visit(pair.turning, pair.resting + 1);
-    visit(pair.turning, f.right);
+    visit(pair.turning, f.child);
+    visit(pair.turning, f.child + 1);
   }
 }
 

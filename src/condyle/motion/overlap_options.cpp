@@ -17,6 +17,7 @@ using Marks = std::vector<unsigned char>;
 PartOfMesh without(const TriMesh& whole, const Marks& left_out, const std::string& body) {
   PartOfMesh part;
   part.mesh.vertices = whole.vertices;
+  part.mesh.triangles.reserve(whole.triangles.size()), part.triangle_in_whole.reserve(whole.triangles.size());
   for (Index t = 0; t < whole.triangles.size(); ++t) {
     if (left_out[t]) continue;
     part.mesh.triangles.push_back(whole.triangles[t]);

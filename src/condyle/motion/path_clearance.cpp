@@ -16,10 +16,6 @@ using Corners3 = std::array<Vec3, 3>;
 /// operations on them.
 constexpr double rounding_mm = 1e-9;
 
-Vec3 vec3(const Triple<double>& p) noexcept {
-  return {p.x, p.y, p.z};
-}
-
 struct NearestPoints {
   Vec3 a, b;
   double squared_distance;
@@ -122,25 +118,25 @@ class Search {
  private:
   void push(Index mobile, Index fixed) {
     const auto &m = mobile_.nodes()[mobile], &f = fixed_.nodes()[fixed];
-    const Vec3 at_rest = vec3(m.centre), of_fixed = vec3(f.centre);
-    const double rho_m = at_rest.norm(), rho_f = of_fixed.norm();
-    if (!Radii{rho_m - m.radius, rho_m + m.radius}.meet({rho_f - f.radius, rho_f + f.radius})) return;
-    const double apart = (posed(X_FM_, at_rest) - of_fixed).norm() - m.radius - f.radius - rounding_mm;
-    const double turn = std::max(apart, 0.0) / (rho_m + m.radius);
+    if (!Radii{m.nearest, m.farthest}.meet({f.nearest, f.farthest})) return;
+    const NodeBall at_rest = ball_of(m), of_fixed = ball_of(f);
+    const double apart = (posed(X_FM_, at_rest.centre) - of_fixed.centre).norm() - at_rest.radius -
+                         of_fixed.radius - rounding_mm;
+    const double turn = std::max(apart, 0.0) / m.farthest;
     if (turn < best_turn_) open_.push_back({mobile, fixed, turn});
   }
 
   Corners3 corners(const FeatureTree& tree, Index t) const {
     const auto [a, b, c] = tree.triangles()[t];
-    return {vec3(tree.vertices()[a]), vec3(tree.vertices()[b]), vec3(tree.vertices()[c])};
+    return {tree.vertices()[a], tree.vertices()[b], tree.vertices()[c]};
   }
 
   void compare_leaves(const FeatureTree::Node& m, const FeatureTree::Node& f) {
-    for (Index s = m.triangles.first; s < m.triangles.last; ++s) {
+    for (Index s = m.first; s < m.last; ++s) {
       const Corners3 own = corners(mobile_, s);
       const Radii radii = radii_of(own);
       const Corners3 placed{posed(X_FM_, own[0]), posed(X_FM_, own[1]), posed(X_FM_, own[2])};
-      for (Index t = f.triangles.first; t < f.triangles.last; ++t) {
+      for (Index t = f.first; t < f.last; ++t) {
         const Corners3 fixed = corners(fixed_, t);
         if (!radii.meet(radii_of(fixed))) continue;
         const NearestPoints nearest = between_triangles(fixed, placed);

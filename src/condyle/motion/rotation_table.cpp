@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "condyle/core/predicates.hpp"
+#include "condyle/mesh/vertical_ray.hpp"
 
 namespace condyle {
 namespace {
@@ -14,39 +15,24 @@ using Point = Triple<double>;
 Point triple(const Vec3& p) noexcept {
   return {p.x(), p.y(), p.z()};
 }
-Vec3 vec3(const Point& p) noexcept {
-  return {p.x, p.y, p.z};
-}
-
-/// Which side of the directed line a b, seen along the axis, p lies on; where exactly on it, p shifted by an
-/// infinitesimal in x and one infinitely smaller in y decides. Zero only where a is b.
-Sign side_seen_along_axis(const Point& a, const Point& b, const Point& p) noexcept {
-  const Sign sign = orientation_2d(a.x, a.y, b.x, b.y, p.x, p.y);
-  if (sign != Sign::zero) return sign;
-  if (a.y != b.y) return a.y > b.y ? Sign::positive : Sign::negative;
-  return b.x > a.x ? Sign::positive : b.x < a.x ? Sign::negative : Sign::zero;
-}
-
-/// What the ray from p along the axis adds to the winding number at this triangle.
-int crossing(const Point& a, const Point& b, const Point& c, const Point& p) noexcept {
-  const Sign facing = side_seen_along_axis(a, b, p);
-  if (facing == Sign::zero || side_seen_along_axis(b, c, p) != facing ||
-      side_seen_along_axis(c, a, p) != facing)
-    return 0;
-  // Facing up, the triangle is above p where p is on its back.
-  const Sign height_of_p = orientation(vec3(a), vec3(b), vec3(c), vec3(p)) * facing;
-  return height_of_p == Sign::negative ? static_cast<int>(facing) : 0;
+TriangleCorners corners_of(const CylinderFeatures& features, const FeatureTree& tree, Index triangle) {
+  TriangleCorners out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point& p = features.points[tree.triangles()[triangle][k]];
+    out[k] = {p.x, p.y, p.z};
+  }
+  return out;
 }
 
 /// Nodes of the turning body with at most so many triangles get their box from their triangles, the others
-/// from their ball. A ball costs one point and is loose across the direction from the origin, triangles cost
-/// all of theirs. On a hip of 30 000 and 15 000 triangles six limits take 0.78 ms in all with 8, 0.97 ms with
-/// 16 and 1.5 ms with 32; on one of 156 000 and 99 000 triangles 3.6, 3.9 and 4.3 ms.
+/// from their box in the body's own frame. That costs one point and is loose, triangles cost all of theirs.
+/// On a hip of 30 000 and 15 000 triangles six limits take 0.78 ms in all with 8, 0.97 ms with 16 and 1.5 ms
+/// with 32; on one of 156 000 and 99 000 triangles 3.6, 3.9 and 4.3 ms.
 constexpr Index tight_triangles = 8;
 
 CylinderBox hull_of_triangles(const CylinderFeatures& features, const Node& node) noexcept {
-  CylinderBox box = features.triangle_boxes[node.triangles.first];
-  for (Index t = node.triangles.first + 1; t < node.triangles.last; ++t) {
+  CylinderBox box = features.triangle_boxes[node.first];
+  for (Index t = node.first + 1; t < node.last; ++t) {
     box = hull(box, features.triangle_boxes[t]);
   }
   return box;
@@ -54,62 +40,42 @@ CylinderBox hull_of_triangles(const CylinderFeatures& features, const Node& node
 
 }  // namespace
 
-void CylinderFeatures::resize(const FeatureTree& tree) {
-  points.resize(tree.vertices().size());
-  at.resize(tree.vertices().size());
-  vertex_boxes.resize(tree.vertices().size());
-  edge_boxes.resize(tree.edges().size());
-  triangle_boxes.resize(tree.triangles().size());
-  node_boxes.resize(tree.nodes().size());
-}
-
-void CylinderFeatures::fill_boxes(const FeatureTree& tree, const Node& leaf) {
-  for (Index v = leaf.vertices.first; v < leaf.vertices.last; ++v)
-    vertex_boxes[v] = box_of_vertex(points[v], at[v]);
-  for (Index e = leaf.edges.first; e < leaf.edges.last; ++e) {
-    const auto [a, b] = tree.edges()[e];
-    edge_boxes[e] = box_of_edge(points[a], at[a], points[b], at[b]);
-  }
-  for (Index t = leaf.triangles.first; t < leaf.triangles.last; ++t) {
-    const auto [a, b, c] = tree.triangles()[t];
-    triangle_boxes[t] = box_of_triangle(points[a], at[a], points[b], at[b], points[c], at[c]);
-  }
-}
+CylinderFeatures::CylinderFeatures(const FeatureTree& tree)
+    : points(std::make_unique_for_overwrite<Point[]>(tree.vertices().size())),
+      at(std::make_unique_for_overwrite<CylinderPoint[]>(tree.vertices().size())),
+      node_boxes(std::make_unique_for_overwrite<CylinderBox[]>(tree.nodes().size())),
+      triangle_boxes(std::make_unique_for_overwrite<CylinderBox[]>(tree.triangles().size())) {}
 
 RotationTable::RotationTable(const FeatureTree& tree, const AxisFrame& frame, const Pose& X_RT)
-    : tree_(&tree), frame_(frame) {
-  features_.resize(tree);
+    : tree_(&tree), frame_(frame), features_(tree) {
   for (std::size_t v = 0; v < tree.vertices().size(); ++v) {
-    features_.points[v] = triple(frame.to_axis(posed(X_RT, vec3(tree.vertices()[v]))));
+    features_.points[v] = triple(frame.to_axis(posed(X_RT, tree.vertices()[v])));
     features_.at[v] = cylinder_point(features_.points[v]);
   }
+  for (Index t = 0; t < tree.triangles().size(); ++t) features_.fill_box(tree, t);
   // Children come after their parent.
   for (std::size_t i = tree.nodes().size(); i-- > 0;) {
     const Node& node = tree.nodes()[i];
-    auto& box = features_.node_boxes[i];
-    if (node.is_leaf()) {
-      features_.fill_boxes(tree, node);
-      box = hull_of_triangles(features_, node);
-    } else {
-      box = hull(features_.node_boxes[i + 1], features_.node_boxes[node.right]);
-    }
+    features_.node_boxes[i] =
+        node.is_leaf() ? hull_of_triangles(features_, node)
+                       : hull(features_.node_boxes[node.child], features_.node_boxes[node.child + 1]);
   }
 }
 
 TurningBody::TurningBody(const FeatureTree& tree)
     : tree_(&tree),
       frame_(Vec3::Zero(), Vec3::UnitZ()),
+      features_(tree),
       node_mark_(tree.nodes().size(), 0),
       leaf_mark_(tree.nodes().size(), 0),
       vertex_mark_(tree.vertices().size(), 0) {
-  features_.resize(tree);
-  for (const Point& p : tree.vertices())
-    extent_ = std::max({extent_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  for (const Vec3& p : tree.vertices()) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
 }
 
 void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
   frame_ = frame_R;
   X_RT_ = X_RT;
+  turn_size_ = (frame_R.rotation() * X_RT.linear()).cwiseAbs();
   // Two changes of frame, each three products and three sums of numbers of this size, for the centre and for
   // the point.
   const double size = 3 * extent_ + X_RT.translation().lpNorm<1>() + frame_R.point().lpNorm<1>();
@@ -124,7 +90,7 @@ void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
 void TurningBody::place_vertex(Index vertex) {
   if (vertex_mark_[vertex] == pose_number_) return;
   vertex_mark_[vertex] = pose_number_;
-  const Point p = triple(frame_.to_axis(posed(X_RT_, vec3(tree_->vertices()[vertex]))));
+  const Point p = triple(frame_.to_axis(posed(X_RT_, tree_->vertices()[vertex])));
   features_.points[vertex] = p;
   features_.at[vertex] = cylinder_point(p);
 }
@@ -137,13 +103,15 @@ const CylinderBox& TurningBody::node_box(Index i) {
   if (node.is_leaf()) {
     leaf_features(i);
     box = hull_of_triangles(features_, node);
-  } else if (node.triangles.last - node.triangles.first <= tight_triangles) {
-    box = hull(node_box(i + 1), node_box(node.right));
+  } else if (node.last - node.first <= tight_triangles) {
+    box = hull(node_box(node.child), node_box(node.child + 1));
   } else {
+    const auto vec3 = [](const std::array<float, 4>& v) { return Vec3(v[0], v[1], v[2]); };
     const Vec3 centre = frame_.to_axis(posed(X_RT_, vec3(node.centre)));
-    box = box_of_ball(triple(centre), node.radius + posing_slack_);
-    box.r_lo = std::max(box.r_lo, node.from_origin.lo - origins_apart_);
-    box.r_hi = std::min(box.r_hi, node.from_origin.hi + origins_apart_);
+    const Vec3 half = turn_size_ * vec3(node.half) + Vec3::Constant(posing_slack_);
+    box = box_of_box(triple(centre), triple(half));
+    box.r_lo = std::max(box.r_lo, node.nearest - origins_apart_);
+    box.r_hi = std::min(box.r_hi, node.farthest + origins_apart_);
   }
   return box;
 }
@@ -152,10 +120,10 @@ const CylinderFeatures& TurningBody::leaf_features(Index i) {
   if (leaf_mark_[i] != pose_number_) {
     leaf_mark_[i] = pose_number_;
     const Node& leaf = tree_->nodes()[i];
-    for (Index t = leaf.triangles.first; t < leaf.triangles.last; ++t) {
+    for (Index t = leaf.first; t < leaf.last; ++t) {
       for (const Index v : tree_->triangles()[t]) place_vertex(v);
+      features_.fill_box(*tree_, t);
     }
-    features_.fill_boxes(*tree_, leaf);
   }
   return features_;
 }
@@ -177,15 +145,13 @@ int winding_number(Body& body, const Triple<double>& point) {
     if (!above(body.node_box(i))) continue;
     const Node& node = tree.nodes()[i];
     if (!node.is_leaf()) {
-      open.push_back(i + 1);
-      open.push_back(node.right);
+      open.push_back(node.child);
+      open.push_back(node.child + 1);
       continue;
     }
     const auto& features = body.leaf_features(i);
-    for (Index t = node.triangles.first; t < node.triangles.last; ++t) {
-      const auto [a, b, c] = tree.triangles()[t];
-      winding += crossing(features.points[a], features.points[b], features.points[c], point);
-    }
+    for (Index t = node.first; t < node.last; ++t)
+      winding += crossing_above(corners_of(features, tree, t), {point.x, point.y, point.z});
   }
   return winding;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "condyle/core/pose.hpp"
@@ -18,15 +19,25 @@
 
 namespace condyle {
 
-/// Points and boxes of a feature tree about an axis, numbered by places.
+/// Points and boxes of a feature tree about an axis, numbered by places. Room for all is made at once and not
+/// written to before it is needed: a body that turns seldom needs much of it.
 struct CylinderFeatures {
-  std::vector<Triple<double>> points;
-  std::vector<CylinderPoint> at;
-  std::vector<CylinderBox> node_boxes, triangle_boxes, edge_boxes, vertex_boxes;
+  std::unique_ptr<Triple<double>[]> points;
+  std::unique_ptr<CylinderPoint[]> at;
+  std::unique_ptr<CylinderBox[]> node_boxes, triangle_boxes;
 
-  void resize(const FeatureTree& tree);
-  /// Boxes of all a leaf owns, its corners being in place.
-  void fill_boxes(const FeatureTree& tree, const FeatureTree::Node& leaf);
+  explicit CylinderFeatures(const FeatureTree& tree);
+
+  /// Its corners being in place.
+  void fill_box(const FeatureTree& tree, Index triangle) noexcept {
+    const auto [a, b, c] = tree.triangles()[triangle];
+    triangle_boxes[triangle] = box_of_triangle(points[a], at[a], points[b], at[b], points[c], at[c]);
+  }
+  CylinderBox vertex_box(Index vertex) const noexcept { return box_of_vertex(points[vertex], at[vertex]); }
+  CylinderBox edge_box(const FeatureTree& tree, Index edge) const noexcept {
+    const auto [a, b] = tree.edges()[edge];
+    return box_of_edge(points[a], at[a], points[b], at[b]);
+  }
 
   Corners corners(const FeatureTree& tree, Index triangle) const noexcept {
     const auto [a, b, c] = tree.triangles()[triangle];
@@ -71,8 +82,10 @@ class TurningBody {
   Vec3 to_own(const Vec3& at_start) const noexcept { return X_RT_.inverse() * frame_.from_axis(at_start); }
 
   const CylinderBox& node_box(Index node);
-  /// All features, those of this leaf being ready.
+  /// All features, the triangles of this leaf and their corners being ready.
   const CylinderFeatures& leaf_features(Index node);
+  /// Those that have been asked for.
+  const CylinderFeatures& features() const noexcept { return features_; }
   const Triple<double>& placed_vertex(Index vertex) {
     place_vertex(vertex);
     return features_.points[vertex];
@@ -84,7 +97,9 @@ class TurningBody {
   const FeatureTree* tree_;
   AxisFrame frame_;
   Pose X_RT_ = Pose::Identity();
-  /// More than posing a ball's centre and the points in it may have rounded them apart, in mm.
+  /// Sizes of the entries of the rotation from the body's own frame to that of the axis.
+  Eigen::Matrix3d turn_size_ = Eigen::Matrix3d::Zero();
+  /// More than posing a box's centre and the points in it may have rounded them apart, in mm.
   double posing_slack_ = 0;
   /// No point is farther from the origin of the axis frame than from that of its own frame by more than this,
   /// nor nearer.

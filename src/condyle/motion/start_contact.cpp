@@ -83,8 +83,8 @@ std::optional<TouchingFeatures> faces_touching_at_start(const RotationTable& res
       continue;
     }
     const CylinderFeatures &mf = turning.leaf_features(pair.turning), &ff = resting.features();
-    for (Index s = m.triangles.first; s < m.triangles.last; ++s) {
-      for (Index t = f.triangles.first; t < f.triangles.last; ++t) {
+    for (Index s = m.first; s < m.last; ++s) {
+      for (Index t = f.first; t < f.last; ++t) {
         if (!near_now(mf.triangle_boxes[s], ff.triangle_boxes[t])) continue;
         ++work.triangle_tests;
         const auto a = corners_of(mt, mf, s), b = corners_of(ft, ff, t);

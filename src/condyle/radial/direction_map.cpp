@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "condyle/core/predicates.hpp"
+#include "condyle/radial/cube_view.hpp"
 
 namespace condyle {
 namespace {
@@ -293,6 +294,18 @@ void CartesianMap::visit_cells(const Cone& cone, const std::function<void(const 
   }
 }
 
+std::uint32_t CubeMap::box_of(const Vec3& v) const noexcept {
+  int axis = 0;
+  const double largest = v.cwiseAbs().maxCoeff(&axis);
+  const auto part = [&](int k) {
+    const double at = (v[k % 3] / largest + 1) * (0.5 * n_);
+    const int cell = std::clamp(static_cast<int>(at), 0, n_ - 1);
+    return std::clamp(static_cast<int>((at - cell) * parts_per_cell), 0, parts_per_cell - 1);
+  };
+  const int column_part = part(axis + 1), row_part = part(axis + 2);
+  return range_word(column_part, column_part, row_part, row_part);
+}
+
 void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const {
   if (is_close(cone, min_radius(cone))) return visit_all(cell_count(), max_radius(cone), visit);
   const PlaneNormal plane(cone);
@@ -305,7 +318,7 @@ void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellO
     const auto side = [&](int k, double s, double direction) {
       Vec3 n = Vec3::Zero();
       n[k] = direction;
-      n[w] = sign * (cell_margin - direction * s);
+      n[w] = sign * (list_margin - direction * s);
       return n;
     };
     const auto range = [&](const Polygon& polygon, int k) {
@@ -318,7 +331,7 @@ void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellO
                                              : -1.0;
         low = std::min(low, s), high = std::max(high, s);
       }
-      return std::pair{column(low - cell_margin), column(high + cell_margin)};
+      return std::pair{column(low - list_margin), column(high + list_margin)};
     };
 
     Polygon on_face = polygon_of(cone);

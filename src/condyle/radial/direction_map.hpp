@@ -68,6 +68,7 @@ class CubeMap {
  public:
   explicit CubeMap(int cells_per_side) : n_(cells_per_side) { assert(n_ > 0); }
 
+  int cells_per_side() const noexcept { return n_; }
   Index cell_count() const noexcept { return static_cast<Index>(6 * n_ * n_); }
 
   /// Cell of the direction of v, which is not zero.
@@ -82,6 +83,9 @@ class CubeMap {
 
   /// Calls visit(CellOverlap) once for each cell the cone meets.
   void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
+
+  /// Where in its cell v, which is not zero, falls: the box of its CellOctagon.
+  std::uint32_t box_of(const Vec3& v) const noexcept;
 
  private:
   int column(double s) const noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <variant>
@@ -8,21 +9,25 @@
 #include "condyle/core/angle.hpp"
 #include "condyle/core/point_state.hpp"
 #include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/radial/cell_lists.hpp"
 #include "condyle/radial/direction_map.hpp"
+#include "condyle/radial/direction_pyramid.hpp"
+#include "condyle/radial/penetrations.hpp"
+#include "condyle/radial/ray_scan.hpp"
+#include "condyle/radial/sorted_points.hpp"
 
 /// The radial method: rays from one centre. docs/mathematics.md, section 2; Arbabi et al. 2009.
 
 namespace condyle {
 
+struct FoundPoints;
+
 struct RadialOptions {
   DirectionMapKind map = DirectionMapKind::cube;
   /// Cells along one side of a face (cube) or of the disc's square (cartesian). Finer cells shorten lists and
-  /// grow the table.
-  int cells_per_side = 64;
+  /// grow the table; none asks for about as many cells as fit the number of triangles.
+  std::optional<int> cells_per_side;
 };
-
-/// Which way along its ray a vertex reaches the surface that its gap or depth is measured to.
-enum class RayDirection : std::uint8_t { towards_centre, away_from_centre };
 
 /// Above this angle between ray and surface normal the radial depth is no longer a depth: the ray grazes the
 /// wall, and the tangential depth is the one to read. docs/mathematics.md, section 2.
@@ -55,8 +60,6 @@ struct RadialTableSize {
 
 /// Which fixed triangles can be met in each direction from the centre, which is the origin of the mesh's
 /// frame.
-///   offset_     0     2  2        5  ...      one entry per cell, plus one
-///   triangle_  | a b |  | c d e |    ...      cell i owns [offset_[i], offset_[i+1])
 ///
 /// Built once for a mesh and a centre: every rigid pose of the query points reuses it. All decisions (which
 /// triangles a ray crosses, on which side of each crossing the point lies) are exact for the doubles given: a
@@ -83,15 +86,32 @@ class RadialTable {
   /// cell has crossed nothing, and one further out than it has crossed everything.
   void query_states(PointsView points, std::vector<PointState>& out) const;
 
+  /// Every point that is not outside at a pose X_FM, with what query() tells of it, byte for byte: points
+  /// posed and rounded once (core/pose.hpp), signs exact, on every instruction set alike. All other points
+  /// are outside.
+  ///
+  /// Three passes in vectors of floats: blocks of points and then points are rejected by the radii of the
+  /// surface around them; what is left is held against the triangles of its cell, and points that floats do
+  /// not settle are decided as query() does. For the paper's map, for a pose that is no rigid motion or moves
+  /// the centre by more than four times the distance of the nearest surface, all points are.
+  ///
+  /// Raises MeshError for an open mesh. Cost: blocks, plus points near the surface. No allocation once `out`
+  /// has its room.
+  void penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
+                    PenetrationWork* work = nullptr) const;
+  /// Fills out.ray_to_normal; `points` are those that the sorted ones were made from, the pose is the one
+  /// asked.
+  void add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const;
+
   /// Calls visit(triangle of this table) for every triangle that shares a cell and a radius interval with the
   /// given one, which is in this table's frame: all that can intersect it, some of them several times.
   template <class Visit>
   void visit_candidates(const Cone& cone, const Visit& visit) const {
     const auto in_cell = [&](const CellOverlap& overlap) {
-      const CellBounds& bounds = bounds_[overlap.cell];
-      if (overlap.min_radius * overlap.min_radius > bounds.max_squared_radius) return;
-      if (overlap.max_radius * overlap.max_radius < bounds.min_squared_radius) return;
-      for (std::uint32_t i = offset_[overlap.cell]; i < offset_[overlap.cell + 1]; ++i) visit(triangle_[i]);
+      const SquaredRadii radii = radii_of(overlap.cell);
+      if (overlap.min_radius * overlap.min_radius > radii.greatest) return;
+      if (overlap.max_radius * overlap.max_radius < radii.least) return;
+      for (const Index triangle : lists_.of(overlap.cell)) visit(triangle);
     };
     std::visit([&](const auto& map) { map.visit_cells(cone, in_cell); }, map_);
   }
@@ -103,21 +123,32 @@ class RadialTable {
   RadialTableSize table_size() const noexcept;
 
  private:
-  struct CellBounds {
-    double min_squared_radius, max_squared_radius;
+  struct SquaredRadii {
+    double least, greatest;
   };
 
   Index cell_of(const Vec3& v) const noexcept {
     return std::visit([&](const auto& map) { return map.cell_of(v); }, map_);
   }
+  SquaredRadii radii_of(Index cell) const noexcept {
+    const RadiusWord word = lists_.radii[cell];
+    if (word == no_radii) return {std::numeric_limits<double>::infinity(), 0};
+    return {lists_.scale.least(static_cast<int>(word & 0xffff)),
+            lists_.scale.greatest(greatest_radius_code - static_cast<int>(word >> 16))};
+  }
   void require_closed() const;
-  void fill();
+  void require_centre_off_surface() const;
+  int find_winding_at_centre() const;
+  std::optional<CubeView> cube_view(const SortedPoints& points, const FloatPose& pose) const;
+  void penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const;
+  RayAnswer answer_in_doubt(const Vec3& v, RayScan& scan) const;
+  void finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, RayScan& scan,
+              Penetrations& out) const;
 
   TriMesh mesh_;
   std::variant<CartesianMap, CubeMap> map_;
-  std::vector<std::uint32_t> offset_;
-  std::vector<Index> triangle_;
-  std::vector<CellBounds> bounds_;
+  CellLists lists_;
+  DirectionPyramid pyramid_;
   std::optional<int> winding_at_centre_;
   std::optional<std::pair<Index, Index>> boundary_edge_;
 };

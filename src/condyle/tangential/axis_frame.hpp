@@ -23,6 +23,9 @@ class AxisFrame {
   /// Unit length.
   Vec3 direction() const noexcept { return rotation_.row(2).transpose(); }
 
+  /// Rows: the frame's x, y and z.
+  const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
+
   Vec3 to_axis(const Vec3& p) const noexcept {
     const double x = p.x() - point_.x(), y = p.y() - point_.y(), z = p.z() - point_.z();
     const auto row = [&](int i) { return (rotation_(i, 0) * x + rotation_(i, 1) * y) + rotation_(i, 2) * z; };
@@ -34,7 +37,7 @@ class AxisFrame {
 
  private:
   Vec3 point_;
-  Eigen::Matrix3d rotation_;  ///< Rows: the frame's x, y and z.
+  Eigen::Matrix3d rotation_;
 };
 
 }  // namespace condyle

@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "condyle/core/vec3.hpp"
+#include "condyle/radial/radius_scale.hpp"
+
+/// A cube table as the vector code reads it: plain arrays, borrowed from a RadialTable.
+
+namespace condyle {
+
+/// Cells are cut into so many parts each way; boxes of triangles within a cell are rounded outwards to them.
+inline constexpr int parts_per_cell = 256;
+
+/// Widening of triangles in the lists of a cube map, in units of a face's coordinate (which spans [-1, 1]).
+/// Vector code places a point by floats, which errs by at most
+///
+///     23 u + 42 u |t| / r,   u = 2^-24, t the pose's translation, r the radius of the nearest surface
+///
+/// (`largest_translation` keeps this below 2^-16), and builds boxes by floats, erring by 8u. Twice that is
+/// given.
+inline constexpr float list_margin = 0x1p-15f;
+
+/// Greatest translation of a pose, over the distance of the nearest surface, at which floats are trusted.
+inline constexpr double largest_translation = 4;
+
+/// The triangles of one cell: [first, last) of the lists.
+struct CellRow {
+  std::uint32_t first, last;
+};
+
+/// Four linear forms of a point v, side by side: a . v in lanes x[k] v_x + y[k] v_y + z[k] v_z. For a
+/// triangle (a, b, c) with normal N and D = a . (b x c):
+///
+///     lanes 0 1 2    (a x b) / D, (b x c) / D, (c x a) / D      all > 0 where the ray through v crosses it
+///     lane 3         N / |D|        its magnitude is |v| over the crossing's radius, > 1 where the crossing
+///                                   lies before v; positive where the ray leaves the solid
+///
+/// NaN throughout where floats could not say enough of the triangle: a plane nearly through the centre, a
+/// sliver. Every comparison with them is false, and the point is decided in double.
+struct alignas(16) ConeForms {
+  float x[4], y[4], z[4];
+};
+
+/// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v
+/// errs by less than form_error * max|v_k| * (|x| + |y| + |z|), and `form_error_of_translation` times |t| / r
+/// more. In units of u: 1 for rounding a coefficient, 4 for this, 4 for the form's own operations, 10.4 for
+/// the point: 6u (|v| + 2 |t|) in each coordinate, |v| <= sqrt(3) max|v_k|. The bound's own rounding takes
+/// the rest.
+inline constexpr double coefficient_error = 0x1p-22;
+inline constexpr float form_error = 24 * 0x1p-24f;
+inline constexpr float form_error_of_translation = 24 * 0x1p-24f;
+
+struct CubeView {
+  int cells_per_side;
+  int levels;                 ///< of the pyramid
+  const RadiusWord* radii;    ///< of each cell
+  const RadiusWord* pyramid;  ///< see DirectionPyramid
+  const CellRow* row;
+  const std::uint32_t* triangle;
+  const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon
+  const ConeForms* forms;            ///< of each triangle
+  RadiusScale scale;
+  int winding_at_centre;
+  float nearest_squared;  ///< no surface is nearer to the centre
+};
+
+/// Part of a cell that something takes, as an octagon: parts (256 to a cell) from the cell's corner, between
+/// a least and a greatest value of column u, of row w, and of the diagonals u + w and u - w. Four bytes each,
+/// least and 255 - greatest, so that a point is in the octagon exactly where no byte exceeds the point's own.
+///
+///         ____
+///       /     |     box    least u, 255 - greatest u, least w, 255 - greatest w
+///     /       |     slant  the same of (u + w) / 2 and (u - w + 255) / 2
+///    |______/
+struct CellOctagon {
+  std::uint32_t box, slant;
+};
+
+constexpr std::uint32_t range_word(int least_a, int greatest_a, int least_b, int greatest_b) noexcept {
+  return static_cast<std::uint32_t>(least_a) | static_cast<std::uint32_t>(255 - greatest_a) << 8 |
+         static_cast<std::uint32_t>(least_b) << 16 | static_cast<std::uint32_t>(255 - greatest_b) << 24;
+}
+
+/// The slant of a point, from its box.
+constexpr std::uint32_t slant_of_point(std::uint32_t box) noexcept {
+  const int u = static_cast<int>(box & 255), w = static_cast<int>(box >> 16 & 255);
+  const int sum = (u + w) / 2, difference = (u - w + 255) / 2;
+  return range_word(sum, sum, difference, difference);
+}
+
+/// Whether no byte of the range exceeds the point's.
+constexpr bool holds(std::uint32_t range, std::uint32_t point) noexcept {
+  for (int shift = 0; shift < 32; shift += 8) {
+    if ((range >> shift & 255) > (point >> shift & 255)) return false;
+  }
+  return true;
+}
+
+/// What a triangle takes of a face, in parts from the face's corner: least and greatest u, w, u + w, and
+/// u - w + 256 N.
+struct FaceParts {
+  std::array<int, 4> least, greatest;
+};
+
+/// Its octagon in a cell; nothing where it keeps off the cell. A point's parts are rounded down one by one:
+/// their sum may be 1 less than that of what it is rounded from, their difference 1 more. One part more on
+/// either side is for points on the face's last edge.
+constexpr std::optional<CellOctagon> octagon_in_cell(const FaceParts& parts, int cells_per_side, int column,
+                                                     int row) noexcept {
+  const auto within = [](int value, int most) { return value < 0 ? 0 : value > most ? most : value; };
+  const int sum_start = parts_per_cell * (column + row);
+  const int difference_start = parts_per_cell * (cells_per_side + column - row) - 255;
+  const int sum_least = parts.least[2] - 2 - sum_start, sum_greatest = parts.greatest[2] + 1 - sum_start;
+  const int difference_least = parts.least[3] - 1 - difference_start;
+  const int difference_greatest = parts.greatest[3] + 2 - difference_start;
+  if (sum_greatest < 0 || sum_least > 510 || difference_greatest < 0 || difference_least > 510) return {};
+  const int u = parts_per_cell * column, w = parts_per_cell * row;
+  return CellOctagon{range_word(within(parts.least[0] - u, 255), within(parts.greatest[0] - u, 255),
+                                within(parts.least[1] - w, 255), within(parts.greatest[1] - w, 255)),
+                     range_word(within(sum_least, 510) / 2, within(sum_greatest, 510) / 2,
+                                within(difference_least, 510) / 2, within(difference_greatest, 510) / 2)};
+}
+
+/// A pose as the passes read it, about the joint centre: rotation by rows, translation, its length.
+struct FloatPose {
+  std::array<float, 9> rotation;
+  std::array<float, 3> translation;
+  float distance;
+};
+
+/// Columns of SortedPoints: its points, and the blocks of one of its levels.
+struct PointColumns {
+  const float *x, *y, *z;
+  std::size_t size;
+};
+struct BlockColumns {
+  const float *axis_x, *axis_y, *axis_z, *chord, *nearest, *furthest, *mean_inverse, *spread;
+  std::size_t count;
+};
+
+}  // namespace condyle

@@ -1,0 +1,469 @@
+#include "condyle/radial/penetration_passes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <hwy/cache_control.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "condyle/radial/penetration_passes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Sixteen lanes at most: a block. Narrower vectors take several steps for one.
+using D = hn::CappedTag<float, 16>;
+using DI = hn::RebindToSigned<D>;
+using DU = hn::RebindToUnsigned<D>;
+using Floats = hn::Vec<D>;
+using Ints = hn::Vec<DI>;
+using Words = hn::Vec<DU>;
+constexpr D d;
+constexpr DI di;
+constexpr DU du;
+
+/// Where rays meet the cube: face, and u, w in [-1, 1] on it, as CubeMap has them.
+struct CubePlace {
+  Ints face;
+  Floats u, w;
+};
+
+HWY_INLINE CubePlace place_on_cube(Floats x, Floats y, Floats z) {
+  const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
+  const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
+  const auto on_y = hn::AndNot(on_x, hn::Ge(ay, az));
+  const auto largest = hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z));
+  const auto u = hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x));
+  const auto w = hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y));
+  const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Abs(largest));
+  const auto axis = hn::IfThenElse(hn::RebindMask(di, on_x), hn::Zero(di),
+                                   hn::IfThenElse(hn::RebindMask(di, on_y), hn::Set(di, 1), hn::Set(di, 2)));
+  const auto negative = hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)), hn::Set(di, 3));
+  return {hn::Add(axis, negative), hn::Mul(u, inverse), hn::Mul(w, inverse)};
+}
+
+/// Column or row of `count` equal ones over [-1, 1].
+HWY_INLINE Ints column(Floats u, int count) {
+  const auto at = hn::Mul(hn::Add(u, hn::Set(d, 1.0f)), hn::Set(d, 0.5f * static_cast<float>(count)));
+  return hn::Min(hn::Max(hn::ConvertTo(di, at), hn::Zero(di)), hn::Set(di, count - 1));
+}
+
+HWY_INLINE Ints radius_code(const RadiusScale& scale, Floats squared) {
+  const auto steps =
+      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
+  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
+}
+
+/// radius_word(greatest, least): what an interval of radii must not exceed in either half to meet [least,
+/// greatest].
+HWY_INLINE Words reach_word(Ints least, Ints greatest) {
+  const auto complement = hn::Sub(hn::Set(di, greatest_radius_code), least);
+  return hn::BitCast(du, hn::Or(greatest, hn::ShiftLeft<16>(complement)));
+}
+
+/// Whether no half of the entry exceeds the word's: the two intervals meet.
+HWY_INLINE hn::Mask<DU> radii_meet(Words entry, Words word) {
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint32_t e = hn::GetLane(entry), w = hn::GetLane(word);
+  return hn::MaskFromVec(hn::Set(du, (e & 0xffff) <= (w & 0xffff) && e >> 16 <= w >> 16 ? ~0u : 0u));
+#else
+  constexpr hn::Repartition<std::uint16_t, DU> halves;
+  const auto excess = hn::SaturatedSub(hn::BitCast(halves, entry), hn::BitCast(halves, word));
+  return hn::Eq(hn::BitCast(du, excess), hn::Zero(du));
+#endif
+}
+
+HWY_INLINE Floats dot(Floats x, Floats y, Floats z, float a, float b, float c) {
+  return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
+}
+
+/// Level of the pyramid whose cells are at least as wide as a displacement on the face, given in cells of the
+/// finest level: the exponent above it. 2^k <= cells < 2^(k + 1) asks for level k + 1; less than one for 0.
+HWY_INLINE Ints level_for(Floats cells) {
+  const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, cells));
+  return hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
+}
+
+/// Index into the pyramid: level k has 6 n^2 cells, n = N >> k, and starts at 8 (N^2 - n^2).
+HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints level) {
+  const int finest = cube.cells_per_side;
+  const auto shift = hn::BitCast(du, level);
+  const auto at_level = [&](Ints value) { return hn::BitCast(di, hn::Shr(hn::BitCast(du, value), shift)); };
+  const auto n = at_level(hn::Set(di, finest));
+  const auto row = at_level(column(place.w, finest)), col = at_level(column(place.u, finest));
+  const auto start = hn::ShiftLeft<3>(hn::Sub(hn::Set(di, finest * finest), hn::Mul(n, n)));
+  return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), row), n), col));
+}
+
+/// A block's cap about R axis + t / |p| holds the directions of R p + t, and its radii grow as this says.
+///
+///     | R p + t - (|p| / m) (m R axis + t) | <= |p| chord + |t| | |p| / m - 1 |,   1 / m the mean inverse
+///     | R p + t |^2 = |p|^2 + |t|^2 + 2 (R p) . t,   (R p) . t within |p| (R axis . t -+ chord |t|)
+///
+/// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
+/// those of the points later, and a rotation that is one to 1e-6.
+template <bool translated>
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  const auto& r = pose.rotation;
+  const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
+  const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
+    const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
+    const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
+    const auto z = hn::LoadU(d, blocks.axis_z + block), chord = hn::LoadU(d, blocks.chord + block);
+    auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
+    auto az = dot(x, y, z, r[6], r[7], r[8]);
+    const auto nearest = hn::LoadU(d, blocks.nearest + block),
+               furthest = hn::LoadU(d, blocks.furthest + block);
+    auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
+    auto sine = chord;
+    auto certain = hn::Gt(nearest, hn::Zero(d));
+    if constexpr (translated) {
+      const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
+      const auto spread = hn::LoadU(d, blocks.spread + block);
+      const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
+      ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
+      ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
+      az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
+      const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
+      certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
+      sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
+      const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
+      const auto two = hn::Set(d, 2.0f);
+      least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
+      greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
+    }
+    const CubePlace place = place_on_cube(ax, ay, az);
+    const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
+    const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
+    // A cap with that sine moves a coordinate of the face by at most this, in cells.
+    const auto opening = hn::Mul(sine, length);
+    const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
+                                       hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
+                               hn::Sub(one, opening));
+    const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
+    certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
+    const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
+    const auto index =
+        hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
+    const auto entry = hn::GatherIndex(du, cube.pyramid, index);
+    const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                                 radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+    const auto near = hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
+    const auto asked = hn::And(near, hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
+    const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
+    hn::StoreU(hn::Compress(number, asked), du, found + count);
+    count += hn::CountTrue(du, asked);
+  }
+  return count;
+}
+
+std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                            const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  return pose.distance > 0 ? near_blocks<true>(cube, blocks, pose, parents, parent_count, found)
+                           : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
+}
+
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  const auto& r = pose.rotation;
+  const auto& t = pose.translation;
+  const int finest = cube.cells_per_side;
+  const auto part_mask = hn::Set(di, parts_per_cell - 1);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < block_count; ++i) {
+    const std::size_t first = std::size_t{16} * blocks[i];
+    if (i + 4 < block_count) {
+      const std::size_t ahead = std::size_t{16} * blocks[i + 4];
+      hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
+    }
+    for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
+      const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at),
+                 pz = hn::LoadU(d, points.z + at);
+      const auto x = hn::Add(dot(px, py, pz, r[0], r[1], r[2]), hn::Set(d, t[0]));
+      const auto y = hn::Add(dot(px, py, pz, r[3], r[4], r[5]), hn::Set(d, t[1]));
+      const auto z = hn::Add(dot(px, py, pz, r[6], r[7], r[8]), hn::Set(d, t[2]));
+      const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+      const auto code = radius_code(cube.scale, squared);
+      const CubePlace place = place_on_cube(x, y, z);
+      const auto u = column(place.u, finest * parts_per_cell), w = column(place.w, finest * parts_per_cell);
+      const auto n = hn::Set(di, finest);
+      const auto cell =
+          hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
+      const auto entry = hn::GatherIndex(du, cube.radii, cell);
+      auto near = radii_meet(entry, reach_word(code, code));
+      if (HWY_UNLIKELY(first + 16 > points.size)) {
+        near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
+      }
+      if (hn::AllFalse(du, near)) continue;
+      const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
+      const auto box =
+          hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
+                 hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
+      const auto near_float = hn::RebindMask(d, near);
+      hn::StoreU(hn::Compress(x, near_float), d, found.x.data() + count);
+      hn::StoreU(hn::Compress(y, near_float), d, found.y.data() + count);
+      hn::StoreU(hn::Compress(z, near_float), d, found.z.data() + count);
+      hn::StoreU(hn::Compress(hn::BitCast(du, cell), near), du, found.cell.data() + count);
+      hn::StoreU(hn::Compress(hn::BitCast(du, box), near), du, found.box.data() + count);
+      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(at)), near), du,
+                 found.point.data() + count);
+      count += hn::CountTrue(du, near);
+    }
+  }
+  found.count = count;
+}
+
+/// Triangles whose octagons hold a point, with the number of the point among the near ones.
+struct Pairs {
+  static constexpr std::size_t most = 4096;
+  std::array<std::uint32_t, most + vector_room> triangle, point;
+  std::size_t count;
+};
+
+/// Which of the octagons from `first` on hold the point.
+HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first, std::size_t last, Words box,
+                                         Words slant) {
+#if HWY_TARGET == HWY_SCALAR
+  static_cast<void>(last);
+  const bool held = holds(cube.box[first], hn::GetLane(box)) && holds(cube.slant[first], hn::GetLane(slant));
+  return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
+#else
+  constexpr hn::Repartition<std::uint8_t, DU> bytes;
+  const auto excess = [&](const std::uint32_t* from, Words point) {
+    return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
+  };
+  const auto either = hn::Or(excess(cube.box, box), excess(cube.slant, slant));
+  return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
+#endif
+}
+
+/// Pairs of one near point, added to the others; false where there are too many.
+HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
+  const CellRow row = cube.row[points.cell[i]];
+  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, slant_of_point(points.box[i]));
+  const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
+  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+    const auto holding = octagons_holding(cube, first, row.last, box, slant);
+    hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du,
+               pairs.triangle.data() + pairs.count);
+    hn::StoreU(number, du, pairs.point.data() + pairs.count);
+    pairs.count += hn::CountTrue(du, holding);
+    if (pairs.count > Pairs::most - vector_room) return false;
+  }
+  return true;
+}
+
+/// A crossing of a near point's ray: s is |v| over its radius, NaN where floats do not say whether there is
+/// one.
+struct Crossing {
+  float s, error;
+  std::uint32_t triangle, point;
+  std::int32_t outwards;  // 1 where the ray leaves the solid, -1 where it enters
+};
+struct Crossings {
+  std::array<Crossing, Pairs::most + 1> crossing;
+  std::size_t count;
+};
+
+/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
+HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pairs& pairs, float form_bound,
+                      Crossings& out) {
+  constexpr hn::CappedTag<float, 4> d4;
+  constexpr std::size_t ahead = 8;
+  // Forms may lie across two lines of the cache.
+  const auto fetch = [&](std::size_t i) {
+    const ConeForms& forms = cube.forms[pairs.triangle[std::min(i, pairs.count - 1)]];
+    hwy::Prefetch(forms.x), hwy::Prefetch(forms.z + 3);
+  };
+  for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs.count; ++i) {
+    fetch(i + ahead);
+    const std::uint32_t triangle = pairs.triangle[i], point = pairs.point[i];
+    const ConeForms& forms = cube.forms[triangle];
+    const float px = points.x[point], py = points.y[point], pz = points.z[point];
+    const float bound = form_bound * std::max(std::max(std::abs(px), std::abs(py)), std::abs(pz));
+    alignas(16) float values[4], errors[4];
+    unsigned below = 0, above = 0;
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
+      const auto x = hn::Load(d4, forms.x + k), y = hn::Load(d4, forms.y + k), z = hn::Load(d4, forms.z + k);
+      const auto value =
+          hn::MulAdd(hn::Set(d4, px), x, hn::MulAdd(hn::Set(d4, py), y, hn::Mul(hn::Set(d4, pz), z)));
+      const auto error = hn::Mul(hn::Set(d4, bound), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
+      std::uint8_t bits[8] = {};
+      hn::StoreMaskBits(d4, hn::Lt(value, hn::Neg(error)), bits);
+      below |= static_cast<unsigned>(bits[0]) << k;
+      hn::StoreMaskBits(d4, hn::Gt(value, error), bits);
+      above |= static_cast<unsigned>(bits[0]) << k;
+      hn::Store(value, d4, values + k);
+      hn::Store(error, d4, errors + k);
+    }
+    // Without branches, which nothing could foretell: all bits of a magnitude set are a NaN.
+    const std::uint32_t bits_of_value = std::bit_cast<std::uint32_t>(values[3]);
+    const std::uint32_t doubt = 0u - static_cast<std::uint32_t>((above & 7) != 7);
+    out.crossing[count] = {std::bit_cast<float>((bits_of_value | doubt) & 0x7fffffffu), errors[3], triangle,
+                           point, 1 - 2 * static_cast<std::int32_t>(bits_of_value >> 31)};
+    count += static_cast<std::size_t>((below & 7) == 0);
+  }
+  out.count = count;
+}
+
+/// The certain crossings of one ray.
+struct Ray {
+  static constexpr std::size_t most = 24;
+  Crossing crossing[most];
+  std::size_t count;
+  int winding;  // of the point
+  bool doubtful;
+};
+
+HWY_INLINE void collect(std::span<const Crossing> crossings, int winding_at_centre, Ray& ray) {
+  ray.count = 0, ray.winding = winding_at_centre;
+  ray.doubtful = crossings.size() > Ray::most;
+  if (ray.doubtful) return;
+  for (const Crossing& crossing : crossings) {
+    const float beyond = crossing.s - 1;
+    ray.doubtful |= !(std::abs(beyond) > crossing.error);
+    ray.winding -= beyond > 0 ? crossing.outwards : 0;
+    ray.crossing[ray.count++] = crossing;
+  }
+}
+
+/// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
+///
+/// Crossings in order from the centre have falling s. The gaps 1 - 1/s before and 1/s' - 1 behind compare as
+/// 2 s s' does with s + s'.
+HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
+  for (std::size_t i = 1; i < ray.count; ++i) {
+    const Crossing moving = ray.crossing[i];
+    std::size_t k = i;
+    for (; k > 0 && ray.crossing[k - 1].s < moving.s; --k) ray.crossing[k] = ray.crossing[k - 1];
+    ray.crossing[k] = moving;
+  }
+  for (std::size_t i = 1; i < ray.count; ++i) {
+    const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
+    if (!(nearer.s - further.s > nearer.error + further.error)) return false;
+  }
+  const Crossing *before = nullptr, *after = nullptr;
+  int winding = winding_at_centre;
+  for (std::size_t i = 0; i < ray.count; ++i) {
+    const Crossing& crossing = ray.crossing[i];
+    const bool was_inside = winding > 0;
+    winding -= crossing.outwards;
+    if (was_inside == (winding > 0)) continue;
+    if (crossing.s > 1) {
+      before = &crossing;
+    } else if (!after) {
+      after = &crossing;
+    }
+  }
+  if (!after) return false;
+  found.away_from_centre = true;
+  if (before) {
+    const float b = before->s, a = after->s;
+    const float difference = a + b - 2 * a * b;
+    const float error = 1.01f * (before->error * (1 + 2 * a) + after->error * (1 + 2 * b));
+    if (!(std::abs(difference) > error)) return false;
+    found.away_from_centre = difference < 0;
+  }
+  found.triangle = (found.away_from_centre ? after : before)->triangle;
+  return true;
+}
+
+/// Decides near points [first, last), whose crossings these are.
+HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
+                       const Crossings& crossings, FoundPoints& found) {
+  Ray ray;
+  const Crossing *next = crossings.crossing.data(), *const end = next + crossings.count;
+  for (std::size_t i = first; i < last; ++i) {
+    const Crossing* const begin = next;
+    while (next != end && next->point == i) ++next;
+    collect({begin, next}, cube.winding_at_centre, ray);
+    if (cube.winding_at_centre > 0) {
+      // Nearer to the centre than any surface, floats may have lost the direction.
+      const float x = points.x[i], y = points.y[i], z = points.z[i];
+      ray.doubtful |= x * x + y * y + z * z < cube.nearest_squared;
+    }
+    if (!ray.doubtful && ray.winding <= 0) continue;
+    FoundPoint& at = found.point[found.count++];
+    at.point = points.point[i];
+    at.triangle = no_index;
+    at.winding = static_cast<std::int16_t>(ray.winding);
+    at.doubtful = ray.doubtful || !leave(ray, cube.winding_at_centre, at);
+  }
+}
+
+std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
+                              FoundPoints& found) {
+  Pairs pairs;
+  Crossings crossings;
+  std::size_t tried = 0;
+  found.count = 0;
+  for (std::size_t first = 0; first < points.count;) {
+    std::size_t last = first;
+    pairs.count = 0;
+    bool fits = true;
+    while (last < points.count && fits) {
+      const std::size_t before = pairs.count;
+      hwy::Prefetch(cube.row + points.cell[std::min(last + 8, points.count - 1)]);
+      const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
+      hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
+      hwy::Prefetch(cube.triangle + row_ahead);
+      fits = pair(cube, points, last, pairs);
+      if (fits) {
+        ++last;
+      } else {
+        pairs.count = before;
+      }
+    }
+    cross(cube, points, pairs, form_bound, crossings);
+    decide(cube, points, first, last, crossings, found);
+    tried += pairs.count;
+    if (last == first) {
+      // More triangles at one point than there is room for.
+      found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
+    }
+    first = last;
+  }
+  return tried;
+}
+
+}  // namespace
+}  // namespace condyle::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace condyle {
+
+HWY_EXPORT(near_blocks_any);
+HWY_EXPORT(near_points_any);
+HWY_EXPORT(inside_points_any);
+
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(near_blocks_any)(cube, blocks, pose, parents, parent_count, found);
+}
+
+void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                 const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
+}
+
+std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
+                          FoundPoints& found) {
+  return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, found);
+}
+
+}  // namespace condyle
+#endif

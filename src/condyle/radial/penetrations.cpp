@@ -1,0 +1,204 @@
+#include "condyle/radial/penetrations.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "condyle/radial/penetration_passes.hpp"
+#include "condyle/radial/radial_table.hpp"
+
+namespace condyle {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Lengths that floats square and multiply without overflow or loss, mm.
+constexpr double least_length = 0x1p-40, greatest_length = 0x1p40;
+
+/// How far a rotation's columns may be from orthonormal, for blocks to keep their radii and caps.
+constexpr double rotation_error = 1e-6;
+
+bool is_rotation(const Pose& X) {
+  const Eigen::Matrix3d R = X.linear();
+  return ((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().array() <= rotation_error).all();
+}
+
+/// The pose about the points' own centre.
+FloatPose float_pose(const Pose& X, const Vec3& centre) {
+  FloatPose pose{};
+  const Vec3 t = X * centre;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k)
+      pose.rotation[static_cast<std::size_t>(3 * i + k)] = static_cast<float>(X.linear()(i, k));
+    pose.translation[static_cast<std::size_t>(i)] = static_cast<float>(t[i]);
+  }
+  const double distance = t.norm();
+  pose.distance = distance > 0 ? std::nextafter(static_cast<float>(distance), infinity) : 0.0f;
+  return pose;
+}
+
+BlockColumns blocks_of(const SortedPoints& points, std::size_t level) {
+  const auto column = [&](SortedPoints::Column c) { return points.block(level, c); };
+  using P = SortedPoints;
+  return {column(P::axis_x),       column(P::axis_y),  column(P::axis_z),
+          column(P::chord),        column(P::nearest), column(P::furthest),
+          column(P::mean_inverse), column(P::spread),  points.block_count(level)};
+}
+
+}  // namespace
+
+void Penetrations::resize(std::size_t count) {
+  point.resize(count), state.resize(count), winding.resize(count);
+  triangle.resize(count), depth.resize(count), direction.resize(count);
+}
+
+/// What the passes read, or nothing where floats are not to be trusted with these points and this pose.
+std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const FloatPose& pose) const {
+  const auto* cube = std::get_if<CubeMap>(&map_);
+  if (!cube || mesh_.triangles.empty()) return std::nullopt;
+  const double nearest = std::sqrt(lists_.scale.lower_end()), furthest = std::sqrt(lists_.scale.upper_end());
+  const bool in_range =
+      nearest > least_length && furthest < greatest_length && points.reach() < greatest_length;
+  if (!in_range || !(pose.distance <= largest_translation * nearest)) return std::nullopt;
+  if (std::abs(*winding_at_centre_) > 1000) return std::nullopt;
+  return CubeView{cube->cells_per_side(), DirectionPyramid::level_count(cube->cells_per_side()),
+                  lists_.radii.data(),    pyramid_.data(),
+                  lists_.row.data(),      lists_.triangle.data(),
+                  lists_.box.data(),      lists_.slant.data(),
+                  lists_.forms.data(),    lists_.scale,
+                  *winding_at_centre_,    static_cast<float>(nearest * nearest)};
+}
+
+void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
+                               PenetrationWork* work) const {
+  require_closed();
+  out.resize(0);
+  out.ray_to_normal.clear();
+  const FloatPose pose = float_pose(X_FM, points.centre());
+  const auto cube = is_rotation(X_FM) ? cube_view(points, pose) : std::nullopt;
+  if (!cube) return penetrations_one_by_one(points, X_FM, out);
+
+  const PointColumns columns{points.coordinate(0), points.coordinate(1), points.coordinate(2), points.size()};
+  const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
+  const auto form_bound = static_cast<float>(
+      (form_error + form_error_of_translation * pose.distance / std::sqrt(cube->nearest_squared)) *
+      (1 + 0x1p-20));
+  RayScan scan(mesh_, *winding_at_centre_);
+  constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan,
+                        sets_per_batch = 16;
+  std::array<std::uint32_t, sets_per_batch> set;
+  std::array<std::uint32_t, sets_per_batch * fan + vector_room> near_group;
+  std::array<std::uint32_t, blocks_per_batch + vector_room> near_block;
+  NearPoints near;
+  FoundPoints found;
+  const std::size_t set_count = (groups.count + fan - 1) / fan;
+  for (std::size_t first_set = 0; first_set < set_count; first_set += sets_per_batch) {
+    const std::size_t sets = std::min(sets_per_batch, set_count - first_set);
+    for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
+    const std::size_t group_count = near_blocks(*cube, groups, pose, set.data(), sets, near_group.data());
+    for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
+      const std::size_t count =
+          near_blocks(*cube, blocks, pose, near_group.data() + first,
+                      std::min(groups_per_batch, group_count - first), near_block.data());
+      if (work) work->near_blocks += count;
+      if (count == 0) continue;
+      near_points(*cube, columns, pose, near_block.data(), count, near);
+      if (work) work->near_points += near.count;
+      if (near.count == 0) continue;
+      const std::size_t tried = inside_points(*cube, near, form_bound, found);
+      finish(points, X_FM, found, scan, out);
+      if (!work) continue;
+      work->triangles += tried;
+      for (std::size_t i = 0; i < found.count; ++i) work->doubtful += found.point[i].doubtful;
+    }
+  }
+  if (work) work->blocks += blocks.count;
+}
+
+/// Depths in double; points in doubt from the start.
+void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found,
+                         RayScan& scan, Penetrations& out) const {
+  const std::size_t first = out.size();
+  std::size_t count = first;
+  out.resize(first + found.count);
+  // What a depth needs lies far apart: it is asked for some points ahead, triangles before their corners.
+  constexpr std::size_t ahead = 12;
+  const auto fetch = [&](std::size_t i) {
+    if (i + ahead < found.count) {
+      __builtin_prefetch(&points[found.point[i + ahead].point]);
+      const std::uint32_t t = found.point[i + ahead].triangle;
+      if (t < mesh_.triangles.size()) __builtin_prefetch(&mesh_.triangles[t]);
+    }
+    if (i + ahead / 2 < found.count) {
+      const std::uint32_t t = found.point[i + ahead / 2].triangle;
+      if (t < mesh_.triangles.size()) {
+        for (const Index corner : mesh_.triangles[t]) __builtin_prefetch(&lists_.corner[corner]);
+      }
+    }
+  };
+  for (std::size_t i = 0; i < found.count; ++i) {
+    fetch(i);
+    const FoundPoint& at = found.point[i];
+    const Vec3 v = posed(X_FM, points[at.point]);
+    out.point[count] = points.index()[at.point];
+    if (at.doubtful) {
+      const RayAnswer answer = answer_in_doubt(v, scan);
+      if (answer.state == PointState::outside) continue;
+      out.state[count] = answer.state;
+      out.winding[count] = answer.winding;
+      out.triangle[count] = answer.triangle;
+      out.depth[count] = std::abs(answer.gap);
+      out.direction[count] = answer.direction;
+    } else {
+      const auto& [a, b, c] = mesh_.triangles[at.triangle];
+      out.state[count] = PointState::inside;
+      out.winding[count] = at.winding;
+      out.triangle[count] = at.triangle;
+      out.depth[count] =
+          std::abs(distance_along_ray(v, {lists_.corner[a], lists_.corner[b], lists_.corner[c]}));
+      out.direction[count] =
+          at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
+    }
+    ++count;
+  }
+  out.resize(count);
+}
+
+/// As query() answers, leaving out triangles whose boxes do not hold the point.
+RayAnswer RadialTable::answer_in_doubt(const Vec3& v, RayScan& scan) const {
+  if (v == Vec3::Zero()) return scan.answer(v, {});
+  const Index cell = cell_of(v);
+  const auto* cube = std::get_if<CubeMap>(&map_);
+  if (!cube) return scan.answer(v, lists_.of(cell));
+  const std::uint32_t point = cube->box_of(v);
+  std::vector<Index> candidates;
+  for (std::uint32_t i = lists_.row[cell].first; i < lists_.row[cell].last; ++i) {
+    if (holds(lists_.box[i], point) && holds(lists_.slant[i], slant_of_point(point)))
+      candidates.push_back(lists_.triangle[i]);
+  }
+  return scan.answer(v, candidates);
+}
+
+void RadialTable::penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM,
+                                          Penetrations& out) const {
+  RayScan scan(mesh_, *winding_at_centre_);
+  FoundPoints all;
+  for (std::size_t first = 0; first < points.size(); first += points_per_batch) {
+    all.count = std::min(points_per_batch, points.size() - first);
+    for (std::size_t i = 0; i < all.count; ++i) {
+      all.point[i] = {static_cast<std::uint32_t>(first + i), no_index, 0, false, true};
+    }
+    finish(points, X_FM, all, scan, out);
+  }
+}
+
+void RadialTable::add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const {
+  out.ray_to_normal.resize(out.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Index t = out.triangle[i];
+    out.ray_to_normal[i] =
+        t == no_index ? 0 : angle_to_normal(posed(X_FM, points[out.point[i]]), cone_of(mesh_, t));
+  }
+}
+
+}  // namespace condyle

@@ -1,0 +1,209 @@
+#include "condyle/radial/cell_lists.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "condyle/core/instruction_set.hpp"
+#include "condyle/radial/direction_pyramid.hpp"
+#include "condyle/radial/sorted_points.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+/// Triangles of every size and place: small and large against a cell, over edges and corners of the cube,
+/// seen edge-on, and slivers.
+TriMesh triangle_soup(std::size_t count, double largest, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1), exponent(-4, 0);
+  TriMesh mesh;
+  const auto point = [&](double scale) {
+    return Vec3(scale * Vec3(uniform(random), uniform(random), uniform(random)));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    Vec3 a = point(1).normalized() * (2 + uniform(random));
+    // Every third one near an edge or corner of the cube.
+    if (i % 3 == 0) a = Vec3(1, i % 2 == 0 ? 1 : -1, i % 4 == 0 ? 1 : 0.3) * 1.5 + point(0.01);
+    const double size = largest * std::pow(10, exponent(random));
+    const Vec3 b = a + point(size);
+    const Vec3 c = i % 5 == 0   ? Vec3(a + 0.3 * (b - a) + point(1e-9))
+                   : i % 7 == 0 ? Vec3(1.5 * a)
+                                : Vec3(a + point(size));
+    for (const Vec3& corner : {a, b, c}) mesh.vertices.push_back(corner);
+    const auto first = static_cast<Index>(3 * i);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  return mesh;
+}
+
+Vec3 random_point(const TriMesh& mesh, Index t, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(0, 1);
+  double s = unit(random), r = unit(random);
+  if (s + r > 1) s = 1 - s, r = 1 - r;
+  if (random() % 4 == 0) s = 0;
+  if (random() % 8 == 0) s = r = 0;
+  return mesh.corner(t, 0) + s * (mesh.corner(t, 1) - mesh.corner(t, 0)) +
+         r * (mesh.corner(t, 2) - mesh.corner(t, 0));
+}
+
+class CubeListsOn : public testing::TestWithParam<InstructionSet> {
+ protected:
+  InstructionSetInUse in_use_{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, CubeListsOn, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return set.param.name; });
+
+TEST_P(CubeListsOn, EveryPointOfATriangleFindsItInItsCellOctagonAndRadii) {
+  std::mt19937 random(1);
+  for (const double largest : {0.1, 1.0, 3.0}) {
+    const TriMesh mesh = triangle_soup(400, largest, 2);
+    for (const int cells : {1, 5, 16, 64}) {
+      const CubeMap map(cells);
+      const CellLists lists = list_cells(mesh, map);
+      for (Index t = 0; t < mesh.triangles.size(); ++t) {
+        for (int k = 0; k < 20; ++k) {
+          // A direction next to the point's own, as near as floats may bring it.
+          const Vec3 p = random_point(mesh, t, random);
+          const Vec3 v =
+              k % 2 == 0 ? p
+                         : Vec3(p + 0x1p-17 * p.cwiseAbs().maxCoeff() * Vec3(1, -1, k % 4 == 0 ? 1 : -1) / 2);
+          const Index cell = map.cell_of(v);
+          const std::uint32_t place = map.box_of(v);
+          bool found = false;
+          for (std::uint32_t i = lists.row[cell].first; i < lists.row[cell].last; ++i) {
+            found |= lists.triangle[i] == t && holds(lists.box[i], place) &&
+                     holds(lists.slant[i], slant_of_point(place));
+          }
+          ASSERT_TRUE(found) << "triangle " << t << " cells " << cells;
+          const auto squared = static_cast<float>(p.squaredNorm());
+          ASSERT_LE(lists.scale.least(static_cast<int>(lists.radii[cell] & 0xffff)), squared);
+          ASSERT_GE(lists.scale.greatest(0xffff - static_cast<int>(lists.radii[cell] >> 16)), squared);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(CubeListsOn, FormsThatAreNumbersTellOnWhichSideOfEdgesAndPlaneAPointIs) {
+  const TriMesh mesh = triangle_soup(400, 1, 3);
+  const CellLists lists = list_cells(mesh, CubeMap(16));
+  std::mt19937 random(4);
+  std::size_t numbers = 0;
+  for (Index t = 0; t < mesh.triangles.size(); ++t) {
+    const ConeForms& forms = lists.forms[t];
+    if (std::isnan(forms.x[0])) continue;
+    ++numbers;
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double volume = a.dot(b.cross(c));
+    const Vec3 exact[4] = {a.cross(b) / volume, b.cross(c) / volume, c.cross(a) / volume,
+                           (b - a).cross(c - a) / std::abs(volume)};
+    for (int k = 0; k < 4; ++k) {
+      // Half of coefficient_error's units and one rounding, of the sum of magnitudes; double adds 1e-9 of it
+      // here.
+      const double allowed = (coefficient_error + 0x1p-24) * exact[k].cwiseAbs().sum() * (1 + 1e-6);
+      EXPECT_NEAR(forms.x[k], exact[k].x(), allowed);
+      EXPECT_NEAR(forms.y[k], exact[k].y(), allowed);
+      EXPECT_NEAR(forms.z[k], exact[k].z(), allowed);
+    }
+  }
+  EXPECT_GT(numbers, 200u);
+}
+
+TEST(RadiusScale, CodesRiseWithTheRadiusAndHoldIt) {
+  const RadiusScale scale(3.0f, 5000.0f);
+  int last = 0;
+  for (float squared = 0.5f; squared < 2e4f; squared *= 1.0001f) {
+    const int code = scale.code(squared);
+    EXPECT_GE(code, last);
+    EXPECT_LE(scale.least(code), squared);
+    EXPECT_GE(scale.greatest(code), squared);
+    EXPECT_TRUE(squared > 5000 || (code > 0) == (squared >= 3));
+    EXPECT_TRUE(squared > 5000 || code < greatest_radius_code);
+    last = code;
+  }
+  EXPECT_EQ(scale.code(1e20f), greatest_radius_code);
+}
+
+TEST(RadiusScale, AnEmptyIntervalAddsNothingAndMeetsNothing) {
+  const RadiusWord word = radius_word(7, 9);
+  EXPECT_EQ(union_of(word, no_radii), word);
+  EXPECT_EQ(union_of(radius_word(3, 5), radius_word(4, 8)), radius_word(3, 8));
+}
+
+/// Place on the face of a cube map, in [-1, 1].
+struct Place {
+  int face;
+  double u, w;
+};
+Place place_of(const Vec3& v) {
+  int axis = 0;
+  const double largest = v.cwiseAbs().maxCoeff(&axis);
+  return {axis + (v[axis] < 0 ? 3 : 0), v[(axis + 1) % 3] / largest, v[(axis + 2) % 3] / largest};
+}
+
+TEST(DirectionPyramid, AnEntryHoldsAllDirectionsDisplacedByNoMoreThanItsWidth) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const int cells : {4, 12, 32}) {
+    const CubeMap map(cells);
+    std::vector<RadiusWord> radii(map.cell_count());
+    for (auto& word : radii)
+      word = radius_word(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
+    DirectionPyramid pyramid;
+    pyramid.fill(cells, radii);
+    for (int k = 0; k < 20000; ++k) {
+      const int level =
+          static_cast<int>(random() % static_cast<unsigned>(DirectionPyramid::level_count(cells)));
+      const int n = cells >> level;
+      const Place at = place_of({uniform(random), uniform(random), uniform(random)});
+      const auto index = [&](double s) { return std::clamp(static_cast<int>((s + 1) * n / 2), 0, n - 1); };
+      const std::size_t start =
+          8 * (static_cast<std::size_t>(cells * cells) - static_cast<std::size_t>(n * n));
+      const RadiusWord entry =
+          pyramid.data()[start + static_cast<std::size_t>((at.face * n + index(at.w)) * n + index(at.u))];
+      // A direction displaced on the plane of the face, past its edges too.
+      const double width = 2.0 / n;
+      Vec3 displaced;
+      displaced[at.face % 3] = at.face < 3 ? 1 : -1;
+      displaced[(at.face + 1) % 3] = at.u + width * uniform(random);
+      displaced[(at.face + 2) % 3] = at.w + width * uniform(random);
+      const RadiusWord word = radii[map.cell_of(displaced)];
+      ASSERT_EQ(union_of(entry, word), entry);
+    }
+  }
+}
+
+TEST(SortedPoints, BlocksHoldEachPointOnceWithinTheirCapsAndRadii) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Points points;
+  for (int i = 0; i < 3001; ++i)
+    points.push_back({uniform(random), uniform(random) * uniform(random), uniform(random)});
+  const Vec3 centre(0.2, -0.1, 0.3);
+  const SortedPoints sorted(points, centre);
+  std::vector<Index> numbers(sorted.index().begin(), sorted.index().end());
+  std::sort(numbers.begin(), numbers.end());
+  for (Index i = 0; i < points.size(); ++i) ASSERT_EQ(numbers[i], i);
+  using S = SortedPoints;
+  for (std::size_t i = 0; i < sorted.size(); ++i) {
+    ASSERT_EQ(sorted[i], points[sorted.index()[i]]);
+    const Vec3 p = sorted[i] - centre;
+    for (std::size_t level = 0; level < S::levels; ++level) {
+      const std::size_t block = i / (level == 0 ? S::fan : S::fan * S::fan);
+      const auto value = [&](S::Column column) {
+        return static_cast<double>(sorted.block(level, column)[block]);
+      };
+      const Vec3 axis(value(S::axis_x), value(S::axis_y), value(S::axis_z));
+      EXPECT_LE((p / p.norm() - axis).norm(), value(S::chord));
+      EXPECT_LE(value(S::nearest), p.norm());
+      EXPECT_GE(value(S::furthest), p.norm());
+      EXPECT_LE(std::abs(1 / p.norm() - value(S::mean_inverse)), value(S::spread));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace condyle
