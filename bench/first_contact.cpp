@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "condyle/motion/range_of_motion.hpp"
-#include "peers/fcl_obbrss.hpp"
+#include "method.hpp"
 #include "questions.hpp"
 #include "stepping.hpp"
 #include "timing.hpp"
@@ -77,10 +77,12 @@ struct Building {
   double condyle_seconds, fcl_seconds;
 };
 
-Building ask_building(const Joint& joint, int rounds, Report& report) {
+Building ask_building(const Joint& joint, const MethodKind& fcl, int rounds, Report& report) {
   const Motion motion = condyle::hip_motions().front();
-  const auto samples = interleaved(
-      rounds, {[&] { ready(joint, motion); }, [&] { FclObbrss(joint.fixed.mesh, joint.mobile.mesh); }});
+  const auto samples = interleaved(rounds, {[&] { ready(joint, motion); },
+                                            [&] {
+                                              fcl.make({joint.fixed.mesh, joint.mobile.mesh});
+                                            }});
   const Building building{median(samples[0]), median(samples[1])};
   report.table(building_head)
       .add({joint.name, static_cast<std::int64_t>(joint.fixed.mesh.triangles.size()),
@@ -89,7 +91,7 @@ Building ask_building(const Joint& joint, int rounds, Report& report) {
   return building;
 }
 
-void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& range, const FclObbrss& fcl,
+void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& range, Method& fcl,
                const Building& building, int rounds, Report& report) {
   const double sign = motion.sense == condyle::TurnSense::positive ? 1 : -1;
   const TouchAt touch = [&](Angle turn) {
@@ -137,13 +139,18 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
 }  // namespace
 
 void ask_first_contact(const Joint& joint, Effort effort, Report& report) {
+  const auto kind = method_named("fcl_obbrss");
+  if (!kind) {
+    report.skipped.push_back(fmt::format("first_contact/{}: FCL is not there", joint.name));
+    return;
+  }
   const int rounds = effort == Effort::full ? 3 : 1;
-  const Building building = ask_building(joint, rounds, report);
+  const Building building = ask_building(joint, *kind, rounds, report);
   const std::vector<Motion> motions = condyle::hip_motions();
   const auto range = ready(joint, motions.front());
-  const FclObbrss fcl(joint.fixed.mesh, joint.mobile.mesh);
+  const auto fcl = kind->make({joint.fixed.mesh, joint.mobile.mesh});
   for (const auto* name : {"flexion", "internal_rotation_at_90_flexion"})
-    ask_limit(condyle::motion_named(motions, name), joint, *range, fcl, building, rounds, report);
+    ask_limit(condyle::motion_named(motions, name), joint, *range, *fcl, building, rounds, report);
 }
 
 }  // namespace bench

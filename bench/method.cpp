@@ -35,6 +35,8 @@ std::unique_ptr<Method> Method::for_another_thread() {
 std::vector<MethodGroup> method_groups() {
   return {
       {"", true, condyle_kinds()},
+      {"", true, sphere_tree_kinds()},
+      {"", true, spherical_shell_kinds()},
       {"", true, spherical_sampling_kinds()},
       {"", true, layered_depth_kinds()},
       {"", true, dense_distance_kinds()},
@@ -42,6 +44,32 @@ std::vector<MethodGroup> method_groups() {
       {"libfcl-dev", true, fcl_kinds()},
 #else
       {"libfcl-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_CGAL
+      {"libcgal-dev", true, cgal_kinds()},
+      {"libcgal-dev", true, spatial_hashing_kinds()},
+#else
+      {"libcgal-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_VTK
+      {"libvtk9-dev", true, vtk_kinds()},
+#else
+      {"libvtk9-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_BULLET
+      {"libbullet-dev", true, bullet_kinds()},
+#else
+      {"libbullet-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_ODE
+      {"libode-dev", true, ode_kinds()},
+#else
+      {"libode-dev", false, {}},
+#endif
+#ifdef CONDYLE_BENCH_SIMBODY
+      {"libsimbody-dev", true, simbody_kinds()},
+#else
+      {"libsimbody-dev", false, {}},
 #endif
 #ifdef CONDYLE_BENCH_EMBREE
       {"libembree-dev", true, embree_kinds()},
@@ -53,12 +81,16 @@ std::vector<MethodGroup> method_groups() {
 #else
       {"libopenvdb-dev", false, {}},
 #endif
-#ifdef CONDYLE_BENCH_SPATIAL_HASHING
-      {"libcgal-dev", true, spatial_hashing_kinds()},
-#else
-      {"libcgal-dev", false, {}},
-#endif
   };
+}
+
+std::optional<MethodKind> method_named(std::string_view name) {
+  for (MethodGroup& group : method_groups()) {
+    for (MethodKind& kind : group.kinds) {
+      if (kind.name == name) return std::move(kind);
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace bench

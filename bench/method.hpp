@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -100,5 +102,8 @@ struct MethodGroup {
 
 /// All of them, those of absent packages without kinds.
 std::vector<MethodGroup> method_groups();
+
+/// The one of this name; empty where its package was absent, or there is none.
+std::optional<MethodKind> method_named(std::string_view name);
 
 }  // namespace bench

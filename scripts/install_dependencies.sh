@@ -10,11 +10,15 @@ packages=(
   libeigen3-dev libtbb-dev libboost-dev libhwy-dev   # the core
   libvtk9-dev libfmt-dev nlohmann-json3-dev          # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
-  libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there and nowhere else
+  libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there, and a peer
 )
 
 if [ "${1:-}" = clang ]; then packages+=(clang libclang-rt-14-dev clang-format); fi
-if [ "${1:-}" = bench ]; then packages+=(libfcl-dev libembree-dev libopenvdb-dev python3 git); fi
+if [ "${1:-}" = bench ]; then
+  # Peers; CGAL and VTK are above.
+  packages+=(libfcl-dev libembree-dev libopenvdb-dev libbullet-dev libode-dev libsimbody-dev)
+  packages+=(python3 git)
+fi
 
 missing=()
 for package in "${packages[@]}"; do
