@@ -15,6 +15,9 @@ namespace {
 /// Triangles measured and listed together: their radii stay in the nearest cache.
 constexpr std::size_t triangles_per_chunk = 1024;
 
+/// See Listing.
+constexpr std::size_t spare_cells = 4;
+
 /// Room beyond the last entry, for a vector that starts on it.
 constexpr std::size_t vector_room = 16;
 
@@ -32,19 +35,23 @@ class CubeListing {
       : mesh_(mesh),
         map_(map),
         n_(map.cells_per_side()),
-        view_{mesh.vertices.x.data(),
-              mesh.vertices.y.data(),
-              mesh.vertices.z.data(),
-              mesh.vertices.size(),
-              mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
+        view_{mesh.vertices.x.data(), mesh.vertices.y.data(),
+              mesh.vertices.z.data(), nullptr,
+              mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
               mesh.triangles.size()},
-        length_(map.cell_count(), 0),
-        least_(map.cell_count(), infinity),
-        greatest_(map.cell_count(), 0.0f) {
+        length_(map.cell_count() + spare_cells, 0),
+        least_(map.cell_count() + spare_cells, infinity),
+        greatest_(map.cell_count() + spare_cells, 0.0f) {
     // The cosine of the angle between a cell's middle and its corners, widened: half a diagonal of the face's
     // coordinates at most, and cos x >= 1 - x^2 / 2.
     const double half_diagonal = std::sqrt(2.0) / n_ + 2 * list_margin;
     cosine_ = static_cast<float>(std::max(0.0, 1 - half_diagonal * half_diagonal / 2));
+    for (int row = 0; row <= n_; ++row) {
+      for (int column = 0; column <= n_; ++column) {
+        const double u = 2.0 * column / n_ - 1, w = 2.0 * row / n_ - 1;
+        inverse_length_.push_back(static_cast<float>(1 / std::sqrt(1 + u * u + w * w)));
+      }
+    }
   }
 
   CellLists lists() {
@@ -56,6 +63,7 @@ class CubeListing {
     place_vertices(view_, face_.data(), vertex_.data());
     lists.corner.resize(mesh_.vertices.size());
     for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) lists.corner[i] = mesh_.vertices[i];
+    view_.xyz = lists.corner.data()->data();
     entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
     std::array<TriangleRadii, triangles_per_chunk> radii;
     std::array<std::uint32_t, triangles_per_chunk> elsewhere;
@@ -216,7 +224,7 @@ class CubeListing {
         if (has_sides && (off(side[0]) || off(side[1]) || off(side[2]))) continue;
         const auto octagon = octagon_in_cell(parts, n_, column, row);
         if (!octagon) continue;
-        const auto [least, greatest] = radii_in_cell(face, low_u, low_w, step, radii, forms);
+        const auto [least, greatest] = radii_in_cell(face, column, row, radii, forms);
         add(static_cast<std::uint32_t>((face * n_ + row) * n_ + column), t, *octagon, least, greatest);
       }
     }
@@ -231,19 +239,20 @@ class CubeListing {
   /// and at most 1 / cosine (of the angle between middle and corner): so n . d lies between the least n .
   /// corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and the
   /// floats.
-  SquaredRadii radii_in_cell(int face, float low_u, float low_w, float step, const TriangleRadii& radii,
+  SquaredRadii radii_in_cell(int face, int column, int row, const TriangleRadii& radii,
                              const ConeForms& forms) const {
     const int axis = face % 3;
-    std::array<float, 3> n{};
     const float plane[3] = {forms.x[3], forms.y[3], forms.z[3]};
-    n[0] = face < 3 ? plane[axis] : -plane[axis], n[1] = plane[(axis + 1) % 3], n[2] = plane[(axis + 2) % 3];
-    const float margin = 0x1p-14f * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
-    float least = infinity, greatest = -infinity;
-    for (int k = 0; k < 4; ++k) {
-      const float u = low_u + (k % 2 == 0 ? 0 : step), w = low_w + (k / 2 == 0 ? 0 : step);
-      const float along = (n[0] + n[1] * u + n[2] * w) / std::sqrt(1 + u * u + w * w);
-      least = std::min(least, along), greatest = std::max(greatest, along);
-    }
+    const float n = face < 3 ? plane[axis] : -plane[axis], n_u = plane[(axis + 1) % 3],
+                n_w = plane[(axis + 2) % 3];
+    const float margin = 0x1p-14f * (std::abs(n) + std::abs(n_u) + std::abs(n_w));
+    const float step = 2.0f / static_cast<float>(n_), u = static_cast<float>(column) * step - 1;
+    const float w = static_cast<float>(row) * step - 1, corner = n + n_u * u + n_w * w;
+    const float* inverse = inverse_length_.data() + row * (n_ + 1) + column;
+    const float a = corner * inverse[0], b = (corner + n_u * step) * inverse[1];
+    const float c = (corner + n_w * step) * inverse[n_ + 1];
+    const float d = (corner + (n_u + n_w) * step) * inverse[n_ + 2];
+    float least = std::min({a, b, c, d}), greatest = std::max({a, b, c, d});
     // The form is positive where rays leave the solid, negative where they enter.
     if (greatest + least < 0) std::swap(least, greatest), least = -least, greatest = -greatest;
     SquaredRadii within{radii.least, radii.greatest};
@@ -291,6 +300,7 @@ class CubeListing {
   int n_;
   MeshView view_;
   float cosine_;
+  std::vector<float> inverse_length_;  // of the direction to each corner of a face's cells, (n + 1)^2
   UninitialisedVector<std::uint8_t> face_;
   UninitialisedVector<FacePoint> vertex_;
   UninitialisedVector<ListedTriangle> entry_;
