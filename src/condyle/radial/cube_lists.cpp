@@ -18,9 +18,6 @@ constexpr std::size_t triangles_per_chunk = 1024;
 /// See Listing.
 constexpr std::size_t spare_cells = 4;
 
-/// Room beyond the last entry, for a vector that starts on it.
-constexpr std::size_t vector_room = 16;
-
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
@@ -54,33 +51,62 @@ class CubeListing {
     }
   }
 
-  CellLists lists() {
+  /// Entries of all triangles; their forms and the vertices' places go to the lists' arrays.
+  void list(UninitialisedVector<ConeForms>& forms, UninitialisedVector<Vec3>& corners) {
     const std::size_t triangles = mesh_.triangles.size();
-    CellLists lists;
-    lists.forms.resize(triangles);
+    forms.resize(triangles);
     face_.resize(mesh_.vertices.size());
     vertex_.resize(mesh_.vertices.size());
     place_vertices(view_, face_.data(), vertex_.data());
-    lists.corner.resize(mesh_.vertices.size());
-    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) lists.corner[i] = mesh_.vertices[i];
-    view_.xyz = lists.corner.data()->data();
+    corners.resize(mesh_.vertices.size());
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) corners[i] = mesh_.vertices[i];
+    view_.xyz = corners.data()->data();
     entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
     std::array<TriangleRadii, triangles_per_chunk> radii;
     std::array<std::uint32_t, triangles_per_chunk> elsewhere;
     for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
       const std::size_t last = std::min(first + triangles_per_chunk, triangles);
-      measure_triangles(view_, first, last, lists.forms.data(), radii.data());
+      measure_triangles(view_, first, last, forms.data(), radii.data());
       make_room(4 * triangles_per_chunk);
       Listing listing{
           n_, entry_.data(), count_, length_.data(), least_.data(), greatest_.data(), elsewhere.data(), 0};
       list_small_triangles(view_, face_.data(), vertex_.data(), first, last, radii.data(), listing);
       count_ = listing.count;
       for (std::size_t i = 0; i < listing.elsewhere_count; ++i) {
-        list_triangle(elsewhere[i], radii[elsewhere[i] - first], lists.forms[elsewhere[i]]);
+        list_triangle(elsewhere[i], radii[elsewhere[i] - first], forms[elsewhere[i]]);
       }
     }
-    sort_into(lists);
-    return lists;
+  }
+
+  /// The entries in the order of the triangles, and least and greatest squared radius in each cell.
+  std::span<const ListedTriangle> entries() const { return {entry_.data(), count_}; }
+  float least(Index cell) const { return least_[cell]; }
+  float greatest(Index cell) const { return greatest_[cell]; }
+
+  void sort_into(CellLists& lists) const {
+    const Index cells = map_.cell_count();
+    lists.least_squared = infinity, lists.greatest_squared = 0;
+    for (Index cell = 0; cell < cells; ++cell) {
+      lists.least_squared = std::min(lists.least_squared, least_[cell]);
+      lists.greatest_squared = std::max(lists.greatest_squared, greatest_[cell]);
+    }
+    if (count_ > 0) lists.scale = {lists.least_squared, lists.greatest_squared};
+    lists.row.resize(cells);
+    lists.row_end.clear();
+    lists.radii.resize(cells);
+    std::uint32_t first = 0;
+    for (Index cell = 0; cell < cells; ++cell) {
+      lists.row[cell] = {first, first};
+      first += length_[cell];
+      lists.radii[cell] =
+          length_[cell] == 0 ? no_radii
+                             : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
+    }
+    lists.resize_entries(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const ListedTriangle& entry = entry_[i];
+      lists.set_entry(lists.row[entry.cell].last++, entry.triangle, entry.octagon);
+    }
   }
 
  private:
@@ -262,39 +288,6 @@ class CubeListing {
     return within;
   }
 
-  void sort_into(CellLists& lists) const {
-    const Index cells = map_.cell_count();
-    float nearest = infinity, furthest = 0;
-    for (Index cell = 0; cell < cells; ++cell) {
-      nearest = std::min(nearest, least_[cell]), furthest = std::max(furthest, greatest_[cell]);
-    }
-    if (count_ > 0) lists.scale = {nearest, furthest};
-    lists.row.resize(cells);
-    lists.radii.resize(cells);
-    std::uint32_t first = 0;
-    for (Index cell = 0; cell < cells; ++cell) {
-      lists.row[cell] = {first, first};
-      first += length_[cell];
-      lists.radii[cell] =
-          length_[cell] == 0 ? no_radii
-                             : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
-    }
-    lists.triangle.resize(count_ + vector_room);
-    lists.box.resize(count_ + vector_room);
-    lists.slant.resize(count_ + vector_room);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const ListedTriangle& entry = entry_[i];
-      const std::uint32_t at = lists.row[entry.cell].last++;
-      lists.triangle[at] = entry.triangle;
-      lists.box[at] = entry.octagon.box;
-      lists.slant[at] = entry.octagon.slant;
-    }
-    for (std::size_t i = count_; i < count_ + vector_room; ++i) {
-      lists.triangle[i] = no_index;
-      lists.box[i] = lists.slant[i] = 0;
-    }
-  }
-
   const TriMesh& mesh_;
   const CubeMap& map_;
   int n_;
@@ -312,7 +305,36 @@ class CubeListing {
 }  // namespace
 
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map) {
-  return CubeListing(mesh, map).lists();
+  CellLists lists;
+  list_cells(mesh, map, lists);
+  return lists;
+}
+
+void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists) {
+  CubeListing listing(mesh, map);
+  listing.list(lists.forms, lists.corner);
+  listing.sort_into(lists);
+}
+
+void move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
+                    const TriMesh& after, CellLists& lists) {
+  UninitialisedVector<ConeForms> forms;
+  UninitialisedVector<Vec3> corners;
+  CubeListing old(before, map);
+  old.list(forms, corners);
+  for (const ListedTriangle& entry : old.entries()) lists.remove_entry(entry.cell, triangles[entry.triangle]);
+
+  CubeListing moved(after, map);
+  moved.list(forms, corners);
+  for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
+  for (const ListedTriangle& entry : moved.entries()) {
+    lists.add_entry(entry.cell, triangles[entry.triangle], entry.octagon);
+    const float least = moved.least(entry.cell), greatest = moved.greatest(entry.cell);
+    lists.radii[entry.cell] =
+        union_of(lists.radii[entry.cell], radius_word(lists.scale.code(least), lists.scale.code(greatest)));
+    lists.least_squared = std::min(lists.least_squared, least);
+    lists.greatest_squared = std::max(lists.greatest_squared, greatest);
+  }
 }
 
 }  // namespace condyle

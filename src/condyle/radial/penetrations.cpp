@@ -56,7 +56,7 @@ void Penetrations::resize(std::size_t count) {
 std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const FloatPose& pose) const {
   const auto* cube = std::get_if<CubeMap>(&map_);
   if (!cube || mesh_.triangles.empty()) return std::nullopt;
-  const double nearest = std::sqrt(lists_.scale.lower_end()), furthest = std::sqrt(lists_.scale.upper_end());
+  const double nearest = std::sqrt(lists_.least_squared), furthest = std::sqrt(lists_.greatest_squared);
   const bool in_range =
       nearest > least_length && furthest < greatest_length && points.reach() < greatest_length;
   if (!in_range || !(pose.distance <= largest_translation * nearest)) return std::nullopt;
