@@ -23,8 +23,8 @@ std::size_t CellLists::entry_count() const noexcept {
 
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
-         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) + forms.size() * sizeof(ConeForms) +
-         corner.size() * sizeof(Vec3);
+         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
+         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3);
 }
 
 void CellLists::resize_entries(std::size_t count) {

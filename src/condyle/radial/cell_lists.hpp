@@ -22,6 +22,8 @@ struct CellLists {
   UninitialisedVector<ConeForms> forms;
   UninitialisedVector<Vec3> corner;  ///< the mesh's vertices again, each in one place
 
+  std::vector<float> inverse_length;  ///< of the directions to a face's cell corners, for listing
+
   /// Where the room of each row ends, once entries have moved: rows are then no longer in the order of cells.
   std::vector<std::uint32_t> row_end;
 
@@ -46,18 +48,19 @@ struct CellLists {
 /// Listed one by one: exact overlap of each cone with each cell.
 CellLists list_cells(const TriMesh& mesh, const CartesianMap& map);
 
-/// The same for a cube map, with octagons and forms, fast: a triangle that is small against a cell, on one face,
-/// is listed by its octagon on the face.
+/// The same for a cube map, with octagons and forms, fast: a triangle that is small against a cell, on one
+/// face, is listed by its octagon on the face.
 ///
-/// Conservative in every step: triangles are widened by list_margin, and a cell's radii hold those of all parts
-/// of its triangles within it.
+/// Conservative in every step: triangles are widened by list_margin, and a cell's radii hold those of all
+/// parts of its triangles within it.
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map);
 /// Into the memory of lists that exist.
 void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists);
 
 /// Lists anew those triangles alone, whose corners before and after are meshes of as many triangles. Radii of
-/// cells grow where needed and do not shrink. Linear in these triangles and the rows that they are in.
-void move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
+/// cells grow where needed and do not shrink; returns whether any grew. Linear in these triangles and the
+/// rows that they are in.
+bool move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
                     const TriMesh& after, CellLists& lists);
 
 }  // namespace condyle

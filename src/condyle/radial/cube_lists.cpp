@@ -22,13 +22,25 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
 
+/// One over the length of the direction to each corner of a face's cells, (n + 1)^2 of them.
+std::vector<float> inverse_lengths(int n) {
+  std::vector<float> lengths;
+  for (int row = 0; row <= n; ++row) {
+    for (int column = 0; column <= n; ++column) {
+      const double u = 2.0 * column / n - 1, w = 2.0 * row / n - 1;
+      lengths.push_back(static_cast<float>(1 / std::sqrt(1 + u * u + w * w)));
+    }
+  }
+  return lengths;
+}
+
 struct FacePosition {
   float u, w;
 };
 
 class CubeListing {
  public:
-  CubeListing(const TriMesh& mesh, const CubeMap& map)
+  CubeListing(const TriMesh& mesh, const CubeMap& map, const std::vector<float>& inverse_length)
       : mesh_(mesh),
         map_(map),
         n_(map.cells_per_side()),
@@ -36,6 +48,7 @@ class CubeListing {
               mesh.vertices.z.data(), nullptr,
               mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
               mesh.triangles.size()},
+        inverse_length_(inverse_length),
         length_(map.cell_count() + spare_cells, 0),
         least_(map.cell_count() + spare_cells, infinity),
         greatest_(map.cell_count() + spare_cells, 0.0f) {
@@ -43,12 +56,6 @@ class CubeListing {
     // coordinates at most, and cos x >= 1 - x^2 / 2.
     const double half_diagonal = std::sqrt(2.0) / n_ + 2 * list_margin;
     cosine_ = static_cast<float>(std::max(0.0, 1 - half_diagonal * half_diagonal / 2));
-    for (int row = 0; row <= n_; ++row) {
-      for (int column = 0; column <= n_; ++column) {
-        const double u = 2.0 * column / n_ - 1, w = 2.0 * row / n_ - 1;
-        inverse_length_.push_back(static_cast<float>(1 / std::sqrt(1 + u * u + w * w)));
-      }
-    }
   }
 
   /// Entries of all triangles; their forms and the vertices' places go to the lists' arrays.
@@ -293,7 +300,7 @@ class CubeListing {
   int n_;
   MeshView view_;
   float cosine_;
-  std::vector<float> inverse_length_;  // of the direction to each corner of a face's cells, (n + 1)^2
+  const std::vector<float>& inverse_length_;
   UninitialisedVector<std::uint8_t> face_;
   UninitialisedVector<FacePoint> vertex_;
   UninitialisedVector<ListedTriangle> entry_;
@@ -311,30 +318,36 @@ CellLists list_cells(const TriMesh& mesh, const CubeMap& map) {
 }
 
 void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists) {
-  CubeListing listing(mesh, map);
+  if (lists.inverse_length.empty()) lists.inverse_length = inverse_lengths(map.cells_per_side());
+  CubeListing listing(mesh, map, lists.inverse_length);
   listing.list(lists.forms, lists.corner);
   listing.sort_into(lists);
 }
 
-void move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
+bool move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
                     const TriMesh& after, CellLists& lists) {
   UninitialisedVector<ConeForms> forms;
   UninitialisedVector<Vec3> corners;
-  CubeListing old(before, map);
+  CubeListing old(before, map, lists.inverse_length);
   old.list(forms, corners);
   for (const ListedTriangle& entry : old.entries()) lists.remove_entry(entry.cell, triangles[entry.triangle]);
 
-  CubeListing moved(after, map);
+  CubeListing moved(after, map, lists.inverse_length);
   moved.list(forms, corners);
   for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
+  bool grown = false;
   for (const ListedTriangle& entry : moved.entries()) {
     lists.add_entry(entry.cell, triangles[entry.triangle], entry.octagon);
     const float least = moved.least(entry.cell), greatest = moved.greatest(entry.cell);
-    lists.radii[entry.cell] =
-        union_of(lists.radii[entry.cell], radius_word(lists.scale.code(least), lists.scale.code(greatest)));
+    RadiusWord& word = lists.radii[entry.cell];
+    const RadiusWord grown_word =
+        union_of(word, radius_word(lists.scale.code(least), lists.scale.code(greatest)));
+    grown |= grown_word != word;
+    word = grown_word;
     lists.least_squared = std::min(lists.least_squared, least);
     lists.greatest_squared = std::max(lists.greatest_squared, greatest);
   }
+  return grown;
 }
 
 }  // namespace condyle

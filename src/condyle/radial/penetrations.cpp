@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/core/parallel.hpp"
 #include "condyle/radial/penetration_passes.hpp"
 #include "condyle/radial/radial_table.hpp"
 
@@ -113,6 +114,15 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
     }
   }
   if (work) work->blocks += blocks.count;
+}
+
+void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose> X_FM,
+                               std::span<Penetrations> out) const {
+  assert(out.size() == X_FM.size());
+  require_closed();
+  parallel_chunks(X_FM.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) penetrations(points, X_FM[i], out[i]);
+  });
 }
 
 /// Depths in double; points in doubt from the start.

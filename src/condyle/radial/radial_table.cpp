@@ -86,12 +86,12 @@ void RadialTable::list_again() {
 }
 
 void RadialTable::update(std::span<const Index> moved, PointsView positions) {
-  std::vector<bool> is_moved(mesh_.vertices.size());
-  for (const Index v : moved) is_moved[v] = true;
+  std::vector<unsigned char> is_moved(mesh_.vertices.size());
+  for (const Index v : moved) is_moved[v] = 1;
   std::vector<Index> triangles;
   for (Index t = 0; t < mesh_.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh_.triangles[t];
-    if (is_moved[a] || is_moved[b] || is_moved[c]) triangles.push_back(t);
+    if ((is_moved[a] | is_moved[b] | is_moved[c]) != 0) triangles.push_back(t);
   }
   const TriMesh before = parts_of(mesh_, triangles);
   for (std::size_t i = 0; i < moved.size(); ++i) mesh_.vertices.set(moved[i], positions[i]);
@@ -99,11 +99,15 @@ void RadialTable::update(std::span<const Index> moved, PointsView positions) {
   if (!cube) return list_again();
 
   for (std::size_t i = 0; i < moved.size(); ++i) lists_.corner[moved[i]] = positions[i];
-  move_triangles(*cube, triangles, before, parts_of(mesh_, triangles), lists_);
+  const bool grown = move_triangles(*cube, triangles, before, parts_of(mesh_, triangles), lists_);
   for (const Index t : triangles) require_centre_off_triangle(t);
-  // Radii count from the centre, or not, as it is inside or outside: they are not told apart afterwards.
-  if (!boundary_edge_ && (find_winding_at_centre() > 0) != (*winding_at_centre_ > 0)) return list_again();
-  prepare_radii();
+  if (!boundary_edge_) {
+    // Radii count from the centre, or not, as it is inside or outside: they are not told apart afterwards.
+    const bool was_inside = *winding_at_centre_ > 0;
+    winding_at_centre_ = find_winding_at_centre();
+    if (was_inside != (*winding_at_centre_ > 0)) return list_again();
+  }
+  if (grown) prepare_radii();
 }
 
 void RadialTable::prepare_radii() {

@@ -110,6 +110,9 @@ class RadialTable {
   /// has its room.
   void penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                     PenetrationWork* work = nullptr) const;
+  /// The same at each of several poses, on all threads; `out` has as many elements as there are poses.
+  void penetrations(const SortedPoints& points, std::span<const Pose> X_FM,
+                    std::span<Penetrations> out) const;
   /// Fills out.ray_to_normal; `points` are those that the sorted ones were made from, the pose is the one
   /// asked.
   void add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const;
