@@ -282,6 +282,93 @@ TEST(Penetrations, AnOpenMeshIsRefused) {
   EXPECT_THROW(RadialTable(mesh).penetrations(SortedPoints(mesh.vertices), Pose::Identity(), out), MeshError);
 }
 
+TEST(Penetrations, ManyPosesOnAllThreadsAreThoseOneByOne) {
+  const RadialTable table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3));
+  const SortedPoints points(random_points(500, 1.5, 19));
+  const auto poses = some_poses(40, 0.3, 20);
+  std::vector<Penetrations> together(poses.size());
+  table.penetrations(points, poses, together);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    Penetrations alone;
+    table.penetrations(points, poses[i], alone);
+    EXPECT_EQ(together[i], alone);
+  }
+}
+
+/// Every vertex by up to `size`, the same for the same seed.
+Points jiggled(const Points& points, double size, unsigned seed) {
+  const Points by = random_points(points.size(), size, seed);
+  Points moved;
+  for (std::size_t i = 0; i < points.size(); ++i) moved.push_back(points[i] + by[i]);
+  return moved;
+}
+
+TEST(RadialTableUpdate, AfterAllVerticesMovedAnswersAreThoseOfANewTable) {
+  const Points points = random_points(800, 1.5, 21);
+  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+    TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
+    RadialTable table(mesh, {map, 16});
+    for (unsigned frame = 0; frame < 3; ++frame) {
+      mesh.vertices = jiggled(mesh.vertices, 0.01, frame);
+      table.update(mesh.vertices);
+      const RadialTable made_anew(mesh, {map, 16});
+      EXPECT_EQ(table.mesh(), mesh);
+      EXPECT_EQ(table.query(points), made_anew.query(points));
+      EXPECT_EQ(table.table_size().entries, made_anew.table_size().entries);
+      expect_plain_answers(table, points, some_poses(4, 0.2, frame));
+    }
+  }
+}
+
+TEST(RadialTableUpdate, AfterSomeVerticesMovedAnswersAreThoseOfANewTable) {
+  const Points points = random_points(800, 1.6, 22);
+  std::mt19937 random(23);
+  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+    TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
+    RadialTable table(mesh, {map, 24});
+    for (unsigned frame = 0; frame < 12; ++frame) {
+      // Near ones and far apart ones, little and much, nearer to the centre than any before.
+      std::vector<Index> moved;
+      for (Index i = 0; i < mesh.vertices.size(); ++i) {
+        if (frame % 2 == 0 ? random() % 50 == 0 : mesh.vertices[i].x() > 0.9) moved.push_back(i);
+      }
+      Points positions;
+      for (const Index i : moved) positions.push_back((frame % 3 == 0 ? 0.93 : 1.01) * mesh.vertices[i]);
+      for (std::size_t k = 0; k < moved.size(); ++k) mesh.vertices.set(moved[k], positions[k]);
+      ASSERT_FALSE(moved.empty());
+      table.update(moved, positions);
+      const RadialTable made_anew(mesh, {map, 24});
+      EXPECT_EQ(table.mesh(), mesh);
+      EXPECT_EQ(table.query(points), made_anew.query(points));
+      EXPECT_EQ(table.table_size().entries, made_anew.table_size().entries);
+      expect_plain_answers(table, points, some_poses(4, 0.2, frame));
+      expect_plain_answers(table, points_near_surface(mesh, 100, 1, frame), {Pose::Identity()});
+    }
+  }
+}
+
+TEST(RadialTableUpdate, ASurfaceThatPassesTheCentreChangesWhatIsInside) {
+  TriMesh mesh = sphere({0.3, 0.2, 1.5}, 1, 3);
+  RadialTable table(mesh);
+  EXPECT_EQ(table.winding_at_centre(), 0);
+  std::vector<Index> all(mesh.vertices.size());
+  for (Index i = 0; i < all.size(); ++i) all[i] = i;
+  const Points points = random_points(500, 1.5, 24);
+  for (const double shift : {-1.2, 0.1, -0.05, 1.2}) {
+    for (const Index i : all) mesh.vertices.set(i, mesh.vertices[i] + Vec3(0, 0, shift));
+    table.update(all, mesh.vertices);
+    const RadialTable made_anew(mesh);
+    EXPECT_EQ(table.winding_at_centre(), made_anew.winding_at_centre());
+    EXPECT_EQ(table.query(points), made_anew.query(points));
+    expect_plain_answers(table, points, some_poses(3, 0.2, 25));
+  }
+}
+
+TEST(RadialTableUpdate, ANumberOfVerticesThatIsNotTheMeshsIsRefused) {
+  RadialTable table(sphere({0, 0, 3}, 1, 1));
+  EXPECT_THROW(table.update(Points(3)), UsageError);
+}
+
 TEST(InstructionSets, EachHasANameAndTheLastIsWhatEveryMachineHas) {
   const auto sets = instruction_sets();
   ASSERT_FALSE(sets.empty());

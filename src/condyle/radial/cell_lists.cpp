@@ -5,6 +5,9 @@
 namespace condyle {
 namespace {
 
+/// Room beyond the last entry, for a vector that starts on it.
+constexpr std::size_t vector_room = 16;
+
 /// One triangle in one cell, before it is sorted into that cell's list.
 struct Entry {
   Index cell, triangle;
@@ -12,10 +15,54 @@ struct Entry {
 
 }  // namespace
 
+std::size_t CellLists::entry_count() const noexcept {
+  std::size_t count = 0;
+  for (const CellRow& cell : row) count += cell.last - cell.first;
+  return count;
+}
+
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
-         (box.size() + slant.size()) * sizeof(std::uint32_t) + forms.size() * sizeof(ConeForms) +
-         corner.size() * sizeof(Vec3);
+         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
+         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3);
+}
+
+void CellLists::resize_entries(std::size_t count) {
+  triangle.resize(count + vector_room);
+  box.resize(count + vector_room);
+  slant.resize(count + vector_room);
+  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, no_index, {0, 0});
+}
+
+void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
+  CellRow& at = row[cell];
+  std::uint32_t i = at.first;
+  while (i < at.last && triangle[i] != triangle_listed) ++i;
+  assert(i < at.last);
+  --at.last;
+  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]});
+}
+
+void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon) {
+  CellRow& at = row[cell];
+  if (row_end.empty()) {
+    // Rows are still one behind the other, but for entries removed.
+    row_end.resize(row.size());
+    const auto entries = static_cast<std::uint32_t>(triangle.size() - vector_room);
+    for (std::size_t i = 0; i < row.size(); ++i) row_end[i] = i + 1 < row.size() ? row[i + 1].first : entries;
+  }
+  if (at.last == row_end[cell]) {
+    // To the end, with room for as many again.
+    const auto first = static_cast<std::uint32_t>(triangle.size() - vector_room);
+    const std::uint32_t length = at.last - at.first, room = 2 * length + 4;
+    resize_entries(first + room);
+    for (std::uint32_t i = 0; i < length; ++i) {
+      set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
+    }
+    at = {first, first + length};
+    row_end[cell] = first + room;
+  }
+  set_entry(at.last++, triangle_listed, octagon);
 }
 
 CellLists list_cells(const TriMesh& mesh, const CartesianMap& map) {
@@ -40,7 +87,8 @@ CellLists list_cells(const TriMesh& mesh, const CartesianMap& map) {
   lists.triangle.resize(entries.size());
   lists.radii.assign(cells, no_radii);
   const auto squared = [](double radius) { return static_cast<float>(radius * radius); };
-  if (!entries.empty()) lists.scale = {squared(nearest), squared(furthest)};
+  lists.least_squared = squared(nearest), lists.greatest_squared = squared(furthest);
+  if (!entries.empty()) lists.scale = {lists.least_squared, lists.greatest_squared};
   std::uint32_t first = 0;
   for (Index cell = 0; cell < cells; ++cell) {
     lists.row[cell] = {first, first};

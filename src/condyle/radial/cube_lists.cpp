@@ -15,12 +15,24 @@ namespace {
 /// Triangles measured and listed together: their radii stay in the nearest cache.
 constexpr std::size_t triangles_per_chunk = 1024;
 
-/// Room beyond the last entry, for a vector that starts on it.
-constexpr std::size_t vector_room = 16;
+/// See Listing.
+constexpr std::size_t spare_cells = 4;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
+
+/// One over the length of the direction to each corner of a face's cells, (n + 1)^2 of them.
+std::vector<float> inverse_lengths(int n) {
+  std::vector<float> lengths;
+  for (int row = 0; row <= n; ++row) {
+    for (int column = 0; column <= n; ++column) {
+      const double u = 2.0 * column / n - 1, w = 2.0 * row / n - 1;
+      lengths.push_back(static_cast<float>(1 / std::sqrt(1 + u * u + w * w)));
+    }
+  }
+  return lengths;
+}
 
 struct FacePosition {
   float u, w;
@@ -28,51 +40,80 @@ struct FacePosition {
 
 class CubeListing {
  public:
-  CubeListing(const TriMesh& mesh, const CubeMap& map)
+  CubeListing(const TriMesh& mesh, const CubeMap& map, const std::vector<float>& inverse_length)
       : mesh_(mesh),
         map_(map),
         n_(map.cells_per_side()),
-        view_{mesh.vertices.x.data(),
-              mesh.vertices.y.data(),
-              mesh.vertices.z.data(),
-              mesh.vertices.size(),
-              mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
+        view_{mesh.vertices.x.data(), mesh.vertices.y.data(),
+              mesh.vertices.z.data(), nullptr,
+              mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
               mesh.triangles.size()},
-        length_(map.cell_count(), 0),
-        least_(map.cell_count(), infinity),
-        greatest_(map.cell_count(), 0.0f) {
+        inverse_length_(inverse_length),
+        length_(map.cell_count() + spare_cells, 0),
+        least_(map.cell_count() + spare_cells, infinity),
+        greatest_(map.cell_count() + spare_cells, 0.0f) {
     // The cosine of the angle between a cell's middle and its corners, widened: half a diagonal of the face's
     // coordinates at most, and cos x >= 1 - x^2 / 2.
     const double half_diagonal = std::sqrt(2.0) / n_ + 2 * list_margin;
     cosine_ = static_cast<float>(std::max(0.0, 1 - half_diagonal * half_diagonal / 2));
   }
 
-  CellLists lists() {
+  /// Entries of all triangles; their forms and the vertices' places go to the lists' arrays.
+  void list(UninitialisedVector<ConeForms>& forms, UninitialisedVector<Vec3>& corners) {
     const std::size_t triangles = mesh_.triangles.size();
-    CellLists lists;
-    lists.forms.resize(triangles);
+    forms.resize(triangles);
     face_.resize(mesh_.vertices.size());
     vertex_.resize(mesh_.vertices.size());
     place_vertices(view_, face_.data(), vertex_.data());
-    lists.corner.resize(mesh_.vertices.size());
-    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) lists.corner[i] = mesh_.vertices[i];
+    corners.resize(mesh_.vertices.size());
+    for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) corners[i] = mesh_.vertices[i];
+    view_.xyz = corners.data()->data();
     entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
     std::array<TriangleRadii, triangles_per_chunk> radii;
     std::array<std::uint32_t, triangles_per_chunk> elsewhere;
     for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
       const std::size_t last = std::min(first + triangles_per_chunk, triangles);
-      measure_triangles(view_, first, last, lists.forms.data(), radii.data());
+      measure_triangles(view_, first, last, forms.data(), radii.data());
       make_room(4 * triangles_per_chunk);
       Listing listing{
           n_, entry_.data(), count_, length_.data(), least_.data(), greatest_.data(), elsewhere.data(), 0};
       list_small_triangles(view_, face_.data(), vertex_.data(), first, last, radii.data(), listing);
       count_ = listing.count;
       for (std::size_t i = 0; i < listing.elsewhere_count; ++i) {
-        list_triangle(elsewhere[i], radii[elsewhere[i] - first], lists.forms[elsewhere[i]]);
+        list_triangle(elsewhere[i], radii[elsewhere[i] - first], forms[elsewhere[i]]);
       }
     }
-    sort_into(lists);
-    return lists;
+  }
+
+  /// The entries in the order of the triangles, and least and greatest squared radius in each cell.
+  std::span<const ListedTriangle> entries() const { return {entry_.data(), count_}; }
+  float least(Index cell) const { return least_[cell]; }
+  float greatest(Index cell) const { return greatest_[cell]; }
+
+  void sort_into(CellLists& lists) const {
+    const Index cells = map_.cell_count();
+    lists.least_squared = infinity, lists.greatest_squared = 0;
+    for (Index cell = 0; cell < cells; ++cell) {
+      lists.least_squared = std::min(lists.least_squared, least_[cell]);
+      lists.greatest_squared = std::max(lists.greatest_squared, greatest_[cell]);
+    }
+    if (count_ > 0) lists.scale = {lists.least_squared, lists.greatest_squared};
+    lists.row.resize(cells);
+    lists.row_end.clear();
+    lists.radii.resize(cells);
+    std::uint32_t first = 0;
+    for (Index cell = 0; cell < cells; ++cell) {
+      lists.row[cell] = {first, first};
+      first += length_[cell];
+      lists.radii[cell] =
+          length_[cell] == 0 ? no_radii
+                             : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
+    }
+    lists.resize_entries(count_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      const ListedTriangle& entry = entry_[i];
+      lists.set_entry(lists.row[entry.cell].last++, entry.triangle, entry.octagon);
+    }
   }
 
  private:
@@ -216,7 +257,7 @@ class CubeListing {
         if (has_sides && (off(side[0]) || off(side[1]) || off(side[2]))) continue;
         const auto octagon = octagon_in_cell(parts, n_, column, row);
         if (!octagon) continue;
-        const auto [least, greatest] = radii_in_cell(face, low_u, low_w, step, radii, forms);
+        const auto [least, greatest] = radii_in_cell(face, column, row, radii, forms);
         add(static_cast<std::uint32_t>((face * n_ + row) * n_ + column), t, *octagon, least, greatest);
       }
     }
@@ -231,19 +272,20 @@ class CubeListing {
   /// and at most 1 / cosine (of the angle between middle and corner): so n . d lies between the least n .
   /// corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and the
   /// floats.
-  SquaredRadii radii_in_cell(int face, float low_u, float low_w, float step, const TriangleRadii& radii,
+  SquaredRadii radii_in_cell(int face, int column, int row, const TriangleRadii& radii,
                              const ConeForms& forms) const {
     const int axis = face % 3;
-    std::array<float, 3> n{};
     const float plane[3] = {forms.x[3], forms.y[3], forms.z[3]};
-    n[0] = face < 3 ? plane[axis] : -plane[axis], n[1] = plane[(axis + 1) % 3], n[2] = plane[(axis + 2) % 3];
-    const float margin = 0x1p-14f * (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]));
-    float least = infinity, greatest = -infinity;
-    for (int k = 0; k < 4; ++k) {
-      const float u = low_u + (k % 2 == 0 ? 0 : step), w = low_w + (k / 2 == 0 ? 0 : step);
-      const float along = (n[0] + n[1] * u + n[2] * w) / std::sqrt(1 + u * u + w * w);
-      least = std::min(least, along), greatest = std::max(greatest, along);
-    }
+    const float n = face < 3 ? plane[axis] : -plane[axis], n_u = plane[(axis + 1) % 3],
+                n_w = plane[(axis + 2) % 3];
+    const float margin = 0x1p-14f * (std::abs(n) + std::abs(n_u) + std::abs(n_w));
+    const float step = 2.0f / static_cast<float>(n_), u = static_cast<float>(column) * step - 1;
+    const float w = static_cast<float>(row) * step - 1, corner = n + n_u * u + n_w * w;
+    const float* inverse = inverse_length_.data() + row * (n_ + 1) + column;
+    const float a = corner * inverse[0], b = (corner + n_u * step) * inverse[1];
+    const float c = (corner + n_w * step) * inverse[n_ + 1];
+    const float d = (corner + (n_u + n_w) * step) * inverse[n_ + 2];
+    float least = std::min({a, b, c, d}), greatest = std::max({a, b, c, d});
     // The form is positive where rays leave the solid, negative where they enter.
     if (greatest + least < 0) std::swap(least, greatest), least = -least, greatest = -greatest;
     SquaredRadii within{radii.least, radii.greatest};
@@ -253,44 +295,12 @@ class CubeListing {
     return within;
   }
 
-  void sort_into(CellLists& lists) const {
-    const Index cells = map_.cell_count();
-    float nearest = infinity, furthest = 0;
-    for (Index cell = 0; cell < cells; ++cell) {
-      nearest = std::min(nearest, least_[cell]), furthest = std::max(furthest, greatest_[cell]);
-    }
-    if (count_ > 0) lists.scale = {nearest, furthest};
-    lists.row.resize(cells);
-    lists.radii.resize(cells);
-    std::uint32_t first = 0;
-    for (Index cell = 0; cell < cells; ++cell) {
-      lists.row[cell] = {first, first};
-      first += length_[cell];
-      lists.radii[cell] =
-          length_[cell] == 0 ? no_radii
-                             : radius_word(lists.scale.code(least_[cell]), lists.scale.code(greatest_[cell]));
-    }
-    lists.triangle.resize(count_ + vector_room);
-    lists.box.resize(count_ + vector_room);
-    lists.slant.resize(count_ + vector_room);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const ListedTriangle& entry = entry_[i];
-      const std::uint32_t at = lists.row[entry.cell].last++;
-      lists.triangle[at] = entry.triangle;
-      lists.box[at] = entry.octagon.box;
-      lists.slant[at] = entry.octagon.slant;
-    }
-    for (std::size_t i = count_; i < count_ + vector_room; ++i) {
-      lists.triangle[i] = no_index;
-      lists.box[i] = lists.slant[i] = 0;
-    }
-  }
-
   const TriMesh& mesh_;
   const CubeMap& map_;
   int n_;
   MeshView view_;
   float cosine_;
+  const std::vector<float>& inverse_length_;
   UninitialisedVector<std::uint8_t> face_;
   UninitialisedVector<FacePoint> vertex_;
   UninitialisedVector<ListedTriangle> entry_;
@@ -302,7 +312,42 @@ class CubeListing {
 }  // namespace
 
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map) {
-  return CubeListing(mesh, map).lists();
+  CellLists lists;
+  list_cells(mesh, map, lists);
+  return lists;
+}
+
+void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists) {
+  if (lists.inverse_length.empty()) lists.inverse_length = inverse_lengths(map.cells_per_side());
+  CubeListing listing(mesh, map, lists.inverse_length);
+  listing.list(lists.forms, lists.corner);
+  listing.sort_into(lists);
+}
+
+bool move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
+                    const TriMesh& after, CellLists& lists) {
+  UninitialisedVector<ConeForms> forms;
+  UninitialisedVector<Vec3> corners;
+  CubeListing old(before, map, lists.inverse_length);
+  old.list(forms, corners);
+  for (const ListedTriangle& entry : old.entries()) lists.remove_entry(entry.cell, triangles[entry.triangle]);
+
+  CubeListing moved(after, map, lists.inverse_length);
+  moved.list(forms, corners);
+  for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
+  bool grown = false;
+  for (const ListedTriangle& entry : moved.entries()) {
+    lists.add_entry(entry.cell, triangles[entry.triangle], entry.octagon);
+    const float least = moved.least(entry.cell), greatest = moved.greatest(entry.cell);
+    RadiusWord& word = lists.radii[entry.cell];
+    const RadiusWord grown_word =
+        union_of(word, radius_word(lists.scale.code(least), lists.scale.code(greatest)));
+    grown |= grown_word != word;
+    word = grown_word;
+    lists.least_squared = std::min(lists.least_squared, least);
+    lists.greatest_squared = std::max(lists.greatest_squared, greatest);
+  }
+  return grown;
 }
 
 }  // namespace condyle

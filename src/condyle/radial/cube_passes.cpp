@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "condyle/radial/cube_passes.cpp"
 #include <hwy/foreach_target.h>
@@ -24,6 +26,9 @@ constexpr DD dd;
 constexpr DF df;
 constexpr DL dl;
 constexpr std::size_t lanes = hn::MaxLanes(dd);
+
+/// How long before its turn a triangle's corners are fetched: they lie anywhere.
+constexpr std::size_t triangles_ahead = 24;
 
 void place_vertices_any(const MeshView& mesh, std::uint8_t* face, FacePoint* out) {
   constexpr hn::RebindToSigned<DF> di;
@@ -112,12 +117,16 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const std::size_t count = std::min(lanes, last - t);
     for (std::size_t k = 0; k < lanes; ++k) {
       const std::uint32_t* corners = mesh.corner + 3 * (t + std::min(k, count - 1));
-      for (std::size_t i = 0; i < 3; ++i) corner[i][k] = corners[i];
+      const std::uint32_t* later = mesh.corner + 3 * std::min(t + k + triangles_ahead, mesh.triangles - 1);
+      for (std::size_t i = 0; i < 3; ++i) {
+        corner[i][k] = 3 * static_cast<std::int64_t>(corners[i]);
+        hwy::Prefetch(mesh.xyz + 3 * std::size_t{later[i]});
+      }
     }
     const auto gathered = [&](std::size_t i) {
       const auto at = hn::Load(dl, corner[i]);
-      return Vectors{hn::GatherIndex(dd, mesh.x, at), hn::GatherIndex(dd, mesh.y, at),
-                     hn::GatherIndex(dd, mesh.z, at)};
+      return Vectors{hn::GatherIndex(dd, mesh.xyz, at), hn::GatherIndex(dd, mesh.xyz + 1, at),
+                     hn::GatherIndex(dd, mesh.xyz + 2, at)};
     };
     const Vectors a = gathered(0), b = gathered(1), c = gathered(2);
     const Vectors n_ab = cross(a, b), n_bc = cross(b, c), n_ca = cross(c, a);
@@ -211,6 +220,8 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
   ListedTriangle* next = listing.entry + listing.count;
   for (std::size_t t = first; t < last; ++t) {
     const std::uint32_t* corner = mesh.corner + 3 * t;
+    const std::uint32_t* later = mesh.corner + 3 * std::min(t + triangles_ahead, mesh.triangles - 1);
+    for (int i = 0; i < 3; ++i) hwy::Prefetch(vertices + later[i]);
     alignas(16) FaceParts parts;
     for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
       const auto load = [&](int i) { return hn::Load(d4, vertices[corner[i]].at + k); };
@@ -235,12 +246,12 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
     for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
       const auto i = hn::Add(hn::Set(di4, i0), hn::Load(di4, column_step + k));
       const auto j = hn::Add(hn::Set(di4, j0), hn::Load(di4, row_step + k));
-      const auto first_cell = hn::Set(di4, (face * n + j0) * n + i0);
+      const auto spare = hn::Iota(di4, 6 * n * n + static_cast<std::int32_t>(k));
       const OctagonsInCells<decltype(di4)> octagons(parts, n, i, j);
       const auto in_box = hn::Not(hn::Or(hn::Gt(i, hn::Set(di4, i1)), hn::Gt(j, hn::Set(di4, j1))));
       const auto meets = hn::And(in_box, octagons.meet);
       const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di4, face * n), j), hn::Set(di4, n)), i);
-      const auto cells = hn::BitCast(du4, hn::IfThenElse(meets, own, first_cell));
+      const auto cells = hn::BitCast(du4, hn::IfThenElse(meets, own, spare));
       hn::Store(cells, du4, cell + k);
       hn::Store(hn::And(hn::BitCast(du4, hn::VecFromMask(di4, meets)), hn::Set(du4, 1)), du4, met + k);
       hn::StoreInterleaved4(cells, hn::Set(du4, static_cast<std::uint32_t>(t)),
@@ -252,7 +263,6 @@ void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, c
       std::memcpy(next, entry + 4 * k, sizeof *next);
       next += met[k];
       listing.length[cell[k]] += met[k];
-      // A cell that is not met gives way to the first one, which these radii belong to, or make too wide.
       listing.least[cell[k]] = std::min(listing.least[cell[k]], bounds.least);
       listing.greatest[cell[k]] = std::max(listing.greatest[cell[k]], bounds.greatest);
     }

@@ -25,6 +25,7 @@ struct TriangleRadii {
 
 struct MeshView {
   const double *x, *y, *z;
+  const double* xyz;  ///< the same, three for each vertex: one line of the cache, where x, y, z are three
   std::size_t vertices;
   const std::uint32_t* corner;  ///< three for each triangle
   std::size_t triangles;
@@ -41,8 +42,9 @@ struct Listing {
   int cells_per_side;
   ListedTriangle* entry;
   std::size_t count;
-  std::uint32_t* length;     ///< entries of each cell
-  float *least, *greatest;   ///< squared radii in each cell
+  // For each cell, and four spare ones for cells that a triangle turns out not to meet.
+  std::uint32_t* length;     ///< number of entries
+  float *least, *greatest;   ///< squared radii
   std::uint32_t* elsewhere;  ///< triangles not listed here: on several faces, or larger than two cells
   std::size_t elsewhere_count;
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/core/parallel.hpp"
 #include "condyle/radial/penetration_passes.hpp"
 #include "condyle/radial/radial_table.hpp"
 
@@ -56,7 +57,7 @@ void Penetrations::resize(std::size_t count) {
 std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const FloatPose& pose) const {
   const auto* cube = std::get_if<CubeMap>(&map_);
   if (!cube || mesh_.triangles.empty()) return std::nullopt;
-  const double nearest = std::sqrt(lists_.scale.lower_end()), furthest = std::sqrt(lists_.scale.upper_end());
+  const double nearest = std::sqrt(lists_.least_squared), furthest = std::sqrt(lists_.greatest_squared);
   const bool in_range =
       nearest > least_length && furthest < greatest_length && points.reach() < greatest_length;
   if (!in_range || !(pose.distance <= largest_translation * nearest)) return std::nullopt;
@@ -113,6 +114,15 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
     }
   }
   if (work) work->blocks += blocks.count;
+}
+
+void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose> X_FM,
+                               std::span<Penetrations> out) const {
+  assert(out.size() == X_FM.size());
+  require_closed();
+  parallel_chunks(X_FM.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) penetrations(points, X_FM[i], out[i]);
+  });
 }
 
 /// Depths in double; points in doubt from the start.

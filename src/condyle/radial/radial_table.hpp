@@ -71,6 +71,17 @@ class RadialTable {
   /// Raises MeshError where the origin lies exactly on the surface, and UsageError for options out of range.
   explicit RadialTable(TriMesh mesh, RadialOptions options = {});
 
+  /// The surface has deformed: new places of all vertices, as many as there were. Afterwards the table is one
+  /// made anew for the mesh as it is now. Raises what the constructor does; the table is then not to be asked
+  /// until an update succeeds.
+  void update(PointsView vertices);
+
+  /// New places of some vertices, each named once. Answers are those of a table made anew; its radii do not
+  /// shrink, so that queries slow down a little where the surface has moved, until all vertices are updated.
+  ///
+  /// Cost: the triangles at those vertices, and one look at each of the others.
+  void update(std::span<const Index> moved, PointsView positions);
+
   /// State, winding number, gap or depth, triangle of every point. Which gap: a point outside reaches the
   /// surface away from the centre where the centre is outside (ball seen from the socket: the joint space),
   /// and towards it where the centre is inside the solid (socket seen from the ball). A point inside leaves
@@ -99,6 +110,9 @@ class RadialTable {
   /// has its room.
   void penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                     PenetrationWork* work = nullptr) const;
+  /// The same at each of several poses, on all threads; `out` has as many elements as there are poses.
+  void penetrations(const SortedPoints& points, std::span<const Pose> X_FM,
+                    std::span<Penetrations> out) const;
   /// Fills out.ray_to_normal; `points` are those that the sorted ones were made from, the pose is the one
   /// asked.
   void add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const;
@@ -137,7 +151,9 @@ class RadialTable {
             lists_.scale.greatest(greatest_radius_code - static_cast<int>(word >> 16))};
   }
   void require_closed() const;
-  void require_centre_off_surface() const;
+  void require_centre_off_triangle(Index triangle) const;
+  void list_again();
+  void prepare_radii();
   int find_winding_at_centre() const;
   std::optional<CubeView> cube_view(const SortedPoints& points, const FloatPose& pose) const;
   void penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const;

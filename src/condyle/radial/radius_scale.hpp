@@ -56,10 +56,6 @@ struct RadiusScale {
     return code == greatest_radius_code ? std::numeric_limits<float>::infinity() : value(code + 1);
   }
 
-  /// Ends of the scale, squared radii: the least that was given, and no less than the greatest.
-  float lower_end() const noexcept { return value(1); }
-  float upper_end() const noexcept { return value(greatest_radius_code); }
-
  private:
   static std::int32_t bits(float squared) noexcept { return std::bit_cast<std::int32_t>(squared); }
   float value(int code) const noexcept { return std::bit_cast<float>(base + (code << shift)); }
