@@ -584,6 +584,15 @@ TEST(RingTable, AnOpenMeshAndAFoolishOptionAreRefused) {
   }
 }
 
+TEST(RingTable, AMeshCheckedBeforeGivesTheSameTable) {
+  const TriMesh mesh = test::torus(8, 3, 20, 10);
+  Points points;
+  for (double x = -12; x < 12; x += 0.7) points.push_back({x, 1.3, 0.4});
+  const ClosedMesh closed(mesh);
+  EXPECT_EQ(RingTable(closed, z_axis).query(points), RingTable(mesh, z_axis).query(points));
+  EXPECT_EQ(RingTable(ClosedMesh::known(mesh), z_axis).query(points), RingTable(mesh, z_axis).query(points));
+}
+
 TEST(RingTable, NoTrianglesAndNoPointsAreNoTrouble) {
   const RingTable nothing(TriMesh{}, z_axis);
   Points points;
