@@ -336,7 +336,8 @@ TEST(RingTable, CrossingsOfAClosedMeshSumToZeroAndComeBackToTheAnchor) {
       TangentialWork work;
       int sum = 0, outwards = 0;
       for (Index t = 0; t < mesh.triangles.size(); ++t) {
-        const std::array<Vec3, 3> corners = {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+        const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+        const TriangleRef corners = {&a, &b, &c};
         add_crossings(circle, corners, t, all, work);
         outwards += outward_crossing(circle, corners, work);
       }

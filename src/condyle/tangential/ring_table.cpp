@@ -144,7 +144,7 @@ int RingTable::winding_outwards(const Circle& circle, std::size_t cell, const Ke
   for (Index i = offset_[cell]; i < offset_[row_end]; ++i) {
     const Index t = triangle_[i];
     if (!keep(t)) continue;
-    if (const int sense = outward_crossing(circle, corners(t), work)) crossed.emplace_back(t, sense);
+    if (const int sense = outward_crossing(circle, corner_refs(t), work)) crossed.emplace_back(t, sense);
   }
   // Listed in several cells, crossed once.
   std::sort(crossed.begin(), crossed.end());
@@ -175,15 +175,15 @@ void RingTable::collect_crossings(const Circle& circle, std::size_t cell, Scratc
   scratch.work.candidates += candidates.size();
   const bool turns = p.x() != 0 || p.y() != 0;
   for (const Index t : candidates) {
-    const TriangleCorners corners = this->corners(t);
-    const auto& [a, b, c] = corners;
+    const TriangleRef corners = corner_refs(t);
+    const Vec3 &a = *corners[0], &b = *corners[1], &c = *corners[2];
     if (p.z() < std::min({a.z(), b.z(), c.z()}) || p.z() > std::max({a.z(), b.z(), c.z()})) continue;
     if (turns) add_crossings(circle, corners, t, scratch.crossings, scratch.work);
     // Most of a ring is far off: seldom is a point in the box of a triangle.
     const bool beside = p.x() < std::min({a.x(), b.x(), c.x()}) || p.x() > std::max({a.x(), b.x(), c.x()}) ||
                         p.y() < std::min({a.y(), b.y(), c.y()}) || p.y() > std::max({a.y(), b.y(), c.y()});
     if (!beside && scratch.holding == no_index && orientation(a, b, c, p) == Sign::zero &&
-        contains_coplanar(corners, p))
+        contains_coplanar(this->corners(t), p))
       scratch.holding = t;
   }
   std::sort(scratch.crossings.begin(), scratch.crossings.end());

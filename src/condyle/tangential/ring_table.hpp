@@ -92,6 +92,10 @@ class RingTable {
 
   const AxisFrame& frame() const noexcept { return frame_; }
   const ProfileGrid& grid() const noexcept { return grid_; }
+  TriangleRef corner_refs(Index triangle) const noexcept {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {&vertices_[a], &vertices_[b], &vertices_[c]};
+  }
   const FreeDirections& free_directions() const noexcept { return free_; }
   /// In the axis frame.
   TriangleCorners corners(Index triangle) const noexcept {
