@@ -336,7 +336,8 @@ TEST(RingTable, CrossingsOfAClosedMeshSumToZeroAndComeBackToTheAnchor) {
       TangentialWork work;
       int sum = 0, outwards = 0;
       for (Index t = 0; t < mesh.triangles.size(); ++t) {
-        const std::array<Vec3, 3> corners = {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+        const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+        const TriangleRef corners = {&a, &b, &c};
         add_crossings(circle, corners, t, all, work);
         outwards += outward_crossing(circle, corners, work);
       }
@@ -582,6 +583,15 @@ TEST(RingTable, AnOpenMeshAndAFoolishOptionAreRefused) {
     EXPECT_NE(std::string(error.what()).find("intersecting triangle pairs can still be computed"),
               std::string::npos);
   }
+}
+
+TEST(RingTable, AMeshCheckedBeforeGivesTheSameTable) {
+  const TriMesh mesh = test::torus(8, 3, 20, 10);
+  Points points;
+  for (double x = -12; x < 12; x += 0.7) points.push_back({x, 1.3, 0.4});
+  const ClosedMesh closed(mesh);
+  EXPECT_EQ(RingTable(closed, z_axis).query(points), RingTable(mesh, z_axis).query(points));
+  EXPECT_EQ(RingTable(ClosedMesh::known(mesh), z_axis).query(points), RingTable(mesh, z_axis).query(points));
 }
 
 TEST(RingTable, NoTrianglesAndNoPointsAreNoTrouble) {

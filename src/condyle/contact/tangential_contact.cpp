@@ -17,12 +17,13 @@ TangentialContact tangential_contact(const JointContact& joint, const Pose& X_FM
                                      TangentialRule rule) {
   TangentialContact contact;
   if (joint.fixed_table().is_closed()) {
-    const RingTable fixed(joint.fixed(), AxisFrame(Vec3::Zero(), axis_F));
+    const RingTable fixed(ClosedMesh::known(joint.fixed()), AxisFrame(Vec3::Zero(), axis_F));
     contact.mobile_in_fixed = fixed.query(posed(X_FM, joint.mobile().vertices.view()), rule);
   }
   if (joint.mobile_table().is_closed()) {
     const Pose X_MF = X_FM.inverse();
-    const RingTable mobile(joint.mobile(), AxisFrame(X_MF.translation(), X_MF.linear() * axis_F));
+    const RingTable mobile(ClosedMesh::known(joint.mobile()),
+                           AxisFrame(X_MF.translation(), X_MF.linear() * axis_F));
     contact.fixed_in_mobile = mobile.query(posed(X_MF, joint.fixed().vertices.view()), rule);
   }
   contact.pairs = joint.pairs(X_FM);

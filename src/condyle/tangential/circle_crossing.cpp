@@ -22,16 +22,16 @@ CircleCut::End cut_end(const Vec3& lower, const Vec3& upper, double height) noex
 /// Corner k alone on its side is followed, counter-clockwise seen from outside, by k + 1 and k + 2. With k
 /// above, the cut from edge (k, k + 1) to edge (k, k + 2) has the outside on its right; with k below it is
 /// the other way round.
-std::optional<CircleCut> cut_at_height(const Circle& circle, const std::array<Vec3, 3>& t) noexcept {
+std::optional<CircleCut> cut_at_height(const Circle& circle, const TriangleRef& t) noexcept {
   const double h = circle.point.z();
-  const std::array<bool, 3> above = {t[0].z() >= h, t[1].z() >= h, t[2].z() >= h};
+  const std::array<bool, 3> above = {t[0]->z() >= h, t[1]->z() >= h, t[2]->z() >= h};
   const int count = above[0] + above[1] + above[2];
   if (count == 0 || count == 3) return std::nullopt;
   const bool alone_above = count == 1;
   const std::size_t k = above[0] == alone_above ? 0 : above[1] == alone_above ? 1 : 2;
-  const Vec3 &alone = t[k], &next = t[(k + 1) % 3], &last = t[(k + 2) % 3];
-  if (alone_above) return CircleCut{cut_end(next, alone, h), cut_end(last, alone, h), &t};
-  return CircleCut{cut_end(alone, last, h), cut_end(alone, next, h), &t};
+  const Vec3 &alone = *t[k], &next = *t[(k + 1) % 3], &last = *t[(k + 2) % 3];
+  if (alone_above) return CircleCut{cut_end(next, alone, h), cut_end(last, alone, h), t};
+  return CircleCut{cut_end(alone, last, h), cut_end(alone, next, h), t};
 }
 
 /// Where the cut stands to the ray from the axis through the (little ahead) point.
@@ -47,14 +47,14 @@ struct AcrossRay {
 AcrossRay across_ray(const Circle& circle, const CircleCut& cut, TangentialWork& work) {
   AcrossRay across{side_of_end(circle, cut.p, work), side_of_end(circle, cut.q, work), false, false};
   if (across.p == across.q) return across;
-  const auto& [a, b, c] = *cut.triangle;
-  const Sign centre = orientation(a, b, c, circle.centre());
+  const auto& [a, b, c] = cut.triangle;
+  const Sign centre = orientation(*a, *b, *c, circle.centre());
   if (centre == Sign::zero) {
     // m is the centre itself: both halves of the cut leave it along one line.
     across.on_near_side = across.within = true;
   } else if (centre == across.p) {
     across.on_near_side = true;
-    across.within = orientation(a, b, c, circle.point) == -centre;
+    across.within = orientation(*a, *b, *c, circle.point) == -centre;
   }
   return across;
 }
@@ -108,7 +108,7 @@ TangentialWork& TangentialWork::operator+=(const TangentialWork& other) noexcept
   return *this;
 }
 
-void add_crossings(const Circle& circle, const std::array<Vec3, 3>& triangle, Index number,
+void add_crossings(const Circle& circle, const TriangleRef& triangle, Index number,
                    std::vector<CircleCrossing>& out, TangentialWork& work) {
   const auto cut = cut_at_height(circle, triangle);
   if (!cut) return;
@@ -155,7 +155,7 @@ void add_crossings(const Circle& circle, const std::array<Vec3, 3>& triangle, In
   work.crossings += 2;
 }
 
-int outward_crossing(const Circle& circle, const std::array<Vec3, 3>& triangle, TangentialWork& work) {
+int outward_crossing(const Circle& circle, const TriangleRef& triangle, TangentialWork& work) {
   const auto cut = cut_at_height(circle, triangle);
   if (!cut) return 0;
   const AcrossRay across = across_ray(circle, *cut, work);

@@ -54,6 +54,9 @@ struct Circle {
   Vec3 centre() const noexcept { return {0, 0, point.z()}; }
 };
 
+/// A triangle whose corners are somewhere else.
+using TriangleRef = std::array<const Vec3*, 3>;
+
 /// The piece of a triangle at the circle's height, walked from p to q with the solid on its left (seen from
 /// +z).
 ///
@@ -72,7 +75,7 @@ struct CircleCut {
     double x, y;
   };
   End p, q;
-  const std::array<Vec3, 3>* triangle;
+  TriangleRef triangle;
 };
 
 /// Appends the crossings of the circle with one triangle, in no order: none, one or two. Which ones there
@@ -80,13 +83,13 @@ struct CircleCut {
 /// (rho sin g), with e = 17u scale the error of an end and g the angle at which circle and triangle meet; in
 /// the worst case, touching, by sqrt(2 e / rho). At rho = scale that is some 1e-14 of a radian, and 1e-7 at a
 /// touch.
-void add_crossings(const Circle& circle, const std::array<Vec3, 3>& triangle, Index number,
+void add_crossings(const Circle& circle, const TriangleRef& triangle, Index number,
                    std::vector<CircleCrossing>& out, TangentialWork& work);
 
 /// What the ray from the point away from the axis, at its height, says about the solid behind this triangle:
 /// +1 where it leaves the solid there, -1 where it enters, 0 where they do not meet. Summed over all
 /// triangles: the winding number of the infinitely little shifted point, also where the point itself is on
 /// the surface.
-int outward_crossing(const Circle& circle, const std::array<Vec3, 3>& triangle, TangentialWork& work);
+int outward_crossing(const Circle& circle, const TriangleRef& triangle, TangentialWork& work);
 
 }  // namespace condyle

@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <span>
 
 #include "condyle/core/predicates.hpp"
 #include "condyle/mesh/tri_mesh.hpp"
@@ -33,17 +35,18 @@ inline double axis_radius(double x, double y) noexcept {
 struct ProfileGrid {
   double rho_min = 0, rho_max = 0, z_min = 0, z_max = 0;
   double rho_cell = 1, z_cell = 1;
+  double columns_per_mm = 1, rows_per_mm = 1;
   Index columns = 1, rows = 1;
 
-  /// Cells of one size, about square and about `cells` in number, over everything in the mesh (in the axis
-  /// frame).
-  static ProfileGrid over(const TriMesh& mesh, std::size_t cells);
+  /// Cells of one size, about square and about `cells` in number, over all triangles (in the axis frame).
+  static ProfileGrid over(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                          std::size_t cells);
 
   std::size_t cells() const noexcept { return static_cast<std::size_t>(columns) * rows; }
 
   /// Row and column of a height and a radius, the outermost ones for everything beyond the grid.
-  Index row_at(double z) const noexcept { return clamped((z - z_min) / z_cell, rows); }
-  Index column_at(double rho) const noexcept { return clamped((rho - rho_min) / rho_cell, columns); }
+  Index row_at(double z) const noexcept { return clamped((z - z_min) * rows_per_mm, rows); }
+  Index column_at(double rho) const noexcept { return clamped((rho - rho_min) * columns_per_mm, columns); }
 
   std::size_t cell(Index row, Index column) const noexcept {
     return static_cast<std::size_t>(row) * columns + column;
@@ -100,8 +103,8 @@ void for_each_profile_run(const ProfileGrid& grid, const ProfilePolygon& polygon
   }
   if (!(z_high >= grid.z_min && z_low <= grid.z_max)) return;
   const Index first = grid.row_at(z_low), last = grid.row_at(z_high);
-  // Heights that fall in row r: a difference, a quotient and the product below, each rounded once, leave it
-  // by less than 8u of the largest height.
+  // Heights that fall in row r: a difference, the size of a cell, its reciprocal, a product with it and the
+  // product below, each rounded once, leave it by less than 8u of the largest height.
   const double slack = 8 * rounding_unit * (std::abs(grid.z_min) + std::abs(grid.z_max));
   const bool reaches_beyond = z_low < grid.z_min || z_high > grid.z_max;
   for (Index row = first; row <= last; ++row) {
@@ -120,6 +123,70 @@ void for_each_profile_run(const ProfileGrid& grid, const ProfilePolygon& polygon
   }
 }
 
+/// A triangle with its corners by height, small against its distance from the axis and not flat in z.
+class SmallTriangle {
+ public:
+  /// None where the figure has to be looked at more closely.
+  static std::optional<SmallTriangle> of(const ProfileGrid& grid, const Vec3& a, const Vec3& b,
+                                         const Vec3& c) noexcept;
+
+  /// The same as of the polygon, some columns wider: no edge and no face comes nearer to the axis than
+  /// `sag_` below the squares of its corners.
+  template <class Visit>
+  void for_each_profile_run(const ProfileGrid& grid, Visit&& visit) const {
+    const Index first = grid.row_at(low_.z), last = grid.row_at(high_.z);
+    SquaredRadii below = none;  // of the cut at the row's lower end
+    for (Index row = first; row <= last; ++row) {
+      SquaredRadii radii = below;
+      const double floor = row == first ? -infinity : grid.z_min + row * grid.z_cell - band_;
+      double ceiling = infinity;
+      if (row < last) {
+        const double height = grid.z_min + (row + 1) * grid.z_cell;
+        below = cut_at(height);
+        radii.extend(below);
+        ceiling = height + band_;
+      }
+      for (const Corner* corner : {&low_, &middle_, &high_})
+        if (corner->z >= floor && corner->z <= ceiling) radii.extend({corner->rho2, corner->rho2});
+      const double low = std::sqrt(std::max(0.0, radii.low - sag_)) - margin_;
+      visit(row, grid.column_at(low), grid.column_at(std::sqrt(radii.high) + margin_));
+    }
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  struct Corner {
+    double x, y, z, rho2;
+  };
+  struct SquaredRadii {
+    double low, high;
+    void extend(const SquaredRadii& more) noexcept {
+      low = std::min(low, more.low), high = std::max(high, more.high);
+    }
+  };
+  static constexpr SquaredRadii none{infinity, 0};
+
+  /// `per_height` is the reciprocal of the height from a to b.
+  static double squared_radius_at(const Corner& a, const Corner& b, double per_height,
+                                  double height) noexcept {
+    const double t = std::clamp((height - a.z) * per_height, 0.0, 1.0);
+    const double x = a.x + t * (b.x - a.x), y = a.y + t * (b.y - a.y);
+    return x * x + y * y;
+  }
+  SquaredRadii cut_at(double height) const noexcept {
+    const double along = squared_radius_at(low_, high_, per_height_, height);
+    const double beside = height < middle_.z    ? squared_radius_at(low_, middle_, per_lower_height_, height)
+                          : middle_.z < high_.z ? squared_radius_at(middle_, high_, per_upper_height_, height)
+                                                : high_.rho2;
+    return {std::min(along, beside), std::max(along, beside)};
+  }
+
+  Corner low_, middle_, high_;
+  double per_height_, per_lower_height_, per_upper_height_;
+  double sag_, margin_, band_;
+};
+
 }  // namespace detail
 
 /// Calls visit(row, first_column, last_column) for the cells which a triangle meets as it turns about z: at
@@ -129,6 +196,10 @@ void for_each_profile_run(const ProfileGrid& grid, const ProfilePolygon& polygon
 template <class Visit>
 void for_each_profile_run(const ProfileGrid& grid, const Vec3& a, const Vec3& b, const Vec3& c,
                           Visit&& visit) {
+  if (const auto small = detail::SmallTriangle::of(grid, a, b, c)) {
+    small->for_each_profile_run(grid, visit);
+    return;
+  }
   ProfilePolygon triangle;
   triangle.push_back(a), triangle.push_back(b), triangle.push_back(c);
   detail::for_each_profile_run(grid, triangle, visit);

@@ -5,9 +5,12 @@
 #include <vector>
 
 #include "condyle/core/point_state.hpp"
+#include "condyle/mesh/closed_mesh.hpp"
+#include "condyle/mesh/triangle_intersection.hpp"
 #include "condyle/mesh/winding_number.hpp"
 #include "condyle/tangential/axis_frame.hpp"
 #include "condyle/tangential/circle_crossing.hpp"
+#include "condyle/tangential/free_directions.hpp"
 #include "condyle/tangential/occupied_arcs.hpp"
 #include "condyle/tangential/profile.hpp"
 
@@ -57,7 +60,7 @@ struct RingTableSize {
   std::size_t cells_in_use;  ///< Cells with at least one triangle.
   std::size_t longest_list;
   double mean_list;           ///< Over the cells in use.
-  double bytes_per_triangle;  ///< Table, mesh and winding number together.
+  double bytes_per_triangle;  ///< All of it, the triangles themselves included.
 };
 
 /// Which triangles a turning point can meet about one axis: rings, seen in profile (`ProfileGrid`).
@@ -71,6 +74,8 @@ class RingTable {
  public:
   /// MeshError where the mesh is not closed: arcs need an inside. UsageError for options out of range.
   RingTable(const TriMesh& mesh, const AxisFrame& frame, RingTableOptions options = {});
+  /// Without that check: of one mesh many tables are made.
+  RingTable(const ClosedMesh& mesh, const AxisFrame& frame, RingTableOptions options = {});
 
   /// State, gap or depth, triangle and sense of every point. Linear in points; a point costs the length of
   /// its cell's list. No allocation per point.
@@ -87,33 +92,43 @@ class RingTable {
 
   const AxisFrame& frame() const noexcept { return frame_; }
   const ProfileGrid& grid() const noexcept { return grid_; }
+  TriangleRef corner_refs(Index triangle) const noexcept {
+    const auto& [a, b, c] = triangles_[triangle];
+    return {&vertices_[a], &vertices_[b], &vertices_[c]};
+  }
+  const FreeDirections& free_directions() const noexcept { return free_; }
   /// In the axis frame.
-  const TriMesh& mesh() const noexcept { return winding_.mesh(); }
+  TriangleCorners corners(Index triangle) const noexcept {
+    const auto [a, b, c] = triangles_[triangle];
+    return {vertices_[a], vertices_[b], vertices_[c]};
+  }
   RingTableSize table_size() const noexcept;
 
  private:
   struct Scratch;
 
-  void fill();
-  void find_empty_cells();
-  std::array<Vec3, 3> corners(Index triangle) const noexcept {
-    return {mesh().corner(triangle, 0), mesh().corner(triangle, 1), mesh().corner(triangle, 2)};
-  }
-  int winding_ahead_of(const Circle& circle, Index row, Index column, Scratch& scratch) const;
+  void list_triangles();
+  int winding_along(int direction, double rho, double z) const;
+  template <class Keep>
+  int winding_outwards(const Circle& circle, std::size_t cell, const Keep& keep, TangentialWork& work) const;
+  int winding_on_axis(const Vec3& point) const;
   Circle circle_of(const Vec3& point) const noexcept;
-  void collect_crossings(const Vec3& point, Scratch& scratch) const;
-  void survey(const Vec3& point, Scratch& scratch) const;
-  void answer_alternating(std::size_t i, const Vec3& point, Scratch& scratch, TangentialHits& out) const;
-  void answer_nearest_arc(std::size_t i, const Vec3& point, Scratch& scratch, TangentialHits& out) const;
+  void collect_crossings(const Circle& circle, std::size_t cell, Scratch& scratch) const;
+  int winding_ahead_of(const Circle& circle, std::size_t cell, bool on_surface, Scratch& scratch) const;
+  void place(PointsView points, Scratch& scratch) const;
+  void fetch_ahead(std::size_t i, const Scratch& scratch) const noexcept;
+  void survey(std::size_t i, Scratch& scratch) const;
+  void answer_alternating(std::size_t at, Scratch& scratch, TangentialHits& out, std::size_t i) const;
+  void answer_nearest_arc(std::size_t at, Scratch& scratch, TangentialHits& out, std::size_t i) const;
 
   AxisFrame frame_;
-  WindingNumber winding_;
+  std::vector<Vec3> vertices_;  ///< In the axis frame.
+  std::vector<Triangle> triangles_;
   double scale_ = 0;  ///< At least every |x|, |y| of the mesh.
   ProfileGrid grid_;
   std::vector<Index> offset_, triangle_;
-  /// Per cell without triangles its one winding number: no surface, no change. `unknown_winding` for all
-  /// others.
-  std::vector<int> cell_winding_;
+  std::vector<FreeDirections::Directions> near_;  ///< Per triangle.
+  FreeDirections free_;
 };
 
 }  // namespace condyle
