@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "condyle/motion/range_of_motion.hpp"
+#include "goals.hpp"
 #include "method.hpp"
 #include "questions.hpp"
 #include "stepping.hpp"
@@ -125,6 +126,13 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
             stepping / ours, bisecting * 1e3, std::int64_t{bisection->queries}, bisecting / ours,
             (bisecting + building.fcl_seconds) / (ours + building.condyle_seconds)});
 
+  add_goal({"first contact, stepping FCL OBBRSS: " + motion.name, joint.name, Bound::at_least, 100,
+            "times cheaper"},
+           stepping / ours, report);
+  add_goal({"first contact with building, bisecting FCL: " + motion.name, joint.name, Bound::at_least, 5,
+            "times cheaper"},
+           (bisecting + building.fcl_seconds) / (ours + building.condyle_seconds), report);
+
   const bool holds = stepped->holds(limit.turned);
   if (!holds)
     report.disagreements.push_back(
@@ -138,7 +146,8 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
 
 }  // namespace
 
-void ask_first_contact(const Joint& joint, Effort effort, Report& report) {
+void ask_first_contact(const Scene& scene, Effort effort, Report& report) {
+  const condyle::Joint& joint = scene.joint;
   const auto kind = method_named("fcl_obbrss");
   if (!kind) {
     report.skipped.push_back(fmt::format("first_contact/{}: FCL is not there", joint.name));

@@ -20,6 +20,7 @@
 #include "condyle/io/whole_file.hpp"
 #include "experiment_plots.hpp"
 #include "experiment_tables.hpp"
+#include "goals.hpp"
 #include "machine.hpp"
 #include "questions.hpp"
 #include "scenes.hpp"
@@ -31,17 +32,18 @@ namespace {
 /// What is asked beside the experiment, at these scenes.
 struct JointQuestion {
   std::string_view name;
-  void (*ask)(const condyle::Joint&, Effort, Report&);
+  void (*ask)(const Scene&, Effort, Report&);
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<JointQuestion, 3> joint_questions = {{
+const std::array<JointQuestion, 4> joint_questions = {{
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
     {"motion_map", ask_motion_map, {"hip_vhf_right", "sample_3"}, {"sample_1"}},
-    {"vertex_tables",
-     ask_vertex_tables,
-     {"hip_libhip_m1_left", "sample_1", "sample_2", "sample_3", "sample_4"},
+    {"radial_table",
+     ask_radial_table,
+     {"libhip_1", "libhip_2", "libhip_3", "libhip_4", "ball_0.1mm_4"},
      {"sample_1"}},
+    {"ring_table", ask_ring_table, {"libhip_1", "libhip_2", "libhip_3", "libhip_4"}, {"sample_1"}},
 }};
 
 /// Small ones of every group.
@@ -112,12 +114,13 @@ ExperimentResult run(const Options& options, Report& report) {
     };
     for (const JointQuestion& question : joint_questions)
       if (is_asked(question, name.name, options))
-        timed(question.name, [&](const Scene& s) { question.ask(s.joint, options.effort, report); });
+        timed(question.name, [&](const Scene& s) { question.ask(s, options.effort, report); });
     if (has_experiment(name.name, options))
       timed("experiment", [&](const Scene& s) {
         run_experiment(name, s, ExperimentFilter{options.filter}, budget, experiment);
       });
   }
+  add_goals(experiment, report);
   add_tables(experiment, report);
   for (const MethodGroup& group : method_groups())
     if (!group.is_built)

@@ -2,6 +2,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "goals.hpp"
 #include "questions.hpp"
 #include "timing.hpp"
 
@@ -34,7 +35,8 @@ const TableHead work_head = {"motion_map_work",
 
 }  // namespace
 
-void ask_motion_map(const condyle::Joint& joint, Effort effort, Report& report) {
+void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
+  const condyle::Joint& joint = scene.joint;
   const double step = effort == Effort::full ? 1 : 10;
   const condyle::RangeOfMotion range(
       joint, {.articular = {}, .overlap = {.contact_at_rest = condyle::ContactAtRest::accept}});
@@ -52,6 +54,12 @@ void ask_motion_map(const condyle::Joint& joint, Effort effort, Report& report) 
                               std::int64_t{tbb::this_task_arena::max_concurrency()}, wall, processor,
                               points / wall, processor * 1e3 / points});
   const auto mean = [&](std::int64_t sum) { return static_cast<double>(sum) / points; };
+  if (effort == Effort::full) {
+    add_goal({"1° map, 71 x 141 points, all threads", joint.name, Bound::at_most, 20, "s on the wall"}, wall,
+             report);
+    add_goal({"the same, processors kept busy", joint.name, Bound::at_least, 1.8, "of 2 threads"},
+             processor / wall, report);
+  }
   report.table(work_head).add({joint.name, mean(map.work.node_pairs), mean(map.work.leaf_pairs),
                                mean(map.work.events), mean(map.work.exact_decisions),
                                mean(map.work.triangle_tests)});

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "condyle/kinematics/joint.hpp"
+#include "scenes.hpp"
 #include "table.hpp"
 
-/// What is asked of a joint beside the experiment: each adds its rows to the report.
+/// What is asked of a scene beside the experiment: each adds its rows to the report.
 
 namespace bench {
 
@@ -12,12 +12,16 @@ enum class Effort { full, quick };
 
 /// How far the joint turns until bone meets bone: Condyle's limit in closed form against stepping and
 /// bisecting the boolean query of FCL, from the same pose about the same axis.
-void ask_first_contact(const condyle::Joint& joint, Effort effort, Report& report);
+void ask_first_contact(const Scene& scene, Effort effort, Report& report);
 
 /// Both limits of internal rotation over a grid of flexion and adduction, on all threads.
-void ask_motion_map(const condyle::Joint& joint, Effort effort, Report& report);
+void ask_motion_map(const Scene& scene, Effort effort, Report& report);
 
-/// Every mobile vertex against the fixed body at a list of poses: the tables of both methods, one thread.
-void ask_vertex_tables(const condyle::Joint& joint, Effort effort, Report& report);
+/// What the radial table costs beside its queries at single poses: building it and following a deformation,
+/// poses along a motion, other instruction sets.
+void ask_radial_table(const Scene& scene, Effort effort, Report& report);
+
+/// What the ring table costs: building it, a pose, and all angles at once.
+void ask_ring_table(const Scene& scene, Effort effort, Report& report);
 
 }  // namespace bench

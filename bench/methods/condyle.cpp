@@ -36,9 +36,7 @@ class RadialVectors final : public Method {
       out[i] = {found_.point[i], found_.triangle[i], found_.depth[i]};
   }
 
-  void deform(condyle::PointsView fixed_vertices) override {
-    table_ = std::make_shared<condyle::RadialTable>(with_vertices(fixed_vertices, table_->mesh()));
-  }
+  void deform(condyle::PointsView fixed_vertices) override { table_->update(fixed_vertices); }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<RadialVectors>(*this); }
   std::size_t bytes() const override { return table_->table_size().bytes; }
@@ -52,7 +50,7 @@ class RadialVectors final : public Method {
   }
 
  private:
-  std::shared_ptr<const condyle::RadialTable> table_;
+  std::shared_ptr<condyle::RadialTable> table_;
   std::shared_ptr<const condyle::SortedPoints> points_;
   condyle::Penetrations found_;
   condyle::PenetrationWork work_;
@@ -82,10 +80,6 @@ class Radial final : public Method {
  public:
   Radial(const Bodies& bodies, condyle::RadialOptions options)
       : options_(options), mobile_(&bodies.mobile), table_(std::make_shared<Table>(bodies.fixed, options)) {}
-
-  void find_pairs(const Pose& X_FM, std::vector<condyle::TrianglePair>& out) override {
-    out = intersecting_pairs(*table_, posed(X_FM, *mobile_));
-  }
 
   void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
     posed(X_FM, mobile_->vertices.view(), posed_);
@@ -117,6 +111,7 @@ class Tangential final : public Method {
  public:
   Tangential(const Bodies& bodies, condyle::TangentialRule rule)
       : rule_(rule),
+        fixed_(&bodies.fixed),
         mobile_(&bodies.mobile),
         table_(std::make_shared<condyle::RingTable>(bodies.fixed, arc_axis())) {}
 
@@ -130,7 +125,7 @@ class Tangential final : public Method {
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
-    table_ = std::make_shared<condyle::RingTable>(with_vertices(fixed_vertices, table_->mesh()), arc_axis());
+    table_ = std::make_shared<condyle::RingTable>(with_vertices(fixed_vertices, *fixed_), arc_axis());
   }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Tangential>(*this); }
@@ -138,7 +133,7 @@ class Tangential final : public Method {
 
  private:
   condyle::TangentialRule rule_;
-  const TriMesh* mobile_;
+  const TriMesh *fixed_, *mobile_;
   std::shared_ptr<const condyle::RingTable> table_;
   condyle::Points posed_;
   condyle::TangentialHits hits_;
@@ -148,7 +143,7 @@ MethodKind radial_vectors() {
   return {"radial",
           "Condyle",
           "radial, cube map, in vectors",
-          {.inside = true},
+          {.inside = true, .deforms = true},
           DepthKind::along_ray,
           true,
           [](const Bodies& bodies) { return std::make_unique<RadialVectors>(bodies); }};
@@ -168,7 +163,7 @@ MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind
   return {std::move(name),
           "Condyle",
           std::move(title),
-          {.pairs = true, .inside = true},
+          {.inside = true},
           DepthKind::along_ray,
           true,
           [map](const Bodies& bodies) {

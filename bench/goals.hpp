@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "experiment.hpp"
+#include "table.hpp"
+
+/// What the library is meant to reach, beside what it reached in this run.
+
+namespace bench {
+
+/// Whether the measured value is to be at least the goal, or at most.
+enum class Bound { at_least, at_most };
+
+struct Goal {
+  std::string what;  ///< "every vertex: times faster than Embree, robust"
+  std::string scene;
+  Bound bound;
+  double value;
+  std::string unit;  ///< "times", "ns per triangle"
+};
+
+/// One row of the table `goals`.
+void add_goal(const Goal& goal, double measured, Report& report);
+
+/// All goals that compare outcomes of the experiment.
+void add_goals(const ExperimentResult& result, Report& report);
+
+}  // namespace bench

@@ -1,0 +1,90 @@
+#include "condyle/tangential/ring_table.hpp"
+
+#include <tbb/task_arena.h>
+
+#include <vector>
+
+#include "goals.hpp"
+#include "questions.hpp"
+#include "timing.hpp"
+
+namespace bench {
+namespace {
+
+using condyle::Pose;
+using condyle::TriMesh;
+
+/// Of a whole turn in steps of a degree.
+constexpr int poses_per_turn = 360;
+
+const TableHead ring_head{"ring_table",
+                          "Ring table about the flexion axis; processor time, one thread",
+                          {{"scene", "scene"},
+                           {"fixed_triangles", "fixed triangles"},
+                           {"mobile_vertices", "mobile vertices"},
+                           {"build_ns_per_triangle", "build, ns per triangle"},
+                           {"bytes_per_triangle", "bytes per triangle, mesh included"},
+                           {"query_ns_per_vertex", "a pose, ns per vertex"},
+                           {"arcs_ns_per_vertex", "all angles, ns per vertex"},
+                           {"arcs_ms", "all angles, ms"},
+                           {"embree_turn_ms", "Embree, 360 poses, ms"},
+                           {"ratio", "ratio"},
+                           {"ratio_with_building", "with building"}}};
+
+std::vector<Pose> about_flexion_axis(int count, int stride) {
+  std::vector<Pose> poses;
+  for (int degree = 0; degree < count; degree += stride)
+    poses.emplace_back(Eigen::AngleAxisd(condyle::Angle::degrees(degree).radians(), arc_axis().direction()));
+  return poses;
+}
+
+}  // namespace
+
+void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
+  const TriMesh &fixed = scene.joint.fixed.mesh, &mobile = scene.joint.mobile.mesh;
+  const Bodies bodies{fixed, mobile};
+  const auto embree_kind = method_named("embree_16_robust");
+  const auto embree = embree_kind ? embree_kind->make(bodies) : nullptr;
+  const condyle::RingTable ring(fixed, arc_axis());
+  condyle::TangentialHits hits;
+  std::vector<InsideVertex> inside;
+  // Every tenth degree stands for ten.
+  constexpr int stride = 10;
+  const std::vector<Pose> turn = about_flexion_axis(poses_per_turn, stride);
+
+  std::vector<std::vector<double>> samples;
+  tbb::task_arena(1).execute([&] {
+    samples =
+        interleaved(effort == Effort::full ? 5 : 1, {
+                                                        [&] { condyle::RingTable(fixed, arc_axis()); },
+                                                        [&] { ring.query(mobile.vertices.view(), hits); },
+                                                        [&] { ring.occupied_arcs(mobile.vertices.view()); },
+                                                        [&] {
+                                                          for (const Pose& X_FM : turn)
+                                                            if (embree) embree->find_inside(X_FM, inside);
+                                                        },
+                                                        [&] {
+                                                          if (embree_kind) embree_kind->make(bodies);
+                                                        },
+                                                    });
+  });
+  const auto triangles = static_cast<double>(fixed.triangles.size());
+  const auto vertices = static_cast<double>(mobile.vertices.size());
+  const double build = median(samples[0]), arcs = median(samples[2]);
+  const double stepping = median(samples[3]) * stride, embree_build = median(samples[4]);
+  const double ratio = stepping / arcs, with_building = (stepping + embree_build) / (arcs + build);
+  report.table(ring_head).add({scene.joint.name, static_cast<std::int64_t>(fixed.triangles.size()),
+                               static_cast<std::int64_t>(mobile.vertices.size()), build * 1e9 / triangles,
+                               ring.table_size().bytes_per_triangle, median(samples[1]) * 1e9 / vertices,
+                               arcs * 1e9 / vertices, arcs * 1e3, embree ? Cell(stepping * 1e3) : Cell("-"),
+                               embree ? Cell(ratio) : Cell("-"), embree ? Cell(with_building) : Cell("-")});
+  const std::string& name = scene.joint.name;
+  add_goal({"ring table, build", name, Bound::at_most, 20, "ns per triangle"}, build * 1e9 / triangles,
+           report);
+  if (!embree) return;
+  add_goal({"all angles of a turn, Embree at each degree", name, Bound::at_least, 500, "times cheaper"},
+           ratio, report);
+  add_goal({"the same with building", name, Bound::at_least, 60, "times cheaper"}, with_building, report);
+}
+
+}  // namespace bench
