@@ -110,60 +110,68 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints
 ///
 /// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
 /// those of the points later, and a rotation that is one to 1e-6.
+///
+/// `turn` is a chord that the block may still turn by. Blocks from `block` on, one to a lane.
 template <bool translated>
-std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
-                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                                 std::size_t block, float turn) {
   const auto& r = pose.rotation;
   const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
   const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
+  const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
+  const auto z = hn::LoadU(d, blocks.axis_z + block),
+             chord = hn::Add(hn::LoadU(d, blocks.chord + block), hn::Set(d, turn));
+  auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
+  auto az = dot(x, y, z, r[6], r[7], r[8]);
+  const auto nearest = hn::LoadU(d, blocks.nearest + block), furthest = hn::LoadU(d, blocks.furthest + block);
+  auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
+  auto sine = chord;
+  auto certain = hn::Gt(nearest, hn::Zero(d));
+  if constexpr (translated) {
+    const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
+    const auto spread = hn::LoadU(d, blocks.spread + block);
+    const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
+    ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
+    ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
+    az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
+    const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
+    certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
+    sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
+    const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
+    const auto two = hn::Set(d, 2.0f);
+    least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
+    greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
+  }
+  const CubePlace place = place_on_cube(ax, ay, az);
+  const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
+  const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
+  // A cap with that sine moves a coordinate of the face by at most this, in cells.
+  const auto opening = hn::Mul(sine, length);
+  const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
+                                     hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
+                             hn::Sub(one, opening));
+  const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
+  certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
+  const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
+  const auto index =
+      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
+  const auto entry = hn::GatherIndex(du, cube.pyramid, index);
+  const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                               radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+  return hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
+}
+
+template <bool translated>
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
     const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
-    const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
-    const auto z = hn::LoadU(d, blocks.axis_z + block), chord = hn::LoadU(d, blocks.chord + block);
-    auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
-    auto az = dot(x, y, z, r[6], r[7], r[8]);
-    const auto nearest = hn::LoadU(d, blocks.nearest + block),
-               furthest = hn::LoadU(d, blocks.furthest + block);
-    auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
-    auto sine = chord;
-    auto certain = hn::Gt(nearest, hn::Zero(d));
-    if constexpr (translated) {
-      const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
-      const auto spread = hn::LoadU(d, blocks.spread + block);
-      const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
-      ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
-      ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
-      az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
-      const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
-      certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
-      sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
-      const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
-      const auto two = hn::Set(d, 2.0f);
-      least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
-      greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
-    }
-    const CubePlace place = place_on_cube(ax, ay, az);
-    const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
-    const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
-    // A cap with that sine moves a coordinate of the face by at most this, in cells.
-    const auto opening = hn::Mul(sine, length);
-    const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
-                                       hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
-                               hn::Sub(one, opening));
-    const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
-    certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
-    const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
-    const auto index =
-        hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
-    const auto entry = hn::GatherIndex(du, cube.pyramid, index);
-    const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
-                                 radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-    const auto near = hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
-    const auto asked = hn::And(near, hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
+    const auto near = hn::And(are_near<translated>(cube, blocks, pose, block, 0),
+                              hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
-    hn::StoreU(hn::Compress(number, asked), du, found + count);
-    count += hn::CountTrue(du, asked);
+    hn::StoreU(hn::Compress(number, near), du, found + count);
+    count += hn::CountTrue(du, near);
   }
   return count;
 }
@@ -174,8 +182,10 @@ std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, co
                            : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
 }
 
-void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+template <bool remembering>
+HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory* memory,
+                            NearPoints& found) {
   const auto& r = pose.rotation;
   const auto& t = pose.translation;
   const int finest = cube.cells_per_side;
@@ -187,6 +197,7 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       const std::size_t ahead = std::size_t{16} * blocks[i + 4];
       hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
     }
+    [[maybe_unused]] bool stays_free = true;
     for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
       const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at),
                  pz = hn::LoadU(d, points.z + at);
@@ -205,6 +216,11 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       if (HWY_UNLIKELY(first + 16 > points.size)) {
         near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
       }
+      if constexpr (remembering) {
+        const auto index = pyramid_index(cube, place, hn::Set(di, memory->level[blocks[i]]));
+        const auto around = hn::GatherIndex(du, cube.pyramid, index);
+        stays_free &= hn::AllFalse(du, radii_meet(around, reach_word(code, code)));
+      }
       if (hn::AllFalse(du, near)) continue;
       const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
       const auto box =
@@ -220,8 +236,46 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
                  found.point.data() + count);
       count += hn::CountTrue(du, near);
     }
+    if constexpr (remembering) {
+      // Next time a longer respite is tried after one that was granted, a shorter one otherwise.
+      std::uint8_t& level = memory->level[blocks[i]];
+      memory->free_until[blocks[i]] = stays_free ? memory->turned + memory->reach[level] : -1.0f;
+      const int next = stays_free ? std::min(level + 1, memory->levels - 1) : std::max(level - 1, 0);
+      level = static_cast<std::uint8_t>(next);
+    }
   }
   found.count = count;
+}
+
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  near_points<false>(cube, points, pose, blocks, block_count, nullptr, found);
+}
+
+void near_points_remembered_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                                const std::uint32_t* blocks, std::size_t block_count,
+                                const BlockMemory& memory, NearPoints& found) {
+  near_points<true>(cube, points, pose, blocks, block_count, &memory, found);
+}
+
+std::size_t blocks_to_ask_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                              const BlockMemory& memory, std::size_t first, std::size_t last,
+                              std::uint32_t* found) {
+  const auto turned = hn::Set(d, memory.turned);
+  std::size_t count = 0;
+  for (std::size_t block = first; block < last; block += hn::Lanes(d)) {
+    const auto free_until = hn::LoadU(d, memory.free_until + block);
+    const auto due = hn::And(hn::RebindMask(du, hn::Lt(free_until, turned)), hn::FirstN(du, last - block));
+    if (hn::AllFalse(du, due)) continue;
+    const auto near = are_near<false>(cube, blocks, pose, block, memory.stride);
+    const auto freed = hn::RebindMask(d, hn::AndNot(near, due));
+    hn::StoreU(hn::IfThenElse(freed, hn::Add(turned, hn::Set(d, memory.stride)), free_until), d,
+               memory.free_until + block);
+    const auto asked = hn::And(due, near);
+    hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(block)), asked), du, found + count);
+    count += hn::CountTrue(du, asked);
+  }
+  return count;
 }
 
 /// Triangles whose octagons hold a point, with the number of the point among the near ones.
@@ -448,6 +502,8 @@ namespace condyle {
 
 HWY_EXPORT(near_blocks_any);
 HWY_EXPORT(near_points_any);
+HWY_EXPORT(near_points_remembered_any);
+HWY_EXPORT(blocks_to_ask_any);
 HWY_EXPORT(inside_points_any);
 
 std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
@@ -458,6 +514,18 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
 void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
   HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
+}
+
+std::size_t blocks_to_ask(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                          const BlockMemory& memory, std::size_t first, std::size_t last,
+                          std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(blocks_to_ask_any)(cube, blocks, pose, memory, first, last, found);
+}
+
+void near_points_remembered(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory& memory,
+                            NearPoints& found) {
+  HWY_DYNAMIC_DISPATCH(near_points_remembered_any)(cube, points, pose, blocks, block_count, memory, found);
 }
 
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
