@@ -11,6 +11,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/compaction-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
@@ -52,8 +54,9 @@ HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
     const auto holding = octagons_holding(cube, first, row.last, box, slant);
-    hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du,
-               pairs.triangle.data() + pairs.count);
+    // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
+    if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
+    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + pairs.count);
     hn::StoreU(number, du, pairs.point.data() + pairs.count);
     pairs.count += hn::CountTrue(du, holding);
     if (pairs.count > Pairs::most - vector_room) return false;

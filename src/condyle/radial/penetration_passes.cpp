@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/compaction-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
@@ -166,7 +168,7 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
     const auto near = hn::And(are_near<translated>(cube, blocks, pose, block, 0),
                               hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
-    hn::StoreU(hn::Compress(number, near), du, found + count);
+    store_compacted(du, number, near, found + count);
     count += hn::CountTrue(du, near);
   }
   return count;
@@ -223,13 +225,12 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
           hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
                  hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
       const auto near_float = hn::RebindMask(d, near);
-      hn::StoreU(hn::Compress(x, near_float), d, found.x.data() + count);
-      hn::StoreU(hn::Compress(y, near_float), d, found.y.data() + count);
-      hn::StoreU(hn::Compress(z, near_float), d, found.z.data() + count);
-      hn::StoreU(hn::Compress(hn::BitCast(du, cell), near), du, found.cell.data() + count);
-      hn::StoreU(hn::Compress(hn::BitCast(du, box), near), du, found.box.data() + count);
-      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(at)), near), du,
-                 found.point.data() + count);
+      store_compacted(d, x, near_float, found.x.data() + count);
+      store_compacted(d, y, near_float, found.y.data() + count);
+      store_compacted(d, z, near_float, found.z.data() + count);
+      store_compacted(du, hn::BitCast(du, cell), near, found.cell.data() + count);
+      store_compacted(du, hn::BitCast(du, box), near, found.box.data() + count);
+      store_compacted(du, hn::Iota(du, static_cast<std::uint32_t>(at)), near, found.point.data() + count);
       count += hn::CountTrue(du, near);
     }
     if constexpr (remembering) {
@@ -268,7 +269,7 @@ std::size_t blocks_to_ask_any(const CubeView& cube, const BlockColumns& blocks, 
     hn::StoreU(hn::IfThenElse(freed, hn::Add(turned, hn::Set(d, memory.stride)), free_until), d,
                memory.free_until + block);
     const auto asked = hn::And(due, near);
-    hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(block)), asked), du, found + count);
+    store_compacted(du, hn::Iota(du, static_cast<std::uint32_t>(block)), asked, found + count);
     count += hn::CountTrue(du, asked);
   }
   return count;
