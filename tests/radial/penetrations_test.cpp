@@ -5,6 +5,7 @@
 #include "condyle/core/error.hpp"
 #include "condyle/core/instruction_set.hpp"
 #include "condyle/mesh/subdivide.hpp"
+#include "condyle/radial/penetration_track.hpp"
 #include "condyle/radial/radial_table.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
@@ -254,6 +255,47 @@ TEST_P(PenetrationsOn, AFreeBallIsRejectedByTheBlock) {
   EXPECT_EQ(compared.found, 0u);
   EXPECT_EQ(compared.work.near_points, 0u);
   EXPECT_GT(compared.work.blocks, 6 * ball.vertices.size() / 16);
+}
+
+/// Along the track as one by one; returns how many blocks were asked for their points.
+std::uint64_t expect_track(const RadialTable& table, const SortedPoints& points,
+                           const std::vector<Pose>& poses) {
+  PenetrationTrack track(table, points);
+  PenetrationWork work;
+  Penetrations tracked, alone;
+  for (const Pose& X : poses) {
+    track.penetrations(X, tracked, &work);
+    table.penetrations(points, X, alone);
+    EXPECT_EQ(tracked, alone);
+  }
+  return work.near_blocks;
+}
+
+TEST_P(PenetrationsOn, AlongAMotionAnswersAreThoseOfEachPoseAlone) {
+  const RadialTable table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3));
+  const RadialTable around(sphere({0.3, 0.2, -0.1}, 1.1, 3));
+  const SortedPoints points(random_points(900, 1.5, 26));
+  std::vector<Pose> steps, jumps;
+  // Ten turns in small steps about an axis that moves, then back and forth with jumps and translations.
+  for (int i = 0; i < 600; ++i) steps.push_back(pose_of(0.1 * i, {std::sin(0.01 * i), 1, 0.3}, Vec3::Zero()));
+  for (int i = 0; i < 60; ++i) {
+    jumps.push_back(pose_of(i % 5 == 0 ? i : 0.002 * i, {1, 2, 3}, Vec3::Constant(i % 7 == 0 ? 0.05 : 0)));
+  }
+  for (const RadialTable* of : {&table, &around}) {
+    expect_track(*of, points, steps);
+    expect_track(*of, points, jumps);
+  }
+  expect_track(RadialTable(test::socket(Vec3::Zero(), 1, 1.3, 2), {DirectionMapKind::cartesian, 8}), points,
+               {steps[0], steps[1]});
+}
+
+TEST_P(PenetrationsOn, AlongAMotionFewBlocksAreAskedMoreThanOnce) {
+  // A ball two millimetres off its socket all around.
+  const RadialTable table(cavity(25, 5));
+  const SortedPoints ball(sphere(Vec3::Zero(), 23, 5).vertices);
+  std::vector<Pose> poses;
+  for (int i = 0; i < 100; ++i) poses.push_back(pose_of(0.0017 * i, {1, 1, 0}, Vec3::Zero()));
+  EXPECT_LT(expect_track(table, ball, poses), 10 * ball.block_count(0));
 }
 
 TEST_P(PenetrationsOn, RealHipsAndCartilagesAtRestAnswerAlike) {

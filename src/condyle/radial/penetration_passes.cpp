@@ -1,10 +1,6 @@
 #include "condyle/radial/penetration_passes.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
-#include <span>
 
 #include <hwy/cache_control.h>
 
@@ -12,6 +8,8 @@
 #define HWY_TARGET_INCLUDE "condyle/radial/penetration_passes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "condyle/radial/compaction-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
@@ -110,60 +108,68 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints
 ///
 /// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
 /// those of the points later, and a rotation that is one to 1e-6.
+///
+/// `turn` is a chord that the block may still turn by. Blocks from `block` on, one to a lane.
 template <bool translated>
-std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
-                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                                 std::size_t block, float turn) {
   const auto& r = pose.rotation;
   const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
   const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
+  const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
+  const auto z = hn::LoadU(d, blocks.axis_z + block),
+             chord = hn::Add(hn::LoadU(d, blocks.chord + block), hn::Set(d, turn));
+  auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
+  auto az = dot(x, y, z, r[6], r[7], r[8]);
+  const auto nearest = hn::LoadU(d, blocks.nearest + block), furthest = hn::LoadU(d, blocks.furthest + block);
+  auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
+  auto sine = chord;
+  auto certain = hn::Gt(nearest, hn::Zero(d));
+  if constexpr (translated) {
+    const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
+    const auto spread = hn::LoadU(d, blocks.spread + block);
+    const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
+    ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
+    ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
+    az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
+    const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
+    certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
+    sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
+    const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
+    const auto two = hn::Set(d, 2.0f);
+    least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
+    greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
+  }
+  const CubePlace place = place_on_cube(ax, ay, az);
+  const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
+  const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
+  // A cap with that sine moves a coordinate of the face by at most this, in cells.
+  const auto opening = hn::Mul(sine, length);
+  const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
+                                     hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
+                             hn::Sub(one, opening));
+  const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
+  certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
+  const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
+  const auto index =
+      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
+  const auto entry = hn::GatherIndex(du, cube.pyramid, index);
+  const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                               radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+  return hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
+}
+
+template <bool translated>
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
     const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
-    const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
-    const auto z = hn::LoadU(d, blocks.axis_z + block), chord = hn::LoadU(d, blocks.chord + block);
-    auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
-    auto az = dot(x, y, z, r[6], r[7], r[8]);
-    const auto nearest = hn::LoadU(d, blocks.nearest + block),
-               furthest = hn::LoadU(d, blocks.furthest + block);
-    auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
-    auto sine = chord;
-    auto certain = hn::Gt(nearest, hn::Zero(d));
-    if constexpr (translated) {
-      const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
-      const auto spread = hn::LoadU(d, blocks.spread + block);
-      const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
-      ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
-      ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
-      az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
-      const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
-      certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
-      sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
-      const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
-      const auto two = hn::Set(d, 2.0f);
-      least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
-      greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
-    }
-    const CubePlace place = place_on_cube(ax, ay, az);
-    const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
-    const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
-    // A cap with that sine moves a coordinate of the face by at most this, in cells.
-    const auto opening = hn::Mul(sine, length);
-    const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
-                                       hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
-                               hn::Sub(one, opening));
-    const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
-    certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
-    const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
-    const auto index =
-        hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
-    const auto entry = hn::GatherIndex(du, cube.pyramid, index);
-    const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
-                                 radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-    const auto near = hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
-    const auto asked = hn::And(near, hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
+    const auto near = hn::And(are_near<translated>(cube, blocks, pose, block, 0),
+                              hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = hn::Iota(du, static_cast<std::uint32_t>(block));
-    hn::StoreU(hn::Compress(number, asked), du, found + count);
-    count += hn::CountTrue(du, asked);
+    store_compacted(du, number, near, found + count);
+    count += hn::CountTrue(du, near);
   }
   return count;
 }
@@ -174,8 +180,10 @@ std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, co
                            : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
 }
 
-void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+template <bool remembering>
+HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory* memory,
+                            NearPoints& found) {
   const auto& r = pose.rotation;
   const auto& t = pose.translation;
   const int finest = cube.cells_per_side;
@@ -187,6 +195,7 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       const std::size_t ahead = std::size_t{16} * blocks[i + 4];
       hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
     }
+    [[maybe_unused]] bool stays_free = true;
     for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
       const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at),
                  pz = hn::LoadU(d, points.z + at);
@@ -205,238 +214,65 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       if (HWY_UNLIKELY(first + 16 > points.size)) {
         near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
       }
+      if constexpr (remembering) {
+        const auto index = pyramid_index(cube, place, hn::Set(di, memory->level[blocks[i]]));
+        const auto around = hn::GatherIndex(du, cube.pyramid, index);
+        stays_free &= hn::AllFalse(du, radii_meet(around, reach_word(code, code)));
+      }
       if (hn::AllFalse(du, near)) continue;
       const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
       const auto box =
           hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
                  hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
       const auto near_float = hn::RebindMask(d, near);
-      hn::StoreU(hn::Compress(x, near_float), d, found.x.data() + count);
-      hn::StoreU(hn::Compress(y, near_float), d, found.y.data() + count);
-      hn::StoreU(hn::Compress(z, near_float), d, found.z.data() + count);
-      hn::StoreU(hn::Compress(hn::BitCast(du, cell), near), du, found.cell.data() + count);
-      hn::StoreU(hn::Compress(hn::BitCast(du, box), near), du, found.box.data() + count);
-      hn::StoreU(hn::Compress(hn::Iota(du, static_cast<std::uint32_t>(at)), near), du,
-                 found.point.data() + count);
+      store_compacted(d, x, near_float, found.x.data() + count);
+      store_compacted(d, y, near_float, found.y.data() + count);
+      store_compacted(d, z, near_float, found.z.data() + count);
+      store_compacted(du, hn::BitCast(du, cell), near, found.cell.data() + count);
+      store_compacted(du, hn::BitCast(du, box), near, found.box.data() + count);
+      store_compacted(du, hn::Iota(du, static_cast<std::uint32_t>(at)), near, found.point.data() + count);
       count += hn::CountTrue(du, near);
+    }
+    if constexpr (remembering) {
+      // Next time a longer respite is tried after one that was granted, a shorter one otherwise.
+      std::uint8_t& level = memory->level[blocks[i]];
+      memory->free_until[blocks[i]] = stays_free ? memory->turned + memory->reach[level] : -1.0f;
+      const int next = stays_free ? std::min(level + 1, memory->levels - 1) : std::max(level - 1, 0);
+      level = static_cast<std::uint8_t>(next);
     }
   }
   found.count = count;
 }
 
-/// Triangles whose octagons hold a point, with the number of the point among the near ones.
-struct Pairs {
-  static constexpr std::size_t most = 4096;
-  std::array<std::uint32_t, most + vector_room> triangle, point;
-  std::size_t count;
-};
-
-/// Which of the octagons from `first` on hold the point.
-HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first, std::size_t last, Words box,
-                                         Words slant) {
-#if HWY_TARGET == HWY_SCALAR
-  static_cast<void>(last);
-  const bool held = holds(cube.box[first], hn::GetLane(box)) && holds(cube.slant[first], hn::GetLane(slant));
-  return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
-#else
-  constexpr hn::Repartition<std::uint8_t, DU> bytes;
-  const auto excess = [&](const std::uint32_t* from, Words point) {
-    return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
-  };
-  const auto either = hn::Or(excess(cube.box, box), excess(cube.slant, slant));
-  return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
-#endif
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  near_points<false>(cube, points, pose, blocks, block_count, nullptr, found);
 }
 
-/// Pairs of one near point, added to the others; false where there are too many.
-HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
-  const CellRow row = cube.row[points.cell[i]];
-  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, slant_of_point(points.box[i]));
-  const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
-  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
-    const auto holding = octagons_holding(cube, first, row.last, box, slant);
-    hn::StoreU(hn::Compress(hn::LoadU(du, cube.triangle + first), holding), du,
-               pairs.triangle.data() + pairs.count);
-    hn::StoreU(number, du, pairs.point.data() + pairs.count);
-    pairs.count += hn::CountTrue(du, holding);
-    if (pairs.count > Pairs::most - vector_room) return false;
-  }
-  return true;
+void near_points_remembered_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                                const std::uint32_t* blocks, std::size_t block_count,
+                                const BlockMemory& memory, NearPoints& found) {
+  near_points<true>(cube, points, pose, blocks, block_count, &memory, found);
 }
 
-/// A crossing of a near point's ray: s is |v| over its radius, NaN where floats do not say whether there is
-/// one.
-struct Crossing {
-  float s, error;
-  std::uint32_t triangle, point;
-  std::int32_t outwards;  // 1 where the ray leaves the solid, -1 where it enters
-};
-struct Crossings {
-  std::array<Crossing, Pairs::most + 1> crossing;
-  std::size_t count;
-};
-
-/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
-HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pairs& pairs, float form_bound,
-                      Crossings& out) {
-  constexpr hn::CappedTag<float, 4> d4;
-  constexpr std::size_t ahead = 8;
-  // Forms may lie across two lines of the cache.
-  const auto fetch = [&](std::size_t i) {
-    const ConeForms& forms = cube.forms[pairs.triangle[std::min(i, pairs.count - 1)]];
-    hwy::Prefetch(forms.x), hwy::Prefetch(forms.z + 3);
-  };
-  for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
+std::size_t blocks_to_ask_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                              const BlockMemory& memory, std::size_t first, std::size_t last,
+                              std::uint32_t* found) {
+  const auto turned = hn::Set(d, memory.turned);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < pairs.count; ++i) {
-    fetch(i + ahead);
-    const std::uint32_t triangle = pairs.triangle[i], point = pairs.point[i];
-    const ConeForms& forms = cube.forms[triangle];
-    const float px = points.x[point], py = points.y[point], pz = points.z[point];
-    const float bound = form_bound * std::max(std::max(std::abs(px), std::abs(py)), std::abs(pz));
-    alignas(16) float values[4], errors[4];
-    unsigned below = 0, above = 0;
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-      const auto x = hn::Load(d4, forms.x + k), y = hn::Load(d4, forms.y + k), z = hn::Load(d4, forms.z + k);
-      const auto value =
-          hn::MulAdd(hn::Set(d4, px), x, hn::MulAdd(hn::Set(d4, py), y, hn::Mul(hn::Set(d4, pz), z)));
-      const auto error = hn::Mul(hn::Set(d4, bound), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d4, hn::Lt(value, hn::Neg(error)), bits);
-      below |= static_cast<unsigned>(bits[0]) << k;
-      hn::StoreMaskBits(d4, hn::Gt(value, error), bits);
-      above |= static_cast<unsigned>(bits[0]) << k;
-      hn::Store(value, d4, values + k);
-      hn::Store(error, d4, errors + k);
-    }
-    // Without branches, which nothing could foretell: all bits of a magnitude set are a NaN.
-    const std::uint32_t bits_of_value = std::bit_cast<std::uint32_t>(values[3]);
-    const std::uint32_t doubt = 0u - static_cast<std::uint32_t>((above & 7) != 7);
-    out.crossing[count] = {std::bit_cast<float>((bits_of_value | doubt) & 0x7fffffffu), errors[3], triangle,
-                           point, 1 - 2 * static_cast<std::int32_t>(bits_of_value >> 31)};
-    count += static_cast<std::size_t>((below & 7) == 0);
+  for (std::size_t block = first; block < last; block += hn::Lanes(d)) {
+    const auto free_until = hn::LoadU(d, memory.free_until + block);
+    const auto due = hn::And(hn::RebindMask(du, hn::Lt(free_until, turned)), hn::FirstN(du, last - block));
+    if (hn::AllFalse(du, due)) continue;
+    const auto near = are_near<false>(cube, blocks, pose, block, memory.stride);
+    const auto freed = hn::RebindMask(d, hn::AndNot(near, due));
+    hn::StoreU(hn::IfThenElse(freed, hn::Add(turned, hn::Set(d, memory.stride)), free_until), d,
+               memory.free_until + block);
+    const auto asked = hn::And(due, near);
+    store_compacted(du, hn::Iota(du, static_cast<std::uint32_t>(block)), asked, found + count);
+    count += hn::CountTrue(du, asked);
   }
-  out.count = count;
-}
-
-/// The certain crossings of one ray.
-struct Ray {
-  static constexpr std::size_t most = 24;
-  Crossing crossing[most];
-  std::size_t count;
-  int winding;  // of the point
-  bool doubtful;
-};
-
-HWY_INLINE void collect(std::span<const Crossing> crossings, int winding_at_centre, Ray& ray) {
-  ray.count = 0, ray.winding = winding_at_centre;
-  ray.doubtful = crossings.size() > Ray::most;
-  if (ray.doubtful) return;
-  for (const Crossing& crossing : crossings) {
-    const float beyond = crossing.s - 1;
-    ray.doubtful |= !(std::abs(beyond) > crossing.error);
-    ray.winding -= beyond > 0 ? crossing.outwards : 0;
-    ray.crossing[ray.count++] = crossing;
-  }
-}
-
-/// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
-///
-/// Crossings in order from the centre have falling s. The gaps 1 - 1/s before and 1/s' - 1 behind compare as
-/// 2 s s' does with s + s'.
-HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
-  for (std::size_t i = 1; i < ray.count; ++i) {
-    const Crossing moving = ray.crossing[i];
-    std::size_t k = i;
-    for (; k > 0 && ray.crossing[k - 1].s < moving.s; --k) ray.crossing[k] = ray.crossing[k - 1];
-    ray.crossing[k] = moving;
-  }
-  for (std::size_t i = 1; i < ray.count; ++i) {
-    const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
-    if (!(nearer.s - further.s > nearer.error + further.error)) return false;
-  }
-  const Crossing *before = nullptr, *after = nullptr;
-  int winding = winding_at_centre;
-  for (std::size_t i = 0; i < ray.count; ++i) {
-    const Crossing& crossing = ray.crossing[i];
-    const bool was_inside = winding > 0;
-    winding -= crossing.outwards;
-    if (was_inside == (winding > 0)) continue;
-    if (crossing.s > 1) {
-      before = &crossing;
-    } else if (!after) {
-      after = &crossing;
-    }
-  }
-  if (!after) return false;
-  found.away_from_centre = true;
-  if (before) {
-    const float b = before->s, a = after->s;
-    const float difference = a + b - 2 * a * b;
-    const float error = 1.01f * (before->error * (1 + 2 * a) + after->error * (1 + 2 * b));
-    if (!(std::abs(difference) > error)) return false;
-    found.away_from_centre = difference < 0;
-  }
-  found.triangle = (found.away_from_centre ? after : before)->triangle;
-  return true;
-}
-
-/// Decides near points [first, last), whose crossings these are.
-HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
-                       const Crossings& crossings, FoundPoints& found) {
-  Ray ray;
-  const Crossing *next = crossings.crossing.data(), *const end = next + crossings.count;
-  for (std::size_t i = first; i < last; ++i) {
-    const Crossing* const begin = next;
-    while (next != end && next->point == i) ++next;
-    collect({begin, next}, cube.winding_at_centre, ray);
-    if (cube.winding_at_centre > 0) {
-      // Nearer to the centre than any surface, floats may have lost the direction.
-      const float x = points.x[i], y = points.y[i], z = points.z[i];
-      ray.doubtful |= x * x + y * y + z * z < cube.nearest_squared;
-    }
-    if (!ray.doubtful && ray.winding <= 0) continue;
-    FoundPoint& at = found.point[found.count++];
-    at.point = points.point[i];
-    at.triangle = no_index;
-    at.winding = static_cast<std::int16_t>(ray.winding);
-    at.doubtful = ray.doubtful || !leave(ray, cube.winding_at_centre, at);
-  }
-}
-
-std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
-                              FoundPoints& found) {
-  Pairs pairs;
-  Crossings crossings;
-  std::size_t tried = 0;
-  found.count = 0;
-  for (std::size_t first = 0; first < points.count;) {
-    std::size_t last = first;
-    pairs.count = 0;
-    bool fits = true;
-    while (last < points.count && fits) {
-      const std::size_t before = pairs.count;
-      hwy::Prefetch(cube.row + points.cell[std::min(last + 8, points.count - 1)]);
-      const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
-      hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
-      hwy::Prefetch(cube.triangle + row_ahead);
-      fits = pair(cube, points, last, pairs);
-      if (fits) {
-        ++last;
-      } else {
-        pairs.count = before;
-      }
-    }
-    cross(cube, points, pairs, form_bound, crossings);
-    decide(cube, points, first, last, crossings, found);
-    tried += pairs.count;
-    if (last == first) {
-      // More triangles at one point than there is room for.
-      found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
-    }
-    first = last;
-  }
-  return tried;
+  return count;
 }
 
 }  // namespace
@@ -448,7 +284,8 @@ namespace condyle {
 
 HWY_EXPORT(near_blocks_any);
 HWY_EXPORT(near_points_any);
-HWY_EXPORT(inside_points_any);
+HWY_EXPORT(near_points_remembered_any);
+HWY_EXPORT(blocks_to_ask_any);
 
 std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                         const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
@@ -460,9 +297,16 @@ void near_points(const CubeView& cube, const PointColumns& points, const FloatPo
   HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
 }
 
-std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
-                          FoundPoints& found) {
-  return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, found);
+std::size_t blocks_to_ask(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                          const BlockMemory& memory, std::size_t first, std::size_t last,
+                          std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(blocks_to_ask_any)(cube, blocks, pose, memory, first, last, found);
+}
+
+void near_points_remembered(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory& memory,
+                            NearPoints& found) {
+  HWY_DYNAMIC_DISPATCH(near_points_remembered_any)(cube, points, pose, blocks, block_count, memory, found);
 }
 
 }  // namespace condyle

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "condyle/core/parallel.hpp"
-#include "condyle/radial/penetration_passes.hpp"
+#include "condyle/radial/penetration_search.hpp"
 #include "condyle/radial/radial_table.hpp"
 
 namespace condyle {
@@ -24,7 +24,8 @@ bool is_rotation(const Pose& X) {
   return ((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().array() <= rotation_error).all();
 }
 
-/// The pose about the points' own centre.
+}  // namespace
+
 FloatPose float_pose(const Pose& X, const Vec3& centre) {
   FloatPose pose{};
   const Vec3 t = X * centre;
@@ -46,7 +47,14 @@ BlockColumns blocks_of(const SortedPoints& points, std::size_t level) {
           column(P::mean_inverse), column(P::spread),  points.block_count(level)};
 }
 
-}  // namespace
+PointColumns points_of(const SortedPoints& points) {
+  return {points.coordinate(0), points.coordinate(1), points.coordinate(2), points.size()};
+}
+
+void Penetrations::clear() {
+  resize(0);
+  ray_to_normal.clear();
+}
 
 void Penetrations::resize(std::size_t count) {
   point.resize(count), state.resize(count), winding.resize(count);
@@ -70,50 +78,61 @@ std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const
                   *winding_at_centre_,    static_cast<float>(nearest * nearest)};
 }
 
+bool RadialTable::begin(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search) const {
+  search.pose = float_pose(X_FM, points.centre());
+  const auto cube = is_rotation(X_FM) ? cube_view(points, search.pose) : std::nullopt;
+  if (!cube) return false;
+  search.cube = *cube;
+  search.columns = points_of(points);
+  const double translation = search.pose.distance / std::sqrt(cube->nearest_squared);
+  search.form_bound =
+      static_cast<float>((form_error + form_error_of_translation * translation) * (1 + 0x1p-20));
+  return true;
+}
+
 void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                                PenetrationWork* work) const {
   require_closed();
-  out.resize(0);
-  out.ray_to_normal.clear();
-  const FloatPose pose = float_pose(X_FM, points.centre());
-  const auto cube = is_rotation(X_FM) ? cube_view(points, pose) : std::nullopt;
-  if (!cube) return penetrations_one_by_one(points, X_FM, out);
+  out.clear();
+  PenetrationSearch search;
+  if (!begin(points, X_FM, search)) return penetrations_one_by_one(points, X_FM, out);
 
-  const PointColumns columns{points.coordinate(0), points.coordinate(1), points.coordinate(2), points.size()};
   const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
-  const auto form_bound = static_cast<float>(
-      (form_error + form_error_of_translation * pose.distance / std::sqrt(cube->nearest_squared)) *
-      (1 + 0x1p-20));
   RayScan scan(mesh_, *winding_at_centre_);
-  constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan,
-                        sets_per_batch = 16;
+  constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan;
+  constexpr std::size_t sets_per_batch = 16;
   std::array<std::uint32_t, sets_per_batch> set;
   std::array<std::uint32_t, sets_per_batch * fan + vector_room> near_group;
   std::array<std::uint32_t, blocks_per_batch + vector_room> near_block;
-  NearPoints near;
-  FoundPoints found;
   const std::size_t set_count = (groups.count + fan - 1) / fan;
   for (std::size_t first_set = 0; first_set < set_count; first_set += sets_per_batch) {
     const std::size_t sets = std::min(sets_per_batch, set_count - first_set);
     for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
-    const std::size_t group_count = near_blocks(*cube, groups, pose, set.data(), sets, near_group.data());
+    const std::size_t group_count =
+        near_blocks(search.cube, groups, search.pose, set.data(), sets, near_group.data());
     for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
-      const std::size_t count =
-          near_blocks(*cube, blocks, pose, near_group.data() + first,
-                      std::min(groups_per_batch, group_count - first), near_block.data());
+      const std::size_t group_last = std::min(first + groups_per_batch, group_count);
+      const std::size_t count = near_blocks(search.cube, blocks, search.pose, near_group.data() + first,
+                                            group_last - first, near_block.data());
       if (work) work->near_blocks += count;
       if (count == 0) continue;
-      near_points(*cube, columns, pose, near_block.data(), count, near);
-      if (work) work->near_points += near.count;
-      if (near.count == 0) continue;
-      const std::size_t tried = inside_points(*cube, near, form_bound, found);
-      finish(points, X_FM, found, scan, out);
-      if (!work) continue;
-      work->triangles += tried;
-      for (std::size_t i = 0; i < found.count; ++i) work->doubtful += found.point[i].doubtful;
+      near_points(search.cube, search.columns, search.pose, near_block.data(), count, search.near);
+      decide(points, X_FM, search, scan, out, work);
     }
   }
   if (work) work->blocks += blocks.count;
+}
+
+/// What becomes of the near points found.
+void RadialTable::decide(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search,
+                         RayScan& scan, Penetrations& out, PenetrationWork* work) const {
+  if (search.near.count == 0) return;
+  const std::size_t tried = inside_points(search.cube, search.near, search.form_bound, search.found);
+  finish(points, X_FM, search.found, scan, out);
+  if (!work) return;
+  work->near_points += search.near.count;
+  work->triangles += tried;
+  for (std::size_t i = 0; i < search.found.count; ++i) work->doubtful += search.found.point[i].doubtful;
 }
 
 void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose> X_FM,

@@ -28,6 +28,8 @@ struct Penetrations {
   std::vector<double> ray_to_normal;
 
   std::size_t size() const noexcept { return point.size(); }
+  void clear();
+  /// All but ray_to_normal.
   void resize(std::size_t count);
   friend bool operator==(const Penetrations&, const Penetrations&) = default;
 };

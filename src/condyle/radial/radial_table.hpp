@@ -21,6 +21,7 @@
 namespace condyle {
 
 struct FoundPoints;
+struct PenetrationSearch;
 
 struct RadialOptions {
   DirectionMapKind map = DirectionMapKind::cube;
@@ -137,6 +138,8 @@ class RadialTable {
   RadialTableSize table_size() const noexcept;
 
  private:
+  friend class PenetrationTrack;
+
   struct SquaredRadii {
     double least, greatest;
   };
@@ -155,6 +158,14 @@ class RadialTable {
   void list_again();
   void prepare_radii();
   int find_winding_at_centre() const;
+  int cube_cells_per_side() const noexcept {
+    const auto* cube = std::get_if<CubeMap>(&map_);
+    return cube ? cube->cells_per_side() : 0;
+  }
+  /// False where floats are not to be trusted with these points and this pose.
+  bool begin(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search) const;
+  void decide(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search, RayScan& scan,
+              Penetrations& out, PenetrationWork* work) const;
   std::optional<CubeView> cube_view(const SortedPoints& points, const FloatPose& pose) const;
   void penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const;
   RayAnswer answer_in_doubt(const Vec3& v, RayScan& scan) const;

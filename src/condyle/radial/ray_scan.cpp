@@ -54,9 +54,7 @@ double angle_to_normal(const Vec3& v, const Cone& t) noexcept {
 }
 
 RayScan::RayScan(const TriMesh& mesh, int winding_at_centre)
-    : mesh_(mesh), winding_at_centre_(winding_at_centre) {
-  crossings_.reserve(64);
-}
+    : mesh_(mesh), winding_at_centre_(winding_at_centre) {}
 
 void RayScan::collect(const Vec3& v, std::span<const Index> triangles) {
   crossings_.clear();
