@@ -145,7 +145,7 @@ bool BodyPair::one_inside_other(const Pose& X_FM) const {
   const PlacedTrees placed(fixed, mobile, X_FM);
   const auto in_mobile = [&](Index v) {
     return winding_number(
-               mobile, fixed.vertices()[v], [&](const Node& node) { return placed.placed(node); },
+               mobile, fixed.vertices()[v], [&](const Node& node) { return placed.mobile_in_fixed(node); },
                [&](Index t) { return posed_corners(mobile, t, X_FM); }) > 0;
   };
   const auto any = [](const std::vector<Index>& vertices, const auto& inside) {

@@ -22,25 +22,29 @@ Eigen::Array4f lane(const Vec3& v) noexcept {
 
 }  // namespace
 
-/// With L = 3 (|p| of both bodies, summed, by their largest coordinate) + |t|: a placed centre errs by at
-/// most 6u' L (u' = 2^-24: the entries' own roundings, three products, three sums), the difference of two by
-/// u' L more; seen along the axes of M again 5u' L, and a half extent by 6u' L. 32u' L covers them together.
-/// Where the matrix is not quite a rotation, R^T R = 1 + G, coordinates along its columns and distances from
-/// the centre are off by at most 3 |G| L.
+/// With L = 3 (|p| of both bodies, summed, by their largest coordinate) + 3 |t|: a placed centre errs by at
+/// most 6u' L (u' = 2^-24: the entries' own roundings, three products, three sums), its difference to another
+/// by u' L more, and the sum of half extents by 7u' L. 32u' L covers them. Where the matrix is not quite a
+/// rotation, R^T R = 1 + G, coordinates along its columns and distances from the centre are off by at most
+/// 3 |G| L.
 PlacedTrees::PlacedTrees(const TriangleTree& fixed, const TriangleTree& mobile, const Pose& X_FM) noexcept
     : fixed_(fixed), mobile_(mobile) {
   const Eigen::Matrix3d R = X_FM.linear();
   const Vec3 t = X_FM.translation();
-  const double L = 3 * (reach_of(fixed) + reach_of(mobile)) + t.lpNorm<1>();
+  const double L = 3 * (reach_of(fixed) + reach_of(mobile) + t.lpNorm<1>());
   const double G = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   const double slack = (32 * 0x1p-24 + 3 * G) * L + std::numeric_limits<float>::min();
-  for (int k = 0; k < 3; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    column_[i] = lane(R.col(k)), size_[i] = column_[i].abs();
-    row_[i] = lane(R.row(k)), row_size_[i] = row_[i].abs();
-  }
-  translation_ = lane(t);
-  slack_ = lane(Vec3::Constant(slack));
+  const auto placing = [&](const Eigen::Matrix3d& turn, const Vec3& shift) {
+    Placing out;
+    for (int k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      out.column[i] = lane(turn.col(k)), out.size[i] = out.column[i].abs();
+    }
+    out.translation = lane(shift), out.slack = lane(Vec3::Constant(slack));
+    return out;
+  };
+  to_fixed_ = placing(R, t);
+  to_mobile_ = placing(R.transpose(), -(R.transpose() * t));
   centres_apart_ = static_cast<float>((t.norm() + slack) * (1 + 0x1p-20));
 }
 

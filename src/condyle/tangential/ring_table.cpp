@@ -1,6 +1,7 @@
 #include "condyle/tangential/ring_table.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -12,6 +13,7 @@
 #include "condyle/core/parallel.hpp"
 #include "condyle/core/predicates.hpp"
 #include "condyle/mesh/vertical_ray.hpp"
+#include "condyle/tangential/circle_filter.hpp"
 
 namespace condyle {
 namespace {
@@ -25,9 +27,19 @@ constexpr double square(double a) noexcept {
 /// Points per task: enough to outweigh starting one.
 constexpr std::size_t points_per_chunk = 256;
 
-/// Least radius, in units of the circle's scale, at which crossings err by less than the clearance of free
-/// directions: sqrt(2 * 17u / 2^-20) < 2^-13 (see add_crossings).
+/// Least radius, in units of the circle's scale, at which crossings err by less than half the clearance of
+/// free directions: sqrt(2 * 17u / 2^-20) < 2^-13 (see add_crossings).
 constexpr double least_anchored_radius = 0x1p-20;
+
+/// As atan2(y, x), off by at most 1.1e-5 (Abramowitz and Stegun 1964, 4.4.49): far less than the other half
+/// of the clearance, and many times faster. Not for the point on the axis.
+double rough_angle(double x, double y) noexcept {
+  const double a = std::abs(x), b = std::abs(y), q = std::min(a, b) / std::max(a, b), s = q * q;
+  double angle = q * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))));
+  if (b > a) angle = two_pi / 4 - angle;
+  if (x < 0) angle = two_pi / 2 - angle;
+  return y < 0 ? -angle : angle;
+}
 
 std::size_t cells_for(const TriMesh& mesh, const RingTableOptions& options) {
   // 64 cells per triangle is far past the point where lists stop getting shorter.
@@ -49,6 +61,10 @@ struct RingTable::Scratch {
     Index cell;  ///< no_index beyond the grid
   };
   std::vector<Placed> placed;
+  /// Those cells that list triangles, in the order of the points.
+  std::vector<Index> lists;
+  std::size_t lists_done = 0;
+  CircleFilter filter;
   /// Of the point at hand:
   PointWinding at_point;
   int winding = 0;  ///< Just ahead of the point.
@@ -170,21 +186,30 @@ int RingTable::winding_on_axis(const Vec3& point) const {
 void RingTable::collect_crossings(const Circle& circle, std::size_t cell, Scratch& scratch) const {
   scratch.crossings.clear();
   scratch.holding = no_index;
+  fetch_ahead(scratch);
   const Vec3& p = circle.point;
   const auto candidates = triangles_in(cell);
   scratch.work.candidates += candidates.size();
   const bool turns = p.x() != 0 || p.y() != 0;
-  for (const Index t : candidates) {
-    const TriangleRef corners = corner_refs(t);
-    const Vec3 &a = *corners[0], &b = *corners[1], &c = *corners[2];
-    if (p.z() < std::min({a.z(), b.z(), c.z()}) || p.z() > std::max({a.z(), b.z(), c.z()})) continue;
-    if (turns) add_crossings(circle, corners, t, scratch.crossings, scratch.work);
-    // Most of a ring is far off: seldom is a point in the box of a triangle.
-    const bool beside = p.x() < std::min({a.x(), b.x(), c.x()}) || p.x() > std::max({a.x(), b.x(), c.x()}) ||
-                        p.y() < std::min({a.y(), b.y(), c.y()}) || p.y() > std::max({a.y(), b.y(), c.y()});
-    if (!beside && scratch.holding == no_index && orientation(a, b, c, p) == Sign::zero &&
-        contains_coplanar(this->corners(t), p))
-      scratch.holding = t;
+  CircleFilter& filter = scratch.filter;
+  filter.begin(circle);
+  for (std::size_t first = 0; first < candidates.size(); first += CircleFilter::width) {
+    const auto some = candidates.subspan(first, std::min(CircleFilter::width, candidates.size() - first));
+    for (std::size_t i = 0; i < some.size(); ++i) filter.put(i, corner_refs(some[i]));
+    const auto verdict = filter.judge(some.size());
+    for (unsigned left = turns ? verdict.may_cross : 0; left != 0; left &= left - 1) {
+      const Index t = some[static_cast<std::size_t>(std::countr_zero(left))];
+      add_crossings(circle, corner_refs(t), t, scratch.crossings, scratch.work);
+    }
+    if (turns) scratch.work.cut += static_cast<std::size_t>(std::popcount(verdict.cut & ~verdict.may_cross));
+    // Most of a ring is far off: seldom is a point near a triangle.
+    for (unsigned left = verdict.may_hold; left != 0; left &= left - 1) {
+      const Index t = some[static_cast<std::size_t>(std::countr_zero(left))];
+      const auto [a, b, c] = corner_refs(t);
+      if (scratch.holding == no_index && orientation(*a, *b, *c, p) == Sign::zero &&
+          contains_coplanar(corners(t), p))
+        scratch.holding = t;
+    }
   }
   std::sort(scratch.crossings.begin(), scratch.crossings.end());
   assert(std::accumulate(scratch.crossings.begin(), scratch.crossings.end(), 0,
@@ -205,7 +230,7 @@ int RingTable::winding_ahead_of(const Circle& circle, std::size_t cell, bool on_
   }
   int winding = winding_there;
   if (scratch.crossings.empty()) return winding;
-  double way = FreeDirections::angle_of(direction).radians() - std::atan2(p.y(), p.x());
+  double way = FreeDirections::angle_of(direction).radians() - rough_angle(p.x(), p.y());
   if (way < 0) way += two_pi;
   if (way > two_pi) way -= two_pi;
   for (const CircleCrossing& crossing : scratch.crossings) {
@@ -224,27 +249,33 @@ void RingTable::place(PointsView points, Scratch& scratch) const {
     scratch.placed[i] = {point, cell ? static_cast<Index>(*cell) : no_index};
     if (cell) __builtin_prefetch(&offset_[*cell]);
   }
+  scratch.lists.clear();
+  scratch.lists_done = 0;
+  for (const auto& [point, cell] : scratch.placed) {
+    if (cell == no_index || triangles_in(cell).empty()) continue;
+    __builtin_prefetch(triangle_.data() + offset_[cell]);
+    scratch.lists.push_back(cell);
+  }
 }
 
-/// Asks memory for what later points will read: lists some points ahead, triangles fewer. Without it an arc
-/// takes twice as long on a bone of 156 000 triangles.
-void RingTable::fetch_ahead(std::size_t i, const Scratch& scratch) const noexcept {
-  constexpr std::size_t lists_ahead = 8, triangles_ahead = 3;
-  const auto cell_at = [&](std::size_t k) {
-    return k < scratch.placed.size() ? scratch.placed[k].cell : no_index;
-  };
-  if (const Index cell = cell_at(i + lists_ahead); cell != no_index)
-    __builtin_prefetch(triangle_.data() + offset_[cell]);
-  if (const Index cell = cell_at(i + triangles_ahead); cell != no_index) {
-    for (const Index t : triangles_in(cell)) {
+/// Asks memory for what the next lists lead to: their triangles, and of nearer ones the vertices. Without it
+/// the processor waits for memory most of the time.
+void RingTable::fetch_ahead(Scratch& scratch) const noexcept {
+  constexpr std::size_t triangles_ahead = 8, vertices_ahead = 4;
+  const std::size_t at = scratch.lists_done++;
+  if (at + triangles_ahead < scratch.lists.size()) {
+    for (const Index t : triangles_in(scratch.lists[at + triangles_ahead]))
       __builtin_prefetch(&triangles_[t]);
+  }
+  if (at + vertices_ahead < scratch.lists.size()) {
+    for (const Index t : triangles_in(scratch.lists[at + vertices_ahead])) {
+      for (const Index v : triangles_[t]) __builtin_prefetch(&vertices_[v]);
     }
   }
 }
 
 /// Crossings of the point's circle, exact state of the point, and the winding number just ahead of it.
 void RingTable::survey(std::size_t i, Scratch& scratch) const {
-  fetch_ahead(i, scratch);
   const auto& [point, cell] = scratch.placed[i];
   ++scratch.work.points;
   scratch.crossings.clear();

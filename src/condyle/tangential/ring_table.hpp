@@ -116,7 +116,7 @@ class RingTable {
   void collect_crossings(const Circle& circle, std::size_t cell, Scratch& scratch) const;
   int winding_ahead_of(const Circle& circle, std::size_t cell, bool on_surface, Scratch& scratch) const;
   void place(PointsView points, Scratch& scratch) const;
-  void fetch_ahead(std::size_t i, const Scratch& scratch) const noexcept;
+  void fetch_ahead(Scratch& scratch) const noexcept;
   void survey(std::size_t i, Scratch& scratch) const;
   void answer_alternating(std::size_t at, Scratch& scratch, TangentialHits& out, std::size_t i) const;
   void answer_nearest_arc(std::size_t at, Scratch& scratch, TangentialHits& out, std::size_t i) const;
