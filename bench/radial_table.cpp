@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "condyle/core/instruction_set.hpp"
+#include "condyle/kinematics/joint_coordinates.hpp"
+#include "condyle/radial/penetration_track.hpp"
 #include "condyle/radial/radial_table.hpp"
 #include "condyle/radial/sorted_points.hpp"
 #include "goals.hpp"
@@ -37,6 +39,16 @@ const TableHead sets_head{"instruction_sets",
                            {"set", "instruction set"},
                            {"us_per_pose", "µs per pose"},
                            {"over_best", "over the best"}}};
+
+const TableHead motion_head{
+    "along_a_motion",
+    "Every vertex at poses 0.1° apart, what keeps off the surface carried along; one thread",
+    {{"scene", "scene"},
+     {"apart_us", "each pose for itself, µs"},
+     {"carried_us", "carried from pose to pose, µs"},
+     {"ratio", "ratio"},
+     {"unrelated_us", "poses of the experiment, µs"},
+     {"unrelated_ratio", "ratio"}}};
 
 std::vector<Pose> poses_of(const Scene& scene, std::size_t most) {
   std::vector<Pose> poses;
@@ -120,12 +132,53 @@ void ask_instruction_sets(const Scene& scene, int rounds, Report& report) {
                                  seconds[i] * 1e6 / static_cast<double>(poses.size()), seconds[i] / best});
 }
 
+/// From the neutral pose through the motions of a hip's day, turned by a tenth of a degree at a time.
+std::vector<Pose> motion(const Scene& scene) {
+  constexpr int steps = 600;
+  std::vector<Pose> poses;
+  for (int i = 0; i < steps; ++i) {
+    const double degrees = 0.1 * i;
+    poses.push_back(condyle::pose_at(scene.joint.side, {condyle::Angle::degrees(degrees), {}, {}}));
+  }
+  return poses;
+}
+
+void ask_motion(const Scene& scene, int rounds, Report& report) {
+  const RadialTable table(scene.joint.fixed.mesh);
+  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices);
+  const std::vector<Pose> steps = motion(scene), unrelated = poses_of(scene, scene.poses.size());
+  condyle::Penetrations found;
+  const auto samples = interleaved(rounds, {
+                                               [&] {
+                                                 for (const Pose& X : steps)
+                                                   table.penetrations(points, X, found);
+                                               },
+                                               [&] {
+                                                 condyle::PenetrationTrack track(table, points);
+                                                 for (const Pose& X : steps) track.penetrations(X, found);
+                                               },
+                                               [&] {
+                                                 for (const Pose& X : unrelated)
+                                                   table.penetrations(points, X, found);
+                                               },
+                                           });
+  const auto us = [&](std::size_t i, std::size_t poses) {
+    return median(samples[i]) * 1e6 / static_cast<double>(poses);
+  };
+  const double apart = us(0, steps.size()), carried = us(1, steps.size()), other = us(2, unrelated.size());
+  report.table(motion_head).add({scene.joint.name, apart, carried, apart / carried, other, other / carried});
+  add_goal({"every vertex along a motion of 0.1°, unrelated poses", scene.joint.name, Bound::at_least, 3,
+            "times cheaper"},
+           other / carried, report);
+}
+
 }  // namespace
 
 void ask_radial_table(const Scene& scene, Effort effort, Report& report) {
   const int rounds = effort == Effort::full ? 9 : 1;
   ask_building(scene, rounds, report);
   ask_instruction_sets(scene, rounds, report);
+  ask_motion(scene, rounds, report);
 }
 
 }  // namespace bench
