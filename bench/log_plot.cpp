@@ -20,7 +20,7 @@ using condyle::ScreenPoint;
 using condyle::SvgCanvas;
 using condyle::TextAnchor;
 
-constexpr double width = 1000, left = 84, right = 620, label_left = 650, top = 76;  // px
+constexpr double width = 1120, left = 84, right = 620, label_left = 650, top = 76;  // px
 constexpr double line_height = 15, type_size = 12, zero_row = 34;                   // px
 
 /// Okabe and Ito's colours in the order in which families appear; Condyle comes first.

@@ -2,7 +2,7 @@
 # Installs every Debian package that Condyle builds and tests with. Quick when nothing is missing.
 #   install_dependencies.sh           for make demo and make test
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
-#   install_dependencies.sh bench     and for make bench
+#   install_dependencies.sh bench     and for make bench; groups can be named together
 set -euo pipefail
 
 packages=(
@@ -13,12 +13,20 @@ packages=(
   libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there, and a peer
 )
 
-if [ "${1:-}" = clang ]; then packages+=(clang libclang-rt-14-dev clang-format); fi
-if [ "${1:-}" = bench ]; then
-  # Peers; CGAL and VTK are above.
-  packages+=(libfcl-dev libembree-dev libopenvdb-dev libbullet-dev libode-dev libsimbody-dev)
-  packages+=(python3 git)
-fi
+for group in "$@"; do
+  case $group in
+    clang) packages+=(clang libclang-rt-14-dev clang-format) ;;
+    bench)
+      # Peers; CGAL and VTK are above.
+      packages+=(libfcl-dev libembree-dev libopenvdb-dev libbullet-dev libode-dev libsimbody-dev)
+      packages+=(python3 git)
+      ;;
+    *)
+      echo "install_dependencies.sh: no group '$group'; there are clang and bench" >&2
+      exit 2
+      ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do
