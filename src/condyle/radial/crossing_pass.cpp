@@ -47,6 +47,19 @@ HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first
 #endif
 }
 
+std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                                  std::uint32_t* found) {
+  const CellRow row = cube.row[cell];
+  const Words of_box = hn::Set(du, box), of_slant = hn::Set(du, slant_of_point(box));
+  std::size_t count = 0;
+  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+    const auto holding = octagons_holding(cube, first, row.last, of_box, of_slant);
+    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, found + count);
+    count += hn::CountTrue(du, holding);
+  }
+  return count;
+}
+
 /// Pairs of one near point, added to the others; false where there are too many.
 HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]];
@@ -246,7 +259,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle {
 
+HWY_EXPORT(triangles_holding_any);
 HWY_EXPORT(inside_points_any);
+
+std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                              std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(triangles_holding_any)(cube, cell, box, found);
+}
 
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
                           FoundPoints& found) {
