@@ -108,6 +108,14 @@ TYPED_TEST(DirectionMap, SliversKeepTheirRadiusInterval) {
   }
 }
 
+TYPED_TEST(DirectionMap, TheCellOfADirectionDoesNotDependOnItsLength) {
+  const TypeParam map(16);
+  const Vec3 v(0.3, -0.7, 0.2);
+  for (const double length : {1e-300, 1e-170, 1e-100, 1e100, 1e160, 1e300}) {
+    EXPECT_EQ(map.cell_of(length * v), map.cell_of(v));
+  }
+}
+
 TEST(CubeMap, RadiusIntervalsAreThoseInsideTheCellNotOfTheWholeTriangle) {
   // A long triangle in the plane x = 10 reaches far out; the cell straight ahead sees it at radius 10 only.
   const CubeMap map(64);

@@ -47,6 +47,19 @@ HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first
 #endif
 }
 
+std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                                  std::uint32_t* found) {
+  const CellRow row = cube.row[cell];
+  const Words of_box = hn::Set(du, box), of_slant = hn::Set(du, slant_of_point(box));
+  std::size_t count = 0;
+  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+    const auto holding = octagons_holding(cube, first, row.last, of_box, of_slant);
+    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, found + count);
+    count += hn::CountTrue(du, holding);
+  }
+  return count;
+}
+
 /// Pairs of one near point, added to the others; false where there are too many.
 HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]];
@@ -119,46 +132,46 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pair
   out.count = count;
 }
 
-/// The certain crossings of one ray.
+/// What the crossings of one ray say of its point. They stay where they are: copied whole, right after they
+/// were written in parts, each would hold the processor up.
 struct Ray {
   static constexpr std::size_t most = 24;
-  Crossing crossing[most];
-  std::size_t count;
+  std::span<Crossing> crossings;
   int winding;  // of the point
   bool doubtful;
-};
 
-HWY_INLINE void collect(std::span<const Crossing> crossings, int winding_at_centre, Ray& ray) {
-  ray.count = 0, ray.winding = winding_at_centre;
-  ray.doubtful = crossings.size() > Ray::most;
-  if (ray.doubtful) return;
-  for (const Crossing& crossing : crossings) {
-    const float beyond = crossing.s - 1;
-    ray.doubtful |= !(std::abs(beyond) > crossing.error);
-    ray.winding -= beyond > 0 ? crossing.outwards : 0;
-    ray.crossing[ray.count++] = crossing;
+  Ray(std::span<Crossing> its, int winding_at_centre)
+      : crossings(its), winding(winding_at_centre), doubtful(its.size() > most) {
+    for (const Crossing& crossing : crossings) {
+      const float beyond = crossing.s - 1;
+      doubtful |= !(std::abs(beyond) > crossing.error);
+      winding -= beyond > 0 ? crossing.outwards : 0;
+    }
   }
-}
+
+  /// From the centre outwards.
+  void sort() {
+    for (std::size_t i = 1; i < crossings.size(); ++i) {
+      for (std::size_t k = i; k > 0 && crossings[k - 1].s < crossings[k].s; --k) {
+        std::swap(crossings[k - 1], crossings[k]);
+      }
+    }
+  }
+};
 
 /// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
 ///
 /// Crossings in order from the centre have falling s. The gaps 1 - 1/s before and 1/s' - 1 behind compare as
 /// 2 s s' does with s + s'.
 HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
-  for (std::size_t i = 1; i < ray.count; ++i) {
-    const Crossing moving = ray.crossing[i];
-    std::size_t k = i;
-    for (; k > 0 && ray.crossing[k - 1].s < moving.s; --k) ray.crossing[k] = ray.crossing[k - 1];
-    ray.crossing[k] = moving;
-  }
-  for (std::size_t i = 1; i < ray.count; ++i) {
-    const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
+  ray.sort();
+  for (std::size_t i = 1; i < ray.crossings.size(); ++i) {
+    const Crossing &nearer = ray.crossings[i - 1], &further = ray.crossings[i];
     if (!(nearer.s - further.s > nearer.error + further.error)) return false;
   }
   const Crossing *before = nullptr, *after = nullptr;
   int winding = winding_at_centre;
-  for (std::size_t i = 0; i < ray.count; ++i) {
-    const Crossing& crossing = ray.crossing[i];
+  for (const Crossing& crossing : ray.crossings) {
     const bool was_inside = winding > 0;
     winding -= crossing.outwards;
     if (was_inside == (winding > 0)) continue;
@@ -183,13 +196,12 @@ HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
 
 /// Decides near points [first, last), whose crossings these are.
 HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
-                       const Crossings& crossings, FoundPoints& found) {
-  Ray ray;
-  const Crossing *next = crossings.crossing.data(), *const end = next + crossings.count;
+                       Crossings& crossings, FoundPoints& found) {
+  Crossing *next = crossings.crossing.data(), *const end = next + crossings.count;
   for (std::size_t i = first; i < last; ++i) {
-    const Crossing* const begin = next;
+    Crossing* const begin = next;
     while (next != end && next->point == i) ++next;
-    collect({begin, next}, cube.winding_at_centre, ray);
+    Ray ray({begin, next}, cube.winding_at_centre);
     if (cube.winding_at_centre > 0) {
       // Nearer to the centre than any surface, floats may have lost the direction.
       const float x = points.x[i], y = points.y[i], z = points.z[i];
@@ -246,7 +258,13 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle {
 
+HWY_EXPORT(triangles_holding_any);
 HWY_EXPORT(inside_points_any);
+
+std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                              std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(triangles_holding_any)(cube, cell, box, found);
+}
 
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
                           FoundPoints& found) {

@@ -244,9 +244,9 @@ class CubeListing {
       const FacePosition &from = p[k], &to = p[(k + 1) % 3];
       side[k] = {from, sign * (from.w - to.w), sign * (to.u - from.u)};
     }
-    // Of a sliver the turn may be rounding: it keeps its bounding box.
-    const int longest = std::max(parts.greatest[0] - parts.least[0], parts.greatest[1] - parts.least[1]);
-    const float width = 2 * static_cast<float>(longest + 1) / static_cast<float>(parts_per_cell * n_);
+    // Of a sliver the turn may be rounding: it keeps its octagon. Places err by up to 8 u, u = 2^-24.
+    const auto extent = [](float x, float y, float z) { return std::max({x, y, z}) - std::min({x, y, z}); };
+    const float width = std::max(extent(p[0].u, p[1].u, p[2].u), extent(p[0].w, p[1].w, p[2].w));
     const bool has_sides = std::abs(turn) > 16 * list_margin * width;
     const float step = 2.0f / static_cast<float>(n_);
     for (int row = first_row; row <= last_row; ++row) {

@@ -12,7 +12,8 @@
 
 namespace condyle {
 
-/// Cells are cut into so many parts each way; boxes of triangles within a cell are rounded outwards to them.
+/// Cells are cut into so many parts each way; octagons of triangles within a cell are rounded outwards to
+/// them.
 inline constexpr int parts_per_cell = 256;
 
 /// Widening of triangles in the lists of a cube map, in units of a face's coordinate (which spans [-1, 1]).
@@ -20,7 +21,7 @@ inline constexpr int parts_per_cell = 256;
 ///
 ///     23 u + 42 u |t| / r,   u = 2^-24, t the pose's translation, r the radius of the nearest surface
 ///
-/// (`largest_translation` keeps this below 2^-16), and builds boxes by floats, erring by 8u. Twice that is
+/// (`largest_translation` keeps this below 2^-16), and triangles by floats that err by 8u. Twice that is
 /// given.
 inline constexpr float list_margin = 0x1p-15f;
 

@@ -41,7 +41,10 @@ class CartesianMap {
 
   /// Cell of the direction of v, which is not zero.
   Index cell_of(const Vec3& v) const noexcept {
-    const double radius = std::sqrt((v.x() * v.x() + v.y() * v.y()) + v.z() * v.z());
+    const double squared = (v.x() * v.x() + v.y() * v.y()) + v.z() * v.z();
+    // Squares of what is tiny or huge leave the range of doubles.
+    if (!(squared > 1e-280 && squared < 1e280)) return cell_of(v / v.cwiseAbs().maxCoeff());
+    const double radius = std::sqrt(squared);
     const int i = column(v.x() / radius), j = column(v.y() / radius);
     return static_cast<Index>(((v.z() < 0 ? n_ : 0) + j) * n_ + i);
   }

@@ -70,6 +70,11 @@ void near_points_remembered(const CubeView& cube, const PointColumns& points, co
                             const std::uint32_t* blocks, std::size_t block_count, const BlockMemory& memory,
                             NearPoints& found);
 
+/// Triangles of one cell whose octagons hold a point with that box, in the order of the list. `found` has
+/// room for the list and a vector. Returns how many.
+std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                              std::uint32_t* found);
+
 /// Those of them that have crossed the surface, or may have. Returns how many listed triangles were tried.
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
                           FoundPoints& found);

@@ -9,7 +9,8 @@
 namespace condyle {
 namespace {
 
-/// After that much turning all is asked anew: floats that hold the way have lost 20 of their bits by then.
+/// After that much turning all is asked anew: until then floats hold the way to 1e-6, less than is left to
+/// reaches.
 constexpr double furthest_turn = 8;
 
 /// Chord for which blocks far from the surface are let go, six degrees: longer ones let fewer go, and with

@@ -16,6 +16,9 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Lengths that floats square and multiply without overflow or loss, mm.
 constexpr double least_length = 0x1p-40, greatest_length = 0x1p40;
 
+/// Winding numbers that FoundPoint holds, with those of the most crossings that a Ray holds beside.
+constexpr int largest_winding = 1000;
+
 /// How far a rotation's columns may be from orthonormal, for blocks to keep their radii and caps.
 constexpr double rotation_error = 1e-6;
 
@@ -61,30 +64,18 @@ void Penetrations::resize(std::size_t count) {
   triangle.resize(count), depth.resize(count), direction.resize(count);
 }
 
-/// What the passes read, or nothing where floats are not to be trusted with these points and this pose.
-std::optional<CubeView> RadialTable::cube_view(const SortedPoints& points, const FloatPose& pose) const {
-  const auto* cube = std::get_if<CubeMap>(&map_);
-  if (!cube || mesh_.triangles.empty()) return std::nullopt;
+bool RadialTable::begin(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search) const {
+  const auto* map = std::get_if<CubeMap>(&map_);
+  if (!map || mesh_.triangles.empty() || !is_rotation(X_FM)) return false;
+  search.pose = float_pose(X_FM, points.centre());
+  search.cube = view_of(*map);
   const double nearest = std::sqrt(lists_.least_squared), furthest = std::sqrt(lists_.greatest_squared);
   const bool in_range =
       nearest > least_length && furthest < greatest_length && points.reach() < greatest_length;
-  if (!in_range || !(pose.distance <= largest_translation * nearest)) return std::nullopt;
-  if (std::abs(*winding_at_centre_) > 1000) return std::nullopt;
-  return CubeView{cube->cells_per_side(), DirectionPyramid::level_count(cube->cells_per_side()),
-                  lists_.radii.data(),    pyramid_.data(),
-                  lists_.row.data(),      lists_.triangle.data(),
-                  lists_.box.data(),      lists_.slant.data(),
-                  lists_.forms.data(),    lists_.scale,
-                  *winding_at_centre_,    static_cast<float>(nearest * nearest)};
-}
-
-bool RadialTable::begin(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search) const {
-  search.pose = float_pose(X_FM, points.centre());
-  const auto cube = is_rotation(X_FM) ? cube_view(points, search.pose) : std::nullopt;
-  if (!cube) return false;
-  search.cube = *cube;
+  if (!in_range || !(search.pose.distance <= largest_translation * nearest)) return false;
+  if (std::abs(*winding_at_centre_) > largest_winding) return false;
   search.columns = points_of(points);
-  const double translation = search.pose.distance / std::sqrt(cube->nearest_squared);
+  const double translation = search.pose.distance / nearest;
   search.form_bound =
       static_cast<float>((form_error + form_error_of_translation * translation) * (1 + 0x1p-20));
   return true;
@@ -149,6 +140,7 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
                          RayScan& scan, Penetrations& out) const {
   const std::size_t first = out.size();
   std::size_t count = first;
+  std::vector<Index> room;
   out.resize(first + found.count);
   // What a depth needs lies far apart: it is asked for some points ahead, triangles before their corners.
   constexpr std::size_t ahead = 12;
@@ -171,7 +163,7 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
     const Vec3 v = posed(X_FM, points[at.point]);
     out.point[count] = points.index()[at.point];
     if (at.doubtful) {
-      const RayAnswer answer = answer_in_doubt(v, scan);
+      const RayAnswer answer = scan.answer(v, candidates(v, room));
       if (answer.state == PointState::outside) continue;
       out.state[count] = answer.state;
       out.winding[count] = answer.winding;
@@ -191,21 +183,6 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
     ++count;
   }
   out.resize(count);
-}
-
-/// As query() answers, leaving out triangles whose boxes do not hold the point.
-RayAnswer RadialTable::answer_in_doubt(const Vec3& v, RayScan& scan) const {
-  if (v == Vec3::Zero()) return scan.answer(v, {});
-  const Index cell = cell_of(v);
-  const auto* cube = std::get_if<CubeMap>(&map_);
-  if (!cube) return scan.answer(v, lists_.of(cell));
-  const std::uint32_t point = cube->box_of(v);
-  std::vector<Index> candidates;
-  for (std::uint32_t i = lists_.row[cell].first; i < lists_.row[cell].last; ++i) {
-    if (holds(lists_.box[i], point) && holds(lists_.slant[i], slant_of_point(point)))
-      candidates.push_back(lists_.triangle[i]);
-  }
-  return scan.answer(v, candidates);
 }
 
 void RadialTable::penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM,

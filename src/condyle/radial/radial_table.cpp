@@ -7,6 +7,7 @@
 #include "condyle/core/error.hpp"
 #include "condyle/core/parallel.hpp"
 #include "condyle/mesh/edge_balance.hpp"
+#include "condyle/radial/penetration_passes.hpp"
 #include "condyle/radial/ray_crossing.hpp"
 
 namespace condyle {
@@ -140,6 +141,30 @@ int RadialTable::find_winding_at_centre() const {
   return winding;
 }
 
+CubeView RadialTable::view_of(const CubeMap& map) const {
+  return {map.cells_per_side(),
+          DirectionPyramid::level_count(map.cells_per_side()),
+          lists_.radii.data(),
+          pyramid_.data(),
+          lists_.row.data(),
+          lists_.triangle.data(),
+          lists_.box.data(),
+          lists_.slant.data(),
+          lists_.forms.data(),
+          lists_.scale,
+          winding_at_centre_.value_or(0),
+          lists_.least_squared};
+}
+
+std::span<const Index> RadialTable::candidates(const Vec3& v, std::vector<Index>& room) const {
+  if (v == Vec3::Zero()) return {};
+  const Index cell = cell_of(v);
+  const auto* map = std::get_if<CubeMap>(&map_);
+  if (!map) return lists_.of(cell);
+  room.resize(std::max(room.size(), lists_.of(cell).size() + vector_room));
+  return {room.data(), triangles_holding(view_of(*map), cell, map->box_of(v), room.data())};
+}
+
 void RadialTable::require_closed() const {
   if (boundary_edge_) refuse_unbalanced(*boundary_edge_);
 }
@@ -147,12 +172,12 @@ void RadialTable::require_closed() const {
 void RadialTable::query(PointsView points, RadialHits& out) const {
   require_closed();
   out.resize(points.size());
-  const Index no_cell = 0;
   parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     RayScan scan(mesh_, *winding_at_centre_);
+    std::vector<Index> room;
     for (std::size_t i = first; i < last; ++i) {
       const Vec3 v = points[i];
-      const RayAnswer answer = scan.answer(v, lists_.of(v == Vec3::Zero() ? no_cell : cell_of(v)));
+      const RayAnswer answer = scan.answer(v, candidates(v, room));
       out.state[i] = answer.state;
       out.winding[i] = answer.winding;
       out.radial_gap[i] = answer.gap;
@@ -176,6 +201,7 @@ void RadialTable::query_states(PointsView points, std::vector<PointState>& out) 
   const PointState state_at_centre = *winding_at_centre_ > 0 ? PointState::inside : PointState::outside;
   parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     RayScan scan(mesh_, *winding_at_centre_);
+    std::vector<Index> room;
     for (std::size_t i = first; i < last; ++i) {
       const Vec3 v = points[i];
       if (v == Vec3::Zero()) {
@@ -190,7 +216,7 @@ void RadialTable::query_states(PointsView points, std::vector<PointState>& out) 
       } else if (squared_radius > radii.greatest) {
         out[i] = PointState::outside;
       } else {
-        out[i] = scan.state(v, lists_.of(cell));
+        out[i] = scan.state(v, candidates(v, room));
       }
     }
   });

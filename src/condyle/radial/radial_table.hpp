@@ -90,7 +90,8 @@ class RadialTable {
   /// inside.
   ///
   /// Raises MeshError for an open mesh, naming an edge of its boundary: without an inside there is no answer.
-  /// Linear in points; a point costs the length of its cell's list. No allocation per point.
+  /// Linear in points; a point costs a look at its cell's list, sixteen triangles at a time, and the few of
+  /// them that its ray comes near.
   void query(PointsView points, RadialHits& out) const;
   RadialHits query(PointsView points) const;
 
@@ -166,9 +167,10 @@ class RadialTable {
   bool begin(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search) const;
   void decide(const SortedPoints& points, const Pose& X_FM, PenetrationSearch& search, RayScan& scan,
               Penetrations& out, PenetrationWork* work) const;
-  std::optional<CubeView> cube_view(const SortedPoints& points, const FloatPose& pose) const;
+  CubeView view_of(const CubeMap& map) const;
+  /// Triangles that the ray through v may meet, in the given room or in the list itself.
+  std::span<const Index> candidates(const Vec3& v, std::vector<Index>& room) const;
   void penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const;
-  RayAnswer answer_in_doubt(const Vec3& v, RayScan& scan) const;
   void finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, RayScan& scan,
               Penetrations& out) const;
 
