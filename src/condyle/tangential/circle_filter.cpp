@@ -12,6 +12,11 @@ constexpr float unit = 0x1p-24f;  // rounding to single precision, relative
 /// Far above the numbers that lose digits to underflow, 1e-38: what comes near them is not decided here.
 constexpr float least_told = 1e-30f;
 
+/// Booleans as numbers: combined without a branch, in loops that compilers turn into vector code.
+constexpr int flag(bool value) noexcept {
+  return static_cast<int>(value);
+}
+
 }  // namespace
 
 void CircleFilter::begin(const Circle& circle) noexcept {
@@ -50,25 +55,26 @@ CircleFilter::Verdict CircleFilter::judge(std::size_t count) const noexcept {
       const float X = corner_x_[k][i] * db - corner_x_[l][i] * da;
       const float Y = corner_y_[k][i] * db - corner_y_[l][i] * da;
       const float f = (X * X + Y * Y) - squared_radius_ * d2;
-      const int crosses = (da >= 0) != (db >= 0);
+      const int crosses = flag((da >= 0) != (db >= 0));
       const float inner = -doubt_ * d2, outer = (doubt_ + 0.26f * longest2) * d2;
-      const int told = (d2 > least_told) & (-inner > least_told);
-      const int inside = told & (f < inner), far = told & (f > outer);
-      cuts |= crosses, all_inside &= inside | !crosses, all_far &= far | !crosses;
+      const int told = flag(d2 > least_told) & flag(-inner > least_told);
+      const int inside = told & flag(f < inner), far = told & flag(f > outer);
+      cuts |= crosses, all_inside &= inside | flag(crosses == 0), all_far &= far | flag(crosses == 0);
     }
     const auto around = [&](const std::array<Lanes<float>, 3>& v, float at) -> int {
       const float low = std::min(v[0][i], std::min(v[1][i], v[2][i]));
       const float high = std::max(v[0][i], std::max(v[1][i], v[2][i]));
-      return (at >= low - slack_) & (at <= high + slack_);
+      return flag(at >= low - slack_) & flag(at <= high + slack_);
     };
-    const int level = ((height_[0][i] <= 0) | (height_[1][i] <= 0) | (height_[2][i] <= 0)) &
-                      ((height_[0][i] >= 0) | (height_[1][i] >= 0) | (height_[2][i] >= 0));
-    cut[i] = cuts, crossing[i] = cuts & !(all_inside | all_far);
+    const int reaches_down = flag(height_[0][i] <= 0) | flag(height_[1][i] <= 0) | flag(height_[2][i] <= 0);
+    const int reaches_up = flag(height_[0][i] >= 0) | flag(height_[1][i] >= 0) | flag(height_[2][i] >= 0);
+    const int level = reaches_down & reaches_up;
+    cut[i] = cuts, crossing[i] = cuts & flag((all_inside | all_far) == 0);
     holding[i] = level & around(corner_x_, x_) & around(corner_y_, y_);
   }
   Verdict verdict;
   for (std::size_t i = 0; i < count; ++i) {
-    const auto bit = [&](int flag) { return static_cast<unsigned>(flag) << i; };
+    const auto bit = [&](int set) { return static_cast<unsigned>(set) << i; };
     verdict.cut |= bit(cut[i]), verdict.may_cross |= bit(crossing[i]), verdict.may_hold |= bit(holding[i]);
   }
   return verdict;

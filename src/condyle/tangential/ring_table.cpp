@@ -247,7 +247,9 @@ void RingTable::place(PointsView points, Scratch& scratch) const {
     const Vec3 point = frame_.to_axis(points[i]);
     const auto cell = grid_.cell_of(axis_radius(point.x(), point.y()), point.z());
     scratch.placed[i] = {point, cell ? static_cast<Index>(*cell) : no_index};
-    if (cell) __builtin_prefetch(&offset_[*cell]);
+    if (!cell) continue;
+    __builtin_prefetch(&offset_[*cell]);
+    free_.fetch(*cell);
   }
   scratch.lists.clear();
   scratch.lists_done = 0;
