@@ -35,8 +35,10 @@ class TriangleTree {
     float size() const noexcept { return half[0] + half[1] + half[2]; }
   };
 
-  /// In a leaf, at most: 2 to 6 measured alike.
-  static constexpr Index leaf_triangles = 4;
+  /// In a leaf, at most. On a hip of 156 000 and 99 000 triangles 4, 6 and 8 take 0.96, 0.90 and 0.87 ms for
+  /// all pairs of a pose in contact, 0.44, 0.42 and 0.40 ms for a first contact, and the same for a free
+  /// pose.
+  static constexpr Index leaf_triangles = 8;
 
   explicit TriangleTree(const TriMesh& mesh);
 
