@@ -130,7 +130,9 @@ void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose>
                                std::span<Penetrations> out) const {
   assert(out.size() == X_FM.size());
   require_closed();
-  parallel_chunks(X_FM.size(), 1, [&](std::size_t first, std::size_t last) {
+  // A pose may take no more than a microsecond: some together are worth a task.
+  constexpr std::size_t poses_per_task = 8;
+  parallel_chunks(X_FM.size(), poses_per_task, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) penetrations(points, X_FM[i], out[i]);
   });
 }
