@@ -129,6 +129,12 @@ std::size_t affordable_poses(double seconds_per_pose, const Budget& budget, std:
   return std::min(poses, all);
 }
 
+/// In how many rounds one is timed that takes this long at so many poses: fewer where even those are dear.
+int affordable_rounds(double seconds_per_pose, std::size_t poses, const Budget& budget) {
+  const double once = std::max(seconds_per_pose * static_cast<double>(poses), 1e-9);
+  return std::clamp(static_cast<int>(budget.seconds / once), 1, budget.rounds);
+}
+
 double quantile(std::vector<double> values, double q) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
@@ -316,7 +322,8 @@ class SceneRun {
 
     Asked* const condyle = ours(question);
     std::vector<std::vector<double>> rounds, our_rounds;
-    for (int round = 0; round < budget_.rounds; ++round) {
+    const int round_count = affordable_rounds(first, count, budget_);
+    for (int round = 0; round < round_count; ++round) {
       if (condyle) our_rounds.push_back(sweep(*condyle, question, stage_.poses, count));
       rounds.push_back(sweep(asked, question, stage_.poses, count));
     }

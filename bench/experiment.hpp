@@ -22,7 +22,9 @@ std::string_view name_of(Question question);
 
 /// How long one method may take over one question at one scene.
 struct Budget {
-  double seconds = 0.35;  ///< For all timed rounds together; decides at how many poses the slow are asked.
+  /// For all timed rounds together: decides at how many poses the slow are asked, at least 4, and in how many
+  /// rounds, at least one.
+  double seconds = 0.35;
   int rounds = 5;
   int frames = 6;  ///< Of the deforming variant.
   /// A method that was made ready for longer than this at a scene is not asked at larger ones of the family.

@@ -2,11 +2,14 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "condyle/contact/joint_contact.hpp"
 #include "condyle/contact/tangential_contact.hpp"
 #include "condyle/core/angle.hpp"
+#include "condyle/core/instruction_set.hpp"
 #include "condyle/motion/range_of_motion.hpp"
+#include "condyle/radial/sorted_points.hpp"
 #include "condyle/sample/hip.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "support/brute_force.hpp"
@@ -132,6 +135,22 @@ void expect_same_states(const RadialHits& ours, const std::vector<PointState>& o
   }
 }
 
+/// The fast path tells the same points inside, as deep.
+void expect_same_penetrations(const RadialTable& table, const SortedPoints& points, const Pose& X,
+                              const RadialHits& hits) {
+  Penetrations found;
+  table.penetrations(points, X, found);
+  const auto not_outside = std::count_if(hits.state.begin(), hits.state.end(),
+                                         [](PointState state) { return state != PointState::outside; });
+  ASSERT_EQ(static_cast<std::ptrdiff_t>(found.size()), not_outside);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Index p = found.point[i];
+    EXPECT_EQ(found.state[i], hits.state[p]) << "vertex " << p;
+    EXPECT_EQ(found.depth[i], -hits.radial_gap[p]) << "vertex " << p;
+    EXPECT_EQ(found.triangle[i], hits.triangle[p]) << "vertex " << p;
+  }
+}
+
 class RealJoint : public testing::TestWithParam<JointFiles> {};
 INSTANTIATE_TEST_SUITE_P(SharedData, RealJoint, testing::ValuesIn(joints),
                          [](const auto& joint) { return joint.param.name; });
@@ -141,7 +160,9 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const JointContact joint(meshes->fixed, meshes->mobile);
   const CgalOracle fixed_oracle(meshes->fixed), mobile_oracle(meshes->mobile);
-  std::size_t free = 0, touching = 0, deep = 0, overlapping = 0;
+  const SortedPoints fixed_points(meshes->fixed.vertices), mobile_points(meshes->mobile.vertices);
+  const std::vector<InstructionSet> sets = instruction_sets();
+  std::size_t free = 0, touching = 0, deep = 0, overlapping = 0, asked = 0;
   std::vector<Pose> all = poses(GetParam().side);
   for (const Pose& X : grazing_poses(*meshes, GetParam().side)) all.push_back(X);
   for (const Pose& X : all) {
@@ -154,6 +175,11 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
     expect_same_states(*contact.fixed_in_mobile, mobile_oracle.states(fixed_in_M), meshes->mobile, fixed_in_M,
                        overlapping);
     EXPECT_EQ(contact.pairs, fixed_oracle.pairs(posed_mobile));
+    const InstructionSetInUse in_use(sets[asked++ % sets.size()]);
+    expect_same_penetrations(joint.fixed_table(), mobile_points, X, *contact.mobile_in_fixed);
+    expect_same_penetrations(joint.mobile_table(), fixed_points, X.inverse(), *contact.fixed_in_mobile);
+    std::optional<TrianglePair> no_hit;
+    EXPECT_EQ(joint.bodies().touch(X, no_hit), contact.in_contact);
     const auto inside = std::count(contact.mobile_in_fixed->state.begin(),
                                    contact.mobile_in_fixed->state.end(), PointState::inside);
     (!contact.in_contact ? free : inside == 0 ? touching : deep)++;
