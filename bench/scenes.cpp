@@ -22,7 +22,7 @@ using condyle::Side;
 using condyle::TriMesh;
 using condyle::Vec3;
 
-constexpr std::array<SceneName, 23> names = {{
+constexpr std::array<SceneName, 24> names = {{
     {"sample_1", "sample bones", "sample_bones"},
     {"sample_2", "sample bones", "sample_bones"},
     {"sample_3", "sample bones", "sample_bones"},
@@ -31,6 +31,7 @@ constexpr std::array<SceneName, 23> names = {{
     {"libhip_2", "real bones", "real_bones"},
     {"libhip_3", "real bones", "real_bones"},
     {"libhip_4", "real bones", "real_bones"},
+    {"libhip_5", "real bones", "real_bones"},
     {"hip_libhip_m1_left", "hip_libhip_m1_left", "whole_hips"},
     {"hip_vhf_right", "hip_vhf_right", "whole_hips"},
     {"hip_vhf_right_x4", "hip_vhf_right", "whole_hips"},
