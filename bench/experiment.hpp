@@ -24,14 +24,14 @@ std::string_view name_of(Question question);
 struct Budget {
   /// For all timed rounds together: decides at how many poses the slow are asked, at least 4, and in how many
   /// rounds, at least one.
-  double seconds = 0.35;
+  double seconds = 0.15;
   int rounds = 5;
   int frames = 6;  ///< Of the deforming variant.
   /// A method that was made ready for longer than this at a scene is not asked at larger ones of the family.
   double build_seconds = 20;
   /// One without an update that is made ready for longer than this is not made anew for the deforming
   /// variant.
-  double remake_seconds = 2;
+  double remake_seconds = 0.5;
   bool with_slow_ones = true;  ///< Those that say of themselves that they are slow to make.
 
   static Budget quick() {

@@ -98,6 +98,35 @@ class LazyScene {
   bool is_made_ = false;
 };
 
+void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
+  if (!options.plots.empty()) write_plots(experiment, options.plots);
+  if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
+  if (!options.baseline.empty())
+    condyle::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
+  if (options.csv.empty()) return;
+  for (const Table& table : report.tables)
+    if (table.head.is_long) condyle::write_whole_file(options.csv, csv_text(table));
+}
+
+/// The tables of the experiment, and what it could not do.
+void finish(const ExperimentResult& experiment, Report& report) {
+  add_goals(experiment, report);
+  add_tables(experiment, report);
+  for (const MethodGroup& group : method_groups())
+    if (!group.is_built)
+      report.skipped.push_back(group.package + " is not installed: its methods are left out");
+  report.skipped.insert(report.skipped.end(), experiment.skipped.begin(), experiment.skipped.end());
+  report.disagreements.insert(report.disagreements.end(), experiment.disagreements.begin(),
+                              experiment.disagreements.end());
+}
+
+/// What a run has so far is kept if it is broken off: under the names of its files, and saying so.
+void write_unfinished(Report report, const ExperimentResult& experiment, const Options& options) {
+  report.machine.emplace_back("unfinished", "broken off before its end");
+  finish(experiment, report);
+  write_files(report, experiment, options);
+}
+
 ExperimentResult run(const Options& options, Report& report) {
   ExperimentResult experiment;
   const Budget budget = options.effort == Effort::full ? Budget{} : Budget::quick();
@@ -119,28 +148,11 @@ ExperimentResult run(const Options& options, Report& report) {
       timed("experiment", [&](const Scene& s) {
         run_experiment(name, s, ExperimentFilter{options.filter}, budget, experiment);
       });
+    write_unfinished(report, experiment, options);
   }
-  add_goals(experiment, report);
-  add_tables(experiment, report);
-  for (const MethodGroup& group : method_groups())
-    if (!group.is_built)
-      report.skipped.push_back(group.package + " is not installed: its methods are left out");
-  report.skipped.insert(report.skipped.end(), experiment.skipped.begin(), experiment.skipped.end());
-  report.disagreements.insert(report.disagreements.end(), experiment.disagreements.begin(),
-                              experiment.disagreements.end());
+  finish(experiment, report);
   return experiment;
 }
-
-void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
-  if (!options.plots.empty()) write_plots(experiment, options.plots);
-  if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
-  if (!options.baseline.empty())
-    condyle::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
-  if (options.csv.empty()) return;
-  for (const Table& table : report.tables)
-    if (table.head.is_long) condyle::write_whole_file(options.csv, csv_text(table));
-}
-
 /// How many ratios got worse.
 std::size_t print_comparison(const ExperimentResult& experiment, const Options& options) {
   if (options.compare.empty()) return 0;

@@ -91,6 +91,8 @@ struct MethodKind {
   bool is_exact = false;
   std::function<std::unique_ptr<Method>(const Bodies&)> make;
   bool is_slow_to_make = false;  ///< Seconds even for the smallest scene.
+  /// Of both bodies together: above, being made ready takes minutes.
+  std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
 };
 
 /// A group of methods that one Debian package stands behind, or none.

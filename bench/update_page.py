@@ -38,6 +38,8 @@ def main(run_path, page_paths):
         run = json.load(file)
     if run["disagreements"]:
         sys.exit("update_page.py: answers disagree: " + "; ".join(run["disagreements"]))
+    if "unfinished" in run["machine"]:
+        sys.exit("update_page.py: the run was broken off before its end")
     if run["machine"]["run"] != "full":
         sys.exit(f"update_page.py: the run is '{run['machine']['run']}', not 'full'")
     content = {table["name"]: result_table(table) for table in run["tables"]}

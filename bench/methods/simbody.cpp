@@ -76,7 +76,9 @@ std::vector<MethodKind> simbody_kinds() {
            {.touch = true, .inside = true},
            DepthKind::nearest_surface,
            false,
-           [](const Bodies& bodies) { return std::make_unique<Simbody>(bodies); }}};
+           [](const Bodies& bodies) { return std::make_unique<Simbody>(bodies); },
+           false,
+           100'000}};
 }
 
 }  // namespace bench
