@@ -19,8 +19,7 @@ namespace {
 
 using condyle::Pose;
 
-/// Where all threads are timed too: the finest bones that every method can be asked at in reasonable time, of
-/// the sample and of a real hip, and the finest of all.
+/// Where all threads are timed too.
 constexpr std::array<std::string_view, 2> thread_scenes = {"libhip_3", "libhip_4"};
 
 /// Where methods that say of themselves that they are slow to make are asked: the paper's scenarios.
