@@ -23,8 +23,8 @@ std::string baseline_text(const Ratios& ratios);
 /// Raises std::runtime_error, naming the file, where it is no baseline.
 Ratios read_baseline(const std::string& file);
 
-/// One line for each ratio in both that is now below `tolerated` of what it was, the worst first. Rounds of
-/// one run differ by some hundredths, runs by a tenth: the default is twice that.
+/// One line for each ratio in both that is now below `tolerated` of what it was, the worst first: by
+/// default those where Condyle got a quarter slower, or more, beside the other.
 std::vector<std::string> worse_than(const Ratios& baseline, const Ratios& now, double tolerated = 0.8);
 
 }  // namespace bench

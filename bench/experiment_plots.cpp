@@ -99,6 +99,14 @@ LogPlot accuracy_plot(const ExperimentResult& result, Question question) {
   return plot;
 }
 
+/// A plot on which nobody is wrong shows nothing.
+bool has_any_cost(const LogPlot& plot) {
+  return std::any_of(plot.series.begin(), plot.series.end(), [](const Series& series) {
+    return std::any_of(series.points.begin(), series.points.end(),
+                       [](const SizeAndCost& point) { return point.cost > 0; });
+  });
+}
+
 }  // namespace
 
 void write_plots(const ExperimentResult& result, const std::filesystem::path& folder) {
@@ -106,7 +114,7 @@ void write_plots(const ExperimentResult& result, const std::filesystem::path& fo
     const std::pair<std::string_view, LogPlot> plots[] = {{"cost", cost_plot(result, question)},
                                                           {"accuracy", accuracy_plot(result, question)}};
     for (const auto& [name, plot] : plots)
-      if (!plot.series.empty())
+      if (has_any_cost(plot))
         condyle::write_whole_file(folder / fmt::format("{}_{}.svg", name, name_of(question)), svg_text(plot));
   }
 }
