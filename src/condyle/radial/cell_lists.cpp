@@ -24,14 +24,16 @@ std::size_t CellLists::entry_count() const noexcept {
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
          (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
-         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3);
+         nearest.size() * sizeof(std::uint16_t) + forms.size() * sizeof(ConeForms) +
+         corner.size() * sizeof(Vec3);
 }
 
 void CellLists::resize_entries(std::size_t count) {
   triangle.resize(count + vector_room);
   box.resize(count + vector_room);
   slant.resize(count + vector_room);
-  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, no_index, {0, 0});
+  nearest.resize(count + vector_room);
+  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, no_index, {0, 0}, 0);
 }
 
 void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
@@ -40,10 +42,10 @@ void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
   while (i < at.last && triangle[i] != triangle_listed) ++i;
   assert(i < at.last);
   --at.last;
-  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]});
+  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]}, nearest[at.last]);
 }
 
-void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon) {
+void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon, int nearest_code) {
   CellRow& at = row[cell];
   if (row_end.empty()) {
     // Rows are still one behind the other, but for entries removed.
@@ -57,12 +59,13 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
     const std::uint32_t length = at.last - at.first, room = 2 * length + 4;
     resize_entries(first + room);
     for (std::uint32_t i = 0; i < length; ++i) {
-      set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
+      const std::uint32_t from = at.first + i;
+      set_entry(first + i, triangle[from], {box[from], slant[from]}, nearest[from]);
     }
     at = {first, first + length};
     row_end[cell] = first + room;
   }
-  set_entry(at.last++, triangle_listed, octagon);
+  set_entry(at.last++, triangle_listed, octagon, nearest_code);
 }
 
 CellLists list_cells(const TriMesh& mesh, const CartesianMap& map) {

@@ -19,6 +19,8 @@ struct CellLists {
 
   /// For a cube map alone, for its vector code, which reads up to a vector beyond the last entry.
   UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
+  UninitialisedVector<std::uint16_t>
+      nearest;  ///< code of a squared radius that no point of its triangle is below
   UninitialisedVector<ConeForms> forms;
   UninitialisedVector<Vec3> corner;  ///< the mesh's vertices again, each in one place
 
@@ -35,14 +37,16 @@ struct CellLists {
 
   /// Room for so many entries and a vector beyond them.
   void resize_entries(std::size_t count);
-  void set_entry(std::size_t at, Index triangle_listed, const CellOctagon& octagon) noexcept {
+  void set_entry(std::size_t at, Index triangle_listed, const CellOctagon& octagon,
+                 int nearest_code) noexcept {
     triangle[at] = triangle_listed;
     box[at] = octagon.box;
     slant[at] = octagon.slant;
+    nearest[at] = static_cast<std::uint16_t>(nearest_code);
   }
   /// Changes to single rows; linear in the row. The entry to remove is there, the one to add is not.
   void remove_entry(Index cell, Index triangle_listed) noexcept;
-  void add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon);
+  void add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon, int nearest_code);
 };
 
 /// Listed one by one: exact overlap of each cone with each cell.

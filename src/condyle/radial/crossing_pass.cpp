@@ -60,13 +60,17 @@ std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std:
   return count;
 }
 
-/// Pairs of one near point, added to the others; false where there are too many.
+/// Pairs of one near point with triangles that may say something of it, added to the others; false where
+/// there are too many.
 HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]];
   const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, slant_of_point(points.box[i]));
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
+  const Words relevant = hn::Set(du, points.relevant[i]);
   for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
-    const auto holding = octagons_holding(cube, first, row.last, box, slant);
+    const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint16_t, DU>(), cube.nearest + first));
+    const auto holding =
+        hn::And(octagons_holding(cube, first, row.last, box, slant), hn::Not(hn::Gt(nearest, relevant)));
     // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
     if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
     store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + pairs.count);
@@ -93,7 +97,7 @@ struct Crossings {
 HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pairs& pairs, float form_bound,
                       Crossings& out) {
   constexpr hn::CappedTag<float, 4> d4;
-  constexpr std::size_t ahead = 8;
+  constexpr std::size_t ahead = 32;
   // Forms may lie across two lines of the cache.
   const auto fetch = [&](std::size_t i) {
     const ConeForms& forms = cube.forms[pairs.triangle[std::min(i, pairs.count - 1)]];
@@ -181,9 +185,10 @@ HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
       after = &crossing;
     }
   }
-  if (!after) return false;
-  found.away_from_centre = true;
-  if (before) {
+  // Surface that is too far behind to matter was not looked at, unless the centre is inside.
+  if (!after && (!before || winding_at_centre > 0)) return false;
+  found.away_from_centre = !before;
+  if (before && after) {
     const float b = before->s, a = after->s;
     const float difference = a + b - 2 * a * b;
     const float error = 1.01f * (before->error * (1 + 2 * a) + after->error * (1 + 2 * b));

@@ -64,6 +64,7 @@ class CubeListing {
     forms.resize(triangles);
     face_.resize(mesh_.vertices.size());
     vertex_.resize(mesh_.vertices.size());
+    nearest_.resize(triangles);
     place_vertices(view_, face_.data(), vertex_.data());
     corners.resize(mesh_.vertices.size());
     for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) corners[i] = mesh_.vertices[i];
@@ -74,6 +75,7 @@ class CubeListing {
     for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
       const std::size_t last = std::min(first + triangles_per_chunk, triangles);
       measure_triangles(view_, first, last, forms.data(), radii.data());
+      for (std::size_t t = first; t < last; ++t) nearest_[t] = radii[t - first].least;
       make_room(4 * triangles_per_chunk);
       Listing listing{
           n_, entry_.data(), count_, length_.data(), least_.data(), greatest_.data(), elsewhere.data(), 0};
@@ -87,6 +89,8 @@ class CubeListing {
 
   /// The entries in the order of the triangles, and least and greatest squared radius in each cell.
   std::span<const ListedTriangle> entries() const { return {entry_.data(), count_}; }
+  /// Squared radius that no point of the triangle is below.
+  float nearest(Index triangle) const { return nearest_[triangle]; }
   float least(Index cell) const { return least_[cell]; }
   float greatest(Index cell) const { return greatest_[cell]; }
 
@@ -112,7 +116,8 @@ class CubeListing {
     lists.resize_entries(count_);
     for (std::size_t i = 0; i < count_; ++i) {
       const ListedTriangle& entry = entry_[i];
-      lists.set_entry(lists.row[entry.cell].last++, entry.triangle, entry.octagon);
+      lists.set_entry(lists.row[entry.cell].last++, entry.triangle, entry.octagon,
+                      lists.scale.code(nearest_[entry.triangle]));
     }
   }
 
@@ -303,6 +308,7 @@ class CubeListing {
   const std::vector<float>& inverse_length_;
   UninitialisedVector<std::uint8_t> face_;
   UninitialisedVector<FacePoint> vertex_;
+  UninitialisedVector<float> nearest_;
   UninitialisedVector<ListedTriangle> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
@@ -337,7 +343,8 @@ bool move_triangles(const CubeMap& map, std::span<const Index> triangles, const 
   for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
   bool grown = false;
   for (const ListedTriangle& entry : moved.entries()) {
-    lists.add_entry(entry.cell, triangles[entry.triangle], entry.octagon);
+    lists.add_entry(entry.cell, triangles[entry.triangle], entry.octagon,
+                    lists.scale.code(moved.nearest(entry.triangle)));
     const float least = moved.least(entry.cell), greatest = moved.greatest(entry.cell);
     RadiusWord& word = lists.radii[entry.cell];
     const RadiusWord grown_word =

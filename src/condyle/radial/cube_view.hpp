@@ -63,6 +63,7 @@ struct CubeView {
   const CellRow* row;
   const std::uint32_t* triangle;
   const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon
+  const std::uint16_t* nearest;      ///< code of each listed triangle's least squared radius, or a lower one
   const ConeForms* forms;            ///< of each triangle
   RadiusScale scale;
   int winding_at_centre;

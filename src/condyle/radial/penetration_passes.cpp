@@ -180,6 +180,25 @@ std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, co
                            : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
 }
 
+/// Squared radius beyond which no way out is the nearer one, as a code. A point at radius r that is inside
+/// has crossed surface at l or beyond, l the least radius in its cell, if the centre is outside: the way back
+/// there is at most r - l, and the ways to surface beyond 2 r - l are longer. With a = r^2 and b = l^2
+///
+///     (2 r - l)^2 = 4 a + b - 4 r l <= 4 a + b - 8 a b / (a + b),
+///
+/// as r l is the geometric mean of a and b, and at least their harmonic one. 2^-12 is far above the errors of
+/// points and codes. A least radius below the scale is taken for 0.
+HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry) {
+  if (cube.winding_at_centre > 0) return hn::Set(du, greatest_radius_code);
+  const auto code = hn::BitCast(di, hn::And(entry, hn::Set(du, 0xffff)));
+  const auto bits = hn::Add(hn::Set(di, cube.scale.base), hn::ShiftLeftSame(code, cube.scale.shift));
+  const auto least = hn::IfThenZeroElse(hn::RebindMask(d, hn::Eq(code, hn::Zero(di))), hn::BitCast(d, bits));
+  const auto harmonic = hn::Div(hn::Mul(squared, least), hn::Add(squared, least));
+  const auto limit =
+      hn::Add(hn::Mul(hn::Set(d, 4.0f), squared), hn::Sub(least, hn::Mul(hn::Set(d, 8.0f), harmonic)));
+  return hn::BitCast(du, radius_code(cube.scale, hn::Mul(limit, hn::Set(d, 1 + 0x1p-12f))));
+}
+
 template <bool remembering>
 HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                             const std::uint32_t* blocks, std::size_t block_count, const BlockMemory* memory,
@@ -230,6 +249,7 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
       store_compacted(d, z, near_float, found.z.data() + count);
       store_compacted(du, hn::BitCast(du, cell), near, found.cell.data() + count);
       store_compacted(du, hn::BitCast(du, box), near, found.box.data() + count);
+      store_compacted(du, relevant_code(cube, squared, entry), near, found.relevant.data() + count);
       store_compacted(du, hn::Iota(du, static_cast<std::uint32_t>(at)), near, found.point.data() + count);
       count += hn::CountTrue(du, near);
     }

@@ -20,11 +20,12 @@ inline constexpr std::size_t vector_room = 16;
 template <class T>
 using BatchArray = std::array<T, points_per_batch + vector_room>;
 
-/// Points not rejected by their cell's radii, as floats in the table's frame.
+/// Points not rejected by their cell's radii, as floats in the table's frame. Surface beyond `relevant`, a
+/// code of squared radii, says nothing of a point: what lies before it is nearer.
 struct NearPoints {
   std::size_t count;
   alignas(64) BatchArray<float> x, y, z;
-  alignas(64) BatchArray<std::uint32_t> cell, box, point;
+  alignas(64) BatchArray<std::uint32_t> cell, box, relevant, point;
 };
 
 /// Points that are inside (by certain signs), with the triangle they leave through, and points in doubt.
