@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
-#include <span>
+#include <limits>
 
 #include "condyle/radial/penetration_passes.hpp"
 
@@ -25,8 +25,8 @@ constexpr DU du;
 
 /// Triangles whose octagons hold a point, with the number of the point among the near ones.
 struct Pairs {
-  static constexpr std::size_t most = 4096;
-  std::array<std::uint32_t, most + vector_room> triangle, point;
+  static constexpr std::size_t most = 4096, room = 3 * vector_room;
+  std::array<std::uint32_t, most + room> triangle, point;
   std::size_t count;
 };
 
@@ -81,101 +81,120 @@ HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t
   return true;
 }
 
-/// A crossing of a near point's ray: s is |v| over its radius, NaN where floats do not say whether there is
-/// one.
-struct Crossing {
-  float s, error;
-  std::uint32_t triangle, point;
-  std::int32_t outwards;  // 1 where the ray leaves the solid, -1 where it enters
-};
+/// Crossings of near points' rays, those of a point side by side. `s` is |v| over the crossing's radius,
+/// positive where the ray leaves the solid and negative where it enters; NaN where floats do not say whether
+/// there is one.
 struct Crossings {
-  std::array<Crossing, Pairs::most + 1> crossing;
+  template <class T>
+  using Array = std::array<T, Pairs::most + vector_room>;
+  alignas(64) Array<float> s, error;
+  alignas(64) Array<std::uint32_t> triangle, point;
   std::size_t count;
 };
 
-/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
-HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Pairs& pairs, float form_bound,
+/// Lane k of four vectors as vector k.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void transpose(D, [[maybe_unused]] std::array<V, 4>& v) {
+#if HWY_TARGET != HWY_SCALAR
+  const V even_low = hn::InterleaveLower(v[0], v[2]), odd_low = hn::InterleaveLower(v[1], v[3]);
+  const V even_high = hn::InterleaveUpper(D(), v[0], v[2]), odd_high = hn::InterleaveUpper(D(), v[1], v[3]);
+  v = {hn::InterleaveLower(even_low, odd_low), hn::InterleaveUpper(D(), even_low, odd_low),
+       hn::InterleaveLower(even_high, odd_high), hn::InterleaveUpper(D(), even_high, odd_high)};
+#endif
+}
+
+/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order. `bound` is the
+/// error of each near point's forms, over the sum of their coefficients' magnitudes.
+HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const float* bound, Pairs& pairs,
                       Crossings& out) {
+  // Four pairs side by side; without vectors one, of which each form is a "vector".
   constexpr hn::CappedTag<float, 4> d4;
-  constexpr std::size_t ahead = 32;
-  // Forms may lie across two lines of the cache.
-  const auto fetch = [&](std::size_t i) {
-    const ConeForms& forms = cube.forms[pairs.triangle[std::min(i, pairs.count - 1)]];
-    hwy::Prefetch(forms.x), hwy::Prefetch(forms.z + 3);
-  };
+  constexpr hn::RebindToUnsigned<decltype(d4)> du4;
+  using V = hn::Vec<decltype(d4)>;
+  constexpr std::size_t side_by_side = hn::MaxLanes(d4), ahead = 32;
+  const std::size_t last = std::max(pairs.count, std::size_t{1}) - 1;
+  for (std::size_t k = 0; pairs.count > 0 && k < ahead + side_by_side; ++k) {
+    pairs.triangle[pairs.count + k] = pairs.triangle[last], pairs.point[pairs.count + k] = pairs.point[last];
+  }
+  const auto fetch = [&](std::size_t i) { hwy::Prefetch(cube.forms + pairs.triangle[i]); };
   for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
   std::size_t count = 0;
-  for (std::size_t i = 0; i < pairs.count; ++i) {
-    fetch(i + ahead);
-    const std::uint32_t triangle = pairs.triangle[i], point = pairs.point[i];
-    const ConeForms& forms = cube.forms[triangle];
-    const float px = points.x[point], py = points.y[point], pz = points.z[point];
-    const float bound = form_bound * std::max(std::max(std::abs(px), std::abs(py)), std::abs(pz));
-    alignas(16) float values[4], errors[4];
-    unsigned below = 0, above = 0;
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-      const auto x = hn::Load(d4, forms.x + k), y = hn::Load(d4, forms.y + k), z = hn::Load(d4, forms.z + k);
-      const auto value =
-          hn::MulAdd(hn::Set(d4, px), x, hn::MulAdd(hn::Set(d4, py), y, hn::Mul(hn::Set(d4, pz), z)));
-      const auto error = hn::Mul(hn::Set(d4, bound), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
-      std::uint8_t bits[8] = {};
-      hn::StoreMaskBits(d4, hn::Lt(value, hn::Neg(error)), bits);
-      below |= static_cast<unsigned>(bits[0]) << k;
-      hn::StoreMaskBits(d4, hn::Gt(value, error), bits);
-      above |= static_cast<unsigned>(bits[0]) << k;
-      hn::Store(value, d4, values + k);
-      hn::Store(error, d4, errors + k);
+  for (std::size_t i = 0; i < pairs.count; i += side_by_side) {
+    std::array<V, 4> value, error;
+    for (std::size_t k = 0; k < side_by_side; ++k) fetch(i + ahead + k);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t pair = side_by_side == 4 ? i + k : i, lane = side_by_side == 4 ? 0 : k;
+      const ConeForms& forms = cube.forms[pairs.triangle[pair]];
+      const std::uint32_t point = pairs.point[pair];
+      const auto x = hn::LoadU(d4, forms.x + lane), y = hn::LoadU(d4, forms.y + lane),
+                 z = hn::LoadU(d4, forms.z + lane);
+      value[k] =
+          hn::MulAdd(hn::Set(d4, points.x[point]), x,
+                     hn::MulAdd(hn::Set(d4, points.y[point]), y, hn::Mul(hn::Set(d4, points.z[point]), z)));
+      error[k] = hn::Mul(hn::Set(d4, bound[point]), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
     }
-    // Without branches, which nothing could foretell: all bits of a magnitude set are a NaN.
-    const std::uint32_t bits_of_value = std::bit_cast<std::uint32_t>(values[3]);
-    const std::uint32_t doubt = 0u - static_cast<std::uint32_t>((above & 7) != 7);
-    out.crossing[count] = {std::bit_cast<float>((bits_of_value | doubt) & 0x7fffffffu), errors[3], triangle,
-                           point, 1 - 2 * static_cast<std::int32_t>(bits_of_value >> 31)};
-    count += static_cast<std::size_t>((below & 7) == 0);
+    transpose(d4, value), transpose(d4, error);
+    const auto below =
+        hn::Or(hn::Lt(value[0], hn::Neg(error[0])),
+               hn::Or(hn::Lt(value[1], hn::Neg(error[1])), hn::Lt(value[2], hn::Neg(error[2]))));
+    const auto above =
+        hn::And(hn::Gt(value[0], error[0]), hn::And(hn::Gt(value[1], error[1]), hn::Gt(value[2], error[2])));
+    const auto s = hn::IfThenElse(above, value[3], hn::Set(d4, std::numeric_limits<float>::quiet_NaN()));
+    const auto kept = hn::AndNot(below, hn::FirstN(d4, pairs.count - i));
+    const auto kept_words = hn::RebindMask(du4, kept);
+    store_compacted(d4, s, kept, out.s.data() + count);
+    store_compacted(d4, error[3], kept, out.error.data() + count);
+    store_compacted(du4, hn::LoadU(du4, pairs.triangle.data() + i), kept_words, out.triangle.data() + count);
+    store_compacted(du4, hn::LoadU(du4, pairs.point.data() + i), kept_words, out.point.data() + count);
+    count += hn::CountTrue(d4, kept);
   }
   out.count = count;
 }
 
-/// What the crossings of one ray say of its point. They stay where they are: copied whole, right after they
-/// were written in parts, each would hold the processor up.
+/// What the crossings of a near point say of it.
+struct Tally {
+  std::int16_t winding;
+  std::uint16_t crossings;
+  std::uint32_t end;  ///< behind the last of them
+  std::uint8_t doubtful;
+};
+
+/// More crossings of one ray are left to double precision.
+constexpr std::size_t most_of_a_ray = 24;
+
+/// The crossings of one ray from the centre outwards: with falling |s|.
 struct Ray {
-  static constexpr std::size_t most = 24;
-  std::span<Crossing> crossings;
-  int winding;  // of the point
-  bool doubtful;
+  struct Crossing {
+    float s, error;
+    int outwards;
+    std::uint32_t triangle;
+  };
+  std::array<Crossing, most_of_a_ray> crossing;
+  std::size_t count = 0;
 
-  Ray(std::span<Crossing> its, int winding_at_centre)
-      : crossings(its), winding(winding_at_centre), doubtful(its.size() > most) {
-    for (const Crossing& crossing : crossings) {
-      const float beyond = crossing.s - 1;
-      doubtful |= !(std::abs(beyond) > crossing.error);
-      winding -= beyond > 0 ? crossing.outwards : 0;
-    }
-  }
-
-  /// From the centre outwards.
-  void sort() {
-    for (std::size_t i = 1; i < crossings.size(); ++i) {
-      for (std::size_t k = i; k > 0 && crossings[k - 1].s < crossings[k].s; --k) {
-        std::swap(crossings[k - 1], crossings[k]);
-      }
+  Ray(const Crossings& all, const Tally& tally) {
+    for (std::size_t i = tally.end - tally.crossings; i < tally.end; ++i) {
+      std::size_t k = count++;
+      const Crossing next{std::abs(all.s[i]), all.error[i], all.s[i] > 0 ? 1 : -1, all.triangle[i]};
+      for (; k > 0 && crossing[k - 1].s < next.s; --k) crossing[k] = crossing[k - 1];
+      crossing[k] = next;
     }
   }
 };
 
 /// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
 ///
-/// Crossings in order from the centre have falling s. The gaps 1 - 1/s before and 1/s' - 1 behind compare as
-/// 2 s s' does with s + s'.
-HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
-  ray.sort();
-  for (std::size_t i = 1; i < ray.crossings.size(); ++i) {
-    const Crossing &nearer = ray.crossings[i - 1], &further = ray.crossings[i];
+/// The gaps 1 - 1/s before and 1/s' - 1 behind compare as 2 s s' does with s + s'.
+HWY_INLINE bool leave(const Ray& ray, int winding_at_centre, FoundPoint& found) {
+  using Crossing = Ray::Crossing;
+  for (std::size_t i = 1; i < ray.count; ++i) {
+    const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
     if (!(nearer.s - further.s > nearer.error + further.error)) return false;
   }
   const Crossing *before = nullptr, *after = nullptr;
   int winding = winding_at_centre;
-  for (const Crossing& crossing : ray.crossings) {
+  for (std::size_t i = 0; i < ray.count; ++i) {
+    const Crossing& crossing = ray.crossing[i];
     const bool was_inside = winding > 0;
     winding -= crossing.outwards;
     if (was_inside == (winding > 0)) continue;
@@ -199,25 +218,49 @@ HWY_INLINE bool leave(Ray& ray, int winding_at_centre, FoundPoint& found) {
   return true;
 }
 
-/// Decides near points [first, last), whose crossings these are.
+/// Room for what decide() knows of near points.
+struct Tallies {
+  std::array<Tally, points_per_batch> of;
+  std::array<std::uint32_t, points_per_batch + 1> kept;
+};
+
+/// Decides near points [first, last), whose crossings these are. Which points stay cannot be foretold: no
+/// branch asks before they are counted.
 HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
-                       Crossings& crossings, FoundPoints& found) {
-  Crossing *next = crossings.crossing.data(), *const end = next + crossings.count;
+                       const Crossings& crossings, Tallies& tallies, FoundPoints& found) {
+  const bool from_inside = cube.winding_at_centre > 0;
   for (std::size_t i = first; i < last; ++i) {
-    Crossing* const begin = next;
-    while (next != end && next->point == i) ++next;
-    Ray ray({begin, next}, cube.winding_at_centre);
-    if (cube.winding_at_centre > 0) {
-      // Nearer to the centre than any surface, floats may have lost the direction.
-      const float x = points.x[i], y = points.y[i], z = points.z[i];
-      ray.doubtful |= x * x + y * y + z * z < cube.nearest_squared;
-    }
-    if (!ray.doubtful && ray.winding <= 0) continue;
+    // Nearer to the centre than any surface, floats may have lost the direction.
+    const float x = points.x[i], y = points.y[i], z = points.z[i];
+    const bool too_near = from_inside && x * x + y * y + z * z < cube.nearest_squared;
+    tallies.of[i] = {static_cast<std::int16_t>(cube.winding_at_centre), 0, 0, too_near};
+  }
+  for (std::size_t i = 0; i < crossings.count; ++i) {
+    Tally& tally = tallies.of[crossings.point[i]];
+    const float beyond = std::abs(crossings.s[i]) - 1;
+    const int outwards = crossings.s[i] > 0 ? 1 : -1;
+    tally.winding = static_cast<std::int16_t>(tally.winding - (beyond > 0 ? outwards : 0));
+    tally.doubtful |= static_cast<std::uint8_t>(!(std::abs(beyond) > crossings.error[i]));
+    ++tally.crossings;
+    tally.end = static_cast<std::uint32_t>(i + 1);
+  }
+  std::size_t count = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    Tally& tally = tallies.of[i];
+    tally.doubtful |= static_cast<std::uint8_t>(tally.crossings > most_of_a_ray);
+    tallies.kept[count] = static_cast<std::uint32_t>(i);
+    count += static_cast<std::size_t>((tally.doubtful != 0) | (tally.winding > 0));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Tally& tally = tallies.of[tallies.kept[k]];
     FoundPoint& at = found.point[found.count++];
-    at.point = points.point[i];
-    at.triangle = no_index;
-    at.winding = static_cast<std::int16_t>(ray.winding);
-    at.doubtful = ray.doubtful || !leave(ray, cube.winding_at_centre, at);
+    at = {points.point[tallies.kept[k]], no_index, tally.winding, false, tally.doubtful != 0};
+    if (at.doubtful) continue;
+    if (tally.crossings == 1 && !from_inside) {
+      at.triangle = crossings.triangle[tally.end - 1];
+    } else {
+      at.doubtful = !leave(Ray(crossings, tally), cube.winding_at_centre, at);
+    }
   }
 }
 
@@ -225,6 +268,12 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
                               FoundPoints& found) {
   Pairs pairs;
   Crossings crossings;
+  Tallies tallies;
+  alignas(64) std::array<float, points_per_batch> bound;
+  for (std::size_t i = 0; i < points.count; ++i) {
+    bound[i] =
+        form_bound * std::max(std::max(std::abs(points.x[i]), std::abs(points.y[i])), std::abs(points.z[i]));
+  }
   std::size_t tried = 0;
   found.count = 0;
   for (std::size_t first = 0; first < points.count;) {
@@ -244,8 +293,8 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
         pairs.count = before;
       }
     }
-    cross(cube, points, pairs, form_bound, crossings);
-    decide(cube, points, first, last, crossings, found);
+    cross(cube, points, bound.data(), pairs, crossings);
+    decide(cube, points, first, last, crossings, tallies, found);
     tried += pairs.count;
     if (last == first) {
       // More triangles at one point than there is room for.

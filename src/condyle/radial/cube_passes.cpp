@@ -1,4 +1,5 @@
 #include "condyle/radial/cube_passes.hpp"
+#include "condyle/radial/triangle_plane.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -111,7 +112,7 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
                            TriangleRadii* radii) {
   const auto nan = hn::Set(dd, std::numeric_limits<double>::quiet_NaN());
   alignas(64) std::int64_t corner[3][lanes];
-  alignas(64) float packed[3][4 * lanes];
+  alignas(64) float packed[4][4 * lanes];
   alignas(64) float packed_radii[4 * lanes];
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
@@ -145,25 +146,45 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     auto known = hn::And(hn::Gt(hn::Abs(volume), volume_floor), fits_floats(largest, smallest));
     known = hn::And(known, hn::And(well_known(n_ab, a, b), well_known(n_bc, b, c)));
     known = hn::And(known, hn::And(well_known(n_ca, c, a), well_known(n, ab, ac)));
-    const auto scale = hn::IfThenElse(known, inverse, nan), plane = hn::Abs(scale);
+    const auto aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
+    const auto ab_ab = dot(ab, ab), ac_ac = dot(ac, ac);
+    const auto furthest = hn::Max(aa, hn::Max(bb, cc));
+    // As scaled_normal() has it, to the bit.
+    const auto nn = dot(n, n), offset = dot(a, n);
+    const auto set = [](double value) { return hn::Set(dd, value); };
+    auto plane_known = hn::And(known, hn::And(hn::Gt(nn, set(triangle_plane::least_square)),
+                                              hn::Lt(nn, set(triangle_plane::greatest_square))));
+    plane_known =
+        hn::And(plane_known, hn::Le(hn::Mul(ab_ab, ac_ac), hn::Mul(set(triangle_plane::most_sliver), nn)));
+    plane_known = hn::And(
+        plane_known,
+        hn::Ge(hn::Mul(set(triangle_plane::most_oblique), hn::Mul(offset, offset)), hn::Mul(furthest, nn)));
+    const auto scale = hn::IfThenElse(known, inverse, nan);
+    const auto plane =
+        hn::IfThenElse(plane_known, hn::Abs(hn::Div(hn::Set(dd, 1.0), offset)), hn::Abs(scale));
     const auto store = [&](Doubles p, Doubles q, Doubles r, Doubles s, float* out) {
       store_interleaved(hn::Mul(p, scale), hn::Mul(q, scale), hn::Mul(r, scale), hn::Mul(s, plane), out);
     };
     store(n_ab.x, n_bc.x, n_ca.x, n.x, packed[0]);
     store(n_ab.y, n_bc.y, n_ca.y, n.y, packed[1]);
     store(n_ab.z, n_bc.z, n_ca.z, n.z, packed[2]);
-    const auto aa = dot(a, a), bb = dot(b, b), cc = dot(c, c);
-    const auto edge = hn::Max(dot(ab, ab), hn::Max(dot(ac, ac), dot(bc, bc)));
+    const auto rest = [&](Doubles component) {
+      const auto value = hn::Mul(component, plane);
+      const auto left = hn::Sub(value, hn::PromoteTo(dd, hn::DemoteTo(df, value)));
+      return hn::IfThenElse(plane_known, left, nan);
+    };
+    store_interleaved(rest(n.x), rest(n.y), rest(n.z), hn::Zero(dd), packed[3]);
+    const auto edge = hn::Max(ab_ab, hn::Max(ac_ac, dot(bc, bc)));
     const auto dip = hn::Mul(edge, hn::Set(dd, 1.0 / 3));
     const auto least = hn::Max(hn::Zero(dd), hn::Sub(hn::Min(aa, hn::Min(bb, cc)), dip));
-    const auto greatest = hn::Max(aa, hn::Max(bb, cc));
-    store_interleaved(hn::Mul(least, hn::Set(dd, 1 - 0x1p-16)), hn::Mul(greatest, hn::Set(dd, 1 + 0x1p-16)),
+    store_interleaved(hn::Mul(least, hn::Set(dd, 1 - 0x1p-16)), hn::Mul(furthest, hn::Set(dd, 1 + 0x1p-16)),
                       edge, edge, packed_radii);
     for (std::size_t k = 0; k < count; ++k) {
       ConeForms& out = forms[t + k];
       std::copy_n(packed[0] + 4 * k, 4, out.x);
       std::copy_n(packed[1] + 4 * k, 4, out.y);
       std::copy_n(packed[2] + 4 * k, 4, out.z);
+      std::copy_n(packed[3] + 4 * k, 3, out.rest);
       radii[t - first + k] = {packed_radii[4 * k], packed_radii[4 * k + 1], packed_radii[4 * k + 2]};
     }
   }

@@ -42,8 +42,10 @@ struct CellRow {
 ///
 /// NaN throughout where floats could not say enough of the triangle: a plane nearly through the centre, a
 /// sliver. Every comparison with them is false, and the point is decided in double.
-struct alignas(16) ConeForms {
-  float x[4], y[4], z[4];
+///
+/// `rest` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN where that is.
+struct alignas(64) ConeForms {
+  float x[4], y[4], z[4], rest[3];
 };
 
 /// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v

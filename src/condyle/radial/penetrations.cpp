@@ -7,6 +7,7 @@
 #include "condyle/core/parallel.hpp"
 #include "condyle/radial/penetration_search.hpp"
 #include "condyle/radial/radial_table.hpp"
+#include "condyle/radial/triangle_plane.hpp"
 
 namespace condyle {
 namespace {
@@ -144,23 +145,9 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
   std::size_t count = first;
   std::vector<Index> room;
   out.resize(first + found.count);
-  // What a depth needs lies far apart: it is asked for some points ahead, triangles before their corners.
-  constexpr std::size_t ahead = 12;
-  const auto fetch = [&](std::size_t i) {
-    if (i + ahead < found.count) {
-      __builtin_prefetch(&points[found.point[i + ahead].point]);
-      const std::uint32_t t = found.point[i + ahead].triangle;
-      if (t < mesh_.triangles.size()) __builtin_prefetch(&mesh_.triangles[t]);
-    }
-    if (i + ahead / 2 < found.count) {
-      const std::uint32_t t = found.point[i + ahead / 2].triangle;
-      if (t < mesh_.triangles.size()) {
-        for (const Index corner : mesh_.triangles[t]) __builtin_prefetch(&lists_.corner[corner]);
-      }
-    }
-  };
+  constexpr std::size_t ahead = 16;
   for (std::size_t i = 0; i < found.count; ++i) {
-    fetch(i);
+    if (i + ahead < found.count) __builtin_prefetch(&points[found.point[i + ahead].point]);
     const FoundPoint& at = found.point[i];
     const Vec3 v = posed(X_FM, points[at.point]);
     out.point[count] = points.index()[at.point];
@@ -173,12 +160,16 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
       out.depth[count] = std::abs(answer.gap);
       out.direction[count] = answer.direction;
     } else {
-      const auto& [a, b, c] = mesh_.triangles[at.triangle];
+      const ConeForms& forms = lists_.forms[at.triangle];
+      const auto normal = [&](std::size_t k, const float* of) {
+        return static_cast<double>(of[3]) + static_cast<double>(forms.rest[k]);
+      };
+      double gap = gap_to_plane(v, {normal(0, forms.x), normal(1, forms.y), normal(2, forms.z)});
+      if (std::isnan(gap)) gap = distance_along_ray(v, cone_of(mesh_, at.triangle));
       out.state[count] = PointState::inside;
       out.winding[count] = at.winding;
       out.triangle[count] = at.triangle;
-      out.depth[count] =
-          std::abs(distance_along_ray(v, {lists_.corner[a], lists_.corner[b], lists_.corner[c]}));
+      out.depth[count] = std::abs(gap);
       out.direction[count] =
           at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
     }

@@ -6,6 +6,7 @@
 
 #include "condyle/core/exact_integers.hpp"
 #include "condyle/radial/ray_crossing.hpp"
+#include "condyle/radial/triangle_plane.hpp"
 
 namespace condyle {
 namespace {
@@ -35,10 +36,12 @@ double exact_relative_gap(const Vec3& v, const Cone& t) {
 
 }  // namespace
 
-/// Both determinants err by at most 12u times a product of lengths: 8u for their own operations, and u for
-/// each of the rounded differences in them. Where that could show in the quotient (a ray within a degree or
-/// so of the surface, a sliver), the quotient is taken in integers.
+/// Nearly always the triangle's plane tells. Beyond that, both determinants err by at most 12u times a
+/// product of lengths: 8u for their own operations, and u for each of the rounded differences in them. Where
+/// that could show in the quotient (a ray within a degree or so of the surface, a sliver), the quotient is
+/// taken in integers.
 double distance_along_ray(const Vec3& v, const Cone& t) {
+  if (const double gap = gap_to_plane(v, scaled_normal(t.a, t.b, t.c)); !std::isnan(gap)) return gap;
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, av = v - t.a;
   const double past = filtered_determinant(av, ab, ac).value, full = filtered_determinant(v, ab, ac).value;
   const double radius = v.norm();
