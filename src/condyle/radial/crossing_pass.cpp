@@ -60,25 +60,25 @@ std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std:
   return count;
 }
 
-/// Pairs of one near point with triangles that may say something of it, added to the others; false where
-/// there are too many.
-HWY_INLINE bool pair(const CubeView& cube, const NearPoints& points, std::size_t i, Pairs& pairs) {
+/// Pairs of one near point with triangles that may say something of it, written behind the `count` of the
+/// others. Returns how many there are then; more than fit, where there are too many.
+HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, std::size_t i, std::size_t count,
+                            Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]];
   const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, slant_of_point(points.box[i]));
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   const Words relevant = hn::Set(du, points.relevant[i]);
-  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+  for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
     const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint16_t, DU>(), cube.nearest + first));
     const auto holding =
         hn::And(octagons_holding(cube, first, row.last, box, slant), hn::Not(hn::Gt(nearest, relevant)));
     // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
     if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
-    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + pairs.count);
-    hn::StoreU(number, du, pairs.point.data() + pairs.count);
-    pairs.count += hn::CountTrue(du, holding);
-    if (pairs.count > Pairs::most - vector_room) return false;
+    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + count);
+    hn::StoreU(number, du, pairs.point.data() + count);
+    count += hn::CountTrue(du, holding);
   }
-  return true;
+  return count;
 }
 
 /// Crossings of near points' rays, those of a point side by side. `s` is |v| over the crossing's radius,
@@ -279,19 +279,14 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
   for (std::size_t first = 0; first < points.count;) {
     std::size_t last = first;
     pairs.count = 0;
-    bool fits = true;
-    while (last < points.count && fits) {
-      const std::size_t before = pairs.count;
+    for (; last < points.count; ++last) {
       hwy::Prefetch(cube.row + points.cell[std::min(last + 8, points.count - 1)]);
       const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
       hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
-      hwy::Prefetch(cube.triangle + row_ahead);
-      fits = pair(cube, points, last, pairs);
-      if (fits) {
-        ++last;
-      } else {
-        pairs.count = before;
-      }
+      hwy::Prefetch(cube.triangle + row_ahead), hwy::Prefetch(cube.nearest + row_ahead);
+      const std::size_t count = pair(cube, points, last, pairs.count, pairs);
+      if (count > Pairs::most) break;
+      pairs.count = count;
     }
     cross(cube, points, bound.data(), pairs, crossings);
     decide(cube, points, first, last, crossings, tallies, found);
