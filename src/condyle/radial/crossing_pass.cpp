@@ -218,6 +218,42 @@ HWY_INLINE bool leave(const Ray& ray, int winding_at_centre, FoundPoint& found) 
   return true;
 }
 
+/// As leave(), for a point of winding number 1 with few crossings, the centre outside: nearly all. Where the
+/// crossing nearest before the point certainly is that and enters the solid, and the one nearest behind it
+/// certainly is that and leaves it, these are the ways out. No branch asks which is the shorter: there is no
+/// telling beforehand.
+HWY_INLINE bool leave_simply(const Crossings& all, const Tally& tally, FoundPoint& found) {
+  constexpr hn::CappedTag<float, 4> d;
+  const std::size_t begin = tally.end - tally.crossings;
+  const auto valid = hn::FirstN(d, tally.crossings);
+  const auto s = hn::Abs(hn::LoadU(d, all.s.data() + begin)), error = hn::LoadU(d, all.error.data() + begin);
+  const auto is_before = hn::And(valid, hn::Gt(s, hn::Set(d, 1.0f))), is_after = hn::AndNot(is_before, valid);
+  const auto before =
+      hn::MinOfLanes(d, hn::IfThenElse(is_before, s, hn::Set(d, std::numeric_limits<float>::max())));
+  const auto after = hn::MaxOfLanes(d, hn::IfThenElseZero(is_after, s));
+  const auto at = [&](hn::Mask<decltype(d)> mask) {
+    return begin + static_cast<std::size_t>(std::max<std::intptr_t>(hn::FindFirstTrue(d, mask), 0));
+  };
+  const std::size_t at_before = at(hn::And(is_before, hn::Eq(s, before)));
+  const std::size_t at_after = at(hn::And(is_after, hn::Eq(s, after)));
+  const bool has_after = !hn::AllFalse(d, is_after);
+  const float b = hn::GetLane(before), a = hn::GetLane(after);
+  const float error_before = all.error[at_before], error_after = has_after ? all.error[at_after] : 0;
+  // Each is too near to itself, and no other may be.
+  const auto near_before =
+      hn::And(is_before, hn::Not(hn::Gt(hn::Sub(s, before), hn::Add(error, hn::Set(d, error_before)))));
+  const auto near_after =
+      hn::And(is_after, hn::Not(hn::Gt(hn::Sub(after, s), hn::Add(error, hn::Set(d, error_after)))));
+  const bool in_order = (hn::CountTrue(d, near_before) == 1) & (hn::CountTrue(d, near_after) <= 1);
+  const bool passes = (all.s[at_before] < 0) & (!has_after | (all.s[at_after] > 0));
+  const float difference = a + b - 2 * a * b;
+  const float doubt = 1.01f * (error_before * (1 + 2 * a) + error_after * (1 + 2 * b));
+  found.away_from_centre = difference < 0;
+  found.triangle = all.triangle[found.away_from_centre ? at_after : at_before];
+  return in_order & passes & (std::abs(difference) > doubt) & (tally.winding == 1) &
+         (tally.crossings <= hn::MaxLanes(d));
+}
+
 /// Room for what decide() knows of near points.
 struct Tallies {
   std::array<Tally, points_per_batch> of;
@@ -258,9 +294,11 @@ HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size
     if (at.doubtful) continue;
     if (tally.crossings == 1 && !from_inside) {
       at.triangle = crossings.triangle[tally.end - 1];
-    } else {
-      at.doubtful = !leave(Ray(crossings, tally), cube.winding_at_centre, at);
+      continue;
     }
+    if (!from_inside && leave_simply(crossings, tally, at)) continue;
+    at.triangle = no_index;
+    at.doubtful = !leave(Ray(crossings, tally), cube.winding_at_centre, at);
   }
 }
 
