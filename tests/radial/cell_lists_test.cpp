@@ -144,28 +144,27 @@ Place place_of(const Vec3& v) {
   return {axis + (v[axis] < 0 ? 3 : 0), v[(axis + 1) % 3] / largest, v[(axis + 2) % 3] / largest};
 }
 
-TEST(DirectionPyramid, AnEntryHoldsAllDirectionsDisplacedByNoMoreThanItsWidth) {
+TEST(DirectionPyramid, AnEntryHoldsAllDirectionsDisplacedByNoMoreThanItsBorder) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  for (const int cells : {4, 12, 32}) {
+  for (const int cells : {1, 3, 4, 12, 32}) {
     const CubeMap map(cells);
     std::vector<RadiusWord> radii(map.cell_count());
     for (auto& word : radii)
       word = radius_word(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
     DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
-    for (int k = 0; k < 20000; ++k) {
-      const int level =
-          static_cast<int>(random() % static_cast<unsigned>(DirectionPyramid::level_count(cells)));
-      const int n = cells >> level;
+    for (int k = 0; k < 100000; ++k) {
+      const int step =
+          static_cast<int>(random() % static_cast<unsigned>(DirectionPyramid::step_count(cells)));
+      const int n = cells >> DirectionPyramid::level_of(step);
       const Place at = place_of({uniform(random), uniform(random), uniform(random)});
       const auto index = [&](double s) { return std::clamp(static_cast<int>((s + 1) * n / 2), 0, n - 1); };
-      const std::size_t start =
-          8 * (static_cast<std::size_t>(cells * cells) - static_cast<std::size_t>(n * n));
+      const std::size_t start = DirectionPyramid::start_of(step, cells);
       const RadiusWord entry =
           pyramid.data()[start + static_cast<std::size_t>((at.face * n + index(at.w)) * n + index(at.u))];
       // A direction displaced on the plane of the face, past its edges too.
-      const double width = 2.0 / n;
+      const double width = DirectionPyramid::border_of(step) * 2.0 / n;
       Vec3 displaced;
       displaced[at.face % 3] = at.face < 3 ? 1 : -1;
       displaced[(at.face + 1) % 3] = at.u + width * uniform(random);

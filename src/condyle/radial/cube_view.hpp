@@ -59,7 +59,7 @@ inline constexpr float form_error_of_translation = 24 * 0x1p-24f;
 
 struct CubeView {
   int cells_per_side;
-  int levels;                 ///< of the pyramid
+  int steps;                  ///< of the pyramid
   const RadiusWord* radii;    ///< of each cell
   const RadiusWord* pyramid;  ///< see DirectionPyramid
   const CellRow* row;

@@ -11,22 +11,23 @@ namespace condyle {
 /// Radii of ever larger pieces of a cube map, each piece with a border around it: one look tells about a
 /// whole cap of directions.
 ///
-/// Level k has n = N >> k cells along a side and starts at 8 (N^2 - n^2); there are levels as long as n is
-/// even and at least four. An entry holds the radii of its own 2^k x 2^k cells and of all directions whose
-/// coordinates on the face differ from one of its own by no more than the width of an entry, on other faces
-/// too.
+/// Step s has pieces of 2^k x 2^k cells, n = N >> k along a side. Its entry for a piece holds the radii of
+/// all directions whose coordinates on the face differ from one of the piece's own by no more than `border`
+/// pieces, on other faces too:
 ///
-///       +---+---+---+
-///       |   |   |   |      the entry of the middle piece covers all nine
-///       +---+---+---+
-///       |   | o-->  |      o may be displaced by a piece's width in both coordinates
-///       +---+---+---+
-///       |   |   |   |
-///       +---+---+---+
+///     step        0   1   2   3   4   5   6  ...       +---+---+---+---+---+
+///     k           0   0   0   1   1   2   2            |   |   | o-----> |   |    border 2: o may be
+///     displaced border      1   2   3   2   3   2   3            +---+---+---+---+---+     by two pieces
+///     both ways room, cells 1   2   3   4   6   8  12
+///
+/// There are pieces as long as n is even and at least four.
 class DirectionPyramid {
  public:
-  /// Four cells in each direction keep the rows of two faces that meet at an edge apart.
-  static int level_count(int cells_per_side) noexcept;
+  static int step_count(int cells_per_side) noexcept;
+  static int level_of(int step) noexcept { return step == 0 ? 0 : (step - 1) / 2; }
+  static int border_of(int step) noexcept { return step == 0 ? 1 : 2 + (step - 1) % 2; }
+  /// Where the entries of a step begin: face by face and row by row.
+  static std::size_t start_of(int step, int cells_per_side) noexcept;
   static std::size_t entry_count(int cells_per_side) noexcept;
 
   /// From the radii of each cell of a CubeMap. Linear in cells.
@@ -37,7 +38,7 @@ class DirectionPyramid {
 
  private:
   std::vector<RadiusWord> entry_;
-  std::vector<RadiusWord> piece_, coarser_;  // radii without borders, of the level at hand and of the next
+  std::vector<RadiusWord> piece_, coarser_;  // radii without borders, of the pieces at hand and of the next
 };
 
 }  // namespace condyle

@@ -1,6 +1,7 @@
 #include "condyle/radial/penetration_passes.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include <hwy/cache_control.h>
 
@@ -83,22 +84,29 @@ HWY_INLINE Floats dot(Floats x, Floats y, Floats z, float a, float b, float c) {
   return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
 }
 
-/// Level of the pyramid whose cells are at least as wide as a displacement on the face, given in cells of the
-/// finest level: the exponent above it. 2^k <= cells < 2^(k + 1) asks for level k + 1; less than one for 0.
-HWY_INLINE Ints level_for(Floats cells) {
-  const auto exponent = hn::ShiftRight<23>(hn::BitCast(di, cells));
-  return hn::Max(hn::Sub(exponent, hn::Set(di, 126)), hn::Zero(di));
+/// Step of the pyramid with room for a displacement on the face, given in cells: see DirectionPyramid. With k
+/// half the octaves above one cell that are begun, counting the second half from 3/2 on: 0 where there are
+/// none, 1 up to two cells, then k itself.
+HWY_INLINE Ints step_for(Floats cells) {
+  const auto one = std::bit_cast<std::int32_t>(1.0f);
+  const auto k = hn::ShiftRight<22>(hn::Sub(hn::BitCast(di, cells), hn::Set(di, one + 1)));
+  return hn::IfThenZeroElse(hn::Lt(k, hn::Zero(di)), hn::Max(k, hn::Set(di, 1)));
 }
 
-/// Index into the pyramid: level k has 6 n^2 cells, n = N >> k, and starts at 8 (N^2 - n^2).
-HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints level) {
+/// Index into the pyramid, see DirectionPyramid::start_of.
+HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints step) {
   const int finest = cube.cells_per_side;
-  const auto shift = hn::BitCast(du, level);
+  const auto pair = hn::Max(hn::Sub(step, hn::Set(di, 1)), hn::Zero(di));
+  const auto shift = hn::BitCast(du, hn::ShiftRight<1>(pair));
   const auto at_level = [&](Ints value) { return hn::BitCast(di, hn::Shr(hn::BitCast(du, value), shift)); };
   const auto n = at_level(hn::Set(di, finest));
   const auto row = at_level(column(place.w, finest)), col = at_level(column(place.u, finest));
-  const auto start = hn::ShiftLeft<3>(hn::Sub(hn::Set(di, finest * finest), hn::Mul(n, n)));
-  return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), row), n), col));
+  const auto squares = hn::Set(di, finest * finest), own = hn::Mul(n, n);
+  const auto before = hn::Add(hn::Set(di, 6 * finest * finest), hn::ShiftLeft<4>(hn::Sub(squares, own)));
+  const auto start = hn::IfThenZeroElse(hn::Eq(step, hn::Zero(di)), before);
+  // The second step of a level is as the first, six faces further on.
+  const auto face = hn::Add(place.face, hn::Mul(hn::And(pair, hn::Set(di, 1)), hn::Set(di, 6)));
+  return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(face, n), row), n), col));
 }
 
 /// A block's cap about R axis + t / |p| holds the directions of R p + t, and its radii grow as this says.
@@ -148,11 +156,11 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
   const auto cells = hn::Div(hn::Mul(hn::Mul(opening, hn::Set(d, finest_cells * (1 + 0x1p-10f))),
                                      hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))),
                              hn::Sub(one, opening));
-  const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
+  const auto step = step_for(hn::Add(cells, hn::Set(d, 0.01f)));
   certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
-  const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(level, hn::Set(di, cube.levels)));
+  const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(step, hn::Set(di, cube.steps)));
   const auto index =
-      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
+      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, step)));
   const auto entry = hn::GatherIndex(du, cube.pyramid, index);
   const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
                                radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
@@ -234,7 +242,7 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
         near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
       }
       if constexpr (remembering) {
-        const auto index = pyramid_index(cube, place, hn::Set(di, memory->level[blocks[i]]));
+        const auto index = pyramid_index(cube, place, hn::Set(di, memory->step[blocks[i]]));
         const auto around = hn::GatherIndex(du, cube.pyramid, index);
         stays_free &= hn::AllFalse(du, radii_meet(around, reach_word(code, code)));
       }
@@ -255,10 +263,10 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
     }
     if constexpr (remembering) {
       // Next time a longer respite is tried after one that was granted, a shorter one otherwise.
-      std::uint8_t& level = memory->level[blocks[i]];
-      memory->free_until[blocks[i]] = stays_free ? memory->turned + memory->reach[level] : -1.0f;
-      const int next = stays_free ? std::min(level + 1, memory->levels - 1) : std::max(level - 1, 0);
-      level = static_cast<std::uint8_t>(next);
+      std::uint8_t& step = memory->step[blocks[i]];
+      memory->free_until[blocks[i]] = stays_free ? memory->turned + memory->reach[step] : -1.0f;
+      const int next = stays_free ? std::min(step + 1, memory->steps - 1) : std::max(step - 1, 0);
+      step = static_cast<std::uint8_t>(next);
     }
   }
   found.count = count;

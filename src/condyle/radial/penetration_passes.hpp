@@ -51,10 +51,10 @@ void near_points(const CubeView& cube, const PointColumns& points, const FloatPo
 /// What is remembered of blocks along a motion, which has turned by so much.
 struct BlockMemory {
   float turned;
-  float* free_until;    ///< of each block; with room for a vector beyond the last
-  std::uint8_t* level;  ///< of the pyramid, at which each block is asked next
-  const float* reach;   ///< of each level
-  int levels;
+  float* free_until;   ///< of each block; with room for a vector beyond the last
+  std::uint8_t* step;  ///< of the pyramid, at which each block is asked next
+  const float* reach;  ///< of each step
+  int steps;
   float stride;  ///< for which a whole block is let go at once, where it is that far from the surface
 };
 

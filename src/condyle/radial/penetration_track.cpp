@@ -38,12 +38,13 @@ PenetrationTrack::PenetrationTrack(const RadialTable& table, const SortedPoints&
     : table_(table), points_(points), last_(Pose::Identity()) {
   table.require_closed();
   const int cells = table.cube_cells_per_side();
-  for (int k = 0; cells > 0 && k < DirectionPyramid::level_count(cells); ++k) {
-    reach_.push_back(reach_of_width(2.0 / (cells >> k)));
+  for (int k = 0; cells > 0 && k < DirectionPyramid::step_count(cells); ++k) {
+    const double piece = 2.0 / (cells >> DirectionPyramid::level_of(k));
+    reach_.push_back(reach_of_width(DirectionPyramid::border_of(k) * piece));
   }
   const std::size_t blocks = points.block_count(0);
   free_until_.resize(blocks + vector_room);
-  level_.resize(blocks);
+  step_.resize(blocks);
   forget();
 }
 
@@ -72,7 +73,7 @@ void PenetrationTrack::penetrations(const Pose& X_FM, Penetrations& out, Penetra
   const std::size_t blocks = points_.block_count(0);
   BlockMemory memory{static_cast<float>(turned_),
                      free_until_.data(),
-                     level_.data(),
+                     step_.data(),
                      reach_.data(),
                      static_cast<int>(reach_.size()),
                      stride};

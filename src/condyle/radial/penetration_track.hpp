@@ -27,10 +27,10 @@ class PenetrationTrack {
   const RadialTable& table_;
   const SortedPoints& points_;
   Pose last_;
-  double turned_ = 0;              // way of the motion since all was forgotten, as chords of the unit sphere
-  std::vector<float> free_until_;  // for each block, in the same measure
-  std::vector<std::uint8_t> level_;  // of the pyramid, at which a block is asked next
-  std::vector<float> reach_;         // of each level: chord that its entries have room for
+  double turned_ = 0;               // way of the motion since all was forgotten, as chords of the unit sphere
+  std::vector<float> free_until_;   // for each block, in the same measure
+  std::vector<std::uint8_t> step_;  // of the pyramid, at which a block is asked next
+  std::vector<float> reach_;        // of each step: chord that its entries have room for
 };
 
 }  // namespace condyle

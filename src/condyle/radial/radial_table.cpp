@@ -142,7 +142,7 @@ int RadialTable::find_winding_at_centre() const {
 }
 
 CubeView RadialTable::view_of(const CubeMap& map) const {
-  return {map.cells_per_side(),  DirectionPyramid::level_count(map.cells_per_side()),
+  return {map.cells_per_side(),  DirectionPyramid::step_count(map.cells_per_side()),
           lists_.radii.data(),   pyramid_.data(),
           lists_.row.data(),     lists_.triangle.data(),
           lists_.box.data(),     lists_.slant.data(),
