@@ -49,10 +49,16 @@ HWY_INLINE CubePlace place_on_cube(Floats x, Floats y, Floats z) {
   return {hn::Add(axis, negative), hn::Mul(u, inverse), hn::Mul(w, inverse)};
 }
 
-/// Column or row of `count` equal ones over [-1, 1].
+/// Column or row of `count` equal ones over [-1, 1], count up to 2^22. Added to 2^23, a float is rounded to a
+/// whole number, which its last bits then are; half a column less, it is rounded down. Where it is on a
+/// border, either side may come out.
 HWY_INLINE Ints column(Floats u, int count) {
-  const auto at = hn::Mul(hn::Add(u, hn::Set(d, 1.0f)), hn::Set(d, 0.5f * static_cast<float>(count)));
-  return hn::Min(hn::Max(hn::ConvertTo(di, at), hn::Zero(di)), hn::Set(di, count - 1));
+  constexpr float shift = 0x1p23f;
+  const float half = 0.5f * static_cast<float>(count);
+  const auto half_less = hn::MulAdd(u, hn::Set(d, half), hn::Set(d, half - 0.5f));
+  const auto whole = hn::Sub(hn::BitCast(di, hn::Add(half_less, hn::Set(d, shift))),
+                             hn::Set(di, std::bit_cast<std::int32_t>(shift)));
+  return hn::Min(hn::Max(whole, hn::Zero(di)), hn::Set(di, count - 1));
 }
 
 HWY_INLINE Ints radius_code(const RadiusScale& scale, Floats squared) {

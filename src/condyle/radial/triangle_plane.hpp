@@ -13,8 +13,8 @@ namespace triangle_plane {
 
 /// Beyond these, products of the conditions could overflow or vanish.
 inline constexpr double least_square = 0x1p-240, greatest_square = 0x1p240;
-/// See scaled_normal: squares of 8 and 4.
-inline constexpr double most_sliver = 64, most_oblique = 16;
+/// See scaled_normal: squares of its two 8s.
+inline constexpr double most_sliver = 64, most_oblique = 64;
 
 inline double dot(const Vec3& a, const Vec3& b) noexcept {
   return (a.x() * b.x() + a.y() * b.y()) + a.z() * b.z();
@@ -34,9 +34,9 @@ inline double as_two_floats(double value) noexcept {
 ///
 /// With u = 2^-53, (b - a) x (c - a) errs by at most 6u |b - a| |c - a|, and D, its product with a, by 4u |a|
 /// |N| and what N errs by. The conditions are |b - a| |c - a| <= 8 |N| (no sliver) and |D| >= |N| max(|a|,
-/// |b|, |c|) / 4: no ray through the triangle is more than 75.5 degrees off its normal. So N errs by 48u, D
-/// by 208u, the quotient by 258u, of their size; two floats add 2^-49, a product with v 3u; and as that is at
-/// least a quarter of its terms' size, the fraction | v . N | / |D| errs by less than 1200u, 1.4e-13, of
+/// |b|, |c|) / 8: no ray through the triangle is more than 82.8 degrees off its normal. So N errs by 48u, D
+/// by 416u, the quotient by 466u, of their size; two floats add 2^-49, a product with v 3u; and as that is at
+/// least an eighth of its terms' size, the fraction | v . N | / |D| errs by less than 4000u, 4.5e-13, of
 /// itself.
 ///
 /// The same operations in the same order as measure_triangles() has them in vectors.
@@ -56,11 +56,11 @@ inline Vec3 scaled_normal(const Vec3& a, const Vec3& b, const Vec3& c) noexcept 
 }
 
 /// Signed way from v along its ray, outwards positive, to the plane of a triangle that the ray crosses. NaN
-/// where the plane's radius is more than eight times that of v, or its normal NaN: otherwise within 1e-12 of
+/// where the plane's radius is more than twice that of v, or its normal NaN: otherwise within 1e-12 of
 /// |v|.
 inline double gap_to_plane(const Vec3& v, const Vec3& scaled_normal) noexcept {
   const double fraction = std::abs(triangle_plane::dot(v, scaled_normal));
-  if (!(fraction >= 0.125)) return std::numeric_limits<double>::quiet_NaN();
+  if (!(fraction >= 0.5)) return std::numeric_limits<double>::quiet_NaN();
   return (1 - fraction) / fraction * std::sqrt(triangle_plane::dot(v, v));
 }
 
