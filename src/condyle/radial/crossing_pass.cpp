@@ -60,12 +60,36 @@ std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std:
   return count;
 }
 
+/// What lists and forms are asked with, of all near points at once.
+struct Asked {
+  alignas(64) BatchArray<std::uint32_t> slant;
+  alignas(64) BatchArray<float> bound;  ///< error of forms over the sum of their coefficients' magnitudes
+};
+
+HWY_INLINE void prepare(const NearPoints& points, float form_bound, Asked& out) {
+  constexpr hn::RebindToFloat<DU> d;
+  const auto byte = hn::Set(du, 255);
+  for (std::size_t i = 0; i < points.count; i += hn::Lanes(du)) {
+    // As slant_of_point().
+    const Words box = hn::Load(du, points.box.data() + i);
+    const Words u = hn::And(box, byte), w = hn::And(hn::ShiftRight<16>(box), byte);
+    const Words sum = hn::ShiftRight<1>(hn::Add(u, w));
+    const Words difference = hn::ShiftRight<1>(hn::Add(hn::Sub(u, w), byte));
+    const Words of_sum = hn::Or(sum, hn::ShiftLeft<8>(hn::Sub(byte, sum)));
+    const Words of_difference = hn::Or(difference, hn::ShiftLeft<8>(hn::Sub(byte, difference)));
+    hn::Store(hn::Or(of_sum, hn::ShiftLeft<16>(of_difference)), du, out.slant.data() + i);
+    const auto magnitude = [&](const auto& of) { return hn::Abs(hn::Load(d, of.data() + i)); };
+    const auto largest = hn::Max(hn::Max(magnitude(points.x), magnitude(points.y)), magnitude(points.z));
+    hn::Store(hn::Mul(hn::Set(d, form_bound), largest), d, out.bound.data() + i);
+  }
+}
+
 /// Pairs of one near point with triangles that may say something of it, written behind the `count` of the
 /// others. Returns how many there are then; more than fit, where there are too many.
-HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, std::size_t i, std::size_t count,
-                            Pairs& pairs) {
+HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, const Asked& asked, std::size_t i,
+                            std::size_t count, Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]];
-  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, slant_of_point(points.box[i]));
+  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, asked.slant[i]);
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   const Words relevant = hn::Set(du, points.relevant[i]);
   for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
@@ -103,9 +127,8 @@ HWY_INLINE void transpose(D, [[maybe_unused]] std::array<V, 4>& v) {
 #endif
 }
 
-/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order. `bound` is the
-/// error of each near point's forms, over the sum of their coefficients' magnitudes.
-HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const float* bound, Pairs& pairs,
+/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
+HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Asked& asked, Pairs& pairs,
                       Crossings& out) {
   // Four pairs side by side; without vectors one, of which each form is a "vector".
   constexpr hn::CappedTag<float, 4> d4;
@@ -131,7 +154,8 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const floa
       value[k] =
           hn::MulAdd(hn::Set(d4, points.x[point]), x,
                      hn::MulAdd(hn::Set(d4, points.y[point]), y, hn::Mul(hn::Set(d4, points.z[point]), z)));
-      error[k] = hn::Mul(hn::Set(d4, bound[point]), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
+      error[k] =
+          hn::Mul(hn::Set(d4, asked.bound[point]), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
     }
     transpose(d4, value), transpose(d4, error);
     const auto below =
@@ -307,11 +331,8 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
   Pairs pairs;
   Crossings crossings;
   Tallies tallies;
-  alignas(64) std::array<float, points_per_batch> bound;
-  for (std::size_t i = 0; i < points.count; ++i) {
-    bound[i] =
-        form_bound * std::max(std::max(std::abs(points.x[i]), std::abs(points.y[i])), std::abs(points.z[i]));
-  }
+  Asked asked;
+  prepare(points, form_bound, asked);
   std::size_t tried = 0;
   found.count = 0;
   for (std::size_t first = 0; first < points.count;) {
@@ -322,11 +343,11 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
       const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
       hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
       hwy::Prefetch(cube.triangle + row_ahead), hwy::Prefetch(cube.nearest + row_ahead);
-      const std::size_t count = pair(cube, points, last, pairs.count, pairs);
+      const std::size_t count = pair(cube, points, asked, last, pairs.count, pairs);
       if (count > Pairs::most) break;
       pairs.count = count;
     }
-    cross(cube, points, bound.data(), pairs, crossings);
+    cross(cube, points, asked, pairs, crossings);
     decide(cube, points, first, last, crossings, tallies, found);
     tried += pairs.count;
     if (last == first) {
