@@ -24,7 +24,8 @@ std::size_t CellLists::entry_count() const noexcept {
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
          (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
-         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3);
+         forms.size() * sizeof(ConeForms) + triangle_radii.size() * sizeof(TriangleRadii) +
+         corner.size() * sizeof(Vec3) + face.size() + room.size() * sizeof(FaceRoom);
 }
 
 void CellLists::resize_entries(std::size_t count) {
@@ -54,13 +55,13 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
   if (at.last == row_end[cell]) {
     // To the end, with room for as many again.
     const auto first = static_cast<std::uint32_t>(triangle.size() - vector_room);
-    const std::uint32_t length = at.last - at.first, room = 2 * length + 4;
-    resize_entries(first + room);
+    const std::uint32_t length = at.last - at.first, capacity = 2 * length + 4;
+    resize_entries(first + capacity);
     for (std::uint32_t i = 0; i < length; ++i) {
       set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
     }
     at = {first, first + length};
-    row_end[cell] = first + room;
+    row_end[cell] = first + capacity;
   }
   set_entry(at.last++, triangle_listed, octagon);
 }

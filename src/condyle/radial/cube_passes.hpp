@@ -18,9 +18,9 @@ struct alignas(16) FacePoint {
   float w() const noexcept { return at[1]; }
 };
 
-/// Bounds of a triangle's squared radii, rounded outwards by list_margin, and its longest edge squared.
+/// Bounds of a triangle's squared radii, rounded outwards by list_margin.
 struct TriangleRadii {
-  float least, greatest, longest_edge;
+  float least, greatest;
 };
 
 struct MeshView {
@@ -31,38 +31,95 @@ struct MeshView {
   std::size_t triangles;
 };
 
+/// Where each vertex may be on the cube: its face, and the least and the greatest of its u, w, u + w and
+/// u - w there. Both are its place where it is not to move.
+struct PlacedVertices {
+  const std::uint8_t* face;
+  const FacePoint *low, *high;
+};
+
+/// Where a vertex may be on its face.
+struct FaceRoom {
+  float low_u, low_w, high_u, high_w;
+};
+
 /// A triangle in one cell, before it is sorted into that cell's list.
 struct ListedTriangle {
   std::uint32_t cell, triangle;
   CellOctagon octagon;
 };
 
-/// Lists that are being made: room for the entries, and what is gathered for each cell.
+/// Lists that are being made: room for the entries, and their number in each cell.
 struct Listing {
   int cells_per_side;
   ListedTriangle* entry;
   std::size_t count;
-  // For each cell, and four spare ones for cells that a triangle turns out not to meet.
-  std::uint32_t* length;     ///< number of entries
-  float *least, *greatest;   ///< squared radii
+  std::uint32_t* length;     ///< for each cell, and four spare ones for cells that a triangle does not meet
   std::uint32_t* elsewhere;  ///< triangles not listed here: on several faces, or larger than two cells
   std::size_t elsewhere_count;
+};
+
+/// A triangle seen on a face: its corners there, how far each of them may be from that, and what it takes of
+/// the face at most.
+struct FaceTriangle {
+  std::uint32_t triangle;
+  std::int32_t face;
+  float u[3], w[3];
+  float slack_u, slack_w;
+  FaceParts parts;
+};
+
+/// Entries that one call may write beyond those it makes.
+inline constexpr std::size_t listing_room = 16;
+
+/// Rows of lists, and what is known of the triangles in them.
+struct ListedRadii {
+  int cells_per_side;
+  const CellRow* row;
+  const std::uint32_t* triangle;
+  const ConeForms* forms;
+  const TriangleRadii* radii;
+  const float* inverse_length;  ///< see CellCorners
+  float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
+};
+
+/// Squared radii of the surface in a cell; infinity and 0 where there is none.
+struct CellRadii {
+  float least, greatest;
 };
 
 /// Faces (0 to 5) and places of all vertices.
 void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out);
 
-/// Forms and radii of triangles [first, last).
+/// Vertices that are not in their rooms, in ascending order; `out` has room for all. The face is that of the
+/// room, and places are rounded as place_vertices() does.
+std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
+                         std::uint32_t* out);
+
+/// Forms and radii of triangles [first, last), each at its own number; whether all forms are numbers.
 ///
 /// No point of a triangle is nearer than the vertices are by more than its edges say: for p = sum l_i v_i,
 /// |p|^2 = sum l_i |v_i|^2 - sum l_i l_j |v_i - v_j|^2, and the last sum is at most L^2 / 3, L the longest
 /// edge.
-void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
+bool measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
                        TriangleRadii* radii);
 
 /// Lists those triangles of [first, last) that lie within one face, off its edges, and in at most 2 x 2
-/// cells; `radii` starts at the first one. At most four entries for each.
-void list_small_triangles(const MeshView& mesh, const std::uint8_t* face, const FacePoint* vertices,
-                          std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing);
+/// cells. At most four entries for each.
+void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
+                          std::size_t last, Listing& listing);
+
+/// Lists triangles seen on a face in the cells that they meet: those of their octagon, but for cells beyond
+/// one of their edges.
+void list_face_triangles(const FaceTriangle* triangles, std::size_t count, Listing& listing);
+
+/// Radii of the surface in cells [first, last): of each listed triangle those of its plane within the cell,
+/// or those of the triangle where they are closer. `out` starts at the first cell.
+///
+/// In unit direction d a plane has the radius 1 / (n . d), n its form. d is a sum of the cell's corner
+/// directions with weights >= 0, whose sum is at least 1 and at most 1 / cosine: so n . d lies between the
+/// least n . corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and
+/// the floats.
+void measure_cells(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out);
 
 }  // namespace condyle

@@ -156,8 +156,9 @@ class RadialTable {
   }
   void require_closed() const;
   void require_centre_off_triangle(Index triangle) const;
-  void list_again();
-  void prepare_radii();
+  void require_centre_off_surface() const;
+  void finish_lists();
+  void find_all_radii();
   int find_winding_at_centre() const;
   int cube_cells_per_side() const noexcept {
     const auto* cube = std::get_if<CubeMap>(&map_);

@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <limits>
+
+#include "condyle/radial/cube_passes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "condyle/radial/cell_radii_pass.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// As many triangles at a time as most rows have, or half of them.
+using D = hn::CappedTag<float, 16>;
+using DI = hn::RebindToSigned<D>;
+using Floats = hn::Vec<D>;
+constexpr D d;
+constexpr DI di;
+constexpr std::size_t lanes = hn::MaxLanes(d);
+
+/// A cell of a face, for the forms of planes: which coordinate is which there, and its corners.
+struct CellCorners {
+  int axis;
+  float sign, u, w, width;
+  float
+      inverse[4];  ///< one over the lengths of (sign, u, w), and of those a width further in u, in w, in both
+
+  CellCorners(const ListedRadii& lists, int face, int row, int column)
+      : axis(face % 3), sign(face < 3 ? 1.0f : -1.0f) {
+    const int n = lists.cells_per_side;
+    width = 2.0f / static_cast<float>(n);
+    u = static_cast<float>(column) * width - 1, w = static_cast<float>(row) * width - 1;
+    const float* at = lists.inverse_length + row * (n + 1) + column;
+    inverse[0] = at[0], inverse[1] = at[1], inverse[2] = at[n + 1], inverse[3] = at[n + 2];
+  }
+};
+
+struct Bounds {
+  Floats least, greatest;
+};
+
+/// Of planes n . p = 1, within the cell; least <= 0, or greatest < 0, where there is none.
+HWY_INLINE Bounds radii_of_planes(const CellCorners& cell, float cosine, Floats forms_n, Floats n_u,
+                                  Floats n_w) {
+  const auto set = [](float value) { return hn::Set(d, value); };
+  const auto n = hn::Mul(forms_n, set(cell.sign));
+  const auto margin = hn::Mul(set(0x1p-14f), hn::Add(hn::Abs(n), hn::Add(hn::Abs(n_u), hn::Abs(n_w))));
+  const auto corner = hn::Add(n, hn::Add(hn::Mul(n_u, set(cell.u)), hn::Mul(n_w, set(cell.w))));
+  const auto to_u = hn::Mul(n_u, set(cell.width)), to_w = hn::Mul(n_w, set(cell.width));
+  const auto further = hn::Add(corner, to_w);
+  const auto a = hn::Mul(corner, set(cell.inverse[0]));
+  const auto b = hn::Mul(hn::Add(corner, to_u), set(cell.inverse[1]));
+  const auto c = hn::Mul(further, set(cell.inverse[2]));
+  const auto e = hn::Mul(hn::Add(further, to_u), set(cell.inverse[3]));
+  const auto low = hn::Min(hn::Min(a, b), hn::Min(c, e)), high = hn::Max(hn::Max(a, b), hn::Max(c, e));
+  // The form is positive where rays leave the solid, negative where they enter.
+  const auto enters = hn::Lt(hn::Add(high, low), hn::Zero(d));
+  const auto least = hn::IfThenElse(enters, hn::Neg(high), low);
+  const auto greatest = hn::IfThenElse(enters, hn::Neg(low), high);
+  return {hn::Div(set(cosine), hn::Add(greatest, margin)), hn::Div(set(1), hn::Sub(least, margin))};
+}
+
+HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& cell, CellRow row) {
+  const float infinity = std::numeric_limits<float>::infinity();
+  auto all_least = hn::Set(d, infinity), all_greatest = hn::Zero(d);
+  const float* plane = &lists.forms->x[3];
+  const float *along = plane + 4 * cell.axis, *along_u = plane + 4 * ((cell.axis + 1) % 3);
+  const float *along_w = plane + 4 * ((cell.axis + 2) % 3), *radii = &lists.radii->least;
+  for (std::uint32_t i = row.first; i < row.last; i += lanes) {
+    const auto there = hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i)));
+    const auto listed = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(lists.triangle) + i);
+    const auto triangle = hn::IfThenElseZero(there, listed);
+    constexpr int stride = sizeof(ConeForms) / sizeof(float);
+    const auto at = hn::Mul(triangle, hn::Set(di, stride)), at_radii = hn::Add(triangle, triangle);
+    const auto planes = radii_of_planes(cell, lists.cosine, hn::GatherIndex(d, along, at),
+                                        hn::GatherIndex(d, along_u, at), hn::GatherIndex(d, along_w, at));
+    auto least = hn::GatherIndex(d, radii, at_radii), greatest = hn::GatherIndex(d, radii + 1, at_radii);
+    const auto square = [](Floats radius, float widened) {
+      return hn::Mul(hn::Mul(radius, radius), hn::Set(d, widened));
+    };
+    // Not so for a plane that floats do not know.
+    const auto is_nearest = hn::Gt(planes.least, hn::Zero(d)),
+               is_furthest = hn::Gt(planes.greatest, hn::Zero(d));
+    least = hn::Max(least, hn::IfThenElseZero(is_nearest, square(planes.least, 1 - 0x1p-16f)));
+    greatest =
+        hn::IfThenElse(is_furthest, hn::Min(greatest, square(planes.greatest, 1 + 0x1p-16f)), greatest);
+    const auto is_listed = hn::RebindMask(d, there);
+    all_least = hn::Min(all_least, hn::IfThenElse(is_listed, least, all_least));
+    all_greatest = hn::Max(all_greatest, hn::IfThenElseZero(is_listed, greatest));
+  }
+  return {hn::GetLane(hn::MinOfLanes(d, all_least)), hn::GetLane(hn::MaxOfLanes(d, all_greatest))};
+}
+
+void measure_cells_any(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out) {
+  const auto n = static_cast<std::size_t>(lists.cells_per_side);
+  for (std::size_t cell = first; cell < last; ++cell) {
+    const CellCorners corners(lists, static_cast<int>(cell / (n * n)), static_cast<int>(cell / n % n),
+                              static_cast<int>(cell % n));
+    out[cell - first] = radii_of_row(lists, corners, lists.row[cell]);
+  }
+}
+
+}  // namespace
+}  // namespace condyle::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace condyle {
+
+HWY_EXPORT(measure_cells_any);
+
+void measure_cells(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out) {
+  HWY_DYNAMIC_DISPATCH(measure_cells_any)(lists, first, last, out);
+}
+
+}  // namespace condyle
+#endif

@@ -1,0 +1,225 @@
+#include "condyle/radial/cube_listing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace condyle {
+namespace {
+
+/// Triangles looked at together: what is found of them stays in the nearest cache.
+constexpr std::size_t triangles_per_chunk = 1024;
+
+/// See Listing.
+constexpr std::size_t spare_cells = 4;
+
+constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
+
+/// Rounding of a place on a face: 4 u, u = 2^-24, that of a division and of the floats divided; for vertices
+/// that are given as they are placed.
+constexpr double place_error = 0x1p-22;
+
+/// Where a corner may be: within `slack` of its direction, on that one's face.
+struct PlacedCorner {
+  Vec3 direction;  ///< the face's coordinate is 1 or -1
+  double slack;
+};
+
+PlacedCorner corner_at(const PlacedVertices& placed, Index vertex) {
+  const FacePoint &low = placed.low[vertex], &high = placed.high[vertex];
+  const int face = placed.face[vertex], axis = face % 3;
+  PlacedCorner corner;
+  corner.direction[axis] = face < 3 ? 1 : -1;
+  corner.direction[(axis + 1) % 3] = 0.5 * (double{low.u()} + double{high.u()});
+  corner.direction[(axis + 2) % 3] = 0.5 * (double{low.w()} + double{high.w()});
+  corner.slack =
+      0.5 * std::max(double{high.u()} - double{low.u()}, double{high.w()} - double{low.w()}) + place_error;
+  return corner;
+}
+
+/// A face is seen by those rays whose largest coordinate is its own: a triangle with all corners beyond one
+/// side of that pyramid keeps off it.
+bool keeps_off(const std::array<PlacedCorner, 3>& corner, int face) {
+  const int axis = face % 3;
+  const double widening = 1 + 2 * double{list_margin}, sign = (face < 3 ? 1 : -1) * widening;
+  for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
+    const auto all = [&](double way) {
+      return std::all_of(corner.begin(), corner.end(), [&](const PlacedCorner& c) {
+        return sign * c.direction[axis] + (widening + 1) * c.slack < way * c.direction[side];
+      });
+    };
+    if (all(1) || all(-1)) return true;
+  }
+  return false;
+}
+
+/// With all corners well in front of the other faces' planes, their places on this face are those of a plane
+/// triangle, within four times its size.
+bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
+  return std::all_of(corner.begin(), corner.end(), [&](const PlacedCorner& c) {
+    const double depth = face < 3 ? c.direction[face % 3] : -c.direction[face % 3];
+    return 4 * (depth - c.slack) >= c.direction.cwiseAbs().maxCoeff();
+  });
+}
+
+/// Where the triangle is seen on a face that it is in front of. A corner (depth, u, w) that is displaced by
+/// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
+FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index triangle) {
+  const int axis = face % 3;
+  FaceTriangle seen{triangle, face, {}, {}, 0, 0, {}};
+  const auto slack = [](double at, double depth, double s) {
+    return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double depth = std::abs(corner[k].direction[axis]);
+    const double u = corner[k].direction[(axis + 1) % 3] / depth;
+    const double w = corner[k].direction[(axis + 2) % 3] / depth;
+    seen.u[k] = static_cast<float>(u), seen.w[k] = static_cast<float>(w);
+    seen.slack_u = std::max(seen.slack_u, slack(u, depth, corner[k].slack));
+    seen.slack_w = std::max(seen.slack_w, slack(w, depth, corner[k].slack));
+  }
+  return seen;
+}
+
+struct Extent {
+  float least, greatest;
+};
+
+Extent extent(float a, float b, float c, float margin) {
+  return {std::min({a, b, c}) - margin, std::max({a, b, c}) + margin};
+}
+
+/// Fills in the parts of the face that the triangle takes, widened; false where it keeps off the face.
+bool find_parts(FaceTriangle& t, int cells_per_side) {
+  const float margin_u = t.slack_u + list_margin, margin_w = t.slack_w + list_margin;
+  const Extent u = extent(t.u[0], t.u[1], t.u[2], margin_u), w = extent(t.w[0], t.w[1], t.w[2], margin_w);
+  const auto is_beside = [](const Extent& e) {
+    return e.greatest < -1 - list_margin || e.least > 1 + list_margin;
+  };
+  if (is_beside(u) || is_beside(w)) return false;
+  const float margin = margin_u + margin_w;
+  const Extent sum = extent(t.u[0] + t.w[0], t.u[1] + t.w[1], t.u[2] + t.w[2], margin);
+  const Extent difference = extent(t.u[0] - t.w[0], t.u[1] - t.w[1], t.u[2] - t.w[2], margin);
+  const float scale = 0.5f * static_cast<float>(cells_per_side * parts_per_cell);
+  const auto set = [&](std::size_t k, const Extent& e, float start, int most) {
+    // Corners may lie off the face.
+    const auto part = [&](float at) { return std::clamp(static_cast<int>((at + start) * scale), 0, most); };
+    t.parts.least[k] = part(e.least), t.parts.greatest[k] = part(e.greatest);
+  };
+  const int most = cells_per_side * parts_per_cell - 1;
+  set(0, u, 1, most), set(1, w, 1, most);
+  set(2, sum, 2, 2 * most + 1), set(3, difference, 2, 2 * most + 1);
+  return true;
+}
+
+std::size_t cells_in_box(const FaceParts& parts) {
+  const auto across = [&](std::size_t k) {
+    return static_cast<std::size_t>((parts.greatest[k] >> 8) - (parts.least[k] >> 8) + 1);
+  };
+  return across(0) * across(1);
+}
+
+}  // namespace
+
+MeshView view_of(const TriMesh& mesh) noexcept {
+  return {mesh.vertices.x.data(), mesh.vertices.y.data(),
+          mesh.vertices.z.data(), nullptr,
+          mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
+          mesh.triangles.size()};
+}
+
+CubeListing::CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed)
+    : mesh_(mesh),
+      map_(map),
+      placed_(placed),
+      n_(map.cells_per_side()),
+      view_(view_of(mesh)),
+      length_(map.cell_count() + spare_cells, 0) {}
+
+void CubeListing::list() {
+  const std::size_t triangles = mesh_.triangles.size();
+  entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
+  std::array<std::uint32_t, triangles_per_chunk> larger;
+  for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
+    const std::size_t last = std::min(first + triangles_per_chunk, triangles);
+    make_room(4 * triangles_per_chunk);
+    Listing small = listing();
+    small.elsewhere = larger.data();
+    list_small_triangles(view_, placed_, first, last, small);
+    count_ = small.count;
+    for (std::size_t i = 0; i < small.elsewhere_count; ++i) list_larger(larger[i]);
+    list_seen();
+  }
+}
+
+void CubeListing::make_room(std::size_t entries) {
+  const std::size_t needed = count_ + entries + listing_room;
+  if (entry_.size() < needed) entry_.resize(std::max(needed, entry_.size() + entry_.size() / 2));
+}
+
+void CubeListing::list_larger(Index triangle) {
+  if (!see_on_one_face(triangle) && !see_on_faces(triangle)) list_clipped(triangle);
+}
+
+/// False where it reaches over the face's edges.
+bool CubeListing::see_on_one_face(Index triangle) {
+  const Triangle& corner = mesh_.triangles[triangle];
+  const int face = placed_.face[corner[0]];
+  FaceTriangle seen{triangle, face, {}, {}, 0, 0, {}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FacePoint &low = placed_.low[corner[k]], &high = placed_.high[corner[k]];
+    const float furthest =
+        std::max({std::abs(low.u()), std::abs(low.w()), std::abs(high.u()), std::abs(high.w())});
+    if (placed_.face[corner[k]] != face || furthest >= 1 - 2 * list_margin) return false;
+    seen.u[k] = 0.5f * (low.u() + high.u()), seen.w[k] = 0.5f * (low.w() + high.w());
+    seen.slack_u = std::max(seen.slack_u, 0.5f * (high.u() - low.u()));
+    seen.slack_w = std::max(seen.slack_w, 0.5f * (high.w() - low.w()));
+  }
+  add_seen(seen);
+  return true;
+}
+
+/// False where it is too near to the plane between the centre and a face.
+bool CubeListing::see_on_faces(Index triangle) {
+  const Triangle& at = mesh_.triangles[triangle];
+  const std::array<PlacedCorner, 3> corner = {corner_at(placed_, at[0]), corner_at(placed_, at[1]),
+                                              corner_at(placed_, at[2])};
+  std::array<bool, 6> is_seen{};
+  for (int face = 0; face < 6; ++face) {
+    is_seen[static_cast<std::size_t>(face)] = !keeps_off(corner, face);
+    if (is_seen[static_cast<std::size_t>(face)] && !is_in_front(corner, face)) return false;
+  }
+  for (int face = 0; face < 6; ++face) {
+    if (!is_seen[static_cast<std::size_t>(face)]) continue;
+    FaceTriangle seen = seen_on(corner, face, triangle);
+    add_seen(seen);
+  }
+  return true;
+}
+
+void CubeListing::add_seen(FaceTriangle& seen) {
+  if (!find_parts(seen, n_)) return;
+  cells_of_seen_ += cells_in_box(seen.parts);
+  seen_.push_back(seen);
+}
+
+void CubeListing::list_seen() {
+  make_room(cells_of_seen_);
+  Listing larger = listing();
+  list_face_triangles(seen_.data(), seen_.size(), larger);
+  count_ = larger.count;
+  seen_.clear();
+  cells_of_seen_ = 0;
+}
+
+void CubeListing::list_clipped(Index triangle) {
+  has_clipped_ = true;
+  const Cone cone{mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
+  map_.visit_cells(cone, [&](const CellOverlap& overlap) {
+    make_room(1);
+    entry_[count_++] = {overlap.cell, triangle, whole_cell};
+    ++length_[overlap.cell];
+  });
+}
+
+}  // namespace condyle
