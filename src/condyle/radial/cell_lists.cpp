@@ -6,7 +6,7 @@ namespace condyle {
 namespace {
 
 /// Room beyond the last entry, for a vector that starts on it.
-constexpr std::size_t vector_room = 16;
+constexpr std::size_t vector_room = 32;
 
 /// One triangle in one cell, before it is sorted into that cell's list.
 struct Entry {
@@ -24,7 +24,7 @@ std::size_t CellLists::entry_count() const noexcept {
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
          (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
-         forms.size() * sizeof(ConeForms) + triangle_radii.size() * sizeof(TriangleRadii) +
+         forms.size() * sizeof(ConeForms) + plane.size() * sizeof(TrianglePlane) +
          corner.size() * sizeof(Vec3) + face.size() + room.size() * sizeof(FaceRoom);
 }
 
@@ -32,7 +32,7 @@ void CellLists::resize_entries(std::size_t count) {
   triangle.resize(count + vector_room);
   box.resize(count + vector_room);
   slant.resize(count + vector_room);
-  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, no_index, {0, 0});
+  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, 0, {0, 0});
 }
 
 void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {

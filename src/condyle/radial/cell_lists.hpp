@@ -21,11 +21,11 @@ struct CellLists {
   /// For a cube map alone, for its vector code, which reads up to a vector beyond the last entry.
   UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
   UninitialisedVector<ConeForms> forms;
-  UninitialisedVector<TriangleRadii> triangle_radii;
-  UninitialisedVector<Vec3> corner;   ///< the mesh's vertices again, each in one place
-  std::vector<float> inverse_length;  ///< of the directions to a face's cell corners
-  bool forms_are_numbers = false;     ///< all of them
-  bool starts_at_centre = false;      ///< No radius is too small: the centre is inside.
+  UninitialisedVector<TrianglePlane> plane;
+  UninitialisedVector<Vec3> corner;    ///< the mesh's vertices again, each in one place
+  std::vector<float> inverse_length;   ///< of the directions to a face's cell corners
+  std::vector<std::uint32_t> unknown;  ///< triangles whose forms were no numbers when all were measured
+  bool starts_at_centre = false;       ///< No radius is too small: the centre is inside.
 
   /// Where each vertex may be without its triangles being listed anew; none until they first move, while
   /// lists hold the triangles just where they are.

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <hwy/cache_control.h>
+
 #include "condyle/radial/cube_passes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -18,19 +20,21 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::CappedTag<float, 16>;
 using DI = hn::RebindToSigned<D>;
 using Floats = hn::Vec<D>;
+using Ints = hn::Vec<DI>;
 constexpr D d;
 constexpr DI di;
 constexpr std::size_t lanes = hn::MaxLanes(d);
+constexpr std::size_t prefetch_ahead = 16;
 
 /// A cell of a face, for the forms of planes: which coordinate is which there, and its corners.
 struct CellCorners {
-  int axis;
+  int axis, axis_u, axis_w;
   float sign, u, w, width;
   float
       inverse[4];  ///< one over the lengths of (sign, u, w), and of those a width further in u, in w, in both
 
   CellCorners(const ListedRadii& lists, int face, int row, int column)
-      : axis(face % 3), sign(face < 3 ? 1.0f : -1.0f) {
+      : axis(face % 3), axis_u((face + 1) % 3), axis_w((face + 2) % 3), sign(face < 3 ? 1.0f : -1.0f) {
     const int n = lists.cells_per_side;
     width = 2.0f / static_cast<float>(n);
     u = static_cast<float>(column) * width - 1, w = static_cast<float>(row) * width - 1;
@@ -64,32 +68,80 @@ HWY_INLINE Bounds radii_of_planes(const CellCorners& cell, float cosine, Floats 
   return {hn::Div(set(cosine), hn::Add(greatest, margin)), hn::Div(set(1), hn::Sub(least, margin))};
 }
 
+/// What is known of as many triangles as there are lanes.
+struct Planes {
+  Floats n[3];
+  Ints radii;
+};
+
+/// Side by side, then turned into columns: gathering each column takes several times as long.
+HWY_INLINE Planes load_planes(const TrianglePlane* planes, const std::uint32_t* triangle) {
+  Planes out;
+#if HWY_MAX_BYTES >= 64
+  constexpr hn::Full128<float> d4;
+  constexpr hn::Full256<float> d8;
+  constexpr hn::Repartition<double, D> d64;
+  const auto one = [&](std::size_t i) { return hn::Load(d4, planes[triangle[i]].n); };
+  // Block b of row k holds triangle 4 b + k.
+  const auto row = [&](std::size_t k) {
+    return hn::Combine(d, hn::Combine(d8, one(k + 12), one(k + 8)), hn::Combine(d8, one(k + 4), one(k)));
+  };
+  const auto a = row(0), b = row(1), c = row(2), e = row(3);
+  const auto ab_low = hn::BitCast(d64, hn::InterleaveLower(d, a, b));
+  const auto ab_high = hn::BitCast(d64, hn::InterleaveUpper(d, a, b));
+  const auto ce_low = hn::BitCast(d64, hn::InterleaveLower(d, c, e));
+  const auto ce_high = hn::BitCast(d64, hn::InterleaveUpper(d, c, e));
+  out.n[0] = hn::BitCast(d, hn::InterleaveLower(d64, ab_low, ce_low));
+  out.n[1] = hn::BitCast(d, hn::InterleaveUpper(d64, ab_low, ce_low));
+  out.n[2] = hn::BitCast(d, hn::InterleaveLower(d64, ab_high, ce_high));
+  out.radii = hn::BitCast(di, hn::InterleaveUpper(d64, ab_high, ce_high));
+#else
+  alignas(64) TrianglePlane rows[lanes];
+  for (std::size_t k = 0; k < lanes; ++k) rows[k] = planes[triangle[k]];
+  Floats radii;
+  hn::LoadInterleaved4(d, rows[0].n, out.n[0], out.n[1], out.n[2], radii);
+  out.radii = hn::BitCast(di, radii);
+#endif
+  return out;
+}
+
+/// Squared radii of a RadiusWord.
+HWY_INLINE Bounds radii_of_words(const RadiusScale& scale, Ints words) {
+  const auto most = hn::Set(di, greatest_radius_code);
+  const auto least = hn::And(words, most);
+  const auto greatest = hn::Sub(most, hn::And(hn::ShiftRight<16>(words), most));
+  const auto value = [&](Ints code) {
+    return hn::BitCast(d, hn::Add(hn::Set(di, scale.base), hn::ShiftLeftSame(code, scale.shift)));
+  };
+  const auto has_least = hn::RebindMask(d, hn::Gt(least, hn::Zero(di)));
+  const auto has_greatest = hn::RebindMask(d, hn::Lt(greatest, most));
+  const float infinity = std::numeric_limits<float>::infinity();
+  return {hn::IfThenElseZero(has_least, value(least)),
+          hn::IfThenElse(has_greatest, value(hn::Add(greatest, hn::Set(di, 1))), hn::Set(d, infinity))};
+}
+
 HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& cell, CellRow row) {
   const float infinity = std::numeric_limits<float>::infinity();
   auto all_least = hn::Set(d, infinity), all_greatest = hn::Zero(d);
-  const float* plane = &lists.forms->x[3];
-  const float *along = plane + 4 * cell.axis, *along_u = plane + 4 * ((cell.axis + 1) % 3);
-  const float *along_w = plane + 4 * ((cell.axis + 2) % 3), *radii = &lists.radii->least;
   for (std::uint32_t i = row.first; i < row.last; i += lanes) {
-    const auto there = hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i)));
-    const auto listed = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(lists.triangle) + i);
-    const auto triangle = hn::IfThenElseZero(there, listed);
-    constexpr int stride = sizeof(ConeForms) / sizeof(float);
-    const auto at = hn::Mul(triangle, hn::Set(di, stride)), at_radii = hn::Add(triangle, triangle);
-    const auto planes = radii_of_planes(cell, lists.cosine, hn::GatherIndex(d, along, at),
-                                        hn::GatherIndex(d, along_u, at), hn::GatherIndex(d, along_w, at));
-    auto least = hn::GatherIndex(d, radii, at_radii), greatest = hn::GatherIndex(d, radii + 1, at_radii);
+    const std::uint32_t* triangle = lists.triangle + i;
+    for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.plane + triangle[k + prefetch_ahead]);
+    const Planes planes = load_planes(lists.plane, triangle);
+    const auto is_listed = hn::RebindMask(d, hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i))));
+    const Bounds of_planes = radii_of_planes(cell, lists.cosine, planes.n[cell.axis], planes.n[cell.axis_u],
+                                             planes.n[cell.axis_w]);
+    const Bounds of_triangles = radii_of_words(lists.scale, planes.radii);
     const auto square = [](Floats radius, float widened) {
       return hn::Mul(hn::Mul(radius, radius), hn::Set(d, widened));
     };
-    // Not so for a plane that floats do not know.
-    const auto is_nearest = hn::Gt(planes.least, hn::Zero(d)),
-               is_furthest = hn::Gt(planes.greatest, hn::Zero(d));
-    least = hn::Max(least, hn::IfThenElseZero(is_nearest, square(planes.least, 1 - 0x1p-16f)));
-    greatest =
-        hn::IfThenElse(is_furthest, hn::Min(greatest, square(planes.greatest, 1 + 0x1p-16f)), greatest);
-    const auto is_listed = hn::RebindMask(d, there);
-    all_least = hn::Min(all_least, hn::IfThenElse(is_listed, least, all_least));
+    // Neither is so for a plane that floats do not know.
+    const auto is_nearest = hn::Gt(of_planes.least, hn::Zero(d));
+    const auto is_furthest = hn::Gt(of_planes.greatest, hn::Zero(d));
+    const auto nearest = hn::IfThenElseZero(is_nearest, square(of_planes.least, 1 - 0x1p-16f));
+    const auto furthest =
+        hn::IfThenElse(is_furthest, square(of_planes.greatest, 1 + 0x1p-16f), hn::Set(d, infinity));
+    const auto least = hn::Max(of_triangles.least, nearest), greatest = hn::Min(of_triangles.greatest, furthest);
+    all_least = hn::Min(all_least, hn::IfThenElse(is_listed, least, hn::Set(d, infinity)));
     all_greatest = hn::Max(all_greatest, hn::IfThenElseZero(is_listed, greatest));
   }
   return {hn::GetLane(hn::MinOfLanes(d, all_least)), hn::GetLane(hn::MaxOfLanes(d, all_greatest))};

@@ -34,8 +34,8 @@ ListedRadii listed_radii(const CubeMap& map, const CellLists& lists) {
   return {n,
           lists.row.data(),
           lists.triangle.data(),
-          lists.forms.data(),
-          lists.triangle_radii.data(),
+          lists.plane.data(),
+          lists.scale,
           lists.inverse_length.data(),
           cosine_to_corners(n)};
 }
@@ -83,16 +83,29 @@ class PartsInRooms {
   std::vector<FacePoint> low_, high_;
 };
 
-/// Where vertices are, and the forms and radii of all triangles.
+/// Radii of vertices, and of triangles where their edges do not come much nearer: those have no least radius
+/// of their own then.
+RadiusScale scale_of(std::span<const Vec3> vertices) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const Vec3& v : vertices) {
+    least = std::min(least, v.squaredNorm()), greatest = std::max(greatest, v.squaredNorm());
+  }
+  if (!(least <= greatest)) return {};
+  return {static_cast<float>(0.75 * least), static_cast<float>(greatest * (1 + 0x1p-15))};
+}
+
+/// Where vertices are, and the forms and planes of all triangles.
 void measure(const TriMesh& mesh, CellLists& lists) {
   lists.corner.resize(mesh.vertices.size());
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) lists.corner[i] = mesh.vertices[i];
+  lists.scale = scale_of(lists.corner);
   lists.forms.resize(mesh.triangles.size());
-  lists.triangle_radii.resize(mesh.triangles.size());
+  lists.plane.resize(mesh.triangles.size());
+  lists.unknown.clear();
   MeshView view = view_of(mesh);
   view.xyz = lists.corner.data()->data();
-  lists.forms_are_numbers =
-      measure_triangles(view, 0, mesh.triangles.size(), lists.forms.data(), lists.triangle_radii.data());
+  measure_triangles(view, 0, mesh.triangles.size(), lists.scale, lists.forms.data(), lists.plane.data(),
+                    lists.unknown);
 }
 
 void sort_into_rows(const CubeListing& listing, const CubeMap& map, CellLists& lists) {
@@ -232,13 +245,17 @@ void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
   for (const ListedTriangle& entry : listing.entries()) touched.push_back(entry.cell);
-  CellLists measured;
-  measure(parts.mesh(), measured);
+  UninitialisedVector<Vec3> corner(parts.mesh().vertices.size());
+  for (std::size_t i = 0; i < corner.size(); ++i) corner[i] = parts.mesh().vertices[i];
+  UninitialisedVector<ConeForms> forms(triangles.size());
+  UninitialisedVector<TrianglePlane> planes(triangles.size());
+  MeshView view = view_of(parts.mesh());
+  view.xyz = corner.data()->data();
+  std::vector<std::uint32_t> unknown;
+  measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), planes.data(), unknown);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    lists.forms[triangles[i]] = measured.forms[i];
-    lists.triangle_radii[triangles[i]] = measured.triangle_radii[i];
+    lists.forms[triangles[i]] = forms[i], lists.plane[triangles[i]] = planes[i];
   }
-  lists.forms_are_numbers &= measured.forms_are_numbers;
 }
 
 /// Whether any radii are others than before.
@@ -287,8 +304,6 @@ void find_radii(const CubeMap& map, CellLists& lists) {
     lists.least_squared = std::min(lists.least_squared, cell.least);
     lists.greatest_squared = std::max(lists.greatest_squared, cell.greatest);
   }
-  if (lists.least_squared <= lists.greatest_squared)
-    lists.scale = {lists.least_squared, lists.greatest_squared};
   lists.radii.resize(cells);
   for (Index cell = 0; cell < cells; ++cell) lists.radii[cell] = word_of(radii[cell], lists);
 }

@@ -1,6 +1,7 @@
 #include "condyle/radial/cube_passes.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <hwy/cache_control.h>
@@ -151,13 +152,22 @@ HWY_INLINE void store_interleaved(Doubles ab, Doubles bc, Doubles ca, Doubles pl
                         hn::DemoteTo(df, plane), df, out);
 }
 
-bool measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
-                           TriangleRadii* radii) {
+/// Codes of squared radii, within the scale.
+HWY_INLINE hn::Vec<hn::RebindToSigned<DF>> radius_codes(const RadiusScale& scale, Singles squared) {
+  constexpr hn::RebindToSigned<DF> di;
+  const auto steps =
+      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
+  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
+}
+
+void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last,
+                           const RadiusScale& radius_scale, ConeForms* forms, TrianglePlane* planes,
+                           std::vector<std::uint32_t>& unknown) {
   const auto nan = hn::Set(dd, std::numeric_limits<double>::quiet_NaN());
   alignas(64) std::int64_t corner[3][lanes];
   alignas(64) float packed[3][4 * lanes];
-  alignas(64) float packed_radii[2 * lanes];
-  bool all_known = true;
+  constexpr hn::RebindToSigned<DF> di;
+  alignas(64) std::int32_t words[lanes];
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
     for (std::size_t k = 0; k < lanes; ++k) {
@@ -190,7 +200,6 @@ bool measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     auto known = hn::And(hn::Gt(hn::Abs(volume), volume_floor), fits_floats(largest, smallest));
     known = hn::And(known, hn::And(well_known(n_ab, a, b), well_known(n_bc, b, c)));
     known = hn::And(known, hn::And(well_known(n_ca, c, a), well_known(n, ab, ac)));
-    all_known &= hn::AllTrue(dd, known);
     const auto scale = hn::IfThenElse(known, inverse, nan), plane = hn::Abs(scale);
     const auto store = [&](Doubles p, Doubles q, Doubles r, Doubles s, float* out) {
       store_interleaved(hn::Mul(p, scale), hn::Mul(q, scale), hn::Mul(r, scale), hn::Mul(s, plane), out);
@@ -203,17 +212,23 @@ bool measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const auto dip = hn::Mul(edge, hn::Set(dd, 1.0 / 3));
     const auto least = hn::Max(hn::Zero(dd), hn::Sub(hn::Min(aa, hn::Min(bb, cc)), dip));
     const auto greatest = hn::Max(aa, hn::Max(bb, cc));
-    hn::StoreInterleaved2(hn::DemoteTo(df, hn::Mul(least, hn::Set(dd, 1 - 0x1p-16))),
-                          hn::DemoteTo(df, hn::Mul(greatest, hn::Set(dd, 1 + 0x1p-16))), df, packed_radii);
+    const auto widened = [&](Doubles squared, double by) {
+      return radius_codes(radius_scale, hn::DemoteTo(df, hn::Mul(squared, hn::Set(dd, by))));
+    };
+    const auto to_greatest = hn::Sub(hn::Set(di, greatest_radius_code), widened(greatest, 1 + 0x1p-16));
+    hn::Store(hn::Or(widened(least, 1 - 0x1p-16), hn::ShiftLeft<16>(to_greatest)), di, words);
     for (std::size_t k = 0; k < count; ++k) {
       ConeForms& out = forms[t + k];
       std::copy_n(packed[0] + 4 * k, 4, out.x);
       std::copy_n(packed[1] + 4 * k, 4, out.y);
       std::copy_n(packed[2] + 4 * k, 4, out.z);
-      radii[t + k] = {packed_radii[2 * k], packed_radii[2 * k + 1]};
+      planes[t + k] = {{out.x[3], out.y[3], out.z[3]}, static_cast<RadiusWord>(words[k])};
+    }
+    if (hn::AllTrue(dd, known)) continue;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (std::isnan(packed[0][4 * k])) unknown.push_back(static_cast<std::uint32_t>(t + k));
     }
   }
-  return all_known;
 }
 
 }  // namespace
@@ -236,9 +251,9 @@ std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const F
   return HWY_DYNAMIC_DISPATCH(find_strayed_any)(mesh, face, room, out);
 }
 
-bool measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
-                       TriangleRadii* radii) {
-  return HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, forms, radii);
+void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
+                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown) {
+  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, scale, forms, planes, unknown);
 }
 
 }  // namespace condyle

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "condyle/radial/cube_view.hpp"
 
@@ -18,9 +19,10 @@ struct alignas(16) FacePoint {
   float w() const noexcept { return at[1]; }
 };
 
-/// Bounds of a triangle's squared radii, rounded outwards by list_margin.
-struct TriangleRadii {
-  float least, greatest;
+/// A triangle's plane, its lane 3 of ConeForms, and what squared radii it takes.
+struct alignas(16) TrianglePlane {
+  float n[3];
+  RadiusWord radii;
 };
 
 struct MeshView {
@@ -77,8 +79,8 @@ struct ListedRadii {
   int cells_per_side;
   const CellRow* row;
   const std::uint32_t* triangle;
-  const ConeForms* forms;
-  const TriangleRadii* radii;
+  const TrianglePlane* plane;
+  RadiusScale scale;            ///< of the planes' radii
   const float* inverse_length;  ///< see CellCorners
   float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
 };
@@ -96,13 +98,14 @@ void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out);
 std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
                          std::uint32_t* out);
 
-/// Forms and radii of triangles [first, last), each at its own number; whether all forms are numbers.
+/// Forms and planes of triangles [first, last), each at its own number; adds those whose forms are no numbers
+/// to `unknown`.
 ///
 /// No point of a triangle is nearer than the vertices are by more than its edges say: for p = sum l_i v_i,
 /// |p|^2 = sum l_i |v_i|^2 - sum l_i l_j |v_i - v_j|^2, and the last sum is at most L^2 / 3, L the longest
 /// edge.
-bool measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
-                       TriangleRadii* radii);
+void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
+                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown);
 
 /// Lists those triangles of [first, last) that lie within one face, off its edges, and in at most 2 x 2
 /// cells. At most four entries for each.

@@ -123,8 +123,11 @@ void RadialTable::find_all_radii() {
 
 void RadialTable::require_centre_off_surface() const {
   // A form that is a number has a plane that is certainly off the centre.
-  if (lists_.forms_are_numbers) return;
-  for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
+  if (std::holds_alternative<CubeMap>(map_)) {
+    for (const Index t : lists_.unknown) require_centre_off_triangle(t);
+  } else {
+    for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
+  }
 }
 
 void RadialTable::require_centre_off_triangle(Index t) const {
