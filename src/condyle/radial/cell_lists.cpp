@@ -60,6 +60,7 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
     for (std::uint32_t i = 0; i < length; ++i) {
       set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
     }
+    for (std::uint32_t i = length; i < capacity; ++i) set_entry(first + i, 0, {0, 0});
     at = {first, first + length};
     row_end[cell] = first + capacity;
   }

@@ -191,37 +191,49 @@ std::vector<Index> triangles_at(const TriMesh& mesh, std::span<const Index> vert
   return triangles;
 }
 
-/// Takes triangles out of the rows that their vertices' rooms put them in, and adds those cells to `touched`.
+/// Cells, each once.
+class CellSet {
+ public:
+  explicit CellSet(Index cells) : is_in_(cells) {}
+  void add(Index cell) {
+    if (is_in_[cell] == 0) cells_.push_back(cell);
+    is_in_[cell] = 1;
+  }
+  std::span<const Index> cells() const noexcept { return cells_; }
+
+ private:
+  std::vector<unsigned char> is_in_;
+  std::vector<Index> cells_;
+};
+
+/// Takes triangles out of the rows that their vertices' rooms put them in; adds those cells to `touched`.
 void unlist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
-            std::vector<Index>& touched) {
+            CellSet& touched) {
   const PartsInRooms parts(mesh, lists, triangles);
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
   for (const ListedTriangle& entry : listing.entries()) {
     lists.remove_entry(entry.cell, triangles[entry.triangle]);
-    touched.push_back(entry.cell);
+    touched.add(entry.cell);
   }
 }
 
 /// Puts triangles that are in no row into those of their vertices' rooms.
-void list_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
-               std::vector<Index>& touched) {
+void list_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists) {
   const PartsInRooms parts(mesh, lists, triangles);
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
   lists.has_clipped |= listing.has_clipped();
-  for (const ListedTriangle& entry : listing.entries()) {
+  for (const ListedTriangle& entry : listing.entries())
     lists.add_entry(entry.cell, triangles[entry.triangle], entry.octagon);
-    touched.push_back(entry.cell);
-  }
 }
 
 /// Lists anew the triangles at vertices that left their rooms.
 void relist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> strayed,
-            std::span<const Index> triangles, CellLists& lists, std::vector<Index>& touched) {
+            std::span<const Index> triangles, CellLists& lists, CellSet& touched) {
   unlist(mesh, map, triangles, lists, touched);
   give_room(mesh, map.cells_per_side(), strayed, lists);
-  list_some(mesh, map, triangles, lists, touched);
+  list_some(mesh, map, triangles, lists);
 }
 
 std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
@@ -240,11 +252,11 @@ std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
 
 /// Forms and radii of some triangles, and the cells that they are listed in.
 void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
-                  std::vector<Index>& touched) {
+                  CellSet& touched) {
   const PartsInRooms parts(mesh, lists, triangles);
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
-  for (const ListedTriangle& entry : listing.entries()) touched.push_back(entry.cell);
+  for (const ListedTriangle& entry : listing.entries()) touched.add(entry.cell);
   UninitialisedVector<Vec3> corner(parts.mesh().vertices.size());
   for (std::size_t i = 0; i < corner.size(); ++i) corner[i] = parts.mesh().vertices[i];
   UninitialisedVector<ConeForms> forms(triangles.size());
@@ -259,9 +271,7 @@ void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index
 }
 
 /// Whether any radii are others than before.
-bool find_radii_in(const CubeMap& map, std::vector<Index>& cells, CellLists& lists) {
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& lists) {
   const ListedRadii listed = listed_radii(map, lists);
   bool are_changed = false;
   for (const Index cell : cells) {
@@ -330,8 +340,9 @@ void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists) 
     give_room(mesh, map.cells_per_side(), strayed, lists);
     list_all_in_rooms(mesh, map, lists);
   } else if (!strayed.empty()) {
-    std::vector<Index> all(mesh.triangles.size()), touched;
+    std::vector<Index> all(mesh.triangles.size());
     std::iota(all.begin(), all.end(), Index{0});
+    CellSet touched(map.cell_count());
     relist(mesh, map, strayed, triangles_at(mesh, strayed, all), lists, touched);
   }
   if (lists.has_clipped) return list_cells(mesh, map, lists);
@@ -341,7 +352,7 @@ void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists) 
 bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
                      std::span<const Index> triangles, CellLists& lists) {
   for (const Index v : moved) lists.corner[v] = mesh.vertices[v];
-  std::vector<Index> touched;
+  CellSet touched(map.cell_count());
   if (!lists.has_clipped) {
     const std::vector<Index> strayed = strayed_among(mesh, lists, moved);
     if (!strayed.empty()) relist(mesh, map, strayed, triangles_at(mesh, strayed, triangles), lists, touched);
@@ -352,7 +363,7 @@ bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const In
     return true;
   }
   measure_some(mesh, map, triangles, lists, touched);
-  return find_radii_in(map, touched, lists);
+  return find_radii_in(map, touched.cells(), lists);
 }
 
 }  // namespace condyle

@@ -37,7 +37,8 @@ class DirectionPyramid {
 
  private:
   std::vector<RadiusWord> entry_;
-  std::vector<RadiusWord> piece_, coarser_;  // radii without borders, of the level at hand and of the next
+  std::vector<Index> beyond_;     // cells beyond those at the edges of faces, level by level
+  std::vector<RadiusWord> room_;  // for filling
 };
 
 }  // namespace condyle

@@ -86,13 +86,8 @@ void RadialTable::update(std::span<const Index> moved, PointsView positions) {
     lists_ = list_triangles(mesh_, map_);
     return finish_lists();
   }
-  std::vector<unsigned char> is_moved(mesh_.vertices.size());
-  for (const Index v : moved) is_moved[v] = 1;
-  std::vector<Index> triangles;
-  for (Index t = 0; t < mesh_.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    if ((is_moved[a] | is_moved[b] | is_moved[c]) != 0) triangles.push_back(t);
-  }
+  if (triangles_at_.empty()) triangles_at_ = VertexTriangles(mesh_);
+  const std::vector<Index> triangles = triangles_at_.of(moved);
   const bool are_radii_changed = follow_vertices(mesh_, *cube, moved, triangles, lists_);
   for (const Index t : triangles) require_centre_off_triangle(t);
   if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
@@ -234,8 +229,8 @@ void RadialTable::query_states(PointsView points, std::vector<PointState>& out) 
 RadialTableSize RadialTable::table_size() const noexcept {
   Index longest = 0;
   for (const CellRow& row : lists_.row) longest = std::max(longest, row.last - row.first);
-  return {lists_.row.size(), lists_.entry_count(), lists_.bytes() + pyramid_.size() * sizeof(RadiusWord),
-          longest};
+  return {lists_.row.size(), lists_.entry_count(),
+          lists_.bytes() + pyramid_.size() * sizeof(RadiusWord) + triangles_at_.bytes(), longest};
 }
 
 }  // namespace condyle

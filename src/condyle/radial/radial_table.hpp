@@ -9,6 +9,7 @@
 #include "condyle/core/angle.hpp"
 #include "condyle/core/point_state.hpp"
 #include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh/vertex_triangles.hpp"
 #include "condyle/radial/cell_lists.hpp"
 #include "condyle/radial/direction_map.hpp"
 #include "condyle/radial/direction_pyramid.hpp"
@@ -179,6 +180,7 @@ class RadialTable {
   std::variant<CartesianMap, CubeMap> map_;
   CellLists lists_;
   DirectionPyramid pyramid_;
+  VertexTriangles triangles_at_;  // from the first update of some vertices on
   std::optional<int> winding_at_centre_;
   std::optional<std::pair<Index, Index>> boundary_edge_;
 };
