@@ -138,11 +138,12 @@ CubeListing::CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVe
 
 void CubeListing::list() {
   const std::size_t triangles = mesh_.triangles.size();
-  entry_.resize(5 * triangles / 2 + 4 * triangles_per_chunk);
+  // Room for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
+  entry_.resize(6 * triangles);
   std::array<std::uint32_t, triangles_per_chunk> larger;
   for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
     const std::size_t last = std::min(first + triangles_per_chunk, triangles);
-    make_room(4 * triangles_per_chunk);
+    make_room(4 * (last - first));
     Listing small = listing();
     small.elsewhere = larger.data();
     list_small_triangles(view_, placed_, first, last, small);

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include <hwy/cache_control.h>
+
 #include "condyle/radial/cell_lists.hpp"
 #include "condyle/radial/cube_listing.hpp"
 
@@ -270,11 +272,19 @@ void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index
   }
 }
 
+/// How many cells before its turn the planes of a cell's triangles are fetched.
+constexpr std::size_t cells_ahead = 3;
+
 /// Whether any radii are others than before.
 bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& lists) {
   const ListedRadii listed = listed_radii(map, lists);
   bool are_changed = false;
-  for (const Index cell : cells) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    // Their triangles lie anywhere.
+    if (i + cells_ahead < cells.size()) {
+      for (const Index t : lists.of(cells[i + cells_ahead])) hwy::Prefetch(&lists.plane[t]);
+    }
+    const Index cell = cells[i];
     CellRadii radii{};
     measure_cells(listed, cell, cell + 1, &radii);
     const RadiusWord word = word_of(radii, lists);
