@@ -21,20 +21,25 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// How long before its turn a triangle's corners are fetched: they lie anywhere.
 constexpr std::size_t triangles_ahead = 24;
 
-/// octagon_in_cell() of a triangle in several cells.
+/// Parts of a face that triangles take, one in each lane or one in all.
+template <class DI>
+struct PartsInLanes {
+  hn::Vec<DI> least[4], greatest[4];
+};
+
+/// octagon_in_cell(), lane by lane.
 template <class DI>
 struct OctagonsInCells {
   using Ints = hn::Vec<DI>;
   hn::Mask<DI> meet;
   Ints box, slant;
 
-  HWY_INLINE OctagonsInCells(const FaceParts& parts, int n, Ints column, Ints row) {
+  HWY_INLINE OctagonsInCells(const PartsInLanes<DI>& parts, int n, Ints column, Ints row) {
     constexpr DI di;
     const auto set = [](int value) { return hn::Set(DI(), value); };
     const auto within = [&](Ints value, int most) {
       return hn::Min(hn::Max(value, hn::Zero(di)), set(most));
     };
-    const auto from = [&](int value, Ints start) { return hn::Sub(set(value), start); };
     const auto word = [&](Ints least_a, Ints greatest_a, Ints least_b, Ints greatest_b) {
       const auto a = hn::Or(least_a, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_a)));
       const auto b = hn::Or(least_b, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_b)));
@@ -42,80 +47,119 @@ struct OctagonsInCells {
     };
     const auto u = hn::ShiftLeft<8>(column), w = hn::ShiftLeft<8>(row);
     const auto sum = hn::Add(u, w), difference = hn::Add(hn::Sub(u, w), set(parts_per_cell * n - 255));
-    const auto least_sum = from(parts.least[2] - 2, sum), greatest_sum = from(parts.greatest[2] + 1, sum);
-    const auto least_difference = from(parts.least[3] - 1, difference);
-    const auto greatest_difference = from(parts.greatest[3] + 2, difference);
+    const auto least_sum = hn::Sub(parts.least[2], hn::Add(sum, set(2)));
+    const auto greatest_sum = hn::Sub(parts.greatest[2], hn::Sub(sum, set(1)));
+    const auto least_difference = hn::Sub(parts.least[3], hn::Add(difference, set(1)));
+    const auto greatest_difference = hn::Sub(parts.greatest[3], hn::Sub(difference, set(2)));
     const auto most = set(510);
     const auto before = hn::Or(hn::Lt(greatest_sum, hn::Zero(di)), hn::Lt(greatest_difference, hn::Zero(di)));
     meet = hn::Not(hn::Or(before, hn::Or(hn::Gt(least_sum, most), hn::Gt(least_difference, most))));
-    box = word(within(from(parts.least[0], u), 255), within(from(parts.greatest[0], u), 255),
-               within(from(parts.least[1], w), 255), within(from(parts.greatest[1], w), 255));
+    box = word(within(hn::Sub(parts.least[0], u), 255), within(hn::Sub(parts.greatest[0], u), 255),
+               within(hn::Sub(parts.least[1], w), 255), within(hn::Sub(parts.greatest[1], w), 255));
     const auto half = [&](Ints value) { return hn::ShiftRight<1>(within(value, 510)); };
     slant = word(half(least_sum), half(greatest_sum), half(least_difference), half(greatest_difference));
   }
 };
 
-void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
-                              std::size_t last, Listing& listing) {
+/// As many triangles, or cells of one, as are looked at together.
+using Lanes = hn::CappedTag<std::int32_t, 16>;
+using Words = hn::RebindToUnsigned<Lanes>;
+using LaneFloats = hn::RebindToFloat<Lanes>;
+constexpr std::size_t lanes = hn::MaxLanes(Lanes());
+
+/// Triangles one after the other: least and greatest part of each that it takes of its face, and that face,
+/// or -1 where it is on several.
+struct TriangleBatch {
+  alignas(64) std::int32_t least[lanes][4];
+  alignas(64) std::int32_t greatest[lanes][4];
+  alignas(64) std::int32_t face[lanes];
+};
+
+/// Triangles from the given one on; the last one again where there are not as many.
+HWY_INLINE void read_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
+                               std::size_t count, int cells_per_side, TriangleBatch& batch) {
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToSigned<decltype(d4)> di4;
-  constexpr hn::RebindToUnsigned<decltype(d4)> du4;
-  alignas(16) constexpr std::int32_t column_step[4] = {0, 1, 0, 1}, row_step[4] = {0, 0, 1, 1};
-  const int n = listing.cells_per_side;
-  const int last_part = n * parts_per_cell - 1;
-  const auto scale = hn::Set(d4, 0.5f * static_cast<float>(n * parts_per_cell));
+  const auto scale = hn::Set(d4, 0.5f * static_cast<float>(cells_per_side * parts_per_cell));
   alignas(16) constexpr float low_shift[4] = {1 - list_margin, 1 - list_margin, 2 - 2 * list_margin,
                                               2 - 2 * list_margin};
   alignas(16) constexpr float high_shift[4] = {1 + list_margin, 1 + list_margin, 2 + 2 * list_margin,
                                                2 + 2 * list_margin};
-  ListedTriangle* next = listing.entry + listing.count;
-  for (std::size_t t = first; t < last; ++t) {
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    const std::size_t t = first + std::min(lane, count - 1);
     const std::uint32_t* corner = mesh.corner + 3 * t;
     const std::uint32_t* later = mesh.corner + 3 * std::min(t + triangles_ahead, mesh.triangles - 1);
     for (int i = 0; i < 3; ++i) hwy::Prefetch(vertices.low + later[i]);
-    alignas(16) FaceParts parts;
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
+    for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d4)) {
       const auto least = [&](int i) { return hn::Load(d4, vertices.low[corner[i]].at + k); };
       const auto greatest = [&](int i) { return hn::Load(d4, vertices.high[corner[i]].at + k); };
       const auto first_of_all = hn::Min(least(0), hn::Min(least(1), least(2)));
       const auto last_of_all = hn::Max(greatest(0), hn::Max(greatest(1), greatest(2)));
       const auto low = hn::Mul(hn::Add(first_of_all, hn::Load(d4, low_shift + k)), scale);
       const auto high = hn::Mul(hn::Add(last_of_all, hn::Load(d4, high_shift + k)), scale);
-      hn::StoreU(hn::Max(hn::ConvertTo(di4, low), hn::Zero(di4)), di4, parts.least.data() + k);
-      hn::StoreU(hn::ConvertTo(di4, high), di4, parts.greatest.data() + k);
+      hn::Store(hn::ConvertTo(di4, low), di4, batch.least[lane] + k);
+      hn::Store(hn::ConvertTo(di4, high), di4, batch.greatest[lane] + k);
     }
     const int face = vertices.face[corner[0]];
-    const int i0 = parts.least[0] >> 8, j0 = parts.least[1] >> 8;
-    const int i1 = parts.greatest[0] >> 8, j1 = parts.greatest[1] >> 8;
+    const bool is_on_one = face == vertices.face[corner[1]] && face == vertices.face[corner[2]];
+    batch.face[lane] = is_on_one ? face : -1;
+  }
+}
+
+void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
+                              std::size_t last, Listing& listing) {
+  constexpr Lanes di;
+  constexpr Words du;
+  const int n = listing.cells_per_side;
+  const auto last_part = hn::Set(di, n * parts_per_cell - 1), one = hn::Set(di, 1), zero = hn::Zero(di);
+  TriangleBatch batch;
+  // Up to four cells of each, always worked out: which of them there are is not to be foretold.
+  alignas(64) std::uint32_t entry[4][4 * lanes], cell[4][lanes], met[4][lanes];
+  ListedTriangle* next = listing.entry + listing.count;
+  for (std::size_t t = first; t < last; t += lanes) {
+    const std::size_t count = std::min(lanes, last - t);
+    read_triangles(mesh, vertices, t, count, n, batch);
+    PartsInLanes<Lanes> parts;
+    hn::LoadInterleaved4(di, batch.least[0], parts.least[0], parts.least[1], parts.least[2], parts.least[3]);
+    hn::LoadInterleaved4(di, batch.greatest[0], parts.greatest[0], parts.greatest[1], parts.greatest[2],
+                         parts.greatest[3]);
+    const auto face = hn::Load(di, batch.face);
+    const auto i0 = hn::ShiftRight<8>(parts.least[0]), j0 = hn::ShiftRight<8>(parts.least[1]);
+    const auto i1 = hn::ShiftRight<8>(parts.greatest[0]), j1 = hn::ShiftRight<8>(parts.greatest[1]);
     // At the face's edge the widened triangle reaches the next face.
-    const bool at_edge = parts.least[0] == 0 || parts.least[1] == 0 || parts.greatest[0] >= last_part ||
-                         parts.greatest[1] >= last_part;
-    const bool on_one_face = face == vertices.face[corner[1]] && face == vertices.face[corner[2]];
-    if (!on_one_face || at_edge || i1 - i0 > 1 || j1 - j0 > 1) {
-      listing.elsewhere[listing.elsewhere_count++] = static_cast<std::uint32_t>(t);
-      continue;
+    const auto is_off_edges =
+        hn::And(hn::And(hn::Gt(parts.least[0], zero), hn::Gt(parts.least[1], zero)),
+                hn::And(hn::Lt(parts.greatest[0], last_part), hn::Lt(parts.greatest[1], last_part)));
+    const auto is_larger = hn::Or(hn::Gt(hn::Sub(i1, i0), one), hn::Gt(hn::Sub(j1, j0), one));
+    const auto is_small = hn::And(hn::And(is_off_edges, hn::Not(hn::Lt(face, zero))), hn::Not(is_larger));
+    if (!hn::AllTrue(di, is_small)) {
+      alignas(64) std::int32_t is_here[lanes];
+      hn::Store(hn::VecFromMask(di, is_small), di, is_here);
+      for (std::size_t k = 0; k < count; ++k) {
+        listing.elsewhere[listing.elsewhere_count] = static_cast<std::uint32_t>(t + k);
+        listing.elsewhere_count += is_here[k] == 0 ? 1 : 0;
+      }
     }
-    // Up to four cells, always worked out: which of them there are is not to be foretold.
-    alignas(16) std::uint32_t cell[4], met[4], entry[16];
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-      const auto i = hn::Add(hn::Set(di4, i0), hn::Load(di4, column_step + k));
-      const auto j = hn::Add(hn::Set(di4, j0), hn::Load(di4, row_step + k));
-      const auto spare = hn::Iota(di4, 6 * n * n + static_cast<std::int32_t>(k));
-      const OctagonsInCells<decltype(di4)> octagons(parts, n, i, j);
-      const auto in_box = hn::Not(hn::Or(hn::Gt(i, hn::Set(di4, i1)), hn::Gt(j, hn::Set(di4, j1))));
-      const auto meets = hn::And(in_box, octagons.meet);
-      const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di4, face * n), j), hn::Set(di4, n)), i);
-      const auto cells = hn::BitCast(du4, hn::IfThenElse(meets, own, spare));
-      hn::Store(cells, du4, cell + k);
-      hn::Store(hn::And(hn::BitCast(du4, hn::VecFromMask(di4, meets)), hn::Set(du4, 1)), du4, met + k);
-      hn::StoreInterleaved4(cells, hn::Set(du4, static_cast<std::uint32_t>(t)),
-                            hn::BitCast(du4, octagons.box), hn::BitCast(du4, octagons.slant), du4,
-                            entry + 4 * k);
+    const auto triangle = hn::Iota(du, static_cast<std::uint32_t>(t));
+    for (int q = 0; q < 4; ++q) {
+      const auto i = hn::Add(i0, hn::Set(di, q & 1)), j = hn::Add(j0, hn::Set(di, q >> 1));
+      const OctagonsInCells<Lanes> octagons(parts, n, i, j);
+      const auto beyond = hn::Or(hn::Gt(i, i1), hn::Gt(j, j1));
+      const auto meets = hn::And(hn::And(is_small, octagons.meet), hn::Not(beyond));
+      const auto row = hn::Add(hn::Mul(face, hn::Set(di, n)), j);
+      const auto own = hn::Add(hn::Mul(row, hn::Set(di, n)), i);
+      const auto cells = hn::BitCast(du, hn::IfThenElse(meets, own, hn::Set(di, 6 * n * n + q)));
+      hn::Store(cells, du, cell[q]);
+      hn::Store(hn::And(hn::BitCast(du, hn::VecFromMask(di, meets)), hn::Set(du, 1)), du, met[q]);
+      hn::StoreInterleaved4(cells, triangle, hn::BitCast(du, octagons.box), hn::BitCast(du, octagons.slant),
+                            du, entry[q]);
     }
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::memcpy(next, entry + 4 * k, sizeof *next);
-      next += met[k];
-      listing.length[cell[k]] += met[k];
+    for (std::size_t k = 0; k < count; ++k) {
+      for (int q = 0; q < 4; ++q) {
+        std::memcpy(next, entry[q] + 4 * k, sizeof *next);
+        next += met[q][k];
+        listing.length[cell[q][k]] += met[q][k];
+      }
     }
   }
   listing.count = static_cast<std::size_t>(next - listing.entry);
@@ -156,16 +200,13 @@ struct TurnOnFace {
 };
 
 /// Cells that are looked at together: four columns, and as many rows as fill a vector.
-using TileFloats = hn::CappedTag<float, 16>;
-using TileInts = hn::RebindToSigned<TileFloats>;
-using TileWords = hn::RebindToUnsigned<TileFloats>;
-constexpr int tile_cells = static_cast<int>(hn::MaxLanes(TileFloats()));
+constexpr int tile_cells = static_cast<int>(lanes);
 constexpr int tile_columns = std::min(4, tile_cells), tile_rows = tile_cells / tile_columns;
 
 void list_face_triangles_any(const FaceTriangle* triangles, std::size_t count, Listing& listing) {
-  constexpr TileFloats d;
-  constexpr TileInts di;
-  constexpr TileWords du;
+  constexpr LaneFloats d;
+  constexpr Lanes di;
+  constexpr Words du;
   const int n = listing.cells_per_side;
   const float cell = 2.0f / static_cast<float>(n);
   const auto lane = hn::Iota(di, 0);
@@ -176,13 +217,17 @@ void list_face_triangles_any(const FaceTriangle* triangles, std::size_t count, L
   ListedTriangle* next = listing.entry + listing.count;
   for (const FaceTriangle& t : std::span(triangles, count)) {
     const int last_column = t.parts.greatest[0] >> 8, last_row = t.parts.greatest[1] >> 8;
+    PartsInLanes<Lanes> parts;
+    for (std::size_t k = 0; k < 4; ++k) {
+      parts.least[k] = hn::Set(di, t.parts.least[k]), parts.greatest[k] = hn::Set(di, t.parts.greatest[k]);
+    }
     const TurnOnFace turn(t);
     const EdgeOverCells edge[3] = {EdgeOverCells(t, 0, turn.sign, cell), EdgeOverCells(t, 1, turn.sign, cell),
                                    EdgeOverCells(t, 2, turn.sign, cell)};
     for (int row = t.parts.least[1] >> 8; row <= last_row; row += tile_rows) {
       for (int column = t.parts.least[0] >> 8; column <= last_column; column += tile_columns) {
         const auto i = hn::Add(hn::Set(di, column), column_step), j = hn::Add(hn::Set(di, row), row_step);
-        const OctagonsInCells<TileInts> octagons(t.parts, n, i, j);
+        const OctagonsInCells<Lanes> octagons(parts, n, i, j);
         const auto beyond = hn::Or(hn::Gt(i, hn::Set(di, last_column)), hn::Gt(j, hn::Set(di, last_row)));
         auto meets = hn::And(octagons.meet, hn::Not(beyond));
         if (turn.is_known) {
