@@ -66,7 +66,7 @@ bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
 /// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
 FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index triangle) {
   const int axis = face % 3;
-  FaceTriangle seen{triangle, face, {}, {}, 0, 0, {}};
+  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
   const auto slack = [](double at, double depth, double s) {
     return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
   };
@@ -74,49 +74,12 @@ FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index 
     const double depth = std::abs(corner[k].direction[axis]);
     const double u = corner[k].direction[(axis + 1) % 3] / depth;
     const double w = corner[k].direction[(axis + 2) % 3] / depth;
-    seen.u[k] = static_cast<float>(u), seen.w[k] = static_cast<float>(w);
+    const auto at_u = static_cast<float>(u), at_w = static_cast<float>(w);
+    seen.corner[k] = {{at_u, at_w, at_u + at_w, at_u - at_w}};
     seen.slack_u = std::max(seen.slack_u, slack(u, depth, corner[k].slack));
     seen.slack_w = std::max(seen.slack_w, slack(w, depth, corner[k].slack));
   }
   return seen;
-}
-
-struct Extent {
-  float least, greatest;
-};
-
-Extent extent(float a, float b, float c, float margin) {
-  return {std::min({a, b, c}) - margin, std::max({a, b, c}) + margin};
-}
-
-/// Fills in the parts of the face that the triangle takes, widened; false where it keeps off the face.
-bool find_parts(FaceTriangle& t, int cells_per_side) {
-  const float margin_u = t.slack_u + list_margin, margin_w = t.slack_w + list_margin;
-  const Extent u = extent(t.u[0], t.u[1], t.u[2], margin_u), w = extent(t.w[0], t.w[1], t.w[2], margin_w);
-  const auto is_beside = [](const Extent& e) {
-    return e.greatest < -1 - list_margin || e.least > 1 + list_margin;
-  };
-  if (is_beside(u) || is_beside(w)) return false;
-  const float margin = margin_u + margin_w;
-  const Extent sum = extent(t.u[0] + t.w[0], t.u[1] + t.w[1], t.u[2] + t.w[2], margin);
-  const Extent difference = extent(t.u[0] - t.w[0], t.u[1] - t.w[1], t.u[2] - t.w[2], margin);
-  const float scale = 0.5f * static_cast<float>(cells_per_side * parts_per_cell);
-  const auto set = [&](std::size_t k, const Extent& e, float start, int most) {
-    // Corners may lie off the face.
-    const auto part = [&](float at) { return std::clamp(static_cast<int>((at + start) * scale), 0, most); };
-    t.parts.least[k] = part(e.least), t.parts.greatest[k] = part(e.greatest);
-  };
-  const int most = cells_per_side * parts_per_cell - 1;
-  set(0, u, 1, most), set(1, w, 1, most);
-  set(2, sum, 2, 2 * most + 1), set(3, difference, 2, 2 * most + 1);
-  return true;
-}
-
-std::size_t cells_in_box(const FaceParts& parts) {
-  const auto across = [&](std::size_t k) {
-    return static_cast<std::size_t>((parts.greatest[k] >> 8) - (parts.least[k] >> 8) + 1);
-  };
-  return across(0) * across(1);
 }
 
 }  // namespace
@@ -164,18 +127,19 @@ void CubeListing::list_larger(Index triangle) {
 
 /// False where it reaches over the face's edges.
 bool CubeListing::see_on_one_face(Index triangle) {
-  const Triangle& corner = mesh_.triangles[triangle];
-  const int face = placed_.face[corner[0]];
-  FaceTriangle seen{triangle, face, {}, {}, 0, 0, {}};
+  const Triangle& vertex = mesh_.triangles[triangle];
+  const int face = placed_.face[vertex[0]];
+  if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
+  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
+  float furthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const FacePoint &low = placed_.low[corner[k]], &high = placed_.high[corner[k]];
-    const float furthest =
-        std::max({std::abs(low.u()), std::abs(low.w()), std::abs(high.u()), std::abs(high.w())});
-    if (placed_.face[corner[k]] != face || furthest >= 1 - 2 * list_margin) return false;
-    seen.u[k] = 0.5f * (low.u() + high.u()), seen.w[k] = 0.5f * (low.w() + high.w());
+    const FacePoint &low = placed_.low[vertex[k]], &high = placed_.high[vertex[k]];
+    furthest = std::max({furthest, -low.u(), -low.w(), high.u(), high.w()});
+    for (std::size_t i = 0; i < 4; ++i) seen.corner[k].at[i] = 0.5f * (low.at[i] + high.at[i]);
     seen.slack_u = std::max(seen.slack_u, 0.5f * (high.u() - low.u()));
     seen.slack_w = std::max(seen.slack_w, 0.5f * (high.w() - low.w()));
   }
+  if (furthest >= 1 - 2 * list_margin) return false;
   add_seen(seen);
   return true;
 }
@@ -192,25 +156,30 @@ bool CubeListing::see_on_faces(Index triangle) {
   }
   for (int face = 0; face < 6; ++face) {
     if (!is_seen[static_cast<std::size_t>(face)]) continue;
-    FaceTriangle seen = seen_on(corner, face, triangle);
-    add_seen(seen);
+    add_seen(seen_on(corner, face, triangle));
   }
   return true;
 }
 
-void CubeListing::add_seen(FaceTriangle& seen) {
-  if (!find_parts(seen, n_)) return;
-  cells_of_seen_ += cells_in_box(seen.parts);
+void CubeListing::add_seen(FaceTriangle seen) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const FacePoint& corner = seen.corner[k % 3];
+    seen.u[k] = corner.u(), seen.w[k] = corner.w();
+  }
   seen_.push_back(seen);
 }
 
 void CubeListing::list_seen() {
-  make_room(cells_of_seen_);
-  Listing larger = listing();
-  list_face_triangles(seen_.data(), seen_.size(), larger);
-  count_ = larger.count;
+  std::span<const FaceTriangle> left = seen_;
+  while (!left.empty()) {
+    Listing larger = listing();
+    const std::size_t listed = list_face_triangles(left, larger);
+    count_ = larger.count;
+    left = left.subspan(listed);
+    // A triangle is in all cells of a face at most.
+    if (!left.empty()) make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
+  }
   seen_.clear();
-  cells_of_seen_ = 0;
 }
 
 void CubeListing::list_clipped(Index triangle) {

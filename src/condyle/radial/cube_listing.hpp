@@ -37,10 +37,12 @@ class CubeListing {
   void list_larger(Index triangle);
   bool see_on_one_face(Index triangle);
   bool see_on_faces(Index triangle);
-  void add_seen(FaceTriangle& seen);
+  void add_seen(FaceTriangle seen);
   void list_clipped(Index triangle);
   void list_seen();
-  Listing listing() noexcept { return {n_, entry_.data(), count_, length_.data(), nullptr, 0}; }
+  Listing listing() noexcept {
+    return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
+  }
 
   const TriMesh& mesh_;
   const CubeMap& map_;
@@ -51,7 +53,6 @@ class CubeListing {
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
   std::vector<FaceTriangle> seen_;  ///< waiting to be listed
-  std::size_t cells_of_seen_ = 0;   ///< at most
   bool has_clipped_ = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "condyle/radial/cube_view.hpp"
@@ -55,23 +56,23 @@ struct ListedTriangle {
 struct Listing {
   int cells_per_side;
   ListedTriangle* entry;
-  std::size_t count;
+  std::size_t count, room;
   std::uint32_t* length;     ///< for each cell, and four spare ones for cells that a triangle does not meet
   std::uint32_t* elsewhere;  ///< triangles not listed here: on several faces, or larger than two cells
   std::size_t elsewhere_count;
 };
 
-/// A triangle seen on a face: its corners there, how far each of them may be from that, and what it takes of
-/// the face at most.
+/// A triangle seen on a face: its corners there, in turn and the first one again, and how far each may be
+/// from that.
 struct FaceTriangle {
+  FacePoint corner[3];
+  float u[4], w[4];
+  float slack_u, slack_w;
   std::uint32_t triangle;
   std::int32_t face;
-  float u[3], w[3];
-  float slack_u, slack_w;
-  FaceParts parts;
 };
 
-/// Entries that one call may write beyond those it makes.
+/// Entries that listing may write beyond those it makes.
 inline constexpr std::size_t listing_room = 16;
 
 /// Rows of lists, and what is known of the triangles in them.
@@ -113,8 +114,9 @@ void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, 
                           std::size_t last, Listing& listing);
 
 /// Lists triangles seen on a face in the cells that they meet: those of their octagon, but for cells beyond
-/// one of their edges.
-void list_face_triangles(const FaceTriangle* triangles, std::size_t count, Listing& listing);
+/// one of their edges. Corners are within four times the face's size. Returns how many it has listed: fewer
+/// than there are where `listing` has not room for all cells that the next one may meet, and listing_room.
+std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing);
 
 /// Radii of the surface in cells [first, last): of each listed triangle those of its plane within the cell,
 /// or those of the triangle where they are closer. `out` starts at the first cell.

@@ -165,96 +165,139 @@ void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertic
   listing.count = static_cast<std::size_t>(next - listing.entry);
 }
 
-/// An edge of a triangle on a face, over the cells of a tile: inside is where normal . (p - start) >= 0. The
-/// point of a cell that is furthest inside is one of its corners, and its value moves by equal steps from
-/// cell to cell. Where floats err by less than list_margin (|u| + |w|), the other half of the widening, a
-/// cell is left out only if no point of it, widened, is inside.
-struct EdgeOverCells {
-  float first;  ///< of the cell (0, 0) of the face, less what counts as outside
-  float to_next_column, to_next_row;
+/// The edges of a triangle on a face, over its cells: inside is where normal . (p - start) >= 0. The point of
+/// a cell that is furthest inside is one of its corners, and its value moves by equal steps from cell to
+/// cell. Floats err by less than list_margin (|u| + |w|), the other half of the widening: a cell is left out
+/// only if no point of it, widened, is inside.
+struct EdgesOverCells {
+  alignas(16) float first[4];  ///< in the cell (0, 0) of the face, and what counts as outside on top
+  alignas(16) float to_next_column[4];
+  alignas(16) float to_next_row[4];
+  bool are_known;
 
-  EdgeOverCells(const FaceTriangle& triangle, std::size_t k, float sign, float cell) {
-    const std::size_t next = k == 2 ? 0 : k + 1;
-    const float u = sign * (triangle.w[k] - triangle.w[next]), w = sign * (triangle.u[next] - triangle.u[k]);
-    const float slack = std::abs(u) * (2 * list_margin + triangle.slack_u) +
-                        std::abs(w) * (2 * list_margin + triangle.slack_w);
-    const float best_u = u > 0 ? cell - 1 : -1.0f, best_w = w > 0 ? cell - 1 : -1.0f;
-    first = u * (best_u - triangle.u[k]) + w * (best_w - triangle.w[k]) + slack;
-    to_next_column = u * cell, to_next_row = w * cell;
-  }
-};
-
-/// Of a sliver the turn may be rounding: it keeps its octagon. Places err by up to 8 u, u = 2^-24.
-struct TurnOnFace {
-  float sign;
-  bool is_known;
-
-  explicit TurnOnFace(const FaceTriangle& t) {
+  HWY_INLINE EdgesOverCells(const FaceTriangle& t, float cell) {
+    constexpr hn::CappedTag<float, 4> d4;
     const float turn = (t.u[1] - t.u[0]) * (t.w[2] - t.w[0]) - (t.w[1] - t.w[0]) * (t.u[2] - t.u[0]);
+    // Of a sliver the turn may be rounding: it keeps its octagon. Places err by up to 8 u, u = 2^-24.
     const auto extent = [](const float* x) {
       return std::max({x[0], x[1], x[2]}) - std::min({x[0], x[1], x[2]});
     };
-    sign = turn < 0 ? -1.0f : 1.0f;
-    is_known = std::abs(turn) > 16 * list_margin * std::max(extent(t.u), extent(t.w));
+    are_known = std::abs(turn) > 16 * list_margin * std::max(extent(t.u), extent(t.w));
+    const auto sign = hn::Set(d4, std::copysign(1.0f, turn)), low = hn::Set(d4, -1.0f);
+    const auto width = hn::Set(d4, cell), slack_u = hn::Set(d4, 2 * list_margin + t.slack_u);
+    const auto slack_w = hn::Set(d4, 2 * list_margin + t.slack_w);
+    for (std::size_t k = 0; k < 3; k += hn::MaxLanes(d4)) {
+      const auto start_u = hn::LoadU(d4, t.u + k), start_w = hn::LoadU(d4, t.w + k);
+      const auto u = hn::Mul(sign, hn::Sub(start_w, hn::LoadU(d4, t.w + k + 1)));
+      const auto w = hn::Mul(sign, hn::Sub(hn::LoadU(d4, t.u + k + 1), start_u));
+      const auto step_u = hn::Mul(u, width), step_w = hn::Mul(w, width);
+      const auto at_u = hn::Mul(u, hn::Sub(low, start_u)), at_w = hn::Mul(w, hn::Sub(low, start_w));
+      const auto best =
+          hn::Add(hn::Add(at_u, hn::Max(step_u, hn::Zero(d4))), hn::Add(at_w, hn::Max(step_w, hn::Zero(d4))));
+      const auto slack = hn::Add(hn::Mul(hn::Abs(u), slack_u), hn::Mul(hn::Abs(w), slack_w));
+      hn::Store(hn::Add(best, slack), d4, first + k);
+      hn::Store(step_u, d4, to_next_column + k);
+      hn::Store(step_w, d4, to_next_row + k);
+    }
   }
 };
+
+/// Parts of the face that the triangle takes, widened. Corners may lie off the face.
+HWY_INLINE FaceParts parts_of(const FaceTriangle& t, int cells_per_side) {
+  constexpr hn::CappedTag<float, 4> d4;
+  constexpr hn::RebindToSigned<decltype(d4)> di4;
+  const float margin_u = t.slack_u + list_margin, margin_w = t.slack_w + list_margin;
+  alignas(16) const float margin[4] = {margin_u, margin_w, margin_u + margin_w, margin_u + margin_w};
+  alignas(16) constexpr float start[4] = {1, 1, 2, 2};
+  const int last = cells_per_side * parts_per_cell - 1;
+  alignas(16) const std::int32_t most[4] = {last, last, 2 * last + 1, 2 * last + 1};
+  const auto scale = hn::Set(d4, 0.5f * static_cast<float>(cells_per_side * parts_per_cell));
+  FaceParts parts;
+  for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d4)) {
+    const auto a = hn::Load(d4, t.corner[0].at + k), b = hn::Load(d4, t.corner[1].at + k);
+    const auto c = hn::Load(d4, t.corner[2].at + k), by = hn::Load(d4, margin + k);
+    const auto from = hn::Load(d4, start + k);
+    const auto low = hn::Sub(hn::Min(a, hn::Min(b, c)), by), high = hn::Add(hn::Max(a, hn::Max(b, c)), by);
+    const auto part = [&](auto at) {
+      const auto whole = hn::ConvertTo(di4, hn::Mul(hn::Add(at, from), scale));
+      return hn::Min(hn::Max(whole, hn::Zero(di4)), hn::Load(di4, most + k));
+    };
+    hn::StoreU(part(low), di4, parts.least.data() + k);
+    hn::StoreU(part(high), di4, parts.greatest.data() + k);
+  }
+  return parts;
+}
+
+/// Whether all corners are beyond the same edge of the face.
+HWY_INLINE bool is_beside_face(const FaceTriangle& t) {
+  const auto is_beyond = [](const float* at, float slack) {
+    const float edge = 1 + 2 * list_margin + slack;
+    return std::max({at[0], at[1], at[2]}) < -edge || std::min({at[0], at[1], at[2]}) > edge;
+  };
+  return is_beyond(t.u, t.slack_u) || is_beyond(t.w, t.slack_w);
+}
 
 /// Cells that are looked at together: four columns, and as many rows as fill a vector.
 constexpr int tile_cells = static_cast<int>(lanes);
 constexpr int tile_columns = std::min(4, tile_cells), tile_rows = tile_cells / tile_columns;
 
-void list_face_triangles_any(const FaceTriangle* triangles, std::size_t count, Listing& listing) {
+std::size_t list_face_triangles_any(std::span<const FaceTriangle> triangles, Listing& listing) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   constexpr Words du;
   const int n = listing.cells_per_side;
-  const float cell = 2.0f / static_cast<float>(n);
   const auto lane = hn::Iota(di, 0);
   const auto column_step = hn::And(lane, hn::Set(di, tile_columns - 1));
   const auto row_step = tile_columns == 4 ? hn::ShiftRight<2>(lane) : hn::Zero(di);
-  alignas(64) std::uint32_t cell_of_lane[tile_cells];
-  alignas(64) std::uint32_t entry[4 * tile_cells];
+  alignas(64) std::uint32_t entry[4 * lanes];
   ListedTriangle* next = listing.entry + listing.count;
-  for (const FaceTriangle& t : std::span(triangles, count)) {
-    const int last_column = t.parts.greatest[0] >> 8, last_row = t.parts.greatest[1] >> 8;
+  std::size_t listed = 0;
+  for (; listed < triangles.size(); ++listed) {
+    const FaceTriangle& t = triangles[listed];
+    if (is_beside_face(t)) continue;
+    const FaceParts taken = parts_of(t, n);
+    const int first_column = taken.least[0] >> 8, last_column = taken.greatest[0] >> 8;
+    const int first_row = taken.least[1] >> 8, last_row = taken.greatest[1] >> 8;
+    const auto cells_in_box =
+        static_cast<std::size_t>((last_column - first_column + 1) * (last_row - first_row + 1));
+    const auto made = static_cast<std::size_t>(next - listing.entry);
+    if (made + cells_in_box + listing_room > listing.room) break;
     PartsInLanes<Lanes> parts;
     for (std::size_t k = 0; k < 4; ++k) {
-      parts.least[k] = hn::Set(di, t.parts.least[k]), parts.greatest[k] = hn::Set(di, t.parts.greatest[k]);
+      parts.least[k] = hn::Set(di, taken.least[k]), parts.greatest[k] = hn::Set(di, taken.greatest[k]);
     }
-    const TurnOnFace turn(t);
-    const EdgeOverCells edge[3] = {EdgeOverCells(t, 0, turn.sign, cell), EdgeOverCells(t, 1, turn.sign, cell),
-                                   EdgeOverCells(t, 2, turn.sign, cell)};
-    for (int row = t.parts.least[1] >> 8; row <= last_row; row += tile_rows) {
-      for (int column = t.parts.least[0] >> 8; column <= last_column; column += tile_columns) {
+    const EdgesOverCells edges(t, 2.0f / static_cast<float>(n));
+    for (int row = first_row; row <= last_row; row += tile_rows) {
+      for (int column = first_column; column <= last_column; column += tile_columns) {
         const auto i = hn::Add(hn::Set(di, column), column_step), j = hn::Add(hn::Set(di, row), row_step);
         const OctagonsInCells<Lanes> octagons(parts, n, i, j);
         const auto beyond = hn::Or(hn::Gt(i, hn::Set(di, last_column)), hn::Gt(j, hn::Set(di, last_row)));
         auto meets = hn::And(octagons.meet, hn::Not(beyond));
-        if (turn.is_known) {
+        if (edges.are_known) {
           const auto at_column = hn::ConvertTo(d, i), at_row = hn::ConvertTo(d, j);
-          const auto least = [&](const EdgeOverCells& e) {
-            return hn::Add(hn::Add(hn::Set(d, e.first), hn::Mul(at_column, hn::Set(d, e.to_next_column))),
-                           hn::Mul(at_row, hn::Set(d, e.to_next_row)));
+          const auto inside = [&](std::size_t k) {
+            const auto in_column = hn::Mul(at_column, hn::Set(d, edges.to_next_column[k]));
+            const auto in_row = hn::Mul(at_row, hn::Set(d, edges.to_next_row[k]));
+            return hn::Add(hn::Add(hn::Set(d, edges.first[k]), in_column), in_row);
           };
-          const auto worst = hn::Min(least(edge[0]), hn::Min(least(edge[1]), least(edge[2])));
-          meets = hn::And(meets, hn::RebindMask(di, hn::Ge(worst, hn::Zero(d))));
+          const auto least = hn::Min(inside(0), hn::Min(inside(1), inside(2)));
+          meets = hn::And(meets, hn::RebindMask(di, hn::Ge(least, hn::Zero(d))));
         }
         const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di, t.face * n), j), hn::Set(di, n)), i);
-        const auto cells = hn::BitCast(du, own);
-        hn::Store(cells, du, cell_of_lane);
-        hn::StoreInterleaved4(cells, hn::Set(du, t.triangle), hn::BitCast(du, octagons.box),
+        hn::StoreInterleaved4(hn::BitCast(du, own), hn::Set(du, t.triangle), hn::BitCast(du, octagons.box),
                               hn::BitCast(du, octagons.slant), du, entry);
         std::uint8_t bytes[8] = {};
         hn::StoreMaskBits(di, meets, bytes);
         for (unsigned left = bytes[0] | static_cast<unsigned>(bytes[1]) << 8; left != 0; left &= left - 1) {
           const std::size_t k = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
-          std::memcpy(next++, entry + 4 * k, sizeof *next);
-          ++listing.length[cell_of_lane[k]];
+          std::memcpy(next, entry + 4 * k, sizeof *next);
+          ++listing.length[next++->cell];
         }
       }
     }
   }
   listing.count = static_cast<std::size_t>(next - listing.entry);
+  return listed;
 }
 
 }  // namespace
@@ -272,8 +315,8 @@ void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, 
   HWY_DYNAMIC_DISPATCH(list_small_triangles_any)(mesh, vertices, first, last, listing);
 }
 
-void list_face_triangles(const FaceTriangle* triangles, std::size_t count, Listing& listing) {
-  HWY_DYNAMIC_DISPATCH(list_face_triangles_any)(triangles, count, listing);
+std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing) {
+  return HWY_DYNAMIC_DISPATCH(list_face_triangles_any)(triangles, listing);
 }
 
 }  // namespace condyle
