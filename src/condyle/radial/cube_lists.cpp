@@ -146,15 +146,42 @@ constexpr float room_around = 1.0f / 16;
 /// What moves further than this between two looks is not expected back where it was.
 constexpr float widest_room = 1.0f;
 
-/// A room that holds the old one, where that is on the same face and not too wide, and the vertex.
-FaceRoom room_for(const FacePoint& place, bool is_on_face, const FaceRoom& old, int cells_per_side) {
+struct FacePosition {
+  float u, w;
+};
+
+/// Where a vertex is seen on a face, off it too.
+FacePosition position_on(int face, const Vec3& v) {
+  const int axis = face % 3;
+  const double depth = face < 3 ? v[axis] : -v[axis];
+  return {static_cast<float>(v[(axis + 1) % 3] / depth), static_cast<float>(v[(axis + 2) % 3] / depth)};
+}
+
+FaceRoom room_about(const FacePosition& at, float around) {
+  return {at.u - around, at.w - around, at.u + around, at.w + around};
+}
+
+FaceRoom union_of(const FaceRoom& a, const FaceRoom& b) {
+  return {std::min(a.low_u, b.low_u), std::min(a.low_w, b.low_w), std::max(a.high_u, b.high_u),
+          std::max(a.high_w, b.high_w)};
+}
+
+/// Gives the vertex a room that holds the old one too, on its face, where that does not become too wide: a
+/// vertex that goes to and fro over an edge of the cube stays on one face. Else one about it.
+void give_room(const Vec3& v, int cells_per_side, std::uint8_t& face, FaceRoom& room) {
   const float cell = 2.0f / static_cast<float>(cells_per_side), around = room_around * cell;
-  const FaceRoom about = {place.u() - around, place.w() - around, place.u() + around, place.w() + around};
-  if (!is_on_face) return about;
-  const FaceRoom both = {std::min(old.low_u, about.low_u), std::min(old.low_w, about.low_w),
-                         std::max(old.high_u, about.high_u), std::max(old.high_w, about.high_w)};
-  const float widest = std::max(both.high_u - both.low_u, both.high_w - both.low_w);
-  return widest <= widest_room * cell ? both : about;
+  const int axis = face % 3;
+  if ((face < 3 ? v[axis] : -v[axis]) > 0) {
+    const FaceRoom both = union_of(room, room_about(position_on(face, v), around));
+    if (std::max(both.high_u - both.low_u, both.high_w - both.low_w) <= widest_room * cell) {
+      room = both;
+      return;
+    }
+  }
+  int largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  face = static_cast<std::uint8_t>(v[largest] < 0 ? largest + 3 : largest);
+  room = room_about(position_on(face, v), around);
 }
 
 Points points_at(const TriMesh& mesh, std::span<const Index> vertices) {
@@ -168,16 +195,9 @@ MeshView view_of(const Points& points) {
   return {points.x.data(), points.y.data(), points.z.data(), nullptr, points.size(), nullptr, 0};
 }
 
-void give_room(const TriMesh& mesh, int cells_per_side, std::span<const Index> vertices, CellLists& lists) {
-  const Points strayed = points_at(mesh, vertices);
-  std::vector<std::uint8_t> face(vertices.size());
-  std::vector<FacePoint> place(vertices.size());
-  place_vertices(view_of(strayed), face.data(), place.data());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Index v = vertices[i];
-    lists.room[v] = room_for(place[i], face[i] == lists.face[v], lists.room[v], cells_per_side);
-    lists.face[v] = face[i];
-  }
+void give_rooms(const TriMesh& mesh, const CubeMap& map, std::span<const Index> vertices, CellLists& lists) {
+  for (const Index v : vertices)
+    give_room(mesh.vertices[v], map.cells_per_side(), lists.face[v], lists.room[v]);
 }
 
 /// Those of the triangles that have one of the vertices.
@@ -234,7 +254,7 @@ void list_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> t
 void relist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> strayed,
             std::span<const Index> triangles, CellLists& lists, CellSet& touched) {
   unlist(mesh, map, triangles, lists, touched);
-  give_room(mesh, map.cells_per_side(), strayed, lists);
+  give_rooms(mesh, map, strayed, lists);
   list_some(mesh, map, triangles, lists);
 }
 
@@ -347,7 +367,7 @@ void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists) 
   // Listing one triangle among others that stay takes several times what it does when all are listed.
   const bool are_many = strayed.size() > mesh.vertices.size() / 16;
   if (are_many) {
-    give_room(mesh, map.cells_per_side(), strayed, lists);
+    give_rooms(mesh, map, strayed, lists);
     list_all_in_rooms(mesh, map, lists);
   } else if (!strayed.empty()) {
     std::vector<Index> all(mesh.triangles.size());
