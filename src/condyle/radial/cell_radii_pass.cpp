@@ -110,14 +110,16 @@ HWY_INLINE Bounds radii_of_words(const RadiusScale& scale, Ints words) {
   const auto most = hn::Set(di, greatest_radius_code);
   const auto least = hn::And(words, most);
   const auto greatest = hn::Sub(most, hn::And(hn::ShiftRight<16>(words), most));
-  const auto value = [&](Ints code) {
-    return hn::BitCast(d, hn::Add(hn::Set(di, scale.base), hn::ShiftLeftSame(code, scale.shift)));
+  // The first number of a code, and the last one before the next.
+  const auto bits = [&](Ints code) {
+    return hn::Add(hn::Set(di, scale.base), hn::ShiftLeftSame(code, scale.shift));
   };
+  const auto first = hn::BitCast(d, bits(least));
+  const auto last = hn::BitCast(d, hn::Sub(bits(hn::Add(greatest, hn::Set(di, 1))), hn::Set(di, 1)));
   const auto has_least = hn::RebindMask(d, hn::Gt(least, hn::Zero(di)));
   const auto has_greatest = hn::RebindMask(d, hn::Lt(greatest, most));
   const float infinity = std::numeric_limits<float>::infinity();
-  return {hn::IfThenElseZero(has_least, value(least)),
-          hn::IfThenElse(has_greatest, value(hn::Add(greatest, hn::Set(di, 1))), hn::Set(d, infinity))};
+  return {hn::IfThenElseZero(has_least, first), hn::IfThenElse(has_greatest, last, hn::Set(d, infinity))};
 }
 
 HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& cell, CellRow row) {
@@ -127,7 +129,8 @@ HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& c
     const std::uint32_t* triangle = lists.triangle + i;
     for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.plane + triangle[k + prefetch_ahead]);
     const Planes planes = load_planes(lists.plane, triangle);
-    const auto is_listed = hn::RebindMask(d, hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i))));
+    const auto is_listed =
+        hn::RebindMask(d, hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i))));
     const Bounds of_planes = radii_of_planes(cell, lists.cosine, planes.n[cell.axis], planes.n[cell.axis_u],
                                              planes.n[cell.axis_w]);
     const Bounds of_triangles = radii_of_words(lists.scale, planes.radii);
@@ -140,7 +143,8 @@ HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& c
     const auto nearest = hn::IfThenElseZero(is_nearest, square(of_planes.least, 1 - 0x1p-16f));
     const auto furthest =
         hn::IfThenElse(is_furthest, square(of_planes.greatest, 1 + 0x1p-16f), hn::Set(d, infinity));
-    const auto least = hn::Max(of_triangles.least, nearest), greatest = hn::Min(of_triangles.greatest, furthest);
+    const auto least = hn::Max(of_triangles.least, nearest),
+               greatest = hn::Min(of_triangles.greatest, furthest);
     all_least = hn::Min(all_least, hn::IfThenElse(is_listed, least, hn::Set(d, infinity)));
     all_greatest = hn::Max(all_greatest, hn::IfThenElseZero(is_listed, greatest));
   }
