@@ -70,8 +70,13 @@ void find_radii(const CubeMap& map, CellLists& lists) {
 bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& lists) {
   const ListedRadii listed = listed_radii(map, lists);
   bool are_changed = false;
+  // Rows, what is listed in them and the planes of that all lie anywhere: each is fetched before its turn.
+  for (const Index cell : cells) hwy::Prefetch(&lists.row[cell]);
+  for (const Index cell : cells) {
+    hwy::Prefetch(&lists.triangle[lists.row[cell].first]);
+    hwy::Prefetch(&lists.radii[cell]);
+  }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // Their triangles lie anywhere.
     if (i + cells_ahead < cells.size()) {
       for (const Index t : lists.of(cells[i + cells_ahead])) hwy::Prefetch(&lists.plane[t]);
     }

@@ -1,11 +1,16 @@
 #include <algorithm>
 #include <numeric>
 
+#include <hwy/cache_control.h>
+
 #include "condyle/radial/cube_listing.hpp"
 #include "condyle/radial/cube_lists.hpp"
 
 namespace condyle {
 namespace {
+
+/// How long before their turn triangles and their corners are fetched: they lie anywhere.
+constexpr std::size_t triangles_ahead = 8;
 
 /// Vertices of some triangles of their own, with their rooms: for listing these alone.
 class PartsInRooms {
@@ -15,11 +20,18 @@ class PartsInRooms {
     parts_.vertices.reserve(corners);
     parts_.triangles.reserve(triangles.size());
     face_.reserve(corners), low_.reserve(corners), high_.reserve(corners);
-    for (const Index t : triangles) {
+    const auto ahead = [&](std::size_t i, std::size_t by) {
+      return triangles[std::min(i + by, triangles.size() - 1)];
+    };
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      hwy::Prefetch(&mesh.triangles[ahead(i, 2 * triangles_ahead)]);
+      for (const Index v : mesh.triangles[ahead(i, triangles_ahead)]) {
+        hwy::Prefetch(&lists.corner[v]), hwy::Prefetch(&lists.room[v]), hwy::Prefetch(&lists.face[v]);
+      }
       const auto first = static_cast<Index>(low_.size());
       parts_.triangles.push_back({first, first + 1, first + 2});
-      for (const Index v : mesh.triangles[t]) {
-        parts_.vertices.push_back(mesh.vertices[v]);
+      for (const Index v : mesh.triangles[triangles[i]]) {
+        parts_.vertices.push_back(lists.corner[v]);
         face_.push_back(lists.face[v]);
         const FaceRoom& room = lists.room[v];
         low_.push_back(lowest_in(room)), high_.push_back(highest_in(room));
@@ -187,6 +199,8 @@ std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
 /// Forms and radii of some triangles, and the cells that they are listed in.
 void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
                   CellSet& touched) {
+  // Far apart, and needed only when all are measured.
+  for (const Index t : triangles) hwy::Prefetch(&lists.forms[t]), hwy::Prefetch(&lists.plane[t]);
   const PartsInRooms parts(mesh, lists, triangles);
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
