@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
+
+#include "condyle/core/instruction_set.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -45,6 +49,61 @@ TEST(EdgeBalance, AnEdgeOfFourTrianglesMayBalance) {
     }
   }
   EXPECT_FALSE(unbalanced_edge(two));
+}
+
+class EdgeBalanceOn : public testing::TestWithParam<InstructionSet> {
+ protected:
+  InstructionSetInUse in_use_{GetParam()};
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, EdgeBalanceOn, testing::ValuesIn(instruction_sets()),
+                         [](const auto& set) { return set.param.name; });
+
+/// Triangles in another order, each from another corner on.
+TriMesh shuffled(TriMesh mesh, unsigned seed) {
+  std::mt19937 random(seed);
+  std::shuffle(mesh.triangles.begin(), mesh.triangles.end(), random);
+  for (Triangle& t : mesh.triangles) std::rotate(t.begin(), t.begin() + random() % 3, t.end());
+  return mesh;
+}
+
+/// Two cones over one circle: two vertices of many edges.
+TriMesh double_cone(Index around) {
+  TriMesh mesh;
+  mesh.vertices = Points(around + 2);
+  for (Index i = 0; i < around; ++i) {
+    const Index a = 2 + i, b = 2 + (i + 1) % around;
+    mesh.triangles.push_back({0, a, b});
+    mesh.triangles.push_back({1, b, a});
+  }
+  return mesh;
+}
+
+TEST_P(EdgeBalanceOn, OneTriangleTooFewOrTwiceOrTurnedIsFoundAmongMany) {
+  const TriMesh torus = test::torus(2, 1, 24, 16);
+  for (const TriMesh& closed : {shuffled(torus, 1), shuffled(double_cone(200), 2), torus}) {
+    EXPECT_FALSE(unbalanced_edge(closed));
+    for (std::size_t i = 0; i < closed.triangles.size(); i += 37) {
+      TriMesh mesh = closed;
+      std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
+      EXPECT_TRUE(unbalanced_edge(mesh));
+      mesh = closed;
+      mesh.triangles.push_back(mesh.triangles[i]);
+      EXPECT_TRUE(unbalanced_edge(mesh));
+      mesh = closed;
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
+      EXPECT_TRUE(unbalanced_edge(mesh));
+    }
+  }
+}
+
+TEST_P(EdgeBalanceOn, TrianglesThatAreAnEdgeOrAPointChangeNothing) {
+  TriMesh mesh = test::torus(2, 1, 24, 16);
+  for (Index v = 0; v < 60; ++v) {
+    mesh.triangles.push_back({v, v, v});
+    mesh.triangles.push_back({v, v, v + 1});
+  }
+  EXPECT_FALSE(unbalanced_edge(shuffled(mesh, 3)));
 }
 
 }  // namespace

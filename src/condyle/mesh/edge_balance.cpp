@@ -5,6 +5,7 @@
 #include <string>
 
 #include "condyle/core/error.hpp"
+#include "condyle/mesh/edge_uses.hpp"
 
 namespace condyle {
 namespace {
@@ -16,27 +17,6 @@ struct EdgeUse {
 
   Index low() const { return static_cast<Index>(edge >> 32); }
   Index high() const { return static_cast<Index>(edge & 0xffffffffu); }
-};
-
-/// Uses of edges from one vertex to higher ones that wait for a use in the other direction. Around a vertex
-/// of a mesh few wait at a time, whatever the order of its triangles.
-struct Waiting {
-  static constexpr std::size_t most = 7;
-  std::uint32_t count = 0;
-  std::array<std::uint32_t, most> use;  // twice the higher vertex, plus one where the edge comes from there
-
-  /// Takes the opposite use out, or puts this one in; false where there is no room.
-  bool meet(std::uint32_t asked) noexcept {
-    const std::uint32_t opposite = asked ^ 1u;
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (use[i] != opposite) continue;
-      use[i] = use[--count];
-      return true;
-    }
-    if (count == most) return false;
-    use[count++] = asked;
-    return true;
-  }
 };
 
 /// Whether the uses of each edge, the same number but for its last bit, are as many in one direction as in
@@ -55,23 +35,8 @@ bool cancel(std::vector<std::uint64_t> uses) {
 /// Whether every edge is used as often in one direction as in the other: uses cancel in pairs as they come,
 /// and what is left over, if anything, is sorted. Linear for a closed mesh.
 bool edges_balance(const TriMesh& mesh) {
-  std::vector<Waiting> waiting(mesh.vertices.size());
   std::vector<std::uint64_t> left_over;
-  const auto keep = [&](Index low, std::uint32_t use) {
-    left_over.push_back(std::uint64_t{low} << 32 | use);
-  };
-  for (const Triangle& triangle : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index a = triangle[k], b = triangle[k == 2 ? 0 : k + 1];
-      if (a == b) continue;
-      const Index low = std::min(a, b), high = std::max(a, b);
-      const std::uint32_t use = 2 * high + static_cast<Index>(a == high);
-      if (!waiting[low].meet(use)) keep(low, use);
-    }
-  }
-  for (Index low = 0; low < waiting.size(); ++low) {
-    for (std::uint32_t i = 0; i < waiting[low].count; ++i) keep(low, waiting[low].use[i]);
-  }
+  cancel_edge_uses(mesh.triangles, mesh.vertices.size(), left_over);
   return cancel(std::move(left_over));
 }
 

@@ -1,12 +1,14 @@
 #include "condyle/radial/cell_lists.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace condyle {
 namespace {
 
 /// Room beyond the last entry, for a vector that starts on it.
-constexpr std::size_t vector_room = 16;
+constexpr std::size_t vector_room = 32;
 
 /// One triangle in one cell, before it is sorted into that cell's list.
 struct Entry {
@@ -25,7 +27,8 @@ std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
          (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
          nearest.size() * sizeof(std::uint16_t) + forms.size() * sizeof(ConeForms) +
-         corner.size() * sizeof(Vec3);
+         plane.size() * sizeof(TrianglePlane) + corner.size() * sizeof(Vec3) + face.size() +
+         room.size() * sizeof(FaceRoom);
 }
 
 void CellLists::resize_entries(std::size_t count) {
@@ -33,7 +36,35 @@ void CellLists::resize_entries(std::size_t count) {
   box.resize(count + vector_room);
   slant.resize(count + vector_room);
   nearest.resize(count + vector_room);
-  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, no_index, {0, 0}, 0);
+  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, 0, {0, 0});
+}
+
+void CellLists::split_rows() {
+  // Two vectors: what is read at once costs the same in any order.
+  constexpr std::uint32_t longest_whole = 32;
+  struct Listed {
+    Index triangle;
+    CellOctagon octagon;
+  };
+  std::array<std::vector<Listed>, 3> part;  // left alone, both, right alone
+  for (CellRow& at : row) {
+    const std::uint32_t length = at.last - at.first;
+    if (length <= longest_whole || length >= CellRow::whole) continue;
+    for (auto& listed : part) listed.resize(std::max<std::size_t>(listed.size(), length));
+    std::array<std::uint32_t, 3> count{};
+    for (std::uint32_t i = at.first; i < at.last; ++i) {
+      const bool is_right = (box[i] & 128) != 0,
+                 is_left = (box[i] >> 8 & 128) != 0;  // of least u, of 255 - greatest u
+      const std::size_t to = is_left ? 0 : is_right ? 2 : 1;
+      part[to][count[to]++] = {triangle[i], {box[i], slant[i]}};
+    }
+    std::uint32_t next = at.first;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::uint32_t i = 0; i < count[k]; ++i) set_entry(next++, part[k][i].triangle, part[k][i].octagon);
+    }
+    at.right_begin = static_cast<std::uint16_t>(count[0]);
+    at.left_end = static_cast<std::uint16_t>(count[0] + count[1]);
+  }
 }
 
 void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
@@ -41,11 +72,11 @@ void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
   std::uint32_t i = at.first;
   while (i < at.last && triangle[i] != triangle_listed) ++i;
   assert(i < at.last);
-  --at.last;
-  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]}, nearest[at.last]);
+  at = {at.first, at.last - 1};
+  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]});
 }
 
-void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon, int nearest_code) {
+void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon) {
   CellRow& at = row[cell];
   if (row_end.empty()) {
     // Rows are still one behind the other, but for entries removed.
@@ -56,16 +87,17 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
   if (at.last == row_end[cell]) {
     // To the end, with room for as many again.
     const auto first = static_cast<std::uint32_t>(triangle.size() - vector_room);
-    const std::uint32_t length = at.last - at.first, room = 2 * length + 4;
-    resize_entries(first + room);
+    const std::uint32_t length = at.last - at.first, capacity = 2 * length + 4;
+    resize_entries(first + capacity);
     for (std::uint32_t i = 0; i < length; ++i) {
-      const std::uint32_t from = at.first + i;
-      set_entry(first + i, triangle[from], {box[from], slant[from]}, nearest[from]);
+      set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
     }
+    for (std::uint32_t i = length; i < capacity; ++i) set_entry(first + i, 0, {0, 0});
     at = {first, first + length};
-    row_end[cell] = first + room;
+    row_end[cell] = first + capacity;
   }
-  set_entry(at.last++, triangle_listed, octagon, nearest_code);
+  at = {at.first, at.last + 1};
+  set_entry(at.last - 1, triangle_listed, octagon);
 }
 
 CellLists list_cells(const TriMesh& mesh, const CartesianMap& map) {

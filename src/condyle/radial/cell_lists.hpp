@@ -2,6 +2,7 @@
 
 #include "condyle/core/uninitialised.hpp"
 #include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/radial/cube_passes.hpp"
 #include "condyle/radial/cube_view.hpp"
 #include "condyle/radial/direction_map.hpp"
 
@@ -22,9 +23,17 @@ struct CellLists {
   UninitialisedVector<std::uint16_t>
       nearest;  ///< code of a squared radius that no point of its triangle is below
   UninitialisedVector<ConeForms> forms;
-  UninitialisedVector<Vec3> corner;  ///< the mesh's vertices again, each in one place
+  UninitialisedVector<TrianglePlane> plane;
+  UninitialisedVector<Vec3> corner;    ///< the mesh's vertices again, each in one place
+  std::vector<float> inverse_length;   ///< of the directions to a face's cell corners
+  std::vector<std::uint32_t> unknown;  ///< triangles whose forms were no numbers when all were measured
+  bool starts_at_centre = false;       ///< No radius is too small: the centre is inside.
 
-  std::vector<float> inverse_length;  ///< of the directions to a face's cell corners, for listing
+  /// Where each vertex may be without its triangles being listed anew; none until they first move, while
+  /// lists hold the triangles just where they are.
+  UninitialisedVector<std::uint8_t> face;
+  UninitialisedVector<FaceRoom> room;
+  bool has_clipped = false;  ///< Some triangles are listed where they are, whatever the rooms.
 
   /// Where the room of each row ends, once entries have moved: rows are then no longer in the order of cells.
   std::vector<std::uint32_t> row_end;
@@ -37,16 +46,17 @@ struct CellLists {
 
   /// Room for so many entries and a vector beyond them.
   void resize_entries(std::size_t count);
-  void set_entry(std::size_t at, Index triangle_listed, const CellOctagon& octagon,
-                 int nearest_code) noexcept {
+  void set_entry(std::size_t at, Index triangle_listed, const CellOctagon& octagon) noexcept {
     triangle[at] = triangle_listed;
     box[at] = octagon.box;
     slant[at] = octagon.slant;
-    nearest[at] = static_cast<std::uint16_t>(nearest_code);
   }
-  /// Changes to single rows; linear in the row. The entry to remove is there, the one to add is not.
+  /// Sorts long rows by halves of their cells. Linear in their entries.
+  void split_rows();
+  /// Changes to single rows, which are whole then; linear in the row. The entry to remove is there, the one
+  /// to add is not.
   void remove_entry(Index cell, Index triangle_listed) noexcept;
-  void add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon, int nearest_code);
+  void add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon);
 };
 
 /// Listed one by one: exact overlap of each cone with each cell.
@@ -58,13 +68,26 @@ CellLists list_cells(const TriMesh& mesh, const CartesianMap& map);
 /// Conservative in every step: triangles are widened by list_margin, and a cell's radii hold those of all
 /// parts of its triangles within it.
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map);
-/// Into the memory of lists that exist.
+/// All but the radii of the cells, into the memory of lists that exist.
 void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists);
+/// Least and greatest radius in each cell, and the nearest one of each entry. Linear in entries.
+void find_radii(const CubeMap& map, CellLists& lists);
 
-/// Lists anew those triangles alone, whose corners before and after are meshes of as many triangles. Radii of
-/// cells grow where needed and do not shrink; returns whether any grew. Linear in these triangles and the
-/// rows that they are in.
-bool move_triangles(const CubeMap& map, std::span<const Index> triangles, const TriMesh& before,
-                    const TriMesh& after, CellLists& lists);
+/// Rooms that hold each vertex where it is, no more. To be called before vertices move; does nothing where
+/// there are rooms.
+void make_rooms(const TriMesh& mesh, CellLists& lists);
+
+/// The vertices of a mesh have moved. Lists stay as they are where all three vertices of a triangle are in
+/// their rooms. A vertex that has left its room is given one that holds where it was and is, and a sixteenth
+/// of a cell around that, so that what it does again costs nothing. Radii of cells are not found again.
+///
+/// Linear: measuring all triangles, and listing those at vertices that left their rooms.
+void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists);
+
+/// The same for some vertices, with `triangles` all triangles at them; finds the radii of the cells that
+/// these are in. Returns whether any radii have changed. Costs what these triangles and the rows they are in
+/// do.
+bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
+                     std::span<const Index> triangles, CellLists& lists);
 
 }  // namespace condyle

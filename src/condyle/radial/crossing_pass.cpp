@@ -88,7 +88,7 @@ HWY_INLINE void prepare(const NearPoints& points, float form_bound, Asked& out) 
 /// others. Returns how many there are then; more than fit, where there are too many.
 HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, const Asked& asked, std::size_t i,
                             std::size_t count, Pairs& pairs) {
-  const CellRow row = cube.row[points.cell[i]];
+  const CellRow row = cube.row[points.cell[i]].half_at(points.box[i]);
   const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, asked.slant[i]);
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   const Words relevant = hn::Set(du, points.relevant[i]);

@@ -2,7 +2,7 @@
 #include "condyle/radial/triangle_plane.hpp"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 #include <limits>
 
 #include <hwy/cache_control.h>
@@ -31,18 +31,21 @@ constexpr std::size_t lanes = hn::MaxLanes(dd);
 /// How long before its turn a triangle's corners are fetched: they lie anywhere.
 constexpr std::size_t triangles_ahead = 24;
 
+/// Coordinates of vertices from the given one on, as floats; beyond the last one zeros.
+HWY_INLINE Singles load_coordinates(const double* from, std::size_t first, std::size_t count) {
+  if (first + lanes <= count) return hn::DemoteTo(df, hn::LoadU(dd, from + first));
+  alignas(64) double last[lanes] = {};
+  for (std::size_t k = 0; first + k < count; ++k) last[k] = from[first + k];
+  return hn::DemoteTo(df, hn::Load(dd, last));
+}
+
 void place_vertices_any(const MeshView& mesh, std::uint8_t* face, FacePoint* out) {
   constexpr hn::RebindToSigned<DF> di;
-  const auto load = [&](const double* from, std::size_t i) {
-    if (i + lanes <= mesh.vertices) return hn::DemoteTo(df, hn::LoadU(dd, from + i));
-    alignas(64) double last[lanes] = {};
-    for (std::size_t k = 0; i + k < mesh.vertices; ++k) last[k] = from[i + k];
-    return hn::DemoteTo(df, hn::Load(dd, last));
-  };
   alignas(64) float packed[4 * lanes];
   alignas(64) std::int32_t faces[lanes];
   for (std::size_t i = 0; i < mesh.vertices; i += lanes) {
-    const auto x = load(mesh.x, i), y = load(mesh.y, i), z = load(mesh.z, i);
+    const auto x = load_coordinates(mesh.x, i, mesh.vertices), y = load_coordinates(mesh.y, i, mesh.vertices),
+               z = load_coordinates(mesh.z, i, mesh.vertices);
     const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
     const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
     const auto on_y = hn::AndNot(on_x, hn::Ge(ay, az));
@@ -63,6 +66,48 @@ void place_vertices_any(const MeshView& mesh, std::uint8_t* face, FacePoint* out
       std::copy_n(packed + 4 * k, 4, out[i + k].at);
     }
   }
+}
+
+std::size_t find_strayed_any(const MeshView& mesh, const std::uint8_t* faces, const FaceRoom* rooms,
+                             std::uint32_t* out) {
+  constexpr hn::RebindToSigned<DF> di;
+  const auto one = hn::Set(df, 1.0f);
+  alignas(64) std::int32_t axes[lanes];
+  alignas(64) float signs[lanes];
+  std::size_t strayed = 0;
+  for (std::size_t i = 0; i < mesh.vertices; i += lanes) {
+    const std::size_t count = std::min(lanes, mesh.vertices - i);
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const std::uint8_t face = faces[i + std::min(k, count - 1)];
+      axes[k] = face < 3 ? face : face - 3, signs[k] = face < 3 ? 1.0f : -1.0f;
+    }
+    const auto x = load_coordinates(mesh.x, i, mesh.vertices), y = load_coordinates(mesh.y, i, mesh.vertices),
+               z = load_coordinates(mesh.z, i, mesh.vertices);
+    const auto axis = hn::Load(di, axes);
+    const auto on_x = hn::RebindMask(df, hn::Eq(axis, hn::Zero(di)));
+    const auto on_y = hn::RebindMask(df, hn::Eq(axis, hn::Set(di, 1)));
+    const auto depth = hn::Mul(hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z)), hn::Load(df, signs));
+    const auto inverse = hn::Div(one, depth);
+    const auto u = hn::Mul(hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x)), inverse);
+    const auto w = hn::Mul(hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y)), inverse);
+    Singles low_u, low_w, high_u, high_w;
+    if (count == lanes) {
+      hn::LoadInterleaved4(df, &rooms[i].low_u, low_u, low_w, high_u, high_w);
+    } else {
+      alignas(64) FaceRoom last[lanes] = {};
+      std::copy_n(rooms + i, count, last);
+      hn::LoadInterleaved4(df, &last[0].low_u, low_u, low_w, high_u, high_w);
+    }
+    auto within = hn::And(hn::Gt(depth, hn::Zero(df)), hn::And(hn::Ge(u, low_u), hn::Le(u, high_u)));
+    within = hn::And(within, hn::And(hn::Ge(w, low_w), hn::Le(w, high_w)));
+    if (hn::AllTrue(df, within)) continue;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(df, within, bits);
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((bits[0] >> k & 1) == 0) out[strayed++] = static_cast<std::uint32_t>(i + k);
+    }
+  }
+  return strayed;
 }
 
 struct Vectors {
@@ -108,12 +153,22 @@ HWY_INLINE void store_interleaved(Doubles ab, Doubles bc, Doubles ca, Doubles pl
                         hn::DemoteTo(df, plane), df, out);
 }
 
-void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
-                           TriangleRadii* radii) {
+/// Codes of squared radii, within the scale.
+HWY_INLINE hn::Vec<hn::RebindToSigned<DF>> radius_codes(const RadiusScale& scale, Singles squared) {
+  constexpr hn::RebindToSigned<DF> di;
+  const auto steps =
+      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
+  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
+}
+
+void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last,
+                           const RadiusScale& radius_scale, ConeForms* forms, TrianglePlane* planes,
+                           std::vector<std::uint32_t>& unknown) {
   const auto nan = hn::Set(dd, std::numeric_limits<double>::quiet_NaN());
   alignas(64) std::int64_t corner[3][lanes];
   alignas(64) float packed[4][4 * lanes];
-  alignas(64) float packed_radii[4 * lanes];
+  constexpr hn::RebindToSigned<DF> di;
+  alignas(64) std::int32_t words[lanes];
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
     for (std::size_t k = 0; k < lanes; ++k) {
@@ -177,118 +232,24 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const auto edge = hn::Max(ab_ab, hn::Max(ac_ac, dot(bc, bc)));
     const auto dip = hn::Mul(edge, hn::Set(dd, 1.0 / 3));
     const auto least = hn::Max(hn::Zero(dd), hn::Sub(hn::Min(aa, hn::Min(bb, cc)), dip));
-    store_interleaved(hn::Mul(least, hn::Set(dd, 1 - 0x1p-16)), hn::Mul(furthest, hn::Set(dd, 1 + 0x1p-16)),
-                      edge, edge, packed_radii);
+    const auto widened = [&](Doubles squared, double by) {
+      return radius_codes(radius_scale, hn::DemoteTo(df, hn::Mul(squared, hn::Set(dd, by))));
+    };
+    const auto to_greatest = hn::Sub(hn::Set(di, greatest_radius_code), widened(furthest, 1 + 0x1p-16));
+    hn::Store(hn::Or(widened(least, 1 - 0x1p-16), hn::ShiftLeft<16>(to_greatest)), di, words);
     for (std::size_t k = 0; k < count; ++k) {
       ConeForms& out = forms[t + k];
       std::copy_n(packed[0] + 4 * k, 4, out.x);
       std::copy_n(packed[1] + 4 * k, 4, out.y);
       std::copy_n(packed[2] + 4 * k, 4, out.z);
       std::copy_n(packed[3] + 4 * k, 3, out.rest);
-      radii[t - first + k] = {packed_radii[4 * k], packed_radii[4 * k + 1], packed_radii[4 * k + 2]};
+      planes[t + k] = {{out.x[3], out.y[3], out.z[3]}, static_cast<RadiusWord>(words[k])};
+    }
+    if (hn::AllTrue(dd, known)) continue;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (std::isnan(packed[0][4 * k])) unknown.push_back(static_cast<std::uint32_t>(t + k));
     }
   }
-}
-
-/// octagon_in_cell() of a triangle in several cells.
-template <class DI>
-struct OctagonsInCells {
-  using Ints = hn::Vec<DI>;
-  hn::Mask<DI> meet;
-  Ints box, slant;
-
-  HWY_INLINE OctagonsInCells(const FaceParts& parts, int n, Ints column, Ints row) {
-    constexpr DI di;
-    const auto set = [](int value) { return hn::Set(DI(), value); };
-    const auto within = [&](Ints value, int most) {
-      return hn::Min(hn::Max(value, hn::Zero(di)), set(most));
-    };
-    const auto from = [&](int value, Ints start) { return hn::Sub(set(value), start); };
-    const auto word = [&](Ints least_a, Ints greatest_a, Ints least_b, Ints greatest_b) {
-      const auto a = hn::Or(least_a, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_a)));
-      const auto b = hn::Or(least_b, hn::ShiftLeft<8>(hn::Sub(set(255), greatest_b)));
-      return hn::Or(a, hn::ShiftLeft<16>(b));
-    };
-    const auto u = hn::ShiftLeft<8>(column), w = hn::ShiftLeft<8>(row);
-    const auto sum = hn::Add(u, w), difference = hn::Add(hn::Sub(u, w), set(parts_per_cell * n - 255));
-    const auto least_sum = from(parts.least[2] - 2, sum), greatest_sum = from(parts.greatest[2] + 1, sum);
-    const auto least_difference = from(parts.least[3] - 1, difference);
-    const auto greatest_difference = from(parts.greatest[3] + 2, difference);
-    const auto most = set(510);
-    const auto before = hn::Or(hn::Lt(greatest_sum, hn::Zero(di)), hn::Lt(greatest_difference, hn::Zero(di)));
-    meet = hn::Not(hn::Or(before, hn::Or(hn::Gt(least_sum, most), hn::Gt(least_difference, most))));
-    box = word(within(from(parts.least[0], u), 255), within(from(parts.greatest[0], u), 255),
-               within(from(parts.least[1], w), 255), within(from(parts.greatest[1], w), 255));
-    const auto half = [&](Ints value) { return hn::ShiftRight<1>(within(value, 510)); };
-    slant = word(half(least_sum), half(greatest_sum), half(least_difference), half(greatest_difference));
-  }
-};
-
-void list_small_triangles_any(const MeshView& mesh, const std::uint8_t* faces, const FacePoint* vertices,
-                              std::size_t first, std::size_t last, const TriangleRadii* radii,
-                              Listing& listing) {
-  constexpr hn::CappedTag<float, 4> d4;
-  constexpr hn::RebindToSigned<decltype(d4)> di4;
-  constexpr hn::RebindToUnsigned<decltype(d4)> du4;
-  alignas(16) constexpr std::int32_t column_step[4] = {0, 1, 0, 1}, row_step[4] = {0, 0, 1, 1};
-  const int n = listing.cells_per_side;
-  const int last_part = n * parts_per_cell - 1;
-  const auto scale = hn::Set(d4, 0.5f * static_cast<float>(n * parts_per_cell));
-  alignas(16) constexpr float low_shift[4] = {1 - list_margin, 1 - list_margin, 2 - 2 * list_margin,
-                                              2 - 2 * list_margin};
-  alignas(16) constexpr float high_shift[4] = {1 + list_margin, 1 + list_margin, 2 + 2 * list_margin,
-                                               2 + 2 * list_margin};
-  ListedTriangle* next = listing.entry + listing.count;
-  for (std::size_t t = first; t < last; ++t) {
-    const std::uint32_t* corner = mesh.corner + 3 * t;
-    const std::uint32_t* later = mesh.corner + 3 * std::min(t + triangles_ahead, mesh.triangles - 1);
-    for (int i = 0; i < 3; ++i) hwy::Prefetch(vertices + later[i]);
-    alignas(16) FaceParts parts;
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-      const auto load = [&](int i) { return hn::Load(d4, vertices[corner[i]].at + k); };
-      const auto a = load(0), b = load(1), c = load(2);
-      const auto low = hn::Mul(hn::Add(hn::Min(a, hn::Min(b, c)), hn::Load(d4, low_shift + k)), scale);
-      const auto high = hn::Mul(hn::Add(hn::Max(a, hn::Max(b, c)), hn::Load(d4, high_shift + k)), scale);
-      hn::StoreU(hn::Max(hn::ConvertTo(di4, low), hn::Zero(di4)), di4, parts.least.data() + k);
-      hn::StoreU(hn::ConvertTo(di4, high), di4, parts.greatest.data() + k);
-    }
-    const int face = faces[corner[0]];
-    const int i0 = parts.least[0] >> 8, j0 = parts.least[1] >> 8;
-    const int i1 = parts.greatest[0] >> 8, j1 = parts.greatest[1] >> 8;
-    // At the face's edge the widened triangle reaches the next face.
-    const bool at_edge = parts.least[0] == 0 || parts.least[1] == 0 || parts.greatest[0] >= last_part ||
-                         parts.greatest[1] >= last_part;
-    if (face != faces[corner[1]] || face != faces[corner[2]] || at_edge || i1 - i0 > 1 || j1 - j0 > 1) {
-      listing.elsewhere[listing.elsewhere_count++] = static_cast<std::uint32_t>(t);
-      continue;
-    }
-    // Up to four cells, always worked out: which of them there are is not to be foretold.
-    alignas(16) std::uint32_t cell[4], met[4], entry[16];
-    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
-      const auto i = hn::Add(hn::Set(di4, i0), hn::Load(di4, column_step + k));
-      const auto j = hn::Add(hn::Set(di4, j0), hn::Load(di4, row_step + k));
-      const auto spare = hn::Iota(di4, 6 * n * n + static_cast<std::int32_t>(k));
-      const OctagonsInCells<decltype(di4)> octagons(parts, n, i, j);
-      const auto in_box = hn::Not(hn::Or(hn::Gt(i, hn::Set(di4, i1)), hn::Gt(j, hn::Set(di4, j1))));
-      const auto meets = hn::And(in_box, octagons.meet);
-      const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di4, face * n), j), hn::Set(di4, n)), i);
-      const auto cells = hn::BitCast(du4, hn::IfThenElse(meets, own, spare));
-      hn::Store(cells, du4, cell + k);
-      hn::Store(hn::And(hn::BitCast(du4, hn::VecFromMask(di4, meets)), hn::Set(du4, 1)), du4, met + k);
-      hn::StoreInterleaved4(cells, hn::Set(du4, static_cast<std::uint32_t>(t)),
-                            hn::BitCast(du4, octagons.box), hn::BitCast(du4, octagons.slant), du4,
-                            entry + 4 * k);
-    }
-    const TriangleRadii& bounds = radii[t - first];
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::memcpy(next, entry + 4 * k, sizeof *next);
-      next += met[k];
-      listing.length[cell[k]] += met[k];
-      listing.least[cell[k]] = std::min(listing.least[cell[k]], bounds.least);
-      listing.greatest[cell[k]] = std::max(listing.greatest[cell[k]], bounds.greatest);
-    }
-  }
-  listing.count = static_cast<std::size_t>(next - listing.entry);
 }
 
 }  // namespace
@@ -299,21 +260,21 @@ HWY_AFTER_NAMESPACE();
 namespace condyle {
 
 HWY_EXPORT(place_vertices_any);
+HWY_EXPORT(find_strayed_any);
 HWY_EXPORT(measure_triangles_any);
-HWY_EXPORT(list_small_triangles_any);
 
 void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out) {
   HWY_DYNAMIC_DISPATCH(place_vertices_any)(mesh, face, out);
 }
 
-void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
-                       TriangleRadii* radii) {
-  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, forms, radii);
+std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
+                         std::uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(find_strayed_any)(mesh, face, room, out);
 }
 
-void list_small_triangles(const MeshView& mesh, const std::uint8_t* face, const FacePoint* vertices,
-                          std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing) {
-  HWY_DYNAMIC_DISPATCH(list_small_triangles_any)(mesh, face, vertices, first, last, radii, listing);
+void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
+                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown) {
+  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, scale, forms, planes, unknown);
 }
 
 }  // namespace condyle

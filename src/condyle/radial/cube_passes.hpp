@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "condyle/radial/cube_view.hpp"
 
@@ -18,9 +20,10 @@ struct alignas(16) FacePoint {
   float w() const noexcept { return at[1]; }
 };
 
-/// Bounds of a triangle's squared radii, rounded outwards by list_margin, and its longest edge squared.
-struct TriangleRadii {
-  float least, greatest, longest_edge;
+/// A triangle's plane, its lane 3 of ConeForms, and what squared radii it takes.
+struct alignas(16) TrianglePlane {
+  float n[3];
+  RadiusWord radii;
 };
 
 struct MeshView {
@@ -31,38 +34,98 @@ struct MeshView {
   std::size_t triangles;
 };
 
+/// Where each vertex may be on the cube: its face, and the least and the greatest of its u, w, u + w and
+/// u - w there. Both are its place where it is not to move.
+struct PlacedVertices {
+  const std::uint8_t* face;
+  const FacePoint *low, *high;
+};
+
+/// Where a vertex may be on its face.
+struct FaceRoom {
+  float low_u, low_w, high_u, high_w;
+};
+
 /// A triangle in one cell, before it is sorted into that cell's list.
 struct ListedTriangle {
   std::uint32_t cell, triangle;
   CellOctagon octagon;
 };
 
-/// Lists that are being made: room for the entries, and what is gathered for each cell.
+/// Lists that are being made: room for the entries, and their number in each cell.
 struct Listing {
   int cells_per_side;
   ListedTriangle* entry;
-  std::size_t count;
-  // For each cell, and four spare ones for cells that a triangle turns out not to meet.
-  std::uint32_t* length;     ///< number of entries
-  float *least, *greatest;   ///< squared radii
+  std::size_t count, room;
+  std::uint32_t* length;     ///< for each cell, and four spare ones for cells that a triangle does not meet
   std::uint32_t* elsewhere;  ///< triangles not listed here: on several faces, or larger than two cells
   std::size_t elsewhere_count;
+};
+
+/// A triangle seen on a face: its corners there, in turn and the first one again, and how far each may be
+/// from that.
+struct FaceTriangle {
+  FacePoint corner[3];
+  float u[4], w[4];
+  float slack_u, slack_w;
+  std::uint32_t triangle;
+  std::int32_t face;
+};
+
+/// Entries that listing may write beyond those it makes.
+inline constexpr std::size_t listing_room = 16;
+
+/// Rows of lists, and what is known of the triangles in them.
+struct ListedRadii {
+  int cells_per_side;
+  const CellRow* row;
+  const std::uint32_t* triangle;
+  const TrianglePlane* plane;
+  RadiusScale scale;            ///< of the planes' radii
+  const float* inverse_length;  ///< see CellCorners
+  float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
+  std::uint16_t* nearest;       ///< written for each entry: code of its triangle's least squared radius
+};
+
+/// Squared radii of the surface in a cell; infinity and 0 where there is none.
+struct CellRadii {
+  float least, greatest;
 };
 
 /// Faces (0 to 5) and places of all vertices.
 void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out);
 
-/// Forms and radii of triangles [first, last).
+/// Vertices that are not in their rooms, in ascending order; `out` has room for all. The face is that of the
+/// room, and places are rounded as place_vertices() does.
+std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
+                         std::uint32_t* out);
+
+/// Forms and planes of triangles [first, last), each at its own number; adds those whose forms are no numbers
+/// to `unknown`.
 ///
 /// No point of a triangle is nearer than the vertices are by more than its edges say: for p = sum l_i v_i,
 /// |p|^2 = sum l_i |v_i|^2 - sum l_i l_j |v_i - v_j|^2, and the last sum is at most L^2 / 3, L the longest
 /// edge.
-void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, ConeForms* forms,
-                       TriangleRadii* radii);
+void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
+                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown);
 
 /// Lists those triangles of [first, last) that lie within one face, off its edges, and in at most 2 x 2
-/// cells; `radii` starts at the first one. At most four entries for each.
-void list_small_triangles(const MeshView& mesh, const std::uint8_t* face, const FacePoint* vertices,
-                          std::size_t first, std::size_t last, const TriangleRadii* radii, Listing& listing);
+/// cells. At most four entries for each.
+void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
+                          std::size_t last, Listing& listing);
+
+/// Lists triangles seen on a face in the cells that they meet: those of their octagon, but for cells beyond
+/// one of their edges. Corners are within four times the face's size. Returns how many it has listed: fewer
+/// than there are where `listing` has not room for all cells that the next one may meet, and listing_room.
+std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing);
+
+/// Radii of the surface in cells [first, last): of each listed triangle those of its plane within the cell,
+/// or those of the triangle where they are closer. `out` starts at the first cell.
+///
+/// In unit direction d a plane has the radius 1 / (n . d), n its form. d is a sum of the cell's corner
+/// directions with weights >= 0, whose sum is at least 1 and at most 1 / cosine: so n . d lies between the
+/// least n . corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and
+/// the floats.
+void measure_cells(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out);
 
 }  // namespace condyle

@@ -28,9 +28,23 @@ inline constexpr float list_margin = 0x1p-15f;
 /// Greatest translation of a pose, over the distance of the nearest surface, at which floats are trusted.
 inline constexpr double largest_translation = 4;
 
-/// The triangles of one cell: [first, last) of the lists.
+/// The triangles of one cell: [first, last) of the lists. In long rows those of the cell's left half (u below
+/// its middle) come first and those of the right half last:
+///
+///     first      | left half alone | both | right half alone |      last
+///                                  ^      ^
+///                        right_begin      left_end                  counted from `first`
 struct CellRow {
+  static constexpr std::uint16_t whole = 0xffff;
+
   std::uint32_t first, last;
+  std::uint16_t left_end = whole, right_begin = 0;
+
+  /// Those that a point with this box can meet.
+  constexpr CellRow half_at(std::uint32_t box) const noexcept {
+    const bool is_right = (box & 128) != 0;
+    return {is_right ? first + right_begin : first, is_right || left_end == whole ? last : first + left_end};
+  }
 };
 
 /// Four linear forms of a point v, side by side: a . v in lanes x[k] v_x + y[k] v_y + z[k] v_z. For a

@@ -1,10 +1,194 @@
 #include "condyle/radial/direction_pyramid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
-#include "condyle/radial/direction_map.hpp"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "condyle/radial/direction_pyramid.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+HWY_BEFORE_NAMESPACE();
+namespace condyle::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Rows are as long as a power of two most of all, and short on the upper levels.
+using Long = hn::CappedTag<std::uint32_t, 16>;
+using Short = hn::CappedTag<std::uint32_t, 4>;
+
+/// union_of(): the halves are numbers of their own.
+template <class Words>
+HWY_INLINE hn::Vec<Words> union_of_words(Words words, hn::Vec<Words> a, hn::Vec<Words> b) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(words, union_of(hn::GetLane(a), hn::GetLane(b)));
+#else
+  constexpr hn::Repartition<std::uint16_t, Words> halves;
+  return hn::BitCast(words, hn::Min(hn::BitCast(halves, a), hn::BitCast(halves, b)));
+#endif
+}
+
+/// Calls step(tag, i) for vectors of elements [0, n), long ones while they fit.
+template <class Step>
+HWY_INLINE void in_vectors(std::size_t n, const Step& step) {
+  constexpr hn::CappedTag<std::uint32_t, 1> single;
+  std::size_t i = 0;
+  for (; i + hn::MaxLanes(Long()) <= n; i += hn::MaxLanes(Long())) step(Long(), i);
+  for (; i + hn::MaxLanes(Short()) <= n; i += hn::MaxLanes(Short())) step(Short(), i);
+  for (; i < n; ++i) step(single, i);
+}
+
+/// Columns with their neighbours above and below.
+void unite_rows(const RadiusWord* above, const RadiusWord* middle, const RadiusWord* below, std::size_t n,
+                RadiusWord* out) {
+  in_vectors(n, [&](auto words, std::size_t i) {
+    const auto both = union_of_words(words, hn::LoadU(words, above + i), hn::LoadU(words, below + i));
+    hn::StoreU(union_of_words(words, both, hn::LoadU(words, middle + i)), words, out + i);
+  });
+}
+
+/// Each with those up to `reach` before and after it; `in` starts so far before the first.
+void unite_neighbours(const RadiusWord* in, std::size_t n, std::size_t reach, RadiusWord* out) {
+  in_vectors(n, [&](auto words, std::size_t i) {
+    auto all = hn::LoadU(words, in + i);
+    for (std::size_t k = 1; k <= 2 * reach; ++k)
+      all = union_of_words(words, all, hn::LoadU(words, in + i + k));
+    hn::StoreU(all, words, out + i);
+  });
+}
+
+std::size_t square(std::size_t n) noexcept {
+  return n * n;
+}
+
+/// Borders within each face. `row` has room for a row and one word at either end.
+void widen_faces(const RadiusWord* in, std::size_t n, RadiusWord* row, RadiusWord* out) {
+  row[0] = row[n + 1] = no_radii;
+  for (std::size_t face = 0; face < 6; ++face) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const RadiusWord* middle = in + face * square(n) + j * n;
+      unite_rows(j > 0 ? middle - n : middle, middle, j + 1 < n ? middle + n : middle, n, row + 1);
+      unite_neighbours(row, n, 1, out + face * square(n) + j * n);
+    }
+  }
+}
+
+/// A line of pieces along an edge of a face, so many others away from it.
+struct EdgeLine {
+  std::size_t first, step;
+
+  /// On the side of the face where the coordinate of the given axis is least or greatest. Columns run along
+  /// the face's axis + 1, rows along axis + 2.
+  EdgeLine(int face, int axis, bool is_greatest, std::size_t away, std::size_t n) {
+    const std::size_t at = is_greatest ? n - 1 - away : away;
+    const bool is_column = axis == (face + 1) % 3;
+    first = static_cast<std::size_t>(face) * square(n) + (is_column ? at : at * n);
+    step = is_column ? n : 1;
+  }
+};
+
+/// The widest border, and how far along an edge a piece is asked for then.
+constexpr std::size_t most_border = 3, most_reach = 2 * most_border;
+
+/// Room for borders: rows with a margin of `most_reach` words at either end.
+struct Room {
+  std::array<RadiusWord*, most_border> beyond;
+  RadiusWord *united, *widened;
+};
+
+/// Borders across the edges of the cube. A direction of a piece that q others part from an edge may be
+/// displaced beyond it by d = border - q pieces. There a coordinate 1 + e is 1 / (1 + e), at least 1 - e: it
+/// enters the neighbouring face by no more than d pieces. The other coordinate is divided by 1 + e too, which
+/// brings it nearer to the middle by at most d pieces more than it is displaced by.
+void widen_across_edges(const RadiusWord* in, std::size_t n, std::size_t border, const Room& room,
+                        RadiusWord* out) {
+  const std::size_t depths = std::min(border, n);
+  for (int face = 0; face < 6; ++face) {
+    for (const int axis : {(face + 1) % 3, (face + 2) % 3}) {
+      for (const bool is_greatest : {false, true}) {
+        // beyond[m]: the first m + 1 pieces beyond the edge.
+        for (std::size_t m = 0; m < depths; ++m) {
+          const EdgeLine line(is_greatest ? axis : axis + 3, face % 3, face < 3, m, n);
+          RadiusWord* row = room.beyond[m];
+          for (std::size_t k = 0; k < n; ++k) row[most_reach + k] = in[line.first + k * line.step];
+          if (m > 0)
+            unite_rows(row + most_reach, row + most_reach, room.beyond[m - 1] + most_reach, n,
+                       row + most_reach);
+        }
+        for (std::size_t q = 0; q < depths; ++q) {
+          const std::size_t depth = border - q, reach = border + depth;
+          const RadiusWord* row = room.beyond[std::min(depth, n) - 1];
+          unite_neighbours(row + most_reach - reach, n, reach, room.united);
+          const EdgeLine own(face, axis, is_greatest, q, n);
+          for (std::size_t k = 0; k < n; ++k) {
+            RadiusWord& entry = out[own.first + k * own.step];
+            entry = union_of(entry, room.united[k]);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Four pieces to one.
+void halve(const RadiusWord* in, std::size_t n, RadiusWord* out) {
+  const std::size_t half = n / 2;
+  for (std::size_t row = 0; row < 6 * half; ++row, out += half) {
+    const RadiusWord *upper = in + 2 * row * n, *lower = upper + n;
+    in_vectors(half, [&](auto words, std::size_t i) {
+      auto a = hn::Zero(words), b = a, c = a, e = a;
+      hn::LoadInterleaved2(words, upper + 2 * i, a, b);
+      hn::LoadInterleaved2(words, lower + 2 * i, c, e);
+      const auto both = union_of_words(words, union_of_words(words, a, b), union_of_words(words, c, e));
+      hn::StoreU(both, words, out + i);
+    });
+  }
+}
+
+void fill_any(int cells_per_side, const RadiusWord* cells, std::span<RadiusWord> words, RadiusWord* entries) {
+  const auto finest = static_cast<std::size_t>(cells_per_side);
+  const std::size_t row_room = finest + 2 * most_reach;
+  Room room{};
+  RadiusWord* next = words.data();
+  const auto take = [&](std::size_t count) {
+    RadiusWord* start = next;
+    next += count;
+    return start;
+  };
+  for (RadiusWord*& row : room.beyond) row = take(row_room);
+  room.united = take(row_room), room.widened = take(row_room);
+  RadiusWord *bordered = take(6 * square(finest / 2)), *piece = take(6 * square(finest / 2)),
+             *coarser = take(6 * square(finest / 2));
+  const RadiusWord* pieces = cells;
+  const int steps = DirectionPyramid::step_count(cells_per_side);
+  for (int step = 1; step < steps; step += 2) {
+    const std::size_t n = finest >> DirectionPyramid::level_of(step);
+    for (RadiusWord* row : room.beyond) {
+      std::fill_n(row, most_reach, no_radii), std::fill_n(row + most_reach + n, most_reach, no_radii);
+    }
+    const auto at = [&](int of) { return entries + DirectionPyramid::start_of(of, cells_per_side); };
+    RadiusWord* const one = step == 1 ? at(0) : bordered;
+    // Within the faces all of them first: what is beyond an edge is not to be widened again.
+    widen_faces(pieces, n, room.widened, one);
+    widen_faces(one, n, room.widened, at(step));
+    widen_faces(at(step), n, room.widened, at(step + 1));
+    if (step == 1) widen_across_edges(pieces, n, 1, room, one);
+    widen_across_edges(pieces, n, 2, room, at(step));
+    widen_across_edges(pieces, n, 3, room, at(step + 1));
+    if (step + 2 >= steps) break;
+    halve(pieces, n, coarser);
+    std::swap(piece, coarser);
+    pieces = piece;
+  }
+}
+
+}  // namespace
+}  // namespace condyle::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace condyle {
 namespace {
 
@@ -12,101 +196,7 @@ std::size_t square(int n) noexcept {
   return static_cast<std::size_t>(n) * static_cast<std::size_t>(n);
 }
 
-/// Each entry of a row with its neighbours to the left and right.
-void widen_row(const RadiusWord* in, int n, RadiusWord* out) noexcept {
-  for (int i = 0; i < n; ++i) out[i] = in[i];
-  for (int i = 1; i < n; ++i) out[i] = union_of(out[i], in[i - 1]);
-  for (int i = 0; i + 1 < n; ++i) out[i] = union_of(out[i], in[i + 1]);
-}
-
-/// `in` with borders wider by one piece, within each face.
-void widen_faces(const RadiusWord* in, int n, RadiusWord* out) {
-  std::vector<RadiusWord> widened(square(n));
-  const auto row = [&](int j) { return static_cast<std::size_t>(j) * static_cast<std::size_t>(n); };
-  for (int face = 0; face < 6; ++face) {
-    const std::size_t start = static_cast<std::size_t>(face) * square(n);
-    for (int j = 0; j < n; ++j) widen_row(in + start + row(j), n, widened.data() + row(j));
-    for (int j = 0; j < n; ++j) {
-      const RadiusWord* above = widened.data() + row(std::max(j - 1, 0));
-      const RadiusWord* middle = widened.data() + row(j);
-      const RadiusWord* below = widened.data() + row(std::min(j + 1, n - 1));
-      for (int i = 0; i < n; ++i) {
-        out[start + row(j) + static_cast<std::size_t>(i)] = union_of(middle[i], union_of(above[i], below[i]));
-      }
-    }
-  }
-}
-
-/// The rows of pieces that lie along an edge of the cube, seen from one of its faces.
-class BeyondEdge {
- public:
-  /// Edge 2 a + b of a face with axis x: a = 0 across x + 1, a = 1 across x + 2; b = 0 on its negative side.
-  BeyondEdge(std::span<const RadiusWord> pieces, int n, int face, int edge, int depth) : n_(n) {
-    const CubeMap map(n);
-    const int axis = face % 3, across = (axis + 1 + edge / 2) % 3, along = (axis + 2 - edge / 2) % 3;
-    within_.resize(static_cast<std::size_t>(depth * n));
-    for (int k = 0; k < n; ++k) {
-      RadiusWord so_far = no_radii;
-      for (int m = 0; m < depth; ++m) {
-        Vec3 direction;
-        direction[across] = edge % 2 == 0 ? -1 : 1;
-        direction[axis] = (face < 3 ? 1 : -1) * middle(n - 1 - m);
-        direction[along] = middle(k);
-        so_far = union_of(so_far, pieces[map.cell_of(direction)]);
-        within_[static_cast<std::size_t>(m * n + k)] = so_far;
-      }
-    }
-  }
-
-  /// Of the first `depth` pieces beyond the edge, from `first` to `last` along it.
-  RadiusWord radii(int depth, int first, int last) const {
-    RadiusWord word = no_radii;
-    for (int k = std::max(first, 0); k <= std::min(last, n_ - 1); ++k) {
-      word = union_of(word, within_[static_cast<std::size_t>((depth - 1) * n_ + k)]);
-    }
-    return word;
-  }
-
- private:
-  double middle(int k) const { return (2 * k + 1.0) / n_ - 1; }
-
-  int n_;
-  std::vector<RadiusWord> within_;
-};
-
-/// Borders across the edges of the cube. A direction of a piece that q others part from an edge may be
-/// displaced beyond it by d = border - q pieces. There a coordinate 1 + e is 1 / (1 + e), at least 1 - e: it
-/// enters the neighbouring face by no more than d pieces. The other coordinate is divided by 1 + e too, which
-/// brings it nearer to the middle by at most d pieces more than it is displaced by.
-void widen_across_edges(std::span<const RadiusWord> pieces, int n, int border, RadiusWord* out) {
-  for (int face = 0; face < 6; ++face) {
-    for (int edge = 0; edge < 4; ++edge) {
-      const BeyondEdge beyond(pieces, n, face, edge, std::min(border, n));
-      for (int q = 0; q < std::min(border, n); ++q) {
-        for (int k = 0; k < n; ++k) {
-          // Columns run along axis + 1, rows along axis + 2.
-          const int at_edge = edge % 2 == 0 ? q : n - 1 - q;
-          const int column = edge / 2 == 0 ? at_edge : k, row = edge / 2 == 0 ? k : at_edge;
-          RadiusWord& entry = out[static_cast<std::size_t>((face * n + row) * n + column)];
-          const int depth = border - q, reach = border + depth;
-          entry = union_of(entry, beyond.radii(std::min(depth, n), k - reach, k + reach));
-        }
-      }
-    }
-  }
-}
-
-void halve(std::span<const RadiusWord> in, int n, std::vector<RadiusWord>& out) {
-  const std::size_t half = static_cast<std::size_t>(n) / 2, side = static_cast<std::size_t>(n);
-  out.resize(6 * half * half);
-  for (std::size_t row = 0; row < 6 * half; ++row) {
-    const RadiusWord *upper = in.data() + 2 * row * side, *lower = upper + side;
-    for (std::size_t i = 0; i < half; ++i) {
-      out[row * half + i] =
-          union_of(union_of(upper[2 * i], upper[2 * i + 1]), union_of(lower[2 * i], lower[2 * i + 1]));
-    }
-  }
-}
+HWY_EXPORT(fill_any);
 
 }  // namespace
 
@@ -132,28 +222,12 @@ std::size_t DirectionPyramid::entry_count(int cells_per_side) noexcept {
 void DirectionPyramid::fill(int cells_per_side, std::span<const RadiusWord> cells) {
   assert(cells.size() == 6 * square(cells_per_side));
   entry_.resize(entry_count(cells_per_side));
-  piece_.assign(cells.begin(), cells.end());
-  const int steps = step_count(cells_per_side);
-  const auto entries = [&](int step) { return entry_.data() + start_of(step, cells_per_side); };
-  std::vector<RadiusWord> border_of_one;
-  for (int step = 1; step < steps; step += 2) {
-    const int n = cells_per_side >> level_of(step);
-    RadiusWord* one = entries(0);
-    if (step > 1) {
-      border_of_one.resize(6 * square(n));
-      one = border_of_one.data();
-    }
-    // Within the faces all of them first: what is beyond an edge is not to be widened again.
-    widen_faces(piece_.data(), n, one);
-    widen_faces(one, n, entries(step));
-    widen_faces(entries(step), n, entries(step + 1));
-    if (step == 1) widen_across_edges(piece_, n, 1, one);
-    widen_across_edges(piece_, n, 2, entries(step));
-    widen_across_edges(piece_, n, 3, entries(step + 1));
-    if (step + 2 >= steps) break;
-    halve(piece_, n, coarser_);
-    std::swap(piece_, coarser_);
-  }
+  const auto n = static_cast<std::size_t>(cells_per_side);
+  // Five rows with their margins, and of one level after the first its pieces, those with a border, and the
+  // next ones.
+  room_.resize(5 * (n + 12) + 18 * square(cells_per_side / 2));
+  HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), room_, entry_.data());
 }
 
 }  // namespace condyle
+#endif

@@ -38,7 +38,7 @@ class DirectionPyramid {
 
  private:
   std::vector<RadiusWord> entry_;
-  std::vector<RadiusWord> piece_, coarser_;  // radii without borders, of the pieces at hand and of the next
+  std::vector<RadiusWord> room_;  // for filling
 };
 
 }  // namespace condyle

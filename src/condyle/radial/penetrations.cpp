@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "condyle/core/parallel.hpp"
 #include "condyle/radial/penetration_search.hpp"
@@ -92,7 +93,7 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
   const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
   RayScan scan(mesh_, *winding_at_centre_);
   constexpr std::size_t fan = SortedPoints::fan, groups_per_batch = blocks_per_batch / fan;
-  constexpr std::size_t sets_per_batch = 16;
+  constexpr std::size_t sets_per_batch = 16, few_groups = 4;
   std::array<std::uint32_t, sets_per_batch> set;
   std::array<std::uint32_t, sets_per_batch * fan + vector_room> near_group;
   std::array<std::uint32_t, blocks_per_batch + vector_room> near_block;
@@ -100,8 +101,13 @@ void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Pen
   for (std::size_t first_set = 0; first_set < set_count; first_set += sets_per_batch) {
     const std::size_t sets = std::min(sets_per_batch, set_count - first_set);
     for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
-    const std::size_t group_count =
-        near_blocks(search.cube, groups, search.pose, set.data(), sets, near_group.data());
+    // Of few groups hardly one is off the surface: asking them is not worth its time.
+    std::size_t group_count = groups.count;
+    if (groups.count <= few_groups) {
+      std::iota(near_group.begin(), near_group.begin() + few_groups, 0u);
+    } else {
+      group_count = near_blocks(search.cube, groups, search.pose, set.data(), sets, near_group.data());
+    }
     for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
       const std::size_t group_last = std::min(first + groups_per_batch, group_count);
       const std::size_t count = near_blocks(search.cube, blocks, search.pose, near_group.data() + first,

@@ -37,16 +37,12 @@ std::variant<CartesianMap, CubeMap> make_map(const RadialOptions& options, std::
   return CubeMap(side);
 }
 
-/// Some triangles of a mesh, each with corners of its own.
-TriMesh parts_of(const TriMesh& mesh, std::span<const Index> triangles) {
-  TriMesh parts;
-  parts.vertices.reserve(3 * triangles.size());
-  for (const Index t : triangles) {
-    for (int k = 0; k < 3; ++k) parts.vertices.push_back(mesh.corner(t, k));
-    const auto first = static_cast<Index>(3 * parts.triangles.size());
-    parts.triangles.push_back({first, first + 1, first + 2});
-  }
-  return parts;
+CellLists list_triangles(const TriMesh& mesh, const std::variant<CartesianMap, CubeMap>& map) {
+  const auto* cube = std::get_if<CubeMap>(&map);
+  if (!cube) return list_cells(mesh, std::get<CartesianMap>(map));
+  CellLists lists;
+  list_cells(mesh, *cube, lists);
+  return lists;
 }
 
 }  // namespace
@@ -59,10 +55,9 @@ void RadialHits::resize(std::size_t count) {
 RadialTable::RadialTable(TriMesh mesh, RadialOptions options)
     : mesh_(std::move(mesh)),
       map_(make_map(options, mesh_.triangles.size())),
-      lists_(std::visit([&](const auto& map) { return list_cells(mesh_, map); }, map_)) {
-  for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
-  boundary_edge_ = unbalanced_edge(mesh_);
-  prepare_radii();
+      lists_(list_triangles(mesh_, map_)),
+      boundary_edge_(unbalanced_edge(mesh_)) {
+  finish_lists();
 }
 
 void RadialTable::update(PointsView vertices) {
@@ -70,58 +65,67 @@ void RadialTable::update(PointsView vertices) {
     throw UsageError("an update of " + std::to_string(mesh_.vertices.size()) + " vertices gives " +
                      std::to_string(vertices.size()));
   }
+  const auto* cube = std::get_if<CubeMap>(&map_);
+  if (cube) make_rooms(mesh_, lists_);
   mesh_.vertices.x.assign(vertices.x.begin(), vertices.x.end());
   mesh_.vertices.y.assign(vertices.y.begin(), vertices.y.end());
   mesh_.vertices.z.assign(vertices.z.begin(), vertices.z.end());
-  list_again();
-}
-
-void RadialTable::list_again() {
-  if (const auto* cube = std::get_if<CubeMap>(&map_)) {
-    list_cells(mesh_, *cube, lists_);
+  if (cube) {
+    follow_vertices(mesh_, *cube, lists_);
   } else {
-    lists_ = list_cells(mesh_, std::get<CartesianMap>(map_));
+    lists_ = list_triangles(mesh_, map_);
   }
-  for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
-  prepare_radii();
+  finish_lists();
 }
 
 void RadialTable::update(std::span<const Index> moved, PointsView positions) {
-  std::vector<unsigned char> is_moved(mesh_.vertices.size());
-  for (const Index v : moved) is_moved[v] = 1;
-  std::vector<Index> triangles;
-  for (Index t = 0; t < mesh_.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh_.triangles[t];
-    if ((is_moved[a] | is_moved[b] | is_moved[c]) != 0) triangles.push_back(t);
-  }
-  const TriMesh before = parts_of(mesh_, triangles);
-  for (std::size_t i = 0; i < moved.size(); ++i) mesh_.vertices.set(moved[i], positions[i]);
   const auto* cube = std::get_if<CubeMap>(&map_);
-  if (!cube) return list_again();
-
-  for (std::size_t i = 0; i < moved.size(); ++i) lists_.corner[moved[i]] = positions[i];
-  const bool grown = move_triangles(*cube, triangles, before, parts_of(mesh_, triangles), lists_);
-  for (const Index t : triangles) require_centre_off_triangle(t);
-  if (!boundary_edge_) {
-    // Radii count from the centre, or not, as it is inside or outside: they are not told apart afterwards.
-    const bool was_inside = *winding_at_centre_ > 0;
-    winding_at_centre_ = find_winding_at_centre();
-    if (was_inside != (*winding_at_centre_ > 0)) return list_again();
+  if (cube) make_rooms(mesh_, lists_);
+  for (std::size_t i = 0; i < moved.size(); ++i) mesh_.vertices.set(moved[i], positions[i]);
+  if (!cube) {
+    lists_ = list_triangles(mesh_, map_);
+    return finish_lists();
   }
-  if (grown) prepare_radii();
+  if (triangles_at_.empty()) triangles_at_ = VertexTriangles(mesh_);
+  const std::vector<Index> triangles = triangles_at_.of(moved);
+  const bool are_radii_changed = follow_vertices(mesh_, *cube, moved, triangles, lists_);
+  for (const Index t : triangles) require_centre_off_triangle(t);
+  if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
+  if ((winding_at_centre_.value_or(0) > 0) != lists_.starts_at_centre) {
+    find_all_radii();
+  } else if (are_radii_changed) {
+    pyramid_.fill(cube->cells_per_side(), lists_.radii);
+  }
 }
 
-void RadialTable::prepare_radii() {
+/// What follows from lists, forms and vertices.
+void RadialTable::finish_lists() {
+  require_centre_off_surface();
   if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
-  if (winding_at_centre_.value_or(0) > 0) {
-    // Points nearer to the centre than the surface are inside and to be found: no radius is too small.
+  find_all_radii();
+}
+
+void RadialTable::find_all_radii() {
+  // Points nearer to the centre than the surface are inside and to be found where the centre is.
+  lists_.starts_at_centre = winding_at_centre_.value_or(0) > 0;
+  if (const auto* cube = std::get_if<CubeMap>(&map_)) {
+    find_radii(*cube, lists_);
+    pyramid_.fill(cube->cells_per_side(), lists_.radii);
+  } else if (lists_.starts_at_centre) {
     for (RadiusWord& word : lists_.radii) word = union_of(word, radius_word(0, 0));
   }
-  if (const auto* cube = std::get_if<CubeMap>(&map_)) pyramid_.fill(cube->cells_per_side(), lists_.radii);
+}
+
+void RadialTable::require_centre_off_surface() const {
+  // A form that is a number has a plane that is certainly off the centre.
+  if (std::holds_alternative<CubeMap>(map_)) {
+    for (const Index t : lists_.unknown) require_centre_off_triangle(t);
+  } else {
+    for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
+  }
 }
 
 void RadialTable::require_centre_off_triangle(Index t) const {
-  // A form that is a number has a plane that is certainly off the centre.
   if (!lists_.forms.empty() && !std::isnan(lists_.forms[t].x[3])) return;
   const Cone cone = cone_of(mesh_, t);
   if (orientation(cone.a, cone.b, cone.c) == Sign::zero &&
@@ -220,8 +224,8 @@ void RadialTable::query_states(PointsView points, std::vector<PointState>& out) 
 RadialTableSize RadialTable::table_size() const noexcept {
   Index longest = 0;
   for (const CellRow& row : lists_.row) longest = std::max(longest, row.last - row.first);
-  return {lists_.row.size(), lists_.entry_count(), lists_.bytes() + pyramid_.size() * sizeof(RadiusWord),
-          longest};
+  return {lists_.row.size(), lists_.entry_count(),
+          lists_.bytes() + pyramid_.size() * sizeof(RadiusWord) + triangles_at_.bytes(), longest};
 }
 
 }  // namespace condyle

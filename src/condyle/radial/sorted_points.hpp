@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "condyle/core/uninitialised.hpp"
 #include "condyle/core/vec3.hpp"
 
 namespace condyle {
@@ -58,9 +59,9 @@ class SortedPoints {
   Vec3 centre_;
   double reach_ = 0;
   std::array<std::size_t, levels> block_count_;
-  std::vector<Vec3> point_;
-  std::vector<Index> index_;
-  std::array<std::vector<float>, 3> rounded_;
+  UninitialisedVector<Vec3> point_;
+  UninitialisedVector<Index> index_;
+  std::array<UninitialisedVector<float>, 3> rounded_;
   std::array<std::array<std::vector<float>, columns>, levels> block_;
 };
 

@@ -1,0 +1,195 @@
+#include "condyle/radial/cube_listing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace condyle {
+namespace {
+
+/// Triangles looked at together: what is found of them stays in the nearest cache.
+constexpr std::size_t triangles_per_chunk = 1024;
+
+/// See Listing.
+constexpr std::size_t spare_cells = 4;
+
+constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
+
+/// Rounding of a place on a face: 4 u, u = 2^-24, that of a division and of the floats divided; for vertices
+/// that are given as they are placed.
+constexpr double place_error = 0x1p-22;
+
+/// Where a corner may be: within `slack` of its direction, on that one's face.
+struct PlacedCorner {
+  Vec3 direction;  ///< the face's coordinate is 1 or -1
+  double slack;
+};
+
+PlacedCorner corner_at(const PlacedVertices& placed, Index vertex) {
+  const FacePoint &low = placed.low[vertex], &high = placed.high[vertex];
+  const int face = placed.face[vertex], axis = face % 3;
+  PlacedCorner corner;
+  corner.direction[axis] = face < 3 ? 1 : -1;
+  corner.direction[(axis + 1) % 3] = 0.5 * (double{low.u()} + double{high.u()});
+  corner.direction[(axis + 2) % 3] = 0.5 * (double{low.w()} + double{high.w()});
+  corner.slack =
+      0.5 * std::max(double{high.u()} - double{low.u()}, double{high.w()} - double{low.w()}) + place_error;
+  return corner;
+}
+
+/// A face is seen by those rays whose largest coordinate is its own: a triangle with all corners beyond one
+/// side of that pyramid keeps off it.
+bool keeps_off(const std::array<PlacedCorner, 3>& corner, int face) {
+  const int axis = face % 3;
+  const double widening = 1 + 2 * double{list_margin}, sign = (face < 3 ? 1 : -1) * widening;
+  for (const int side : {(axis + 1) % 3, (axis + 2) % 3}) {
+    const auto all = [&](double way) {
+      return std::all_of(corner.begin(), corner.end(), [&](const PlacedCorner& c) {
+        return sign * c.direction[axis] + (widening + 1) * c.slack < way * c.direction[side];
+      });
+    };
+    if (all(1) || all(-1)) return true;
+  }
+  return false;
+}
+
+/// With all corners well in front of the other faces' planes, their places on this face are those of a plane
+/// triangle, within four times its size.
+bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
+  return std::all_of(corner.begin(), corner.end(), [&](const PlacedCorner& c) {
+    const double depth = face < 3 ? c.direction[face % 3] : -c.direction[face % 3];
+    return 4 * (depth - c.slack) >= c.direction.cwiseAbs().maxCoeff();
+  });
+}
+
+/// Where the triangle is seen on a face that it is in front of. A corner (depth, u, w) that is displaced by
+/// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
+FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index triangle) {
+  const int axis = face % 3;
+  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
+  const auto slack = [](double at, double depth, double s) {
+    return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double depth = std::abs(corner[k].direction[axis]);
+    const double u = corner[k].direction[(axis + 1) % 3] / depth;
+    const double w = corner[k].direction[(axis + 2) % 3] / depth;
+    const auto at_u = static_cast<float>(u), at_w = static_cast<float>(w);
+    seen.corner[k] = {{at_u, at_w, at_u + at_w, at_u - at_w}};
+    seen.slack_u = std::max(seen.slack_u, slack(u, depth, corner[k].slack));
+    seen.slack_w = std::max(seen.slack_w, slack(w, depth, corner[k].slack));
+  }
+  return seen;
+}
+
+}  // namespace
+
+MeshView view_of(const TriMesh& mesh) noexcept {
+  return {mesh.vertices.x.data(), mesh.vertices.y.data(),
+          mesh.vertices.z.data(), nullptr,
+          mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
+          mesh.triangles.size()};
+}
+
+CubeListing::CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed)
+    : mesh_(mesh),
+      map_(map),
+      placed_(placed),
+      n_(map.cells_per_side()),
+      view_(view_of(mesh)),
+      length_(map.cell_count() + spare_cells, 0) {}
+
+void CubeListing::list() {
+  const std::size_t triangles = mesh_.triangles.size();
+  // Room for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
+  entry_.resize(6 * triangles);
+  std::array<std::uint32_t, triangles_per_chunk> larger;
+  for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
+    const std::size_t last = std::min(first + triangles_per_chunk, triangles);
+    make_room(4 * (last - first));
+    Listing small = listing();
+    small.elsewhere = larger.data();
+    list_small_triangles(view_, placed_, first, last, small);
+    count_ = small.count;
+    for (std::size_t i = 0; i < small.elsewhere_count; ++i) list_larger(larger[i]);
+    list_seen();
+  }
+}
+
+void CubeListing::make_room(std::size_t entries) {
+  const std::size_t needed = count_ + entries + listing_room;
+  if (entry_.size() < needed) entry_.resize(std::max(needed, entry_.size() + entry_.size() / 2));
+}
+
+void CubeListing::list_larger(Index triangle) {
+  if (!see_on_one_face(triangle) && !see_on_faces(triangle)) list_clipped(triangle);
+}
+
+/// False where it reaches over the face's edges.
+bool CubeListing::see_on_one_face(Index triangle) {
+  const Triangle& vertex = mesh_.triangles[triangle];
+  const int face = placed_.face[vertex[0]];
+  if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
+  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
+  float furthest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FacePoint &low = placed_.low[vertex[k]], &high = placed_.high[vertex[k]];
+    furthest = std::max({furthest, -low.u(), -low.w(), high.u(), high.w()});
+    for (std::size_t i = 0; i < 4; ++i) seen.corner[k].at[i] = 0.5f * (low.at[i] + high.at[i]);
+    seen.slack_u = std::max(seen.slack_u, 0.5f * (high.u() - low.u()));
+    seen.slack_w = std::max(seen.slack_w, 0.5f * (high.w() - low.w()));
+  }
+  if (furthest >= 1 - 2 * list_margin) return false;
+  add_seen(seen);
+  return true;
+}
+
+/// False where it is too near to the plane between the centre and a face.
+bool CubeListing::see_on_faces(Index triangle) {
+  const Triangle& at = mesh_.triangles[triangle];
+  const std::array<PlacedCorner, 3> corner = {corner_at(placed_, at[0]), corner_at(placed_, at[1]),
+                                              corner_at(placed_, at[2])};
+  std::array<bool, 6> is_seen{};
+  for (int face = 0; face < 6; ++face) {
+    is_seen[static_cast<std::size_t>(face)] = !keeps_off(corner, face);
+    if (is_seen[static_cast<std::size_t>(face)] && !is_in_front(corner, face)) return false;
+  }
+  for (int face = 0; face < 6; ++face) {
+    if (!is_seen[static_cast<std::size_t>(face)]) continue;
+    add_seen(seen_on(corner, face, triangle));
+  }
+  return true;
+}
+
+void CubeListing::add_seen(FaceTriangle seen) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const FacePoint& corner = seen.corner[k % 3];
+    seen.u[k] = corner.u(), seen.w[k] = corner.w();
+  }
+  seen_.push_back(seen);
+}
+
+void CubeListing::list_seen() {
+  std::span<const FaceTriangle> left = seen_;
+  while (!left.empty()) {
+    Listing larger = listing();
+    const std::size_t listed = list_face_triangles(left, larger);
+    count_ = larger.count;
+    left = left.subspan(listed);
+    // A triangle is in all cells of a face at most.
+    if (!left.empty()) make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
+  }
+  seen_.clear();
+}
+
+void CubeListing::list_clipped(Index triangle) {
+  has_clipped_ = true;
+  const Cone cone{mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
+  map_.visit_cells(cone, [&](const CellOverlap& overlap) {
+    make_room(1);
+    entry_[count_++] = {overlap.cell, triangle, whole_cell};
+    ++length_[overlap.cell];
+  });
+}
+
+}  // namespace condyle

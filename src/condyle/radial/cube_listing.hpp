@@ -1,0 +1,62 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "condyle/core/uninitialised.hpp"
+#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/radial/cube_passes.hpp"
+#include "condyle/radial/direction_map.hpp"
+
+namespace condyle {
+
+/// The cells of a cube map that triangles meet, found and counted before they are sorted into rows.
+///
+///   entry   triangle by triangle   | a in cell 7 | a in cell 8 | b in cell 7 | ...
+///   length  of each cell's row        ...  7: 2   8: 1  ...
+///
+/// Small triangles on one face, most of all, are listed by their octagon on the face; larger ones by octagon
+/// and edges; those on several faces by what is seen of them on each. What is too near to the planes between
+/// faces for that is clipped (CubeMap::visit_cells).
+class CubeListing {
+ public:
+  /// Borrows all three; `placed` are the mesh's vertices.
+  CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed);
+
+  /// Lists all triangles.
+  void list();
+
+  /// In the order of the triangles.
+  std::span<const ListedTriangle> entries() const noexcept { return {entry_.data(), count_}; }
+  std::uint32_t length(Index cell) const noexcept { return length_[cell]; }
+  /// Whether any triangle had to be clipped: then only where the vertices truly are has counted for it.
+  bool has_clipped() const noexcept { return has_clipped_; }
+
+ private:
+  void make_room(std::size_t entries);
+  void list_larger(Index triangle);
+  bool see_on_one_face(Index triangle);
+  bool see_on_faces(Index triangle);
+  void add_seen(FaceTriangle seen);
+  void list_clipped(Index triangle);
+  void list_seen();
+  Listing listing() noexcept {
+    return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
+  }
+
+  const TriMesh& mesh_;
+  const CubeMap& map_;
+  PlacedVertices placed_;
+  int n_;
+  MeshView view_;
+  UninitialisedVector<ListedTriangle> entry_;
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> length_;
+  std::vector<FaceTriangle> seen_;  ///< waiting to be listed
+  bool has_clipped_ = false;
+};
+
+/// The mesh as the passes read it; its vertices in one place each are not given.
+MeshView view_of(const TriMesh& mesh) noexcept;
+
+}  // namespace condyle

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include "condyle/radial/cell_lists.hpp"
+#include "condyle/radial/cube_passes.hpp"
+
+/// Steps of making the lists of a cube map, of which cell_lists.hpp has the whole.
+
+namespace condyle {
+
+/// Rows and octagons of all triangles, for vertices anywhere between their places.
+void list_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed, CellLists& lists);
+
+/// Where vertices are, the scale of their radii, and the forms and planes of all triangles.
+void measure(const TriMesh& mesh, CellLists& lists);
+
+/// Radii of some cells, on the scale that there is. Whether any are others than before.
+bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& lists);
+
+}  // namespace condyle
