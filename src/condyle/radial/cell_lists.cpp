@@ -25,9 +25,8 @@ std::size_t CellLists::entry_count() const noexcept {
 
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
-         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) +
-         nearest.size() * sizeof(std::uint16_t) + forms.size() * sizeof(ConeForms) +
-         plane.size() * sizeof(TrianglePlane) + corner.size() * sizeof(Vec3) + face.size() +
+         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) + nearest.size() +
+         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3) + face.size() +
          room.size() * sizeof(FaceRoom);
 }
 

@@ -20,10 +20,9 @@ struct CellLists {
 
   /// For a cube map alone, for its vector code, which reads up to a vector beyond the last entry.
   UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
-  UninitialisedVector<std::uint16_t>
-      nearest;  ///< code of a squared radius that no point of its triangle is below
+  UninitialisedVector<std::uint8_t>
+      nearest;  ///< upper half of the code of its triangle's least squared radius
   UninitialisedVector<ConeForms> forms;
-  UninitialisedVector<TrianglePlane> plane;
   UninitialisedVector<Vec3> corner;    ///< the mesh's vertices again, each in one place
   std::vector<float> inverse_length;   ///< of the directions to a face's cell corners
   std::vector<std::uint32_t> unknown;  ///< triangles whose forms were no numbers when all were measured

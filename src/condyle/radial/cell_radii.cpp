@@ -35,7 +35,7 @@ ListedRadii listed_radii(const CubeMap& map, CellLists& lists) {
   return {n,
           lists.row.data(),
           lists.triangle.data(),
-          lists.plane.data(),
+          lists.forms.data(),
           lists.scale,
           lists.inverse_length.data(),
           cosine_to_corners(n),
@@ -79,7 +79,7 @@ bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& 
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (i + cells_ahead < cells.size()) {
-      for (const Index t : lists.of(cells[i + cells_ahead])) hwy::Prefetch(&lists.plane[t]);
+      for (const Index t : lists.of(cells[i + cells_ahead])) hwy::Prefetch(&lists.forms[t]);
     }
     const Index cell = cells[i];
     CellRadii radii{};

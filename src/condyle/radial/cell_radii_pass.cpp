@@ -74,35 +74,13 @@ struct Planes {
   Ints radii;
 };
 
-/// Side by side, then turned into columns: gathering each column takes several times as long.
-HWY_INLINE Planes load_planes(const TrianglePlane* planes, const std::uint32_t* triangle) {
-  Planes out;
-#if HWY_MAX_BYTES >= 64
-  constexpr hn::Full128<float> d4;
-  constexpr hn::Full256<float> d8;
-  constexpr hn::Repartition<double, D> d64;
-  const auto one = [&](std::size_t i) { return hn::Load(d4, planes[triangle[i]].n); };
-  // Block b of row k holds triangle 4 b + k.
-  const auto row = [&](std::size_t k) {
-    return hn::Combine(d, hn::Combine(d8, one(k + 12), one(k + 8)), hn::Combine(d8, one(k + 4), one(k)));
-  };
-  const auto a = row(0), b = row(1), c = row(2), e = row(3);
-  const auto ab_low = hn::BitCast(d64, hn::InterleaveLower(d, a, b));
-  const auto ab_high = hn::BitCast(d64, hn::InterleaveUpper(d, a, b));
-  const auto ce_low = hn::BitCast(d64, hn::InterleaveLower(d, c, e));
-  const auto ce_high = hn::BitCast(d64, hn::InterleaveUpper(d, c, e));
-  out.n[0] = hn::BitCast(d, hn::InterleaveLower(d64, ab_low, ce_low));
-  out.n[1] = hn::BitCast(d, hn::InterleaveUpper(d64, ab_low, ce_low));
-  out.n[2] = hn::BitCast(d, hn::InterleaveLower(d64, ab_high, ce_high));
-  out.radii = hn::BitCast(di, hn::InterleaveUpper(d64, ab_high, ce_high));
-#else
-  alignas(64) TrianglePlane rows[lanes];
-  for (std::size_t k = 0; k < lanes; ++k) rows[k] = planes[triangle[k]];
-  Floats radii;
-  hn::LoadInterleaved4(d, rows[0].n, out.n[0], out.n[1], out.n[2], radii);
-  out.radii = hn::BitCast(di, radii);
-#endif
-  return out;
+HWY_INLINE Planes load_planes(const ConeForms* forms, const std::uint32_t* triangle) {
+  constexpr std::int32_t words = sizeof(ConeForms) / sizeof(float);
+  const auto at =
+      hn::Mul(hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<D>(), triangle)), hn::Set(di, words));
+  const auto gathered = [&](const float* from) { return hn::GatherIndex(d, from, at); };
+  return {{gathered(&forms->x[3]), gathered(&forms->y[3]), gathered(&forms->z[3])},
+          hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(&forms->radii), at)};
 }
 
 /// Squared radii of a RadiusWord.
@@ -127,15 +105,15 @@ HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& c
   auto all_least = hn::Set(d, infinity), all_greatest = hn::Zero(d);
   for (std::uint32_t i = row.first; i < row.last; i += lanes) {
     const std::uint32_t* triangle = lists.triangle + i;
-    for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.plane + triangle[k + prefetch_ahead]);
-    const Planes planes = load_planes(lists.plane, triangle);
+    for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.forms + triangle[k + prefetch_ahead]);
+    const Planes planes = load_planes(lists.forms, triangle);
     const auto is_listed =
         hn::RebindMask(d, hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i))));
     const Bounds of_planes = radii_of_planes(cell, lists.cosine, planes.n[cell.axis], planes.n[cell.axis_u],
                                              planes.n[cell.axis_w]);
     // What follows the row is written too: entries of the next one, rightly, or room.
-    const auto nearest_code = hn::And(planes.radii, hn::Set(di, greatest_radius_code));
-    hn::StoreU(hn::DemoteTo(hn::Rebind<std::uint16_t, DI>(), nearest_code), hn::Rebind<std::uint16_t, DI>(),
+    const auto upper_half = hn::And(hn::ShiftRight<8>(planes.radii), hn::Set(di, 255));
+    hn::StoreU(hn::DemoteTo(hn::Rebind<std::uint8_t, DI>(), upper_half), hn::Rebind<std::uint8_t, DI>(),
                lists.nearest + i);
     const Bounds of_triangles = radii_of_words(lists.scale, planes.radii);
     const auto square = [](Floats radius, float widened) {

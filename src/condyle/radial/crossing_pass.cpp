@@ -91,9 +91,9 @@ HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, cons
   const CellRow row = cube.row[points.cell[i]].half_at(points.box[i]);
   const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, asked.slant[i]);
   const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
-  const Words relevant = hn::Set(du, points.relevant[i]);
+  const Words relevant = hn::Set(du, points.relevant[i] >> 8);
   for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
-    const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint16_t, DU>(), cube.nearest + first));
+    const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint8_t, DU>(), cube.nearest + first));
     const auto holding =
         hn::And(octagons_holding(cube, first, row.last, box, slant), hn::Not(hn::Gt(nearest, relevant)));
     // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.

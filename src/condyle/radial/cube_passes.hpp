@@ -20,12 +20,6 @@ struct alignas(16) FacePoint {
   float w() const noexcept { return at[1]; }
 };
 
-/// A triangle's plane, its lane 3 of ConeForms, and what squared radii it takes.
-struct alignas(16) TrianglePlane {
-  float n[3];
-  RadiusWord radii;
-};
-
 struct MeshView {
   const double *x, *y, *z;
   const double* xyz;  ///< the same, three for each vertex: one line of the cache, where x, y, z are three
@@ -80,11 +74,11 @@ struct ListedRadii {
   int cells_per_side;
   const CellRow* row;
   const std::uint32_t* triangle;
-  const TrianglePlane* plane;
-  RadiusScale scale;            ///< of the planes' radii
+  const ConeForms* forms;
+  RadiusScale scale;            ///< of the forms' radii
   const float* inverse_length;  ///< see CellCorners
   float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
-  std::uint16_t* nearest;       ///< written for each entry: code of its triangle's least squared radius
+  std::uint8_t* nearest;        ///< written for each entry, see CellLists
 };
 
 /// Squared radii of the surface in a cell; infinity and 0 where there is none.
@@ -100,14 +94,14 @@ void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out);
 std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
                          std::uint32_t* out);
 
-/// Forms and planes of triangles [first, last), each at its own number; adds those whose forms are no numbers
+/// Forms of triangles [first, last), each at its own number; adds those whose forms are no numbers
 /// to `unknown`.
 ///
 /// No point of a triangle is nearer than the vertices are by more than its edges say: for p = sum l_i v_i,
 /// |p|^2 = sum l_i |v_i|^2 - sum l_i l_j |v_i - v_j|^2, and the last sum is at most L^2 / 3, L the longest
 /// edge.
 void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
-                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown);
+                       ConeForms* forms, std::vector<std::uint32_t>& unknown);
 
 /// Lists those triangles of [first, last) that lie within one face, off its edges, and in at most 2 x 2
 /// cells. At most four entries for each.

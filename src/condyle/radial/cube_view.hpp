@@ -57,9 +57,11 @@ struct CellRow {
 /// NaN throughout where floats could not say enough of the triangle: a plane nearly through the centre, a
 /// sliver. Every comparison with them is false, and the point is decided in double.
 ///
-/// `rest` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN where that is.
+/// `rest` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN where that is. `radii` are the
+/// squared radii that the triangle takes, of the table's scale.
 struct alignas(64) ConeForms {
   float x[4], y[4], z[4], rest[3];
+  RadiusWord radii;
 };
 
 /// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v
@@ -79,7 +81,7 @@ struct CubeView {
   const CellRow* row;
   const std::uint32_t* triangle;
   const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon
-  const std::uint16_t* nearest;      ///< code of each listed triangle's least squared radius, or a lower one
+  const std::uint8_t* nearest;       ///< code of each listed triangle's least squared radius, its upper half
   const ConeForms* forms;            ///< of each triangle
   RadiusScale scale;
   int winding_at_centre;

@@ -200,7 +200,7 @@ std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
 void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
                   CellSet& touched) {
   // Far apart, and needed only when all are measured.
-  for (const Index t : triangles) hwy::Prefetch(&lists.forms[t]), hwy::Prefetch(&lists.plane[t]);
+  for (const Index t : triangles) hwy::Prefetch(&lists.forms[t]);
   const PartsInRooms parts(mesh, lists, triangles);
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
@@ -208,14 +208,11 @@ void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index
   UninitialisedVector<Vec3> corner(parts.mesh().vertices.size());
   for (std::size_t i = 0; i < corner.size(); ++i) corner[i] = parts.mesh().vertices[i];
   UninitialisedVector<ConeForms> forms(triangles.size());
-  UninitialisedVector<TrianglePlane> planes(triangles.size());
   MeshView view = view_of(parts.mesh());
   view.xyz = corner.data()->data();
   std::vector<std::uint32_t> unknown;
-  measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), planes.data(), unknown);
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    lists.forms[triangles[i]] = forms[i], lists.plane[triangles[i]] = planes[i];
-  }
+  measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), unknown);
+  for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
 }
 
 }  // namespace
