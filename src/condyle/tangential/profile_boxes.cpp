@@ -1,0 +1,159 @@
+#include "condyle/tangential/profile_boxes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "condyle/tangential/free_directions.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "condyle/tangential/profile_boxes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::CappedTag<float, 16>;
+using Floats = hn::Vec<D>;
+constexpr D d;
+constexpr std::size_t most_lanes = hn::MaxLanes(d);
+
+/// Least and greatest of the corners of as many triangles as a vector has lanes, value by value.
+struct Extents {
+  Floats x_low, y_low, rho_low, z_low, x_high, y_high, rho_high, z_high;
+};
+
+HWY_INLINE Extents extents_of(const ProfileVertex* vertices, const Triangle* triangles, std::size_t count) {
+  constexpr hn::CappedTag<float, 4> d4;
+  alignas(64) std::array<float, 4 * most_lanes> low, high;
+  for (std::size_t i = 0; i < most_lanes; ++i) {
+    // What is beyond the last triangle repeats it.
+    const auto& [a, b, c] = triangles[std::min(i, count - 1)];
+    for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
+      const auto at = [&](Index v) { return hn::Load(d4, &vertices[v].x + k); };
+      const auto va = at(a), vb = at(b), vc = at(c);
+      hn::Store(hn::Min(hn::Min(va, vb), vc), d4, low.data() + 4 * i + k);
+      hn::Store(hn::Max(hn::Max(va, vb), vc), d4, high.data() + 4 * i + k);
+    }
+  }
+  Extents out;
+  hn::LoadInterleaved4(d, low.data(), out.x_low, out.y_low, out.rho_low, out.z_low);
+  hn::LoadInterleaved4(d, high.data(), out.x_high, out.y_high, out.rho_high, out.z_high);
+  return out;
+}
+
+/// Squares of radii fall short of the nearest corner's by L^2 / 3 at most, L being the longest edge seen
+/// along the axis: the nearest point is a corner, or the foot on an edge whose nearer end is at most L / 2
+/// away, or the axis itself, at most L / sqrt(3) from the nearest corner.
+///
+/// Coordinates carry u' = 2^-24 of themselves. 8u' of the largest radius, added to each side of the extents
+/// in x and y, covers their roundings and that of the difference; 16u' those of the squares; 8u' those of the
+/// root and of any radius computed in double. What underflows is far below `least`.
+void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle> triangles,
+               ProfileBoxes& out) {
+  const auto least = hn::Set(d, 0x1p-120f);
+  const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+  auto rho_min = infinity, rho_max = hn::Zero(d), z_min = infinity, z_max = hn::Neg(infinity),
+       scale = hn::Zero(d);
+  const auto store = [&](Floats values, UninitialisedVector<float>& to, std::size_t first,
+                         std::size_t count) {
+    if (count == most_lanes) {
+      hn::StoreU(values, d, to.data() + first);
+    } else {
+      alignas(64) std::array<float, most_lanes> lanes;
+      hn::Store(values, d, lanes.data());
+      std::copy_n(lanes.begin(), count, to.begin() + static_cast<std::ptrdiff_t>(first));
+    }
+  };
+  for (std::size_t first = 0; first < triangles.size(); first += most_lanes) {
+    const std::size_t count = std::min(most_lanes, triangles.size() - first);
+    const Extents e = extents_of(vertices.data(), triangles.data() + first, count);
+    const auto error = hn::Mul(e.rho_high, hn::Set(d, 0x1p-21f));
+    const auto dx = hn::Add(hn::Sub(e.x_high, e.x_low), error),
+               dy = hn::Add(hn::Sub(e.y_high, e.y_low), error);
+    const auto sag = hn::Mul(hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy)), hn::Set(d, (1 + 0x1p-20f) / 3));
+    const auto nearest2 = hn::Mul(hn::Mul(e.rho_low, e.rho_low), hn::Set(d, 1 - 0x1p-20f));
+    const auto low2 = hn::Sub(hn::Sub(nearest2, sag), least);
+    const auto rho_low = hn::Max(hn::Sub(hn::Sqrt(hn::Max(low2, hn::Zero(d))), error), hn::Zero(d));
+    const auto rho_high = hn::Add(hn::Add(e.rho_high, error), least);
+    const auto z_error =
+        hn::Add(hn::Mul(hn::Max(hn::Abs(e.z_low), hn::Abs(e.z_high)), hn::Set(d, 0x1p-22f)), least);
+    const auto z_low = hn::Sub(e.z_low, z_error), z_high = hn::Add(e.z_high, z_error);
+    store(rho_low, out.rho_low, first, count), store(rho_high, out.rho_high, first, count);
+    store(z_low, out.z_low, first, count), store(z_high, out.z_high, first, count);
+    rho_min = hn::Min(rho_min, rho_low), rho_max = hn::Max(rho_max, rho_high);
+    z_min = hn::Min(z_min, z_low), z_max = hn::Max(z_max, z_high);
+    const auto reach = [&](Floats low, Floats high) {
+      return hn::Add(hn::Max(hn::Abs(low), hn::Abs(high)), error);
+    };
+    scale = hn::Max(scale, hn::Max(reach(e.x_low, e.x_high), reach(e.y_low, e.y_high)));
+  }
+  out.rho_min = hn::GetLane(hn::MinOfLanes(d, rho_min)),
+  out.rho_max = hn::GetLane(hn::MaxOfLanes(d, rho_max));
+  out.z_min = hn::GetLane(hn::MinOfLanes(d, z_min)), out.z_max = hn::GetLane(hn::MaxOfLanes(d, z_max));
+  out.scale = hn::GetLane(hn::MaxOfLanes(d, scale));
+}
+
+}  // namespace
+}  // namespace condyle::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace condyle {
+
+HWY_EXPORT(boxes_any);
+
+namespace {
+
+/// Largest absolute value; none is NaN.
+double reach_of(std::span<const double> values) {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
+/// Which eighth of a turn, as a bit; none where a line of FreeDirections passes near. Along diagonals the
+/// distance is the square root of 2 too large; 3/2 covers that and all rounding.
+std::uint8_t sector_of(float x, float y, float rho) noexcept {
+  const float apart = 1.5f * static_cast<float>(FreeDirections::clearance) * rho;
+  const float ax = std::abs(x), ay = std::abs(y);
+  const bool clear = (std::min(ax, ay) > apart) & (std::abs(ax - ay) > apart);
+  const int number = (x < 0) | (y < 0) << 1 | (ay > ax) << 2;
+  return static_cast<std::uint8_t>(clear << number);
+}
+
+}  // namespace
+
+AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame) {
+  AxisVertices out;
+  const std::size_t count = vertices.size();
+  out.exact.resize(count), out.rounded.resize(count), out.sector.resize(count);
+  const double reach =
+      reach_of(vertices.x) + reach_of(vertices.y) + reach_of(vertices.z) + frame.point().cwiseAbs().sum();
+  out.units_per_mm = reach > 0 ? std::exp2(std::min(-std::ilogb(reach), 1000)) : 1;
+  for (std::size_t v = 0; v < count; ++v) {
+    const Vec3 p = frame.to_axis(vertices[v]);
+    out.exact[v] = p;
+    const double x = p.x() * out.units_per_mm, y = p.y() * out.units_per_mm;
+    const auto fx = static_cast<float>(x), fy = static_cast<float>(y),
+               rho = static_cast<float>(std::sqrt(x * x + y * y));
+    out.rounded[v] = {fx, fy, rho, static_cast<float>(p.z() * out.units_per_mm)};
+    out.sector[v] = sector_of(fx, fy, rho);
+  }
+  return out;
+}
+
+ProfileBoxes profile_boxes(std::span<const ProfileVertex> vertices, std::span<const Triangle> triangles) {
+  ProfileBoxes out;
+  for (auto* side : {&out.rho_low, &out.rho_high, &out.z_low, &out.z_high}) side->resize(triangles.size());
+  HWY_DYNAMIC_DISPATCH(boxes_any)(vertices, triangles, out);
+  return out;
+}
+
+}  // namespace condyle
+#endif

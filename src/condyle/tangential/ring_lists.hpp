@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "condyle/core/uninitialised.hpp"
+#include "condyle/tangential/free_directions.hpp"
+#include "condyle/tangential/profile.hpp"
+#include "condyle/tangential/profile_boxes.hpp"
+
+namespace condyle {
+
+/// Box of a triangle within a cell of the profile, in 256ths of the cell, one byte each from the lowest:
+/// z low, 255 - z high, rho low, 255 - rho high. A circle whose bytes are z, 255 - z, rho and 255 - rho is
+/// held where none of the box's bytes exceeds its own.
+using CellBox = std::uint32_t;
+
+/// Where a circle lies in the profile.
+struct CirclePlace {
+  Index cell;
+  CellBox at;
+};
+
+/// Circles and the triangles whose boxes hold them, side by side: circle by circle, and ascending by
+/// triangle.
+struct CirclePairs {
+  UninitialisedVector<Index> triangle, circle;
+};
+
+/// Which triangles a circle about the axis can meet: for each cell of the profile those whose box meets it.
+///   offset_     0     2  2        5  ...      one entry per cell, plus one
+///   triangle_ | a b |  | c d e |    ...       cell i owns [offset_[i], offset_[i+1]), ascending
+///   box_      | . . |  | . . . |    ...       within the cell
+class RingLists {
+ public:
+  RingLists() = default;
+  /// Cells of one size, about `cells` in number. Linear.
+  RingLists(const AxisVertices& vertices, std::span<const Triangle> triangles, const ProfileBoxes& boxes,
+            std::size_t cells);
+
+  const ProfileGrid& grid() const noexcept { return grid_; }
+  std::span<const Index> of(std::size_t cell) const noexcept {
+    return {triangle_.data() + offset_[cell], offset_[cell + 1] - offset_[cell]};
+  }
+  /// From this cell to the end of its row, outwards: a triangle may come several times.
+  std::span<const Index> outwards_from(std::size_t cell) const noexcept {
+    const std::size_t row_end = (cell / grid_.columns + 1) * grid_.columns;
+    return {triangle_.data() + offset_[cell], offset_[row_end] - offset_[cell]};
+  }
+
+  /// None where no triangle has that radius and height.
+  std::optional<CirclePlace> place(double rho, double z) const noexcept {
+    const auto cell = grid_.cell_of(rho, z);
+    if (!cell) return std::nullopt;
+    const CellBox at_z = part((z - grid_.z_min) * grid_.rows_per_mm, *cell / grid_.columns);
+    const CellBox at_rho = part((rho - grid_.rho_min) * grid_.columns_per_mm, *cell % grid_.columns);
+    return CirclePlace{static_cast<Index>(*cell),
+                       at_z | (255 - at_z) << 8 | at_rho << 16 | (255 - at_rho) << 24};
+  }
+  /// Asks memory for where the list of the cell is, and then for the list.
+  void fetch_offset(Index cell) const noexcept { __builtin_prefetch(&offset_[cell]); }
+  void fetch_list(Index cell) const noexcept {
+    __builtin_prefetch(triangle_.data() + offset_[cell]), __builtin_prefetch(box_.data() + offset_[cell]);
+  }
+
+  /// Pairs of circles from number `first` on. Ends before a circle for which there might be no room, and
+  /// returns how many circles are done: one more at least.
+  std::size_t find(std::span<const CirclePlace> circles, std::size_t first, CirclePairs& pairs) const;
+
+  std::size_t longest() const noexcept { return longest_; }
+  std::size_t entries() const noexcept { return offset_.empty() ? 0 : offset_.back(); }
+  std::size_t bytes() const noexcept {
+    return (offset_.size() + triangle_.size()) * sizeof(Index) + box_.size() * sizeof(CellBox);
+  }
+
+ private:
+  /// 256ths by which so many cells exceed the given one.
+  static CellBox part(double cells, std::size_t cell) noexcept {
+    const double part = (cells - static_cast<double>(cell)) * 256;
+    return part <= 0 ? 0 : part >= 255 ? 255 : static_cast<CellBox>(part);
+  }
+
+  ProfileGrid grid_;
+  std::size_t longest_ = 0;
+  UninitialisedVector<Index> offset_, triangle_;
+  UninitialisedVector<CellBox> box_;
+};
+
+}  // namespace condyle
