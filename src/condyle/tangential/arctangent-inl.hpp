@@ -26,9 +26,12 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<D> arctangent(D d, hwy::HWY_NAMESPACE::Vec<D>
   const auto q = hn::Div(hn::IfThenElse(beyond_eighth, hn::Sub(low, high), low),
                          hn::IfThenElse(beyond_eighth, hn::Add(low, high), high));
   const auto s = hn::Mul(q, q);
-  auto p = hn::Set(d, arctangent_coefficients.back());
-  for (std::size_t k = arctangent_coefficients.size() - 1; k-- > 0;)
-    p = hn::Add(hn::Mul(p, s), hn::Set(d, arctangent_coefficients[k]));
+  const auto s2 = hn::Mul(s, s), s4 = hn::Mul(s2, s2);
+  const auto c = [&](std::size_t k) { return hn::Set(d, arctangent_coefficients[k]); };
+  const auto two = [&](std::size_t k) { return hn::Add(c(k), hn::Mul(s, c(k + 1))); };
+  const auto four = [&](std::size_t k) { return hn::Add(two(k), hn::Mul(s2, two(k + 2))); };
+  const auto high_part = hn::Add(two(8), hn::Mul(s2, c(10)));
+  const auto p = hn::Add(four(0), hn::Mul(s4, hn::Add(four(4), hn::Mul(s4, high_part))));
   const auto a = hn::Add(q, hn::Mul(q, hn::Mul(s, p)));
   const auto to_quarter = hn::Add(hn::IfThenElseZero(beyond_eighth, hn::Set(d, pi / 4)), a);
   const auto to_half = hn::IfThenElse(hn::Gt(ay, ax), hn::Sub(hn::Set(d, pi / 2), to_quarter), to_quarter);

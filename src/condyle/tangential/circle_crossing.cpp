@@ -104,7 +104,7 @@ bool operator<(const CircleCrossing& a, const CircleCrossing& b) noexcept {
 }
 
 TangentialWork& TangentialWork::operator+=(const TangentialWork& other) noexcept {
-  points += other.points, candidates += other.candidates, cut += other.cut, crossings += other.crossings;
+  points += other.points, candidates += other.candidates, tried += other.tried, crossings += other.crossings;
   exact_decisions += other.exact_decisions;
   return *this;
 }

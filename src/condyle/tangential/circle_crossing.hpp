@@ -34,7 +34,7 @@ struct CircleCrossing {
 struct TangentialWork {
   std::size_t points = 0;      ///< Points asked about.
   std::size_t candidates = 0;  ///< Triangles in their cells.
-  std::size_t cut = 0;         ///< Of those, triangles with the circle in their box that reach its height.
+  std::size_t tried = 0;            ///< Of those, triangles whose box holds the circle.
   std::size_t crossings = 0;   ///< Crossings found.
   std::size_t exact_decisions = 0;  ///< Signs that double arithmetic left open, of the circle's own.
 

@@ -1,5 +1,10 @@
 #include "condyle/tangential/circle_cuts.hpp"
 
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <limits>
+
 #include "condyle/core/predicates.hpp"
 #include "condyle/tangential/free_directions.hpp"
 
@@ -20,24 +25,147 @@ using D = hn::CappedTag<double, 8>;
 using Doubles = hn::Vec<D>;
 constexpr D d;
 
+/// Points in as many lanes.
+struct Points3 {
+  Doubles x, y, z;
+};
+
+/// Four doubles of each pair, side by side, before they are turned into lanes.
+using Fours = std::array<double, 4 * CircleCuts::most>;
+struct alignas(64) Staged {
+  alignas(64) std::array<Fours, 3> corner;
+  alignas(64) Fours point;
+};
+
+HWY_INLINE void copy_four(const double* from, double* to) {
+  constexpr hn::CappedTag<double, 4> d4;
+  for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) hn::Store(hn::Load(d4, from + k), d4, to + k);
+}
+
+/// Copies what the pairs are about, and asks memory for the corners of later ones, and for the triangles of yet
+/// later ones: without it the processor waits for memory most of the time.
+HWY_INLINE void stage(const CutSource& source, const TurningPoint* points, std::span<const Index> circle,
+                      std::span<const Index> triangle, std::size_t first, std::size_t count, Staged& staged) {
+  constexpr std::size_t triangles_ahead = 32, corners_ahead = 16;
+  const std::size_t last = triangle.size() - 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = first + i;
+    hwy::Prefetch(&source.triangles[triangle[std::min(k + triangles_ahead, last)]]);
+    for (const Index v : source.triangles[triangle[std::min(k + corners_ahead, last)]])
+      hwy::Prefetch(&source.vertices[v]);
+    copy_four(&points[circle[k]].x, staged.point.data() + 4 * i);
+    const Triangle& corners = source.triangles[triangle[k]];
+    for (std::size_t c = 0; c < 3; ++c)
+      copy_four(source.vertices[corners[c]].at.data(), staged.corner[c].data() + 4 * i);
+  }
+}
+
+HWY_INLINE Points3 if_then_else(hn::Mask<D> mask, const Points3& yes, const Points3& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+/// One end of the cuts.
 struct Ends {
   Doubles x, y, squared_radius;
 };
 
-/// One end of the cuts, from the lower corner to the upper one.
-HWY_INLINE Ends ends_of(const CutColumns& c, std::size_t lower, Doubles height, std::size_t i) {
-  const auto at = [&](const std::array<CutColumns::Column, 4>& column, std::size_t k) {
-    return hn::Load(d, column[k].data() + i);
-  };
-  const auto lx = at(c.x, lower), ly = at(c.y, lower), lz = at(c.z, lower);
-  const auto t = hn::Div(hn::Sub(height, lz), hn::Sub(at(c.z, lower + 1), lz));
-  const auto x = hn::Add(lx, hn::Mul(t, hn::Sub(at(c.x, lower + 1), lx)));
-  const auto y = hn::Add(ly, hn::Mul(t, hn::Sub(at(c.y, lower + 1), ly)));
+HWY_INLINE Ends ends_of(const Points3& lower, const Points3& upper, Doubles height) {
+  const auto t = hn::Div(hn::Sub(height, lower.z), hn::Sub(upper.z, lower.z));
+  const auto x = hn::Add(lower.x, hn::Mul(t, hn::Sub(upper.x, lower.x)));
+  const auto y = hn::Add(lower.y, hn::Mul(t, hn::Sub(upper.y, lower.y)));
   return {x, y, hn::Add(hn::Mul(x, x), hn::Mul(y, y))};
 }
 
-/// The fraction of the way from a place within the circle, which is at (x, y), to one beyond it at which it
-/// is left. The operations of `way_out` in circle_crossing.cpp.
+/// As `cut_at_height` in circle_crossing.cpp: the corner alone on its side is followed by the two others.
+struct Cuts {
+  Ends p, q;
+  hn::Mask<D> missed;  ///< The triangle does not reach the height.
+};
+
+HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
+  const auto corner = [&](std::size_t c) {
+    Points3 at;
+    Doubles unused;
+    hn::LoadInterleaved4(d, staged.corner[c].data() + 4 * i, at.x, at.y, at.z, unused);
+    return at;
+  };
+  const Points3 a = corner(0), b = corner(1), c = corner(2);
+  const auto a_above = hn::Ge(a.z, height), b_above = hn::Ge(b.z, height), c_above = hn::Ge(c.z, height);
+  const auto a_alone = hn::And(hn::Xor(a_above, b_above), hn::Xor(a_above, c_above));
+  const auto b_alone = hn::And(hn::Xor(b_above, a_above), hn::Xor(b_above, c_above));
+  const Points3 alone = if_then_else(a_alone, a, if_then_else(b_alone, b, c));
+  const Points3 next = if_then_else(a_alone, b, if_then_else(b_alone, c, a));
+  const Points3 last = if_then_else(a_alone, c, if_then_else(b_alone, a, b));
+  const auto alone_above = hn::Ge(alone.z, height);
+  const Points3 of_p = if_then_else(alone_above, next, last), of_q = if_then_else(alone_above, last, next);
+  const auto all_above = hn::And(hn::And(a_above, b_above), c_above);
+  const auto any_above = hn::Or(hn::Or(a_above, b_above), c_above);
+  const auto lowest = hn::Min(hn::Min(a.z, b.z), c.z);
+  return {ends_of(if_then_else(alone_above, of_p, alone), if_then_else(alone_above, alone, of_p), height),
+          ends_of(if_then_else(alone_above, of_q, alone), if_then_else(alone_above, alone, of_q), height),
+          hn::Or(hn::Not(any_above), hn::And(all_above, hn::Gt(lowest, height)))};
+}
+
+/// Of each pair the way along the cut from the end inside the circle, (x, y), to the end outside, and what its
+/// ends alone tell; and the places of those pairs that are not done with that.
+struct Ways {
+  using Column = std::array<double, CircleCuts::most>;
+  alignas(64) Column x, y, squared_radius, dx, dy, verdict;
+  alignas(64) std::array<std::int64_t, CircleCuts::most> open;
+  std::size_t open_count = 0;
+};
+
+HWY_INLINE Doubles value(CutVerdict verdict) {
+  return hn::Set(d, static_cast<double>(verdict));
+}
+
+/// Bounds in units of the scale M are those of circle_predicates.cpp, where they are derived.
+HWY_INLINE void compare_ends(const Staged& staged, double scale, std::size_t count, Ways& ways) {
+  const double scale2 = scale * scale;
+  const auto end_bound = hn::Set(d, 96 * rounding_unit * scale2);
+  const auto dot_bound = hn::Set(d, 128 * rounding_unit * scale2);
+  const auto room_bound = hn::Set(d, 1024 * rounding_unit * scale2 * scale2);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    Doubles px, py, height, squared_radius;
+    hn::LoadInterleaved4(d, staged.point.data() + 4 * i, px, py, height, squared_radius);
+    const auto [p, q, missed] = cuts_of(staged, height, i);
+    const auto p_value = hn::Sub(p.squared_radius, squared_radius);
+    const auto q_value = hn::Sub(q.squared_radius, squared_radius);
+    const auto p_inside = hn::Lt(p_value, hn::Neg(end_bound)), p_outside = hn::Gt(p_value, end_bound);
+    const auto q_inside = hn::Lt(q_value, hn::Neg(end_bound)), q_outside = hn::Gt(q_value, end_bound);
+    const auto x = hn::IfThenElse(p_inside, p.x, q.x), y = hn::IfThenElse(p_inside, p.y, q.y);
+    const auto dx = hn::Sub(hn::IfThenElse(p_inside, q.x, p.x), x);
+    const auto dy = hn::Sub(hn::IfThenElse(p_inside, q.y, p.y), y);
+
+    // Both ends beyond the circle: dx and dy are those from q to p then.
+    const auto at_p = hn::Add(hn::Mul(p.x, dx), hn::Mul(p.y, dy));
+    const auto at_q = hn::Add(hn::Mul(q.x, dx), hn::Mul(q.y, dy));
+    const auto turn = hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
+    const auto length2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+    const auto room = hn::Sub(hn::Mul(squared_radius, length2), hn::Mul(turn, turn));
+    const auto away = hn::Or(hn::Or(hn::Lt(at_p, hn::Neg(dot_bound)), hn::Gt(at_q, dot_bound)),
+                             hn::Lt(room, hn::Neg(room_bound)));
+    const auto none = hn::Or(
+        missed, hn::Or(hn::And(p_inside, q_inside), hn::And(hn::And(p_outside, q_outside), away)));
+
+    const auto crosses = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
+    const auto passage = hn::IfThenElse(p_inside, value(CutVerdict::enters), value(CutVerdict::leaves));
+    hn::Store(x, d, ways.x.data() + i), hn::Store(y, d, ways.y.data() + i);
+    hn::Store(dx, d, ways.dx.data() + i), hn::Store(dy, d, ways.dy.data() + i);
+    hn::Store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), d, ways.squared_radius.data() + i);
+    hn::Store(hn::IfThenElse(crosses, passage, value(CutVerdict::undecided)), d, ways.verdict.data() + i);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, none, bits);
+    const unsigned valid = (1u << std::min(count - i, hn::Lanes(d))) - 1;
+    for (unsigned left = ~static_cast<unsigned>(bits[0]) & valid; left != 0; left &= left - 1)
+      ways.open[ways.open_count++] =
+          static_cast<std::int64_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+  }
+}
+
+/// The fraction of the way after which the circle is crossed: the operations of `way_out` in
+/// circle_crossing.cpp.
 HWY_INLINE Doubles fraction_to_circle(Doubles x, Doubles y, Doubles squared, Doubles dx, Doubles dy,
                                       Doubles squared_radius) {
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0);
@@ -50,56 +178,42 @@ HWY_INLINE Doubles fraction_to_circle(Doubles x, Doubles y, Doubles squared, Dou
   return hn::Min(hn::Max(t, zero), one);
 }
 
-/// Bounds in units of the scale M as those of circle_predicates.cpp, where they are derived.
-///
 /// Crossings err by less than 2^-13 where the radius is no less than 2^-20 M (see `add_crossings`): what is
 /// twice as far from the point is on the side of the point where it seems to be.
-void decide_any(CutColumns& c, std::size_t count, double scale) {
-  const double scale2 = scale * scale;
-  const auto end_bound = hn::Set(d, 96 * rounding_unit * scale2);
-  const auto dot_bound = hn::Set(d, 128 * rounding_unit * scale2);
-  const auto room_bound = hn::Set(d, 1024 * rounding_unit * scale2 * scale2);
-  const auto least_radius2 = hn::Set(d, 0x1p-40 * scale2),
-             least_angle = hn::Set(d, FreeDirections::clearance);
-  const auto one = hn::Set(d, 1.0);
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto px = hn::Load(d, c.point_x.data() + i), py = hn::Load(d, c.point_y.data() + i);
-    const auto squared_radius = hn::Load(d, c.squared_radius.data() + i);
-    const auto height = hn::Load(d, c.height.data() + i);
-    const Ends p = ends_of(c, 0, height, i), q = ends_of(c, 2, height, i);
-    const auto p_value = hn::Sub(p.squared_radius, squared_radius);
-    const auto q_value = hn::Sub(q.squared_radius, squared_radius);
-    const auto p_inside = hn::Lt(p_value, hn::Neg(end_bound)), p_outside = hn::Gt(p_value, end_bound);
-    const auto q_inside = hn::Lt(q_value, hn::Neg(end_bound)), q_outside = hn::Gt(q_value, end_bound);
-
-    // From the end inside to the end outside.
-    const auto x = hn::IfThenElse(p_inside, p.x, q.x), y = hn::IfThenElse(p_inside, p.y, q.y);
-    const auto squared = hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius);
-    const auto dx = hn::Sub(hn::IfThenElse(p_inside, q.x, p.x), x);
-    const auto dy = hn::Sub(hn::IfThenElse(p_inside, q.y, p.y), y);
-    const auto t = fraction_to_circle(x, y, squared, dx, dy, squared_radius);
+HWY_INLINE void cross(const Staged& staged, double scale, const Ways& ways, CircleCuts& out) {
+  const auto least_radius2 = hn::Set(d, 0x1p-40 * scale * scale);
+  const auto least_angle = hn::Set(d, FreeDirections::clearance);
+  constexpr hn::RebindToSigned<D> di;
+  for (std::size_t k = 0; k < ways.open_count; k += hn::Lanes(d)) {
+    const auto place = hn::Load(di, ways.open.data() + k), four = hn::ShiftLeft<2>(place);
+    const auto of = [&](const Ways::Column& column) { return hn::GatherIndex(d, column.data(), place); };
+    const auto of_point = [&](std::size_t at) { return hn::GatherIndex(d, staged.point.data() + at, four); };
+    const auto px = of_point(0), py = of_point(1), squared_radius = of_point(3);
+    const auto x = of(ways.x), y = of(ways.y), dx = of(ways.dx), dy = of(ways.dy);
+    const auto t = fraction_to_circle(x, y, of(ways.squared_radius), dx, dy, squared_radius);
     const auto at_x = hn::Add(x, hn::Mul(t, dx)), at_y = hn::Add(y, hn::Mul(t, dy));
     const auto angle = arctangent(d, hn::Sub(hn::Mul(px, at_y), hn::Mul(py, at_x)),
                                   hn::Add(hn::Mul(px, at_x), hn::Mul(py, at_y)));
-    const auto crosses = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
-    const auto crossing =
-        hn::And(hn::And(crosses, hn::Gt(hn::Abs(angle), least_angle)), hn::Ge(squared_radius, least_radius2));
-
-    // Both ends beyond the circle: dx and dy are those from q to p then.
-    const auto at_p = hn::Add(hn::Mul(p.x, dx), hn::Mul(p.y, dy));
-    const auto at_q = hn::Add(hn::Mul(q.x, dx), hn::Mul(q.y, dy));
-    const auto turn = hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
-    const auto length2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-    const auto room = hn::Sub(hn::Mul(squared_radius, length2), hn::Mul(turn, turn));
-    const auto away = hn::Or(hn::Or(hn::Lt(at_p, hn::Neg(dot_bound)), hn::Gt(at_q, dot_bound)),
-                             hn::Lt(room, hn::Neg(room_bound)));
-    const auto none = hn::Or(hn::And(p_inside, q_inside), hn::And(hn::And(p_outside, q_outside), away));
-
-    const auto passage = hn::IfThenElse(p_inside, one, hn::Neg(one));
-    const auto undecided = hn::Set(d, static_cast<double>(CutVerdict::undecided));
-    const auto verdict = hn::IfThenElse(crossing, passage, hn::IfThenZeroElse(none, undecided));
-    hn::Store(angle, d, c.angle.data() + i), hn::Store(verdict, d, c.verdict.data() + i);
+    const auto certain =
+        hn::And(hn::Gt(hn::Abs(angle), least_angle), hn::Ge(squared_radius, least_radius2));
+    const auto verdict = hn::IfThenElse(certain, of(ways.verdict), value(CutVerdict::undecided));
+    hn::Store(angle, d, out.angle.data() + k), hn::Store(verdict, d, out.verdict.data() + k);
   }
+}
+
+void cut_circles_any(const CutSource& source, std::span<const TurningPoint> points,
+                     std::span<const Index> circle, std::span<const Index> triangle, std::size_t first,
+                     double scale, CircleCuts& out) {
+  const std::size_t count = std::min(triangle.size() - first, CircleCuts::most);
+  Staged staged;
+  stage(source, points.data(), circle, triangle, first, count, staged);
+  Ways ways;
+  compare_ends(staged, scale, count, ways);
+  // What fills the last vector up is any pair.
+  for (std::size_t k = ways.open_count; k % hn::Lanes(d) != 0; ++k) ways.open[k] = 0;
+  cross(staged, scale, ways, out);
+  out.count = ways.open_count;
+  for (std::size_t k = 0; k < out.count; ++k) out.pair[k] = first + static_cast<std::size_t>(ways.open[k]);
 }
 
 }  // namespace
@@ -109,13 +223,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle {
 
-HWY_EXPORT(decide_any);
+HWY_EXPORT(cut_circles_any);
 
-/// Below this scale bounds lose digits to underflow: nothing is certain then.
-void CircleCuts::decide() noexcept {
+/// Below the least scale bounds lose digits to underflow: nothing is certain then.
+void cut_circles(const CutSource& source, std::span<const TurningPoint> points, std::span<const Index> circle,
+                 std::span<const Index> triangle, std::size_t first, CircleCuts& out) {
   constexpr double least_scale = 0x1p-220;
-  const double scale = scale_ > least_scale ? scale_ : std::numeric_limits<double>::infinity();
-  HWY_DYNAMIC_DISPATCH(decide_any)(columns_, count_, scale);
+  const double scale = source.scale > least_scale ? 1.5 * source.scale : std::numeric_limits<double>::infinity();
+  HWY_DYNAMIC_DISPATCH(cut_circles_any)(source, points, circle, triangle, first, scale, out);
 }
 
 }  // namespace condyle

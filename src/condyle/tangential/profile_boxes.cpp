@@ -138,7 +138,7 @@ AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame)
   out.units_per_mm = reach > 0 ? std::exp2(std::min(-std::ilogb(reach), 1000)) : 1;
   for (std::size_t v = 0; v < count; ++v) {
     const Vec3 p = frame.to_axis(vertices[v]);
-    out.exact[v] = p;
+    out.exact[v] = {p, 0};
     const double x = p.x() * out.units_per_mm, y = p.y() * out.units_per_mm;
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y),
                rho = static_cast<float>(std::sqrt(x * x + y * y));

@@ -18,9 +18,15 @@ struct alignas(16) ProfileVertex {
   float x, y, rho, z;
 };
 
+/// A vertex in the axis frame: four doubles, which vectors read at once.
+struct alignas(32) AxisVertex {
+  Vec3 at;
+  double unused;
+};
+
 /// Vertices of a mesh in the frame of an axis.
 struct AxisVertices {
-  UninitialisedVector<Vec3> exact;
+  UninitialisedVector<AxisVertex> exact;
   UninitialisedVector<ProfileVertex> rounded;
   /// Eighth of a turn in which the vertex lies, as a bit; none where it is near a border
   /// (FreeDirections::clearance).

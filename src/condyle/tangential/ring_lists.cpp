@@ -191,7 +191,7 @@ class Listing {
       return;
     }
     const auto& [a, b, c] = triangles_[t];
-    for_each_profile_run(grid_, vertices_[a], vertices_[b], vertices_[c],
+    for_each_profile_run(grid_, vertices_[a].at, vertices_[b].at, vertices_[c].at,
                          [&](Index row, Index from, Index to) {
                            for (Index column = std::max(from, first); column <= std::min(to, last); ++column)
                              visit(row, column, sides, t);
@@ -199,7 +199,7 @@ class Listing {
   }
 
   const ProfileGrid& grid_;
-  std::span<const Vec3> vertices_;
+  std::span<const AxisVertex> vertices_;
   std::span<const Triangle> triangles_;
   const ProfileBoxes& boxes_;
   BoxScale scale_;

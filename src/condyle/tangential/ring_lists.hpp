@@ -8,22 +8,11 @@
 #include <vector>
 
 #include "condyle/core/uninitialised.hpp"
-#include "condyle/tangential/free_directions.hpp"
+#include "condyle/tangential/circle_places.hpp"
 #include "condyle/tangential/profile.hpp"
 #include "condyle/tangential/profile_boxes.hpp"
 
 namespace condyle {
-
-/// Box of a triangle within a cell of the profile, in 256ths of the cell, one byte each from the lowest:
-/// z low, 255 - z high, rho low, 255 - rho high. A circle whose bytes are z, 255 - z, rho and 255 - rho is
-/// held where none of the box's bytes exceeds its own.
-using CellBox = std::uint32_t;
-
-/// Where a circle lies in the profile.
-struct CirclePlace {
-  Index cell;
-  CellBox at;
-};
 
 /// Circles and the triangles whose boxes hold them, side by side: circle by circle, and ascending by
 /// triangle.
@@ -52,15 +41,6 @@ class RingLists {
     return {triangle_.data() + offset_[cell], offset_[row_end] - offset_[cell]};
   }
 
-  /// None where no triangle has that radius and height.
-  std::optional<CirclePlace> place(double rho, double z) const noexcept {
-    const auto cell = grid_.cell_of(rho, z);
-    if (!cell) return std::nullopt;
-    const CellBox at_z = part((z - grid_.z_min) * grid_.rows_per_mm, *cell / grid_.columns);
-    const CellBox at_rho = part((rho - grid_.rho_min) * grid_.columns_per_mm, *cell % grid_.columns);
-    return CirclePlace{static_cast<Index>(*cell),
-                       at_z | (255 - at_z) << 8 | at_rho << 16 | (255 - at_rho) << 24};
-  }
   /// Asks memory for where the list of the cell is, and then for the list.
   void fetch_offset(Index cell) const noexcept { __builtin_prefetch(&offset_[cell]); }
   void fetch_list(Index cell) const noexcept {
@@ -78,12 +58,6 @@ class RingLists {
   }
 
  private:
-  /// 256ths by which so many cells exceed the given one.
-  static CellBox part(double cells, std::size_t cell) noexcept {
-    const double part = (cells - static_cast<double>(cell)) * 256;
-    return part <= 0 ? 0 : part >= 255 ? 255 : static_cast<CellBox>(part);
-  }
-
   ProfileGrid grid_;
   std::size_t longest_ = 0;
   UninitialisedVector<Index> offset_, triangle_;

@@ -81,7 +81,7 @@ FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const
   for (Index t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
     if ((vertices.sector[a] & vertices.sector[b] & vertices.sector[c]) != 0) continue;
-    const auto directions = FreeDirections::near(vertices_[a], vertices_[b], vertices_[c]);
+    const auto directions = FreeDirections::near(vertices_[a].at, vertices_[b].at, vertices_[c].at);
     if (directions == 0) continue;
     const BoxSides sides = scale.sides(boxes, t);
     for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
@@ -154,7 +154,7 @@ RingTableSize RingTable::table_size() const noexcept {
   RingTableSize size{grid().cells(), lists_.entries(), 0, 0, lists_.longest(), 0, 0};
   for (std::size_t cell = 0; cell < grid().cells(); ++cell) size.cells_in_use += !lists_.of(cell).empty();
   size.bytes =
-      lists_.bytes() + free_.bytes() + triangles_.size() * sizeof(Triangle) + vertices_.size() * sizeof(Vec3);
+      lists_.bytes() + free_.bytes() + triangles_.size() * sizeof(Triangle) + vertices_.size() * sizeof(AxisVertex);
   if (size.cells_in_use > 0)
     size.mean_list = static_cast<double>(size.entries) / static_cast<double>(size.cells_in_use);
   if (!triangles_.empty()) {

@@ -88,13 +88,13 @@ class RingTable {
   const ProfileGrid& grid() const noexcept { return lists_.grid(); }
   TriangleRef corner_refs(Index triangle) const noexcept {
     const auto& [a, b, c] = triangles_[triangle];
-    return {&vertices_[a], &vertices_[b], &vertices_[c]};
+    return {&vertices_[a].at, &vertices_[b].at, &vertices_[c].at};
   }
   const FreeDirections& free_directions() const noexcept { return free_; }
   /// In the axis frame.
   TriangleCorners corners(Index triangle) const noexcept {
     const auto [a, b, c] = triangles_[triangle];
-    return {vertices_[a], vertices_[b], vertices_[c]};
+    return {vertices_[a].at, vertices_[b].at, vertices_[c].at};
   }
   RingTableSize table_size() const noexcept;
 
@@ -107,11 +107,12 @@ class RingTable {
   int winding_ahead_of(const Circle& circle, std::size_t cell, bool on_surface,
                        std::span<const CircleCrossing> crossings, TangentialWork& work) const;
   Circle circle_of(const Vec3& point) const noexcept;
-  void answer_alternating(Chunk& chunk, std::size_t at, TangentialHits& out, std::size_t i) const;
-  void answer_nearest_arc(Chunk& chunk, std::size_t at, TangentialHits& out, std::size_t i) const;
+  void answer(Chunk& chunk, std::size_t begin, std::size_t end, TangentialRule rule, TangentialHits& out) const;
+  void answer_alternating(Chunk& chunk, std::size_t circle, TangentialHits& out, std::size_t i) const;
+  void answer_nearest_arc(Chunk& chunk, std::size_t circle, TangentialHits& out, std::size_t i) const;
 
   AxisFrame frame_;
-  UninitialisedVector<Vec3> vertices_;  ///< In the axis frame.
+  UninitialisedVector<AxisVertex> vertices_;
   UninitialisedVector<Triangle> triangles_;
   double scale_ = 0;  ///< At least every |x|, |y| of the triangles.
   RingLists lists_;
