@@ -3,14 +3,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "condyle/tangential/circle_places.hpp"
 #include "condyle/tangential/profile.hpp"
 #include "condyle/tangential/profile_boxes.hpp"
 
 namespace condyle {
 
-/// Sides of boxes in 256ths of a cell, from the grid's corner, rounded outwards and kept within the grid: the
+/// Sides of a box in 256ths of a cell, from the grid's corner, rounded outwards and kept within the grid: the
 /// cell in the upper bits, the byte in it in the lower eight.
 struct BoxSides {
   std::int32_t rho_low, rho_high, z_low, z_high;
@@ -19,24 +19,33 @@ struct BoxSides {
   Index last_column() const noexcept { return static_cast<Index>(rho_high) >> 8; }
   Index first_row() const noexcept { return static_cast<Index>(z_low) >> 8; }
   Index last_row() const noexcept { return static_cast<Index>(z_high) >> 8; }
+
+  /// The part of the box within a cell that it meets.
+  CellBox in_cell(Index row, Index column) const noexcept;
 };
 
-/// Some boxes side by side.
-struct BoxSidesBatch {
+/// Some triangles and the cells that their boxes meet.
+struct BoxCells {
   static constexpr std::size_t most = 256;
-  alignas(64) std::array<std::int32_t, most> rho_low, rho_high, z_low, z_high;
+  using Column = std::array<Index, most>;
 
-  BoxSides operator[](std::size_t i) const noexcept { return {rho_low[i], rho_high[i], z_low[i], z_high[i]}; }
+  /// Of boxes of at most two by two cells those cells, in four columns of which each may hold a spare one: cell
+  /// `spare` + k of column k. And the box within each.
+  alignas(64) std::array<Column, 4> cell;
+  alignas(64) std::array<Column, 4> box;
+  /// Places in the batch of boxes that meet more cells; they have spare ones only.
+  std::array<Index, most> large;
+  std::size_t large_count;
 };
 
-/// From units of the boxes to 256ths of cells.
+/// From units of the boxes to cells of the grid.
 class BoxScale {
  public:
   BoxScale(const ProfileGrid& grid, double units_per_mm) noexcept;
 
-  /// The boxes [first, first + count), count at most a batch.
-  void sides(const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxSidesBatch& out) const;
-  BoxSides sides(const ProfileBoxes& boxes, std::size_t triangle) const;
+  /// Cells of the boxes [first, first + count), count at most a batch.
+  void cells(const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxCells& out) const;
+  BoxSides sides(const ProfileBoxes& boxes, std::size_t triangle) const noexcept;
 
   struct Axis {
     float origin, per_unit, slack, last;
@@ -44,6 +53,7 @@ class BoxScale {
 
  private:
   Axis rho_, z_;
+  Index columns_, spare_;
 };
 
 }  // namespace condyle

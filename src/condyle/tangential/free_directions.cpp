@@ -13,6 +13,24 @@ using Directions = FreeDirections::Directions;
 /// Where no more than one cell in so many is left, each is asked for by itself.
 constexpr std::size_t few_of = 512;
 
+/// By the sectors of a triangle's corners; all ones and one more bit where they do not tell.
+constexpr std::uint16_t untold = 0x100;
+constexpr std::array<std::uint16_t, 256> directions_between = [] {
+  std::array<std::uint16_t, 256> table{};
+  table.fill(untold);
+  // From the widest angle to the narrowest: `width` sectors from sector `first` on.
+  for (unsigned width = 4; width > 0; --width) {
+    for (unsigned first = 0; first < 8; ++first) {
+      unsigned sectors = 0, directions = 0;
+      for (unsigned k = 0; k < width; ++k) sectors |= 1u << (first + k) % 8;
+      for (unsigned k = 1; k < width; ++k) directions |= 1u << (first + k) % 8;
+      for (unsigned within = 1; within < 256; ++within)
+        if ((within & ~sectors) == 0) table[within] = static_cast<std::uint16_t>(directions);
+    }
+  }
+  return table;
+}();
+
 /// The connected patches of cells that are free in one direction.
 class Patches {
  public:
@@ -114,6 +132,12 @@ Directions FreeDirections::near(const Vec3& a, const Vec3& b, const Vec3& c) noe
       2, [](const Vec3& p) { return -p.x(); }, [](const Vec3& p) { return p.y(); });
   look(
       3, [](const Vec3& p) { return -p.x() - p.y(); }, [](const Vec3& p) { return p.y() - p.x(); });
+  return static_cast<Directions>(directions);
+}
+
+std::optional<FreeDirections::Directions> FreeDirections::between(Sectors sectors) noexcept {
+  const std::uint16_t directions = directions_between[sectors];
+  if (directions == untold) return std::nullopt;
   return static_cast<Directions>(directions);
 }
 

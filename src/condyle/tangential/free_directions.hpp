@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "condyle/core/angle.hpp"
@@ -32,6 +33,13 @@ class FreeDirections {
 
   /// Directions which the triangle comes near.
   static Directions near(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
+
+  /// Eighths of a turn between the directions, sector k from direction k to the next: one bit each.
+  using Sectors = std::uint8_t;
+  /// The same, of a triangle whose corners keep the clearance from all directions and lie in these sectors:
+  /// those inside the narrowest angle around them. None where that is half a turn or more, for the triangle may
+  /// then go round the axis on either side.
+  static std::optional<Directions> between(Sectors sectors) noexcept;
 
   struct Anchor {
     std::int8_t direction = none;  ///< Or `none`, where each is taken or the winding number is huge.

@@ -7,6 +7,23 @@
 
 #include "condyle/tangential/free_directions.hpp"
 
+#ifndef CONDYLE_TANGENTIAL_SECTORS
+#define CONDYLE_TANGENTIAL_SECTORS
+namespace condyle {
+namespace {
+
+/// Eighths of a turn by the signs of x (1) and y (2) and which of them is larger (4: y).
+struct Sectors {
+  static constexpr int none = 8;
+  /// A bit each, counter-clockwise from +x; none for `none`.
+  static constexpr std::array<std::uint8_t, 9> bit = {1 << 0, 1 << 3, 1 << 7, 1 << 4, 1 << 1,
+                                                      1 << 2, 1 << 6, 1 << 5, 0};
+};
+
+}  // namespace
+}  // namespace condyle
+#endif
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "condyle/tangential/profile_boxes.cpp"
 #include <hwy/foreach_target.h>
@@ -17,6 +34,56 @@ namespace condyle::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+
+/// Places as many vertices as there are lanes, from `first` on.
+template <class D>
+HWY_INLINE void place_some(D d, const PointsView& vertices, const AxisFrame& frame, std::size_t first,
+                           AxisVertices& out) {
+  const auto from_axis_point = [&](std::span<const double> values, double origin) {
+    return hn::Sub(hn::LoadU(d, values.data() + first), hn::Set(d, origin));
+  };
+  const auto px = from_axis_point(vertices.x, frame.point().x()),
+             py = from_axis_point(vertices.y, frame.point().y()),
+             pz = from_axis_point(vertices.z, frame.point().z());
+  // As AxisFrame::to_axis.
+  const auto row = [&](int i) {
+    const auto times = [&](hn::Vec<D> p, int k) { return hn::Mul(hn::Set(d, frame.rotation()(i, k)), p); };
+    return hn::Add(hn::Add(times(px, 0), times(py, 1)), times(pz, 2));
+  };
+  const auto x = row(0), y = row(1), z = row(2);
+  hn::StoreInterleaved4(x, y, z, hn::Zero(d), d, out.exact[first].at.data());
+
+  const hn::Rebind<float, D> df;
+  const auto rounded = [&](hn::Vec<D> value) {
+    return hn::DemoteTo(df, hn::Mul(value, hn::Set(d, out.units_per_mm)));
+  };
+  const auto fx = rounded(x), fy = rounded(y), fz = rounded(z);
+  const auto rho = rounded(hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))));
+  hn::StoreInterleaved4(fx, fy, rho, fz, df, &out.rounded[first].x);
+
+  // Along diagonals the distance from the line is the square root of 2 too large; 3/2 covers that and all
+  // rounding.
+  const auto apart = hn::Mul(rho, hn::Set(df, static_cast<float>(1.5 * FreeDirections::clearance)));
+  const auto ax = hn::Abs(fx), ay = hn::Abs(fy);
+  const auto near = hn::Or(hn::Le(hn::Min(ax, ay), apart), hn::Le(hn::Abs(hn::Sub(ax, ay)), apart));
+  const hn::RebindToSigned<decltype(df)> di;
+  const auto sign = [&](hn::Vec<decltype(df)> value) { return hn::ShiftRight<31>(hn::BitCast(di, value)); };
+  const auto bit = [&](hn::Vec<decltype(di)> mask, int value) { return hn::And(mask, hn::Set(di, value)); };
+  const auto steep = hn::VecFromMask(di, hn::RebindMask(di, hn::Gt(ay, ax)));
+  const auto number = hn::Or(hn::Or(bit(sign(fx), 1), bit(sign(fy), 2)), bit(steep, 4));
+  const auto sector = hn::IfThenElse(hn::RebindMask(di, near), hn::Set(di, Sectors::none), number);
+  alignas(64) std::array<std::int32_t, hn::MaxLanes(di)> numbers;
+  hn::Store(sector, di, numbers.data());
+  for (std::size_t i = 0; i < hn::MaxLanes(di); ++i)
+    out.sector[first + i] = Sectors::bit[static_cast<std::size_t>(numbers[i])];
+}
+
+void place_any(const PointsView& vertices, const AxisFrame& frame, AxisVertices& out) {
+  constexpr hn::CappedTag<double, 8> d8;
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d8) <= vertices.size(); i += hn::Lanes(d8)) place_some(d8, vertices, frame, i, out);
+  for (; i < vertices.size(); ++i) place_some(hn::CappedTag<double, 1>(), vertices, frame, i, out);
+}
 
 using D = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<D>;
@@ -60,15 +127,8 @@ void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
   auto rho_min = infinity, rho_max = hn::Zero(d), z_min = infinity, z_max = hn::Neg(infinity),
        scale = hn::Zero(d);
-  const auto store = [&](Floats values, UninitialisedVector<float>& to, std::size_t first,
-                         std::size_t count) {
-    if (count == most_lanes) {
-      hn::StoreU(values, d, to.data() + first);
-    } else {
-      alignas(64) std::array<float, most_lanes> lanes;
-      hn::Store(values, d, lanes.data());
-      std::copy_n(lanes.begin(), count, to.begin() + static_cast<std::ptrdiff_t>(first));
-    }
+  const auto store = [&](Floats values, UninitialisedVector<float>& to, std::size_t first) {
+    hn::StoreU(values, d, to.data() + first);
   };
   for (std::size_t first = 0; first < triangles.size(); first += most_lanes) {
     const std::size_t count = std::min(most_lanes, triangles.size() - first);
@@ -84,8 +144,8 @@ void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle
     const auto z_error =
         hn::Add(hn::Mul(hn::Max(hn::Abs(e.z_low), hn::Abs(e.z_high)), hn::Set(d, 0x1p-22f)), least);
     const auto z_low = hn::Sub(e.z_low, z_error), z_high = hn::Add(e.z_high, z_error);
-    store(rho_low, out.rho_low, first, count), store(rho_high, out.rho_high, first, count);
-    store(z_low, out.z_low, first, count), store(z_high, out.z_high, first, count);
+    store(rho_low, out.rho_low, first), store(rho_high, out.rho_high, first);
+    store(z_low, out.z_low, first), store(z_high, out.z_high, first);
     rho_min = hn::Min(rho_min, rho_low), rho_max = hn::Max(rho_max, rho_high);
     z_min = hn::Min(z_min, z_low), z_max = hn::Max(z_max, z_high);
     const auto reach = [&](Floats low, Floats high) {
@@ -106,6 +166,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle {
 
+HWY_EXPORT(place_any);
 HWY_EXPORT(boxes_any);
 
 namespace {
@@ -117,16 +178,6 @@ double reach_of(std::span<const double> values) {
   return most;
 }
 
-/// Which eighth of a turn, as a bit; none where a line of FreeDirections passes near. Along diagonals the
-/// distance is the square root of 2 too large; 3/2 covers that and all rounding.
-std::uint8_t sector_of(float x, float y, float rho) noexcept {
-  const float apart = 1.5f * static_cast<float>(FreeDirections::clearance) * rho;
-  const float ax = std::abs(x), ay = std::abs(y);
-  const bool clear = (std::min(ax, ay) > apart) & (std::abs(ax - ay) > apart);
-  const int number = (x < 0) | (y < 0) << 1 | (ay > ax) << 2;
-  return static_cast<std::uint8_t>(clear << number);
-}
-
 }  // namespace
 
 AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame) {
@@ -136,21 +187,13 @@ AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame)
   const double reach =
       reach_of(vertices.x) + reach_of(vertices.y) + reach_of(vertices.z) + frame.point().cwiseAbs().sum();
   out.units_per_mm = reach > 0 ? std::exp2(std::min(-std::ilogb(reach), 1000)) : 1;
-  for (std::size_t v = 0; v < count; ++v) {
-    const Vec3 p = frame.to_axis(vertices[v]);
-    out.exact[v] = {p, 0};
-    const double x = p.x() * out.units_per_mm, y = p.y() * out.units_per_mm;
-    const auto fx = static_cast<float>(x), fy = static_cast<float>(y),
-               rho = static_cast<float>(std::sqrt(x * x + y * y));
-    out.rounded[v] = {fx, fy, rho, static_cast<float>(p.z() * out.units_per_mm)};
-    out.sector[v] = sector_of(fx, fy, rho);
-  }
+  HWY_DYNAMIC_DISPATCH(place_any)(vertices, frame, out);
   return out;
 }
 
 ProfileBoxes profile_boxes(std::span<const ProfileVertex> vertices, std::span<const Triangle> triangles) {
   ProfileBoxes out;
-  for (auto* side : {&out.rho_low, &out.rho_high, &out.z_low, &out.z_high}) side->resize(triangles.size());
+  for (auto* side : {&out.rho_low, &out.rho_high, &out.z_low, &out.z_high}) side->resize((triangles.size() + 15) / 16 * 16);
   HWY_DYNAMIC_DISPATCH(boxes_any)(vertices, triangles, out);
   return out;
 }

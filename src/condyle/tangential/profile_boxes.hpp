@@ -28,8 +28,8 @@ struct alignas(32) AxisVertex {
 struct AxisVertices {
   UninitialisedVector<AxisVertex> exact;
   UninitialisedVector<ProfileVertex> rounded;
-  /// Eighth of a turn in which the vertex lies, as a bit; none where it is near a border
-  /// (FreeDirections::clearance).
+  /// Eighth of a turn in which the vertex lies, as a bit, counter-clockwise from +x; none where it is near a
+  /// border (FreeDirections::clearance).
   UninitialisedVector<std::uint8_t> sector;
   /// Units of the rounded values in a millimetre: a power of two, so that no square of a float overflows and
   /// none that matters underflows.
@@ -39,7 +39,8 @@ struct AxisVertices {
 AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame);
 
 /// One float per triangle and side of its box, in units: complete, for every circle (rho, z) that meets the
-/// closed triangle lies in it, with rho computed by `axis_radius`.
+/// closed triangle lies in it, with rho computed by `axis_radius`. Filled up to a multiple of 16 with the last
+/// one.
 struct ProfileBoxes {
   UninitialisedVector<float> rho_low, rho_high, z_low, z_high;
   /// The box around all; empty (low > high) where there is no triangle.

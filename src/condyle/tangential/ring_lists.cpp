@@ -82,19 +82,8 @@ HWY_EXPORT(find_any);
 
 namespace {
 
-/// Room beyond the last entry, for a vector that starts on it.
-constexpr std::size_t vector_room = 16;
-
-/// The part of the box within a cell, as a CellBox.
-CellBox box_in_cell(const BoxSides& sides, Index row, Index column) noexcept {
-  const auto low = [](std::int32_t side, bool here) { return here ? static_cast<CellBox>(side & 0xff) : 0; };
-  const auto high = [](std::int32_t side, bool here) {
-    return here ? static_cast<CellBox>(~side & 0xff) : 0;
-  };
-  return low(sides.z_low, row == sides.first_row()) | high(sides.z_high, row == sides.last_row()) << 8 |
-         low(sides.rho_low, column == sides.first_column()) << 16 |
-         high(sides.rho_high, column == sides.last_column()) << 24;
-}
+/// Room beyond the last entry, for a vector that starts on it, and for the spare entries of a batch.
+constexpr std::size_t room = BoxCells::most;
 
 /// Puts triangles into the cells of their boxes: first to count them, then to list them.
 class Listing {
@@ -107,75 +96,58 @@ class Listing {
         boxes_(boxes),
         scale_(grid, vertices.units_per_mm) {}
 
-  /// Adds to the count of each cell how many triangles it lists.
+  /// Numbers beyond the cells, which stand for a cell that a triangle does not have.
+  static constexpr std::size_t spare = 4;
+
+  /// Adds to the count of each cell how many triangles it lists; those of the spare ones mean nothing.
   void count(Index* counts) const {
-    for_each(
-        [&](const BoxSides& sides, Index) {
-          const Four cells = four_cells(sides);
-          ++counts[cells.cell[0]], counts[cells.cell[1]] += cells.two_columns;
-          counts[cells.cell[2]] += cells.two_rows,
-              counts[cells.cell[3]] += cells.two_columns & cells.two_rows;
-        },
-        [&](Index row, Index column, const BoxSides&, Index) { ++counts[grid_.cell(row, column)]; });
+    for_each_batch([&](const BoxCells& batch, std::size_t first, std::size_t size) {
+      // Without a branch: nobody could foretell how many cells a triangle meets.
+      for (std::size_t i = 0; i < size; ++i) {
+        for (const BoxCells::Column& cell : batch.cell) ++counts[cell[i]];
+      }
+      for_each_of_large(batch, first, [&](std::size_t cell, CellBox, Index) { ++counts[cell]; });
+    });
   }
 
-  /// Lists each triangle; `next` has for each cell where its next entry goes.
-  ///
-  /// Four cells without a branch, the lower left one last: a cell that is none of its own is one of those
-  /// that follow, which then takes the place that was written to.
-  void list(Index* next, Index* triangle, CellBox* box) const {
-    for_each(
-        [&](const BoxSides& sides, Index t) {
-          const Four cells = four_cells(sides);
-          const auto put = [&](std::size_t k, Index own, Index row, Index column) {
-            Index& at = next[cells.cell[k]];
-            triangle[at] = t, box[at] = box_in_cell(sides, row, column);
-            at += own;
-          };
-          const Index top = sides.last_row(), right = sides.last_column();
-          put(3, cells.two_columns & cells.two_rows, top, right);
-          put(2, cells.two_rows, top, sides.first_column());
-          put(1, cells.two_columns, sides.first_row(), right);
-          put(0, 1, sides.first_row(), sides.first_column());
-        },
-        [&](Index row, Index column, const BoxSides& sides, Index t) {
-          const Index at = next[grid_.cell(row, column)]++;
-          triangle[at] = t, box[at] = box_in_cell(sides, row, column);
-        });
+  /// Lists each triangle; `next` has for each cell where its next entry goes. Spare cells have room for a batch
+  /// from `end` on.
+  void list(Index* next, Index* triangle, CellBox* box, Index end) const {
+    for_each_batch([&](const BoxCells& batch, std::size_t first, std::size_t size) {
+      std::fill_n(next + grid_.cells(), spare, end);
+      for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t k = 0; k < 4; ++k) {
+          const Index at = next[batch.cell[k][i]]++;
+          triangle[at] = static_cast<Index>(first + i), box[at] = batch.box[k][i];
+        }
+      }
+      for_each_of_large(batch, first, [&](std::size_t cell, CellBox part, Index t) {
+        const Index at = next[cell]++;
+        triangle[at] = t, box[at] = part;
+      });
+    });
   }
 
  private:
-  /// Cells at the corners of a box of at most two by two: lower left, lower right, upper left, upper right.
-  struct Four {
-    std::array<std::size_t, 4> cell;
-    Index two_columns, two_rows;  ///< 1 where there are two, else 0
-  };
-  Four four_cells(const BoxSides& s) const noexcept {
-    const std::size_t lower = grid_.cell(s.first_row(), s.first_column());
-    const Index two_columns = s.last_column() - s.first_column(), two_rows = s.last_row() - s.first_row();
-    const std::size_t upper = lower + (two_rows != 0 ? grid_.columns : 0);
-    return {{lower, lower + two_columns, upper, upper + two_columns}, two_columns, two_rows};
+  template <class Visit>
+  void for_each_batch(const Visit& visit) const {
+    BoxCells batch;
+    for (std::size_t first = 0; first < triangles_.size(); first += batch.most) {
+      const std::size_t size = std::min(batch.most, triangles_.size() - first);
+      scale_.cells(boxes_, first, size, batch);
+      visit(batch, first, size);
+    }
   }
 
-  /// small(sides, triangle) where a box meets at most two by two cells, else large(row, column, sides,
-  /// triangle) for each cell.
-  template <class Small, class Large>
-  void for_each(const Small& small, const Large& large) const {
-    BoxSidesBatch batch;
-    for (std::size_t first = 0; first < triangles_.size(); first += batch.most) {
-      const std::size_t count = std::min(batch.most, triangles_.size() - first);
-      scale_.sides(boxes_, first, count, batch);
-      for (std::size_t i = 0; i < count; ++i) {
-        const BoxSides sides = batch[i];
-        const auto t = static_cast<Index>(first + i);
-        const Index wide = sides.last_column() - sides.first_column();
-        const Index high = sides.last_row() - sides.first_row();
-        if ((wide | high) <= 1) {
-          small(sides, t);
-        } else {
-          for_each_cell(sides, t, large);
-        }
-      }
+  /// visit(cell, box, triangle) for the cells of the large boxes of a batch.
+  template <class Visit>
+  void for_each_of_large(const BoxCells& batch, std::size_t first, const Visit& visit) const {
+    for (std::size_t k = 0; k < batch.large_count; ++k) {
+      const auto t = static_cast<Index>(first + batch.large[k]);
+      const BoxSides sides = scale_.sides(boxes_, t);
+      for_each_cell(sides, t, [&](Index row, Index column) {
+        visit(grid_.cell(row, column), sides.in_cell(row, column), t);
+      });
     }
   }
 
@@ -186,7 +158,7 @@ class Listing {
     const Index first = sides.first_column(), last = sides.last_column();
     if (std::size_t{last - first + 1} * (sides.last_row() - sides.first_row() + 1) <= many) {
       for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
-        for (Index column = first; column <= last; ++column) visit(row, column, sides, t);
+        for (Index column = first; column <= last; ++column) visit(row, column);
       }
       return;
     }
@@ -194,7 +166,7 @@ class Listing {
     for_each_profile_run(grid_, vertices_[a].at, vertices_[b].at, vertices_[c].at,
                          [&](Index row, Index from, Index to) {
                            for (Index column = std::max(from, first); column <= std::min(to, last); ++column)
-                             visit(row, column, sides, t);
+                             visit(row, column);
                          });
   }
 
@@ -214,7 +186,7 @@ RingLists::RingLists(const AxisVertices& vertices, std::span<const Triangle> tri
     grid_ = ProfileGrid::over({boxes.rho_min * mm, boxes.rho_max * mm, boxes.z_min * mm, boxes.z_max * mm},
                               cells);
   }
-  offset_.resize(grid_.cells() + 1);
+  offset_.resize(grid_.cells() + 1 + Listing::spare);
   std::fill(offset_.begin(), offset_.end(), 0);
   const Listing listing(grid_, vertices, triangles, boxes);
   // While triangles are listed, each cell's offset stands one to the right, and moves to its end.
@@ -225,17 +197,16 @@ RingLists::RingLists(const AxisVertices& vertices, std::span<const Triangle> tri
     longest_ = std::max<std::size_t>(longest_, next[cell]);
     sum += std::exchange(next[cell], sum);
   }
-  triangle_.resize(sum + vector_room), box_.resize(sum + vector_room);
-  std::fill(triangle_.end() - vector_room, triangle_.end(), no_index);
-  std::fill(box_.end() - vector_room, box_.end(), 0);
-  listing.list(next, triangle_.data(), box_.data());
+  triangle_.resize(sum + room), box_.resize(sum + room);
+  listing.list(next, triangle_.data(), box_.data(), sum);
+  offset_.resize(grid_.cells() + 1);
 }
 
 std::size_t RingLists::find(std::span<const CirclePlace> circles, std::size_t first,
                             CirclePairs& pairs) const {
   constexpr std::size_t usual = 4096;
-  const std::size_t room = std::max(usual, longest_ + vector_room);
-  pairs.triangle.resize(room), pairs.circle.resize(room);
+  const std::size_t size = std::max(usual, longest_ + room);
+  pairs.triangle.resize(size), pairs.circle.resize(size);
   return HWY_DYNAMIC_DISPATCH(find_any)(offset_.data(), triangle_.data(), box_.data(), circles, first, pairs);
 }
 

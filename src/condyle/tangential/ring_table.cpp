@@ -80,8 +80,12 @@ FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const
   std::array<std::vector<Index>, FreeDirections::count> near;
   for (Index t = 0; t < triangles_.size(); ++t) {
     const auto& [a, b, c] = triangles_[t];
-    if ((vertices.sector[a] & vertices.sector[b] & vertices.sector[c]) != 0) continue;
-    const auto directions = FreeDirections::near(vertices_[a].at, vertices_[b].at, vertices_[c].at);
+    const std::uint8_t in_a = vertices.sector[a], in_b = vertices.sector[b], in_c = vertices.sector[c];
+    if ((in_a & in_b & in_c) != 0) continue;
+    const bool clear = (in_a != 0) & (in_b != 0) & (in_c != 0);
+    const auto between = clear ? FreeDirections::between(in_a | in_b | in_c) : std::nullopt;
+    const auto directions =
+        between ? *between : FreeDirections::near(vertices_[a].at, vertices_[b].at, vertices_[c].at);
     if (directions == 0) continue;
     const BoxSides sides = scale.sides(boxes, t);
     for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
