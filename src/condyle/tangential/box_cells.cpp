@@ -20,7 +20,8 @@ constexpr hn::RebindToUnsigned<D> du;
 using Words = hn::Vec<decltype(du)>;
 using Chosen = hn::Mask<decltype(du)>;
 
-/// Sides of some boxes, as BoxScale::sides computes them; `outwards` is -1 for the lower one, 1 for the upper.
+/// Sides of some boxes, as BoxScale::sides computes them; `outwards` is -1 for the lower one, 1 for the
+/// upper.
 HWY_INLINE Words side(const BoxScale::Axis& axis, const float* from, float outwards) {
   const auto steps = hn::Mul(hn::Sub(hn::LoadU(d, from), hn::Set(d, axis.origin)), hn::Set(d, axis.per_unit));
   const auto moved = hn::Add(steps, hn::Set(d, outwards * axis.slack));
@@ -84,8 +85,8 @@ HWY_EXPORT(cells_any);
 
 namespace {
 
-/// The difference, the scale and the product are each rounded once, to 2^-24 of at most 256 n: `slack` is four
-/// times that, and the smallest number that counts.
+/// The difference, the scale and the product are each rounded once, to 2^-24 of at most 256 n: `slack` is
+/// four times that, and the smallest number that counts.
 BoxScale::Axis axis_of(double from, double cells_per_mm, Index cells, double units_per_mm) noexcept {
   const double parts = 256.0 * cells;
   return {static_cast<float>(from * units_per_mm), static_cast<float>(256 * cells_per_mm / units_per_mm),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -29,8 +30,8 @@ struct BoxCells {
   static constexpr std::size_t most = 256;
   using Column = std::array<Index, most>;
 
-  /// Of boxes of at most two by two cells those cells, in four columns of which each may hold a spare one: cell
-  /// `spare` + k of column k. And the box within each.
+  /// Of boxes of at most two by two cells those cells, in four columns of which each may hold a spare one:
+  /// cell `spare` + k of column k. And the box within each.
   alignas(64) std::array<Column, 4> cell;
   alignas(64) std::array<Column, 4> box;
   /// Places in the batch of boxes that meet more cells; they have spare ones only.
@@ -55,5 +56,23 @@ class BoxScale {
   Axis rho_, z_;
   Index columns_, spare_;
 };
+
+/// visit(row, column) for the cells in which a triangle is listed: those that its box meets, of a box of many
+/// cells those that it meets itself.
+template <class Visit>
+void for_each_cell(const ProfileGrid& grid, const BoxSides& sides, const Vec3& a, const Vec3& b,
+                   const Vec3& c, const Visit& visit) {
+  constexpr std::size_t many = 16;
+  const Index first = sides.first_column(), last = sides.last_column();
+  if (std::size_t{last - first + 1} * (sides.last_row() - sides.first_row() + 1) <= many) {
+    for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
+      for (Index column = first; column <= last; ++column) visit(row, column);
+    }
+    return;
+  }
+  for_each_profile_run(grid, a, b, c, [&](Index row, Index from, Index to) {
+    for (Index column = std::max(from, first); column <= std::min(to, last); ++column) visit(row, column);
+  });
+}
 
 }  // namespace condyle

@@ -89,20 +89,6 @@ std::pair<double, double> way_out(const Circle& circle, double in_x, double in_y
 
 }  // namespace
 
-double CircleCrossing::ahead() const noexcept {
-  return angle > 0 ? angle : angle + two_pi;
-}
-double CircleCrossing::behind() const noexcept {
-  return angle < 0 ? -angle : two_pi - angle;
-}
-
-bool operator<(const CircleCrossing& a, const CircleCrossing& b) noexcept {
-  if ((a.angle > 0) != (b.angle > 0)) return a.angle > 0;
-  if (a.angle != b.angle) return a.angle < b.angle;
-  if (a.passage != b.passage) return a.passage == Passage::enters;
-  return a.triangle < b.triangle;
-}
-
 TangentialWork& TangentialWork::operator+=(const TangentialWork& other) noexcept {
   points += other.points, candidates += other.candidates, tried += other.tried, crossings += other.crossings;
   exact_decisions += other.exact_decisions;

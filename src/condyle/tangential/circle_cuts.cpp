@@ -1,7 +1,5 @@
 #include "condyle/tangential/circle_cuts.hpp"
 
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -30,11 +28,12 @@ struct Points3 {
   Doubles x, y, z;
 };
 
-/// Four doubles of each pair, side by side, before they are turned into lanes.
-using Fours = std::array<double, 4 * CircleCuts::most>;
-struct alignas(64) Staged {
-  alignas(64) std::array<Fours, 3> corner;
-  alignas(64) Fours point;
+using Column = std::array<double, CircleCuts::most>;
+
+/// What pairs are about: corners as four doubles side by side, before they are turned into lanes.
+struct Staged {
+  alignas(64) std::array<std::array<double, 4 * CircleCuts::most>, 3> corner;
+  alignas(64) Column height, squared_radius;
 };
 
 HWY_INLINE void copy_four(const double* from, double* to) {
@@ -42,21 +41,14 @@ HWY_INLINE void copy_four(const double* from, double* to) {
   for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) hn::Store(hn::Load(d4, from + k), d4, to + k);
 }
 
-/// Copies what the pairs are about, and asks memory for the corners of later ones, and for the triangles of yet
-/// later ones: without it the processor waits for memory most of the time.
-HWY_INLINE void stage(const CutSource& source, const TurningPoint* points, std::span<const Index> circle,
-                      std::span<const Index> triangle, std::size_t first, std::size_t count, Staged& staged) {
-  constexpr std::size_t triangles_ahead = 32, corners_ahead = 16;
-  const std::size_t last = triangle.size() - 1;
+HWY_INLINE void stage(const CutSource& source, const TurningPoint* points, const Index* circle,
+                      const Index* triangle, std::size_t count, Staged& staged) {
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t k = first + i;
-    hwy::Prefetch(&source.triangles[triangle[std::min(k + triangles_ahead, last)]]);
-    for (const Index v : source.triangles[triangle[std::min(k + corners_ahead, last)]])
-      hwy::Prefetch(&source.vertices[v]);
-    copy_four(&points[circle[k]].x, staged.point.data() + 4 * i);
-    const Triangle& corners = source.triangles[triangle[k]];
+    const Triangle& corners = source.triangles[triangle[i]];
     for (std::size_t c = 0; c < 3; ++c)
       copy_four(source.vertices[corners[c]].at.data(), staged.corner[c].data() + 4 * i);
+    const TurningPoint& point = points[circle[i]];
+    staged.height[i] = point.z, staged.squared_radius[i] = point.squared_radius;
   }
 }
 
@@ -80,7 +72,8 @@ HWY_INLINE Ends ends_of(const Points3& lower, const Points3& upper, Doubles heig
 /// As `cut_at_height` in circle_crossing.cpp: the corner alone on its side is followed by the two others.
 struct Cuts {
   Ends p, q;
-  hn::Mask<D> missed;  ///< The triangle does not reach the height.
+  /// The triangle lies above or below the height, or touches it from above; else there is a cut.
+  hn::Mask<D> missed, touches;
 };
 
 HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
@@ -102,18 +95,15 @@ HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
   const auto all_above = hn::And(hn::And(a_above, b_above), c_above);
   const auto any_above = hn::Or(hn::Or(a_above, b_above), c_above);
   const auto lowest = hn::Min(hn::Min(a.z, b.z), c.z);
+  const auto touches = hn::And(all_above, hn::Eq(lowest, height));
   return {ends_of(if_then_else(alone_above, of_p, alone), if_then_else(alone_above, alone, of_p), height),
           ends_of(if_then_else(alone_above, of_q, alone), if_then_else(alone_above, alone, of_q), height),
-          hn::Or(hn::Not(any_above), hn::And(all_above, hn::Gt(lowest, height)))};
+          hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)), touches};
 }
 
-/// Of each pair the way along the cut from the end inside the circle, (x, y), to the end outside, and what its
-/// ends alone tell; and the places of those pairs that are not done with that.
+/// Ways along cuts from the end inside a circle, (x, y), to the end outside, and what the ends alone tell.
 struct Ways {
-  using Column = std::array<double, CircleCuts::most>;
-  alignas(64) Column x, y, squared_radius, dx, dy, verdict;
-  alignas(64) std::array<std::int64_t, CircleCuts::most> open;
-  std::size_t open_count = 0;
+  alignas(64) Column x, y, end_squared_radius, dx, dy, verdict, point_x, point_y, squared_radius;
 };
 
 HWY_INLINE Doubles value(CutVerdict verdict) {
@@ -121,15 +111,19 @@ HWY_INLINE Doubles value(CutVerdict verdict) {
 }
 
 /// Bounds in units of the scale M are those of circle_predicates.cpp, where they are derived.
-HWY_INLINE void compare_ends(const Staged& staged, double scale, std::size_t count, Ways& ways) {
+///
+/// Notes the places of those that are not done with that, and returns how many they are.
+HWY_INLINE std::size_t compare_ends(const Staged& staged, double scale, std::size_t count, Ways& ways,
+                                    std::uint32_t* open) {
+  std::size_t open_count = 0;
   const double scale2 = scale * scale;
   const auto end_bound = hn::Set(d, 96 * rounding_unit * scale2);
   const auto dot_bound = hn::Set(d, 128 * rounding_unit * scale2);
   const auto room_bound = hn::Set(d, 1024 * rounding_unit * scale2 * scale2);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    Doubles px, py, height, squared_radius;
-    hn::LoadInterleaved4(d, staged.point.data() + 4 * i, px, py, height, squared_radius);
-    const auto [p, q, missed] = cuts_of(staged, height, i);
+    const auto height = hn::Load(d, staged.height.data() + i);
+    const auto squared_radius = hn::Load(d, staged.squared_radius.data() + i);
+    const auto [p, q, missed, touches] = cuts_of(staged, height, i);
     const auto p_value = hn::Sub(p.squared_radius, squared_radius);
     const auto q_value = hn::Sub(q.squared_radius, squared_radius);
     const auto p_inside = hn::Lt(p_value, hn::Neg(end_bound)), p_outside = hn::Gt(p_value, end_bound);
@@ -146,22 +140,24 @@ HWY_INLINE void compare_ends(const Staged& staged, double scale, std::size_t cou
     const auto room = hn::Sub(hn::Mul(squared_radius, length2), hn::Mul(turn, turn));
     const auto away = hn::Or(hn::Or(hn::Lt(at_p, hn::Neg(dot_bound)), hn::Gt(at_q, dot_bound)),
                              hn::Lt(room, hn::Neg(room_bound)));
-    const auto none = hn::Or(
-        missed, hn::Or(hn::And(p_inside, q_inside), hn::And(hn::And(p_outside, q_outside), away)));
+    const auto both = hn::Or(hn::And(p_inside, q_inside), hn::And(hn::And(p_outside, q_outside), away));
+    const auto none = hn::Or(missed, hn::AndNot(touches, both));
 
-    const auto crosses = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
+    const auto one = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
+    const auto crosses = hn::AndNot(touches, one);
     const auto passage = hn::IfThenElse(p_inside, value(CutVerdict::enters), value(CutVerdict::leaves));
     hn::Store(x, d, ways.x.data() + i), hn::Store(y, d, ways.y.data() + i);
     hn::Store(dx, d, ways.dx.data() + i), hn::Store(dy, d, ways.dy.data() + i);
-    hn::Store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), d, ways.squared_radius.data() + i);
+    hn::Store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), d,
+              ways.end_squared_radius.data() + i);
     hn::Store(hn::IfThenElse(crosses, passage, value(CutVerdict::undecided)), d, ways.verdict.data() + i);
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, none, bits);
     const unsigned valid = (1u << std::min(count - i, hn::Lanes(d))) - 1;
     for (unsigned left = ~static_cast<unsigned>(bits[0]) & valid; left != 0; left &= left - 1)
-      ways.open[ways.open_count++] =
-          static_cast<std::int64_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      open[open_count++] = static_cast<std::uint32_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
   }
+  return open_count;
 }
 
 /// The fraction of the way after which the circle is crossed: the operations of `way_out` in
@@ -180,22 +176,18 @@ HWY_INLINE Doubles fraction_to_circle(Doubles x, Doubles y, Doubles squared, Dou
 
 /// Crossings err by less than 2^-13 where the radius is no less than 2^-20 M (see `add_crossings`): what is
 /// twice as far from the point is on the side of the point where it seems to be.
-HWY_INLINE void cross(const Staged& staged, double scale, const Ways& ways, CircleCuts& out) {
+HWY_INLINE void cross(double scale, const Ways& ways, CircleCuts& out) {
   const auto least_radius2 = hn::Set(d, 0x1p-40 * scale * scale);
   const auto least_angle = hn::Set(d, FreeDirections::clearance);
-  constexpr hn::RebindToSigned<D> di;
-  for (std::size_t k = 0; k < ways.open_count; k += hn::Lanes(d)) {
-    const auto place = hn::Load(di, ways.open.data() + k), four = hn::ShiftLeft<2>(place);
-    const auto of = [&](const Ways::Column& column) { return hn::GatherIndex(d, column.data(), place); };
-    const auto of_point = [&](std::size_t at) { return hn::GatherIndex(d, staged.point.data() + at, four); };
-    const auto px = of_point(0), py = of_point(1), squared_radius = of_point(3);
+  for (std::size_t k = 0; k < out.count; k += hn::Lanes(d)) {
+    const auto of = [&](const Column& column) { return hn::Load(d, column.data() + k); };
+    const auto px = of(ways.point_x), py = of(ways.point_y), squared_radius = of(ways.squared_radius);
     const auto x = of(ways.x), y = of(ways.y), dx = of(ways.dx), dy = of(ways.dy);
-    const auto t = fraction_to_circle(x, y, of(ways.squared_radius), dx, dy, squared_radius);
+    const auto t = fraction_to_circle(x, y, of(ways.end_squared_radius), dx, dy, squared_radius);
     const auto at_x = hn::Add(x, hn::Mul(t, dx)), at_y = hn::Add(y, hn::Mul(t, dy));
     const auto angle = arctangent(d, hn::Sub(hn::Mul(px, at_y), hn::Mul(py, at_x)),
                                   hn::Add(hn::Mul(px, at_x), hn::Mul(py, at_y)));
-    const auto certain =
-        hn::And(hn::Gt(hn::Abs(angle), least_angle), hn::Ge(squared_radius, least_radius2));
+    const auto certain = hn::And(hn::Gt(hn::Abs(angle), least_angle), hn::Ge(squared_radius, least_radius2));
     const auto verdict = hn::IfThenElse(certain, of(ways.verdict), value(CutVerdict::undecided));
     hn::Store(angle, d, out.angle.data() + k), hn::Store(verdict, d, out.verdict.data() + k);
   }
@@ -206,14 +198,20 @@ void cut_circles_any(const CutSource& source, std::span<const TurningPoint> poin
                      double scale, CircleCuts& out) {
   const std::size_t count = std::min(triangle.size() - first, CircleCuts::most);
   Staged staged;
-  stage(source, points.data(), circle, triangle, first, count, staged);
+  stage(source, points.data(), circle.data() + first, triangle.data() + first, count, staged);
   Ways ways;
-  compare_ends(staged, scale, count, ways);
-  // What fills the last vector up is any pair.
-  for (std::size_t k = ways.open_count; k % hn::Lanes(d) != 0; ++k) ways.open[k] = 0;
-  cross(staged, scale, ways, out);
-  out.count = ways.open_count;
-  for (std::size_t k = 0; k < out.count; ++k) out.pair[k] = first + static_cast<std::size_t>(ways.open[k]);
+  std::array<std::uint32_t, CircleCuts::most> open;
+  out.count = compare_ends(staged, scale, count, ways, open.data());
+  // To the front, in place: none goes to where one after it is.
+  for (std::size_t k = 0; k < out.count; ++k) {
+    const std::size_t from = open[k], pair = first + from;
+    for (Column* column : {&ways.x, &ways.y, &ways.end_squared_radius, &ways.dx, &ways.dy, &ways.verdict})
+      (*column)[k] = (*column)[from];
+    const TurningPoint& point = points[circle[pair]];
+    ways.point_x[k] = point.x, ways.point_y[k] = point.y, ways.squared_radius[k] = point.squared_radius;
+    out.pair[k] = pair;
+  }
+  cross(scale, ways, out);
 }
 
 }  // namespace
@@ -229,7 +227,8 @@ HWY_EXPORT(cut_circles_any);
 void cut_circles(const CutSource& source, std::span<const TurningPoint> points, std::span<const Index> circle,
                  std::span<const Index> triangle, std::size_t first, CircleCuts& out) {
   constexpr double least_scale = 0x1p-220;
-  const double scale = source.scale > least_scale ? 1.5 * source.scale : std::numeric_limits<double>::infinity();
+  const double scale =
+      source.scale > least_scale ? 1.5 * source.scale : std::numeric_limits<double>::infinity();
   HWY_DYNAMIC_DISPATCH(cut_circles_any)(source, points, circle, triangle, first, scale, out);
 }
 

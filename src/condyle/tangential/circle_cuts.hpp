@@ -22,7 +22,7 @@ struct CircleCuts {
   static constexpr std::size_t most = 64;
 
   std::size_t count = 0;
-  alignas(64) std::array<double, most> angle;    ///< Of the crossing, where there is one: as in CircleCrossing.
+  alignas(64) std::array<double, most> angle;  ///< Of the crossing, where there is one: as in CircleCrossing.
   alignas(64) std::array<double, most> verdict;  ///< A CutVerdict as a number.
   std::array<std::size_t, most> pair;            ///< Place in the lists.
 };
@@ -35,12 +35,11 @@ struct CutSource {
   double scale;
 };
 
-/// Cuts triangles at the height of circles, many at a time: what `add_crossings` does one by one, wherever its
-/// decisions are certain in double by far. The same bits as there, on every instruction set. A pair that is not
-/// among those that may cross has no crossing, and its triangle does not hold the point.
+/// Cuts triangles at the height of circles, many at a time: what `add_crossings` does one by one, wherever
+/// its decisions are certain in double by far. The same bits as there, on every instruction set. A pair that
+/// is not among those that may cross has no crossing, and its triangle does not hold the point.
 ///
-/// Takes pairs [first, first + most) of the lists, as far as they go; `circle` are places in `points`. Asks
-/// memory for the pairs that follow.
+/// Takes pairs [first, first + most) of the lists, as far as they go; `circle` are places in `points`.
 void cut_circles(const CutSource& source, std::span<const TurningPoint> points, std::span<const Index> circle,
                  std::span<const Index> triangle, std::size_t first, CircleCuts& out);
 

@@ -14,8 +14,8 @@ struct alignas(32) TurningPoint {
 };
 
 /// Box of a triangle within a cell of the profile, in 256ths of the cell, one byte each from the lowest:
-/// z low, 255 - z high, rho low, 255 - rho high. A circle whose bytes are z, 255 - z, rho and 255 - rho is held
-/// where none of the box's bytes exceeds its own.
+/// z low, 255 - z high, rho low, 255 - rho high. A circle whose bytes are z, 255 - z, rho and 255 - rho is
+/// held where none of the box's bytes exceeds its own.
 using CellBox = std::uint32_t;
 
 /// Where a circle lies in the profile.
@@ -33,8 +33,8 @@ struct PlacedCircles {
   std::size_t size() const noexcept { return number.size(); }
 };
 
-/// The circles of those points, given in the mesh's frame, that lie within the grid: `cell_of`, with the radius
-/// by `axis_radius`. The same bits on every instruction set.
+/// The circles of those points, given in the mesh's frame, that lie within the grid: `cell_of`, with the
+/// radius by `axis_radius`. The same bits on every instruction set.
 void place_circles(const AxisFrame& frame, const ProfileGrid& grid, PointsView points, PlacedCircles& out);
 
 }  // namespace condyle

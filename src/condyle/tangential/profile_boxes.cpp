@@ -193,7 +193,8 @@ AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame)
 
 ProfileBoxes profile_boxes(std::span<const ProfileVertex> vertices, std::span<const Triangle> triangles) {
   ProfileBoxes out;
-  for (auto* side : {&out.rho_low, &out.rho_high, &out.z_low, &out.z_high}) side->resize((triangles.size() + 15) / 16 * 16);
+  for (auto* side : {&out.rho_low, &out.rho_high, &out.z_low, &out.z_high})
+    side->resize((triangles.size() + 15) / 16 * 16);
   HWY_DYNAMIC_DISPATCH(boxes_any)(vertices, triangles, out);
   return out;
 }

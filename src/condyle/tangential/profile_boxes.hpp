@@ -39,8 +39,8 @@ struct AxisVertices {
 AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame);
 
 /// One float per triangle and side of its box, in units: complete, for every circle (rho, z) that meets the
-/// closed triangle lies in it, with rho computed by `axis_radius`. Filled up to a multiple of 16 with the last
-/// one.
+/// closed triangle lies in it, with rho computed by `axis_radius`. Filled up to a multiple of 16 with the
+/// last one.
 struct ProfileBoxes {
   UninitialisedVector<float> rho_low, rho_high, z_low, z_high;
   /// The box around all; empty (low > high) where there is no triangle.

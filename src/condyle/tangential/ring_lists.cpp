@@ -110,8 +110,8 @@ class Listing {
     });
   }
 
-  /// Lists each triangle; `next` has for each cell where its next entry goes. Spare cells have room for a batch
-  /// from `end` on.
+  /// Lists each triangle; `next` has for each cell where its next entry goes. Spare cells have room for a
+  /// batch from `end` on.
   void list(Index* next, Index* triangle, CellBox* box, Index end) const {
     for_each_batch([&](const BoxCells& batch, std::size_t first, std::size_t size) {
       std::fill_n(next + grid_.cells(), spare, end);
@@ -145,29 +145,11 @@ class Listing {
     for (std::size_t k = 0; k < batch.large_count; ++k) {
       const auto t = static_cast<Index>(first + batch.large[k]);
       const BoxSides sides = scale_.sides(boxes_, t);
-      for_each_cell(sides, t, [&](Index row, Index column) {
-        visit(grid_.cell(row, column), sides.in_cell(row, column), t);
-      });
+      const auto& [a, b, c] = triangles_[t];
+      for_each_cell(
+          grid_, sides, vertices_[a].at, vertices_[b].at, vertices_[c].at,
+          [&](Index row, Index column) { visit(grid_.cell(row, column), sides.in_cell(row, column), t); });
     }
-  }
-
-  /// Of a box of many cells those that the triangle meets.
-  template <class Visit>
-  void for_each_cell(const BoxSides& sides, Index t, const Visit& visit) const {
-    constexpr std::size_t many = 16;
-    const Index first = sides.first_column(), last = sides.last_column();
-    if (std::size_t{last - first + 1} * (sides.last_row() - sides.first_row() + 1) <= many) {
-      for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
-        for (Index column = first; column <= last; ++column) visit(row, column);
-      }
-      return;
-    }
-    const auto& [a, b, c] = triangles_[t];
-    for_each_profile_run(grid_, vertices_[a].at, vertices_[b].at, vertices_[c].at,
-                         [&](Index row, Index from, Index to) {
-                           for (Index column = std::max(from, first); column <= std::min(to, last); ++column)
-                             visit(row, column);
-                         });
   }
 
   const ProfileGrid& grid_;

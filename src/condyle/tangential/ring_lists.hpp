@@ -22,7 +22,7 @@ struct CirclePairs {
 
 /// Which triangles a circle about the axis can meet: for each cell of the profile those whose box meets it.
 ///   offset_     0     2  2        5  ...      one entry per cell, plus one
-///   triangle_ | a b |  | c d e |    ...       cell i owns [offset_[i], offset_[i+1]), ascending
+///   triangle_ | a b |  | c d e |    ...       cell i owns [offset_[i], offset_[i+1])
 ///   box_      | . . |  | . . . |    ...       within the cell
 class RingLists {
  public:
@@ -35,12 +35,17 @@ class RingLists {
   std::span<const Index> of(std::size_t cell) const noexcept {
     return {triangle_.data() + offset_[cell], offset_[cell + 1] - offset_[cell]};
   }
-  /// From this cell to the end of its row, outwards: a triangle may come several times.
-  std::span<const Index> outwards_from(std::size_t cell) const noexcept {
-    const std::size_t row_end = (cell / grid_.columns + 1) * grid_.columns;
-    return {triangle_.data() + offset_[cell], offset_[row_end] - offset_[cell]};
+  /// visit(triangle) for those whose boxes reach the circle's height in its cell or further out, some more
+  /// than once.
+  template <class Visit>
+  void for_each_outwards(const CirclePlace& circle, const Visit& visit) const {
+    const std::size_t row_end = (circle.cell / grid_.columns + 1) * grid_.columns;
+    for (Index i = offset_[circle.cell]; i < offset_[row_end]; ++i) {
+      const bool above = (box_[i] & 0xff) <= (circle.at & 0xff);
+      const bool below = (box_[i] >> 8 & 0xff) <= (circle.at >> 8 & 0xff);
+      if (above & below) visit(triangle_[i]);
+    }
   }
-
   /// Asks memory for where the list of the cell is, and then for the list.
   void fetch_offset(Index cell) const noexcept { __builtin_prefetch(&offset_[cell]); }
   void fetch_list(Index cell) const noexcept {

@@ -15,24 +15,6 @@
 namespace condyle {
 namespace {
 
-constexpr double square(double a) noexcept {
-  return a * a;
-}
-
-/// Least radius, in units of the circle's scale, at which crossings err by less than half the clearance of
-/// free directions: sqrt(2 * 17u / 2^-20) < 2^-13 (see add_crossings).
-constexpr double least_anchored_radius = 0x1p-20;
-
-/// As atan2(y, x), off by at most 1.1e-5 (Abramowitz and Stegun 1964, 4.4.49): far less than the other half
-/// of the clearance, and many times faster. Not for the point on the axis.
-double rough_angle(double x, double y) noexcept {
-  const double a = std::abs(x), b = std::abs(y), q = std::min(a, b) / std::max(a, b), s = q * q;
-  double angle = q * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))));
-  if (b > a) angle = two_pi / 4 - angle;
-  if (x < 0) angle = two_pi / 2 - angle;
-  return y < 0 ? -angle : angle;
-}
-
 std::size_t cells_for(const TriMesh& mesh, const RingTableOptions& options) {
   // 64 cells per triangle is far past the point where lists stop getting shorter.
   if (!(options.cells_per_triangle > 0 && options.cells_per_triangle <= 64)) {
@@ -41,14 +23,6 @@ std::size_t cells_for(const TriMesh& mesh, const RingTableOptions& options) {
   }
   return static_cast<std::size_t>(
       std::ceil(options.cells_per_triangle * static_cast<double>(mesh.triangles.size())));
-}
-
-/// All of them, each once.
-std::vector<Index> each_once(std::span<const Index> triangles, std::vector<Index> more = {}) {
-  more.insert(more.end(), triangles.begin(), triangles.end());
-  std::sort(more.begin(), more.end());
-  more.erase(std::unique(more.begin(), more.end()), more.end());
-  return more;
 }
 
 }  // namespace
@@ -87,11 +61,8 @@ FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const
     const auto directions =
         between ? *between : FreeDirections::near(vertices_[a].at, vertices_[b].at, vertices_[c].at);
     if (directions == 0) continue;
-    const BoxSides sides = scale.sides(boxes, t);
-    for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
-      for (Index column = sides.first_column(); column <= sides.last_column(); ++column)
-        taken[grid().cell(row, column)] |= directions;
-    }
+    for_each_cell(grid(), scale.sides(boxes, t), vertices_[a].at, vertices_[b].at, vertices_[c].at,
+                  [&](Index row, Index column) { taken[grid().cell(row, column)] |= directions; });
     for (unsigned left = directions; left != 0; left &= left - 1)
       near[static_cast<std::size_t>(std::countr_zero(left))].push_back(t);
   }
@@ -113,52 +84,43 @@ Circle RingTable::circle_of(const Vec3& point) const noexcept {
           std::max({scale_, std::abs(point.x()), std::abs(point.y())})};
 }
 
-/// The ray from the point outwards stays in the cell's row: every triangle it can meet is listed at this
-/// column or beyond.
-int RingTable::winding_outwards(const Circle& circle, std::size_t cell, TangentialWork& work) const {
-  const auto candidates = each_once(lists_.outwards_from(cell));
-  return std::accumulate(candidates.begin(), candidates.end(), 0, [&](int sum, Index t) {
-    return sum + outward_crossing(circle, corner_refs(t), work);
+/// By the ray from the point outwards, which stays in the row of its cell, from there on. Triangles with all
+/// corners on one side of it, by more than their sides are rounded (see side_of_end), do not meet it.
+int RingTable::winding_outwards(const Circle& circle, const CirclePlace& place, TangentialWork& work) const {
+  const double doubt = 64 * rounding_unit * (circle.scale * circle.scale);
+  const auto side = [&](const Vec3& p) { return circle.point.x() * p.y() - circle.point.y() * p.x(); };
+  std::vector<std::pair<Index, int>> crossed;
+  lists_.for_each_outwards(place, [&](Index t) {
+    const TriangleRef corners = corner_refs(t);
+    const double a = side(*corners[0]), b = side(*corners[1]), c = side(*corners[2]);
+    if (std::min(std::min(a, b), c) > doubt || std::max(std::max(a, b), c) < -doubt) return;
+    if (const int sense = outward_crossing(circle, corners, work)) crossed.emplace_back(t, sense);
   });
+  // Listed in several cells, crossed once.
+  std::sort(crossed.begin(), crossed.end());
+  crossed.erase(std::unique(crossed.begin(), crossed.end()), crossed.end());
+  return std::accumulate(crossed.begin(), crossed.end(), 0,
+                         [](int sum, const auto& each) { return sum + each.second; });
 }
 
-/// Of a point on the axis, not on the surface: of the ray along the axis, which stays in the first column.
+/// Of a point on the axis, not on the surface: by the ray along the axis, which stays in the first column.
 int RingTable::winding_on_axis(const Vec3& point) const {
   std::vector<Index> candidates;
-  for (Index row = grid().row_at(point.z()); row < grid().rows; ++row)
-    candidates = each_once(lists_.of(grid().cell(row, 0)), std::move(candidates));
+  for (Index row = grid().row_at(point.z()); row < grid().rows; ++row) {
+    const auto listed = lists_.of(grid().cell(row, 0));
+    candidates.insert(candidates.end(), listed.begin(), listed.end());
+  }
+  std::sort(candidates.begin(), candidates.end());
+  candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
   return std::accumulate(candidates.begin(), candidates.end(), 0,
                          [&](int sum, Index t) { return sum + crossing_above(corners(t), point); });
-}
-
-/// From the free direction of the cell back to the point, by the crossings between them; where there is no
-/// such direction, and for points on the surface, by a ray.
-int RingTable::winding_ahead_of(const Circle& circle, std::size_t cell, bool on_surface,
-                                std::span<const CircleCrossing> crossings, TangentialWork& work) const {
-  const Vec3& p = circle.point;
-  if (p.x() == 0 && p.y() == 0) return on_surface ? 0 : winding_on_axis(p);
-  const auto [direction, winding_there] = free_.of(cell);
-  if (on_surface || direction == FreeDirections::none ||
-      circle.squared_radius < square(least_anchored_radius * circle.scale)) {
-    return winding_outwards(circle, cell, work);
-  }
-  int winding = winding_there;
-  if (crossings.empty()) return winding;
-  double way = FreeDirections::angle_of(direction).radians() - rough_angle(p.x(), p.y());
-  if (way < 0) way += two_pi;
-  if (way > two_pi) way -= two_pi;
-  for (const CircleCrossing& crossing : crossings) {
-    if (crossing.ahead() >= way) break;
-    winding -= static_cast<int>(crossing.passage);
-  }
-  return winding;
 }
 
 RingTableSize RingTable::table_size() const noexcept {
   RingTableSize size{grid().cells(), lists_.entries(), 0, 0, lists_.longest(), 0, 0};
   for (std::size_t cell = 0; cell < grid().cells(); ++cell) size.cells_in_use += !lists_.of(cell).empty();
-  size.bytes =
-      lists_.bytes() + free_.bytes() + triangles_.size() * sizeof(Triangle) + vertices_.size() * sizeof(AxisVertex);
+  size.bytes = lists_.bytes() + free_.bytes() + triangles_.size() * sizeof(Triangle) +
+               vertices_.size() * sizeof(AxisVertex);
   if (size.cells_in_use > 0)
     size.mean_list = static_cast<double>(size.entries) / static_cast<double>(size.cells_in_use);
   if (!triangles_.empty()) {

@@ -102,12 +102,11 @@ class RingTable {
   class Chunk;
 
   FreeDirections free_directions_of(const AxisVertices& vertices, const ProfileBoxes& boxes) const;
-  int winding_outwards(const Circle& circle, std::size_t cell, TangentialWork& work) const;
+  int winding_outwards(const Circle& circle, const CirclePlace& place, TangentialWork& work) const;
   int winding_on_axis(const Vec3& point) const;
-  int winding_ahead_of(const Circle& circle, std::size_t cell, bool on_surface,
-                       std::span<const CircleCrossing> crossings, TangentialWork& work) const;
   Circle circle_of(const Vec3& point) const noexcept;
-  void answer(Chunk& chunk, std::size_t begin, std::size_t end, TangentialRule rule, TangentialHits& out) const;
+  void answer(Chunk& chunk, std::size_t begin, std::size_t end, TangentialRule rule,
+              TangentialHits& out) const;
   void answer_alternating(Chunk& chunk, std::size_t circle, TangentialHits& out, std::size_t i) const;
   void answer_nearest_arc(Chunk& chunk, std::size_t circle, TangentialHits& out, std::size_t i) const;
 
