@@ -62,20 +62,26 @@ struct Ends {
   Doubles x, y, squared_radius;
 };
 
-HWY_INLINE Ends ends_of(const Points3& lower, const Points3& upper, Doubles height) {
-  const auto t = hn::Div(hn::Sub(height, lower.z), hn::Sub(upper.z, lower.z));
-  const auto x = hn::Add(lower.x, hn::Mul(t, hn::Sub(upper.x, lower.x)));
-  const auto y = hn::Add(lower.y, hn::Mul(t, hn::Sub(upper.y, lower.y)));
+/// Where edges from `alone` to `other` are at the height, from their lower corners upwards: upper - lower is
+/// alone - other or, exactly, its negative, which leaves products and quotients of two such as they are.
+HWY_INLINE Ends ends_of(const Points3& alone, const Points3& other, hn::Mask<D> alone_above, Doubles height) {
+  const Points3 lower = if_then_else(alone_above, other, alone);
+  const auto t = hn::Div(hn::Sub(height, lower.z), hn::Sub(alone.z, other.z));
+  const auto x = hn::Add(lower.x, hn::Mul(t, hn::Sub(alone.x, other.x)));
+  const auto y = hn::Add(lower.y, hn::Mul(t, hn::Sub(alone.y, other.y)));
   return {x, y, hn::Add(hn::Mul(x, x), hn::Mul(y, y))};
 }
 
-/// As `cut_at_height` in circle_crossing.cpp: the corner alone on its side is followed by the two others.
+/// As `cut_at_height` in circle_crossing.cpp, but for which end is p.
 struct Cuts {
-  Ends p, q;
+  Ends a, b;
+  hn::Mask<D> a_is_p;
   /// The triangle lies above or below the height, or touches it from above; else there is a cut.
   hn::Mask<D> missed, touches;
 };
 
+/// Of corners 0, 1 and 2 one is alone on its side of the height, the others follow it in the order 1, 2 or 0, 1
+/// or, where 1 is alone, the other way round.
 HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
   const auto corner = [&](std::size_t c) {
     Points3 at;
@@ -83,22 +89,20 @@ HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
     hn::LoadInterleaved4(d, staged.corner[c].data() + 4 * i, at.x, at.y, at.z, unused);
     return at;
   };
-  const Points3 a = corner(0), b = corner(1), c = corner(2);
-  const auto a_above = hn::Ge(a.z, height), b_above = hn::Ge(b.z, height), c_above = hn::Ge(c.z, height);
-  const auto a_alone = hn::And(hn::Xor(a_above, b_above), hn::Xor(a_above, c_above));
-  const auto b_alone = hn::And(hn::Xor(b_above, a_above), hn::Xor(b_above, c_above));
-  const Points3 alone = if_then_else(a_alone, a, if_then_else(b_alone, b, c));
-  const Points3 next = if_then_else(a_alone, b, if_then_else(b_alone, c, a));
-  const Points3 last = if_then_else(a_alone, c, if_then_else(b_alone, a, b));
+  const Points3 p0 = corner(0), p1 = corner(1), p2 = corner(2);
+  const auto above0 = hn::Ge(p0.z, height), above1 = hn::Ge(p1.z, height), above2 = hn::Ge(p2.z, height);
+  const auto differ01 = hn::Xor(above0, above1), differ12 = hn::Xor(above1, above2);
+  const auto alone0 = hn::AndNot(differ12, differ01), alone1 = hn::And(differ01, differ12);
+  const auto alone2 = hn::AndNot(differ01, differ12);
+  const Points3 alone = if_then_else(alone0, p0, if_then_else(alone1, p1, p2));
+  const Points3 first = if_then_else(alone0, p1, p0), second = if_then_else(alone2, p1, p2);
   const auto alone_above = hn::Ge(alone.z, height);
-  const Points3 of_p = if_then_else(alone_above, next, last), of_q = if_then_else(alone_above, last, next);
-  const auto all_above = hn::And(hn::And(a_above, b_above), c_above);
-  const auto any_above = hn::Or(hn::Or(a_above, b_above), c_above);
-  const auto lowest = hn::Min(hn::Min(a.z, b.z), c.z);
+  const auto all_above = hn::And(hn::And(above0, above1), above2);
+  const auto any_above = hn::Or(hn::Or(above0, above1), above2);
+  const auto lowest = hn::Min(hn::Min(p0.z, p1.z), p2.z);
   const auto touches = hn::And(all_above, hn::Eq(lowest, height));
-  return {ends_of(if_then_else(alone_above, of_p, alone), if_then_else(alone_above, alone, of_p), height),
-          ends_of(if_then_else(alone_above, of_q, alone), if_then_else(alone_above, alone, of_q), height),
-          hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)), touches};
+  return {ends_of(alone, first, alone_above, height), ends_of(alone, second, alone_above, height),
+          hn::Xor(alone_above, alone1), hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)), touches};
 }
 
 /// Ways along cuts from the end inside a circle, (x, y), to the end outside, and what the ends alone tell.
@@ -123,7 +127,7 @@ HWY_INLINE std::size_t compare_ends(const Staged& staged, double scale, std::siz
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto height = hn::Load(d, staged.height.data() + i);
     const auto squared_radius = hn::Load(d, staged.squared_radius.data() + i);
-    const auto [p, q, missed, touches] = cuts_of(staged, height, i);
+    const auto [p, q, in_order, missed, touches] = cuts_of(staged, height, i);
     const auto p_value = hn::Sub(p.squared_radius, squared_radius);
     const auto q_value = hn::Sub(q.squared_radius, squared_radius);
     const auto p_inside = hn::Lt(p_value, hn::Neg(end_bound)), p_outside = hn::Gt(p_value, end_bound);
@@ -145,7 +149,7 @@ HWY_INLINE std::size_t compare_ends(const Staged& staged, double scale, std::siz
 
     const auto one = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
     const auto crosses = hn::AndNot(touches, one);
-    const auto passage = hn::IfThenElse(p_inside, value(CutVerdict::enters), value(CutVerdict::leaves));
+    const auto passage = hn::IfThenElse(hn::Xor(p_inside, in_order), value(CutVerdict::leaves), value(CutVerdict::enters));
     hn::Store(x, d, ways.x.data() + i), hn::Store(y, d, ways.y.data() + i);
     hn::Store(dx, d, ways.dx.data() + i), hn::Store(dy, d, ways.dy.data() + i);
     hn::Store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), d,

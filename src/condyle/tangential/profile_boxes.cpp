@@ -78,6 +78,18 @@ HWY_INLINE void place_some(D d, const PointsView& vertices, const AxisFrame& fra
     out.sector[first + i] = Sectors::bit[static_cast<std::size_t>(numbers[i])];
 }
 
+/// Largest absolute value.
+double reach_any(std::span<const double> values) {
+  constexpr hn::CappedTag<double, 8> d8;
+  auto most = hn::Zero(d8);
+  std::size_t i = 0;
+  for (; i + hn::Lanes(d8) <= values.size(); i += hn::Lanes(d8))
+    most = hn::Max(hn::Abs(hn::LoadU(d8, values.data() + i)), most);
+  double reach = hn::GetLane(hn::MaxOfLanes(d8, most));
+  for (; i < values.size(); ++i) reach = std::max(reach, std::abs(values[i]));
+  return reach;
+}
+
 void place_any(const PointsView& vertices, const AxisFrame& frame, AxisVertices& out) {
   constexpr hn::CappedTag<double, 8> d8;
   std::size_t i = 0;
@@ -166,24 +178,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle {
 
+HWY_EXPORT(reach_any);
 HWY_EXPORT(place_any);
 HWY_EXPORT(boxes_any);
-
-namespace {
-
-/// Largest absolute value; none is NaN.
-double reach_of(std::span<const double> values) {
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value));
-  return most;
-}
-
-}  // namespace
 
 AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame) {
   AxisVertices out;
   const std::size_t count = vertices.size();
   out.exact.resize(count), out.rounded.resize(count), out.sector.resize(count);
+  const auto reach_of = [](std::span<const double> values) {
+    return HWY_DYNAMIC_DISPATCH(reach_any)(values);
+  };
   const double reach =
       reach_of(vertices.x) + reach_of(vertices.y) + reach_of(vertices.z) + frame.point().cwiseAbs().sum();
   out.units_per_mm = reach > 0 ? std::exp2(std::min(-std::ilogb(reach), 1000)) : 1;

@@ -81,6 +81,9 @@ class RingTable::Chunk {
   /// Of one circle, in order.
   std::span<const CircleCrossing> crossings_of(std::size_t circle) noexcept;
 
+  /// At least as many as the circles have arcs: one for two crossings, or a whole turn.
+  std::size_t most_arcs() const noexcept { return crossings_ / 2 + circles_.size(); }
+
   const TangentialWork& work() const noexcept { return work_; }
 
  private:
@@ -283,6 +286,7 @@ OccupiedArcs RingTable::occupied_arcs(PointsView points) const {
     for (std::size_t c = first; c < last; ++c) {
       const std::size_t begin = c * points_per_chunk, end = std::min(points.size(), begin + points_per_chunk);
       chunk.cross(points.subspan(begin, end - begin));
+      arcs[c].reserve(chunk.most_arcs());
       std::size_t* next = offset.data() + begin + 1;
       for (std::size_t circle = 0; circle < chunk.circles().size(); ++circle) {
         std::size_t* const at = offset.data() + begin + 1 + chunk.circles().number[circle];
@@ -294,6 +298,8 @@ OccupiedArcs RingTable::occupied_arcs(PointsView points) const {
     }
   });
   std::vector<OccupiedArc> all;
+  all.reserve(std::accumulate(arcs.begin(), arcs.end(), std::size_t{0},
+                              [](std::size_t sum, const auto& some) { return sum + some.size(); }));
   for (std::size_t c = 0; c < chunks; ++c) {
     const std::size_t end = std::min(points.size(), (c + 1) * points_per_chunk);
     for (std::size_t i = c * points_per_chunk; i < end; ++i) offset[i + 1] += all.size();

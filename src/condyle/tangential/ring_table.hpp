@@ -33,7 +33,7 @@ enum class TangentialRule {
 struct RingTableOptions {
   /// Profile cells per triangle. More cells shorten the lists, of which each point reads one, and repeat each
   /// triangle in more of them.
-  double cells_per_triangle = 0.125;
+  double cells_per_triangle = 0.0625;
 };
 
 /// The answer for each query point, one array per quantity.
