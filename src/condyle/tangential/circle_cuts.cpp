@@ -80,8 +80,8 @@ struct Cuts {
   hn::Mask<D> missed, touches;
 };
 
-/// Of corners 0, 1 and 2 one is alone on its side of the height, the others follow it in the order 1, 2 or 0, 1
-/// or, where 1 is alone, the other way round.
+/// Of corners 0, 1 and 2 one is alone on its side of the height, the others follow it in the order 1, 2 or 0,
+/// 1 or, where 1 is alone, the other way round.
 HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
   const auto corner = [&](std::size_t c) {
     Points3 at;
@@ -149,7 +149,8 @@ HWY_INLINE std::size_t compare_ends(const Staged& staged, double scale, std::siz
 
     const auto one = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
     const auto crosses = hn::AndNot(touches, one);
-    const auto passage = hn::IfThenElse(hn::Xor(p_inside, in_order), value(CutVerdict::leaves), value(CutVerdict::enters));
+    const auto passage =
+        hn::IfThenElse(hn::Xor(p_inside, in_order), value(CutVerdict::leaves), value(CutVerdict::enters));
     hn::Store(x, d, ways.x.data() + i), hn::Store(y, d, ways.y.data() + i);
     hn::Store(dx, d, ways.dx.data() + i), hn::Store(dy, d, ways.dy.data() + i);
     hn::Store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), d,
@@ -227,12 +228,13 @@ namespace condyle {
 
 HWY_EXPORT(cut_circles_any);
 
-/// Below the least scale bounds lose digits to underflow: nothing is certain then.
+/// Fourth powers of the scale neither overflow nor lose digits to underflow between these: beyond them
+/// nothing is certain.
 void cut_circles(const CutSource& source, std::span<const TurningPoint> points, std::span<const Index> circle,
                  std::span<const Index> triangle, std::size_t first, CircleCuts& out) {
-  constexpr double least_scale = 0x1p-220;
-  const double scale =
-      source.scale > least_scale ? 1.5 * source.scale : std::numeric_limits<double>::infinity();
+  constexpr double least = 0x1p-220, greatest = 0x1p250;
+  const bool usual = source.scale > least && source.scale < greatest;
+  const double scale = usual ? 1.5 * source.scale : std::numeric_limits<double>::infinity();
   HWY_DYNAMIC_DISPATCH(cut_circles_any)(source, points, circle, triangle, first, scale, out);
 }
 
