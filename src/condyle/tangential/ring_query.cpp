@@ -2,7 +2,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <numeric>
 
@@ -12,8 +11,6 @@
 
 namespace condyle {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Points taken together: enough that the processor always has memory to wait for, few enough that all about
 /// them stays in its first cache.
