@@ -49,15 +49,23 @@ RingTable::RingTable(const ClosedMesh& closed, const AxisFrame& frame, RingTable
 
 /// Triangles with all corners in one sector are near no direction; few others are left.
 FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const ProfileBoxes& boxes) const {
+  const auto& sector = vertices.sector;
+  UninitialisedVector<Index> across;
+  across.resize(triangles_.size());
+  std::size_t count = 0;
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    const auto& [a, b, c] = triangles_[t];
+    // Without a branch, which nobody could foretell.
+    across[count] = t;
+    count += (sector[a] & sector[b] & sector[c]) == 0;
+  }
   const BoxScale scale(grid(), vertices.units_per_mm);
   std::vector<FreeDirections::Directions> taken(grid().cells(), 0);
   std::array<std::vector<Index>, FreeDirections::count> near;
-  for (Index t = 0; t < triangles_.size(); ++t) {
+  for (const Index t : std::span(across).first(count)) {
     const auto& [a, b, c] = triangles_[t];
-    const std::uint8_t in_a = vertices.sector[a], in_b = vertices.sector[b], in_c = vertices.sector[c];
-    if ((in_a & in_b & in_c) != 0) continue;
-    const bool clear = (in_a != 0) & (in_b != 0) & (in_c != 0);
-    const auto between = clear ? FreeDirections::between(in_a | in_b | in_c) : std::nullopt;
+    const bool clear = (sector[a] != 0) & (sector[b] != 0) & (sector[c] != 0);
+    const auto between = clear ? FreeDirections::between(sector[a] | sector[b] | sector[c]) : std::nullopt;
     const auto directions =
         between ? *between : FreeDirections::near(vertices_[a].at, vertices_[b].at, vertices_[c].at);
     if (directions == 0) continue;
