@@ -131,7 +131,9 @@ TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
   std::vector<CirclePlace> circles;
   for (Index cell = 0; cell < best.lists.grid().cells(); ++cell) {
     const auto list = best.lists.of(cell);
-    EXPECT_EQ(std::set<Index>(list.begin(), list.end()).size(), list.size());
+    std::set<Index> triangles_listed;
+    for (const RingEntry& entry : list) triangles_listed.insert(entry.triangle);
+    EXPECT_EQ(triangles_listed.size(), list.size());
     for (CellBox at = 0; at < 16; ++at) {
       const CellBox z = 16 * at + 3, rho = 255 - 7 * at;
       circles.push_back({cell, z | (255 - z) << 8 | rho << 16 | (255 - rho) << 24});

@@ -52,9 +52,9 @@ HWY_INLINE std::size_t store_some(hn::Vec<D> values, hn::Mask<D> mask, Index* to
   }
 }
 
-/// `offset` has one entry per cell, plus one; beyond the last triangle and box there is room for a vector.
-std::size_t find_any(const Index* offset, const Index* triangle, const CellBox* box,
-                     std::span<const CirclePlace> circles, std::size_t first, CirclePairs& pairs) {
+/// `offset` has one entry per cell, plus one; beyond the last entry there is room for two vectors.
+std::size_t find_any(const Index* offset, const RingEntry* entries, std::span<const CirclePlace> circles,
+                     std::size_t first, CirclePairs& pairs) {
   const std::size_t room = pairs.triangle.size();
   std::size_t count = 0, c = first;
   for (; c < circles.size(); ++c) {
@@ -62,9 +62,11 @@ std::size_t find_any(const Index* offset, const Index* triangle, const CellBox* 
     if (count + (end - begin) + hn::MaxLanes(d) > room) break;
     const auto at = hn::Set(d, circles[c].at), number = hn::Set(d, static_cast<Index>(c));
     for (Index i = begin; i < end; i += static_cast<Index>(hn::MaxLanes(d))) {
-      const auto held = hn::And(holding(hn::LoadU(d, box + i), at), hn::FirstN(d, end - i));
+      hn::Vec<D> triangles, boxes;
+      hn::LoadInterleaved2(d, &entries[i].triangle, triangles, boxes);
+      const auto held = hn::And(holding(boxes, at), hn::FirstN(d, end - i));
       hn::StoreU(number, d, pairs.circle.data() + count);
-      count += store_some(hn::LoadU(d, triangle + i), held, pairs.triangle.data() + count);
+      count += store_some(triangles, held, pairs.triangle.data() + count);
     }
   }
   pairs.triangle.resize(count), pairs.circle.resize(count);
@@ -112,18 +114,16 @@ class Listing {
 
   /// Lists each triangle; `next` has for each cell where its next entry goes. Spare cells have room for a
   /// batch from `end` on.
-  void list(Index* next, Index* triangle, CellBox* box, Index end) const {
+  void list(Index* next, RingEntry* entries, Index end) const {
     for_each_batch([&](const BoxCells& batch, std::size_t first, std::size_t size) {
       std::fill_n(next + grid_.cells(), spare, end);
       for (std::size_t i = 0; i < size; ++i) {
         for (std::size_t k = 0; k < 4; ++k) {
-          const Index at = next[batch.cell[k][i]]++;
-          triangle[at] = static_cast<Index>(first + i), box[at] = batch.box[k][i];
+          entries[next[batch.cell[k][i]]++] = {static_cast<Index>(first + i), batch.box[k][i]};
         }
       }
       for_each_of_large(batch, first, [&](std::size_t cell, CellBox part, Index t) {
-        const Index at = next[cell]++;
-        triangle[at] = t, box[at] = part;
+        entries[next[cell]++] = {t, part};
       });
     });
   }
@@ -179,8 +179,8 @@ RingLists::RingLists(const AxisVertices& vertices, std::span<const Triangle> tri
     longest_ = std::max<std::size_t>(longest_, next[cell]);
     sum += std::exchange(next[cell], sum);
   }
-  triangle_.resize(sum + room), box_.resize(sum + room);
-  listing.list(next, triangle_.data(), box_.data(), sum);
+  entry_.resize(sum + room);
+  listing.list(next, entry_.data(), sum);
   offset_.resize(grid_.cells() + 1);
 }
 
@@ -189,7 +189,7 @@ std::size_t RingLists::find(std::span<const CirclePlace> circles, std::size_t fi
   constexpr std::size_t usual = 4096;
   const std::size_t size = std::max(usual, longest_ + room);
   pairs.triangle.resize(size), pairs.circle.resize(size);
-  return HWY_DYNAMIC_DISPATCH(find_any)(offset_.data(), triangle_.data(), box_.data(), circles, first, pairs);
+  return HWY_DYNAMIC_DISPATCH(find_any)(offset_.data(), entry_.data(), circles, first, pairs);
 }
 
 }  // namespace condyle

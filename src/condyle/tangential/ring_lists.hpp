@@ -14,16 +14,20 @@
 
 namespace condyle {
 
-/// Circles and the triangles whose boxes hold them, side by side: circle by circle, and ascending by
-/// triangle.
+/// Circles and the triangles whose boxes hold them, side by side: circle by circle.
 struct CirclePairs {
   UninitialisedVector<Index> triangle, circle;
 };
 
+/// A triangle in the list of a cell, and its box within the cell.
+struct RingEntry {
+  Index triangle;
+  CellBox box;
+};
+
 /// Which triangles a circle about the axis can meet: for each cell of the profile those whose box meets it.
-///   offset_     0     2  2        5  ...      one entry per cell, plus one
-///   triangle_ | a b |  | c d e |    ...       cell i owns [offset_[i], offset_[i+1])
-///   box_      | . . |  | . . . |    ...       within the cell
+///   offset_   0     2  2        5  ...      one per cell, plus one
+///   entry_  | a b |  | c d e |    ...       cell i owns [offset_[i], offset_[i+1])
 class RingLists {
  public:
   RingLists() = default;
@@ -32,8 +36,8 @@ class RingLists {
             std::size_t cells);
 
   const ProfileGrid& grid() const noexcept { return grid_; }
-  std::span<const Index> of(std::size_t cell) const noexcept {
-    return {triangle_.data() + offset_[cell], offset_[cell + 1] - offset_[cell]};
+  std::span<const RingEntry> of(std::size_t cell) const noexcept {
+    return {entry_.data() + offset_[cell], offset_[cell + 1] - offset_[cell]};
   }
   /// visit(triangle) for those whose boxes reach the circle's height in its cell or further out, some more
   /// than once.
@@ -41,16 +45,15 @@ class RingLists {
   void for_each_outwards(const CirclePlace& circle, const Visit& visit) const {
     const std::size_t row_end = (circle.cell / grid_.columns + 1) * grid_.columns;
     for (Index i = offset_[circle.cell]; i < offset_[row_end]; ++i) {
-      const bool above = (box_[i] & 0xff) <= (circle.at & 0xff);
-      const bool below = (box_[i] >> 8 & 0xff) <= (circle.at >> 8 & 0xff);
-      if (above & below) visit(triangle_[i]);
+      const auto [triangle, box] = entry_[i];
+      const bool above = (box & 0xff) <= (circle.at & 0xff);
+      const bool below = (box >> 8 & 0xff) <= (circle.at >> 8 & 0xff);
+      if (above & below) visit(triangle);
     }
   }
   /// Asks memory for where the list of the cell is, and then for the list.
   void fetch_offset(Index cell) const noexcept { __builtin_prefetch(&offset_[cell]); }
-  void fetch_list(Index cell) const noexcept {
-    __builtin_prefetch(triangle_.data() + offset_[cell]), __builtin_prefetch(box_.data() + offset_[cell]);
-  }
+  void fetch_list(Index cell) const noexcept { __builtin_prefetch(entry_.data() + offset_[cell]); }
 
   /// Pairs of circles from number `first` on. Ends before a circle for which there might be no room, and
   /// returns how many circles are done: one more at least.
@@ -59,14 +62,14 @@ class RingLists {
   std::size_t longest() const noexcept { return longest_; }
   std::size_t entries() const noexcept { return offset_.empty() ? 0 : offset_.back(); }
   std::size_t bytes() const noexcept {
-    return (offset_.size() + triangle_.size()) * sizeof(Index) + box_.size() * sizeof(CellBox);
+    return offset_.size() * sizeof(Index) + entry_.size() * sizeof(RingEntry);
   }
 
  private:
   ProfileGrid grid_;
   std::size_t longest_ = 0;
-  UninitialisedVector<Index> offset_, triangle_;
-  UninitialisedVector<CellBox> box_;
+  UninitialisedVector<Index> offset_;
+  UninitialisedVector<RingEntry> entry_;
 };
 
 }  // namespace condyle

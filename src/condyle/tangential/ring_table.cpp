@@ -115,8 +115,7 @@ int RingTable::winding_outwards(const Circle& circle, const CirclePlace& place, 
 int RingTable::winding_on_axis(const Vec3& point) const {
   std::vector<Index> candidates;
   for (Index row = grid().row_at(point.z()); row < grid().rows; ++row) {
-    const auto listed = lists_.of(grid().cell(row, 0));
-    candidates.insert(candidates.end(), listed.begin(), listed.end());
+    for (const RingEntry& entry : lists_.of(grid().cell(row, 0))) candidates.push_back(entry.triangle);
   }
   std::sort(candidates.begin(), candidates.end());
   candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
