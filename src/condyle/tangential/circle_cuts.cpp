@@ -159,8 +159,12 @@ HWY_INLINE std::size_t compare_ends(const Staged& staged, double scale, std::siz
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(d, none, bits);
     const unsigned valid = (1u << std::min(count - i, hn::Lanes(d))) - 1;
-    for (unsigned left = ~static_cast<unsigned>(bits[0]) & valid; left != 0; left &= left - 1)
-      open[open_count++] = static_cast<std::uint32_t>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+    const unsigned left = ~static_cast<unsigned>(bits[0]) & valid;
+    // Without a branch, which nobody could foretell.
+    for (std::size_t k = 0; k < hn::MaxLanes(d); ++k) {
+      open[open_count] = static_cast<std::uint32_t>(i + k);
+      open_count += left >> k & 1;
+    }
   }
   return open_count;
 }
@@ -205,7 +209,7 @@ void cut_circles_any(const CutSource& source, std::span<const TurningPoint> poin
   Staged staged;
   stage(source, points.data(), circle.data() + first, triangle.data() + first, count, staged);
   Ways ways;
-  std::array<std::uint32_t, CircleCuts::most> open;
+  std::array<std::uint32_t, CircleCuts::most + 1> open;
   out.count = compare_ends(staged, scale, count, ways, open.data());
   // To the front, in place: none goes to where one after it is.
   for (std::size_t k = 0; k < out.count; ++k) {
