@@ -12,8 +12,8 @@
 namespace condyle {
 namespace {
 
-/// Points taken together: enough that the processor always has memory to wait for, few enough that all about
-/// them stays in its first cache.
+/// Points taken together: enough that starting with the next ones costs next to nothing, few enough that all
+/// about them stays in the processor's nearer caches.
 constexpr std::size_t points_per_chunk = 1024;
 
 /// Least radius, in units of the table's scale, at which crossings err by less than half the clearance of
@@ -44,7 +44,12 @@ int winding_from(int direction, int winding, const TurningPoint& point,
 }
 
 /// Few, nearly always: two to six.
-void sort_few(std::span<CircleCrossing> crossings) noexcept {
+void sort_few(std::span<CircleCrossing> crossings) {
+  constexpr std::size_t few = 24;
+  if (crossings.size() > few) {
+    std::sort(crossings.begin(), crossings.end());
+    return;
+  }
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     const CircleCrossing moved = crossings[i];
     std::size_t at = i;
@@ -76,7 +81,7 @@ class RingTable::Chunk {
   };
   Survey survey(std::size_t circle);
   /// Of one circle, in order.
-  std::span<const CircleCrossing> crossings_of(std::size_t circle) noexcept;
+  std::span<const CircleCrossing> crossings_of(std::size_t circle);
 
   /// At least as many as the circles have arcs: one for two crossings, or a whole turn.
   std::size_t most_arcs() const noexcept { return crossings_ / 2 + circles_.size(); }
@@ -158,7 +163,7 @@ void RingTable::Chunk::decide_exactly(std::size_t circle, Index triangle) {
     holding_[circle] = std::min(holding_[circle], triangle);
 }
 
-std::span<const CircleCrossing> RingTable::Chunk::crossings_of(std::size_t circle) noexcept {
+std::span<const CircleCrossing> RingTable::Chunk::crossings_of(std::size_t circle) {
   const std::size_t begin = circle == 0 ? 0 : end_[circle - 1];
   const std::span<CircleCrossing> crossings(crossing_.data() + begin, end_[circle] - begin);
   sort_few(crossings);

@@ -32,7 +32,8 @@ enum class TangentialRule {
 
 struct RingTableOptions {
   /// Profile cells per triangle. More cells shorten the lists, of which each point reads one, and repeat each
-  /// triangle in more of them.
+  /// triangle in more of them: on a hip bone of 156,288 triangles 1/16, 1/4 and 1 take 19, 49 and 155 ns per
+  /// triangle to build, 47, 63 and 103 bytes, and 42, 39 and 39 ns for all angles of a femur vertex.
   double cells_per_triangle = 0.0625;
 };
 
