@@ -64,7 +64,7 @@ FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const
   std::array<std::vector<Index>, FreeDirections::count> near;
   for (const Index t : std::span(across).first(count)) {
     const auto& [a, b, c] = triangles_[t];
-    const bool clear = (sector[a] != 0) & (sector[b] != 0) & (sector[c] != 0);
+    const bool clear = sector[a] != 0 && sector[b] != 0 && sector[c] != 0;
     const auto between = clear ? FreeDirections::between(sector[a] | sector[b] | sector[c]) : std::nullopt;
     const auto directions =
         between ? *between : FreeDirections::near(vertices_[a].at, vertices_[b].at, vertices_[c].at);
