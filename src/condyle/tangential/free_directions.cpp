@@ -10,10 +10,7 @@ namespace {
 
 using Directions = FreeDirections::Directions;
 
-/// Where no more than one cell in so many is left, each is asked for by itself.
-constexpr std::size_t few_of = 512;
-
-/// By the sectors of a triangle's corners; all ones and one more bit where they do not tell.
+/// By the sectors of a triangle's corners; one more bit than there are directions where they do not tell.
 constexpr std::uint16_t untold = 0x100;
 constexpr std::array<std::uint16_t, 256> directions_between = [] {
   std::array<std::uint16_t, 256> table{};
@@ -142,7 +139,7 @@ std::optional<FreeDirections::Directions> FreeDirections::between(Sectors sector
 }
 
 FreeDirections::FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken,
-                               const WindingAt& winding_at)
+                               const WindingAt& winding_at, std::size_t cells_per_winding)
     : anchor_(grid.cells()) {
   constexpr int unknown = std::numeric_limits<std::int8_t>::max() + 1;
   const auto winding_in_middle = [&](int direction, std::size_t cell) {
@@ -160,9 +157,10 @@ FreeDirections::FreeDirections(const ProfileGrid& grid, const std::vector<Direct
     anchor_[cell] = {static_cast<std::int8_t>(direction), static_cast<std::int8_t>(winding)};
     --open;
   };
-  // A direction costs a walk over all cells, and one or two leave next to nothing to do.
+  // A direction costs a walk over all cells, and one or two leave next to nothing to do: where that is less
+  // than a walk, each cell is asked about by itself.
   int direction = 0;
-  for (; direction < count && open * few_of >= grid.cells(); ++direction) {
+  for (; direction < count && open * cells_per_winding >= grid.cells(); ++direction) {
     const Patches patches(grid, taken, direction);
     std::vector<int> winding(patches.size(), 0);
     patches.for_each([&](Index patch, std::size_t cell, bool at_border) {

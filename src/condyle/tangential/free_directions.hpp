@@ -51,8 +51,10 @@ class FreeDirections {
   using WindingAt = std::function<int(int direction, double rho, double z)>;
 
   FreeDirections() = default;
-  /// `taken` has for each cell the directions that its triangles come near.
-  FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken, const WindingAt& winding_at);
+  /// `taken` has for each cell the directions that its triangles come near; a winding number costs about as
+  /// much as to look at so many cells.
+  FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken, const WindingAt& winding_at,
+                 std::size_t cells_per_winding);
 
   Anchor of(std::size_t cell) const noexcept { return anchor_[cell]; }
   /// Asks memory for what is of this cell.

@@ -84,7 +84,8 @@ FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const
       winding += outward_crossing(circle, corner_refs(t), work);
     return winding;
   };
-  return {grid(), taken, winding_along};
+  // Two triangles of a direction cost as much as one cell; there are as many directions as these are near to.
+  return {grid(), taken, winding_along, std::max<std::size_t>(1, count / (2 * near.size()))};
 }
 
 Circle RingTable::circle_of(const Vec3& point) const noexcept {
