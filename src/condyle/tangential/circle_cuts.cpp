@@ -114,57 +114,74 @@ HWY_INLINE Doubles value(CutVerdict verdict) {
   return hn::Set(d, static_cast<double>(verdict));
 }
 
-/// Bounds in units of the scale M are those of circle_predicates.cpp, where they are derived.
-///
-/// Notes the places of those that are not done with that, and returns how many they are.
+/// In units of the scale M, as circle_predicates.cpp derives them.
+struct Bounds {
+  Doubles end, dot, room;
+};
+
+HWY_INLINE Bounds bounds_of(double scale) {
+  const double scale2 = scale * scale;
+  return {hn::Set(d, 96 * rounding_unit * scale2), hn::Set(d, 128 * rounding_unit * scale2),
+          hn::Set(d, 1024 * rounding_unit * scale2 * scale2)};
+}
+
+/// Of cuts with both ends beyond the circle, and (dx, dy) from q to p: certainly no chord of it.
+HWY_INLINE hn::Mask<D> no_chord(const Ends& p, const Ends& q, Doubles dx, Doubles dy, Doubles squared_radius,
+                                const Bounds& bounds) {
+  const auto at_p = hn::Add(hn::Mul(p.x, dx), hn::Mul(p.y, dy));
+  const auto at_q = hn::Add(hn::Mul(q.x, dx), hn::Mul(q.y, dy));
+  const auto turn = hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
+  const auto length2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
+  const auto room = hn::Sub(hn::Mul(squared_radius, length2), hn::Mul(turn, turn));
+  return hn::Or(hn::Or(hn::Lt(at_p, hn::Neg(bounds.dot)), hn::Gt(at_q, bounds.dot)),
+                hn::Lt(room, hn::Neg(bounds.room)));
+}
+
+/// Notes the places from `first` on of those lanes, as far as there are `count`, that are not done; returns
+/// how many are noted then. Without a branch: which they are nobody could foretell.
+HWY_INLINE std::size_t note_open(hn::Mask<D> done, std::size_t first, std::size_t count, std::uint32_t* open,
+                                 std::size_t noted) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, done, bits);
+  const unsigned there = (1u << std::min(count - first, hn::Lanes(d))) - 1;
+  const unsigned left = ~static_cast<unsigned>(bits[0]) & there;
+  for (std::size_t k = 0; k < hn::MaxLanes(d); ++k) {
+    open[noted] = static_cast<std::uint32_t>(first + k);
+    noted += left >> k & 1;
+  }
+  return noted;
+}
+
+/// What the ends of the cuts tell. Notes the places of those pairs that are not done with that, and returns
+/// how many they are.
 HWY_INLINE std::size_t compare_ends(const Staged& staged, double scale, std::size_t count, Ways& ways,
                                     std::uint32_t* open) {
+  const Bounds bounds = bounds_of(scale);
   std::size_t open_count = 0;
-  const double scale2 = scale * scale;
-  const auto end_bound = hn::Set(d, 96 * rounding_unit * scale2);
-  const auto dot_bound = hn::Set(d, 128 * rounding_unit * scale2);
-  const auto room_bound = hn::Set(d, 1024 * rounding_unit * scale2 * scale2);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto height = hn::Load(d, staged.height.data() + i);
     const auto squared_radius = hn::Load(d, staged.squared_radius.data() + i);
     const auto [p, q, in_order, missed, touches] = cuts_of(staged, height, i);
     const auto p_value = hn::Sub(p.squared_radius, squared_radius);
     const auto q_value = hn::Sub(q.squared_radius, squared_radius);
-    const auto p_inside = hn::Lt(p_value, hn::Neg(end_bound)), p_outside = hn::Gt(p_value, end_bound);
-    const auto q_inside = hn::Lt(q_value, hn::Neg(end_bound)), q_outside = hn::Gt(q_value, end_bound);
+    const auto p_inside = hn::Lt(p_value, hn::Neg(bounds.end)), p_outside = hn::Gt(p_value, bounds.end);
+    const auto q_inside = hn::Lt(q_value, hn::Neg(bounds.end)), q_outside = hn::Gt(q_value, bounds.end);
+    // With both ends outside, from q to p.
     const auto x = hn::IfThenElse(p_inside, p.x, q.x), y = hn::IfThenElse(p_inside, p.y, q.y);
     const auto dx = hn::Sub(hn::IfThenElse(p_inside, q.x, p.x), x);
     const auto dy = hn::Sub(hn::IfThenElse(p_inside, q.y, p.y), y);
-
-    // Both ends beyond the circle: dx and dy are those from q to p then.
-    const auto at_p = hn::Add(hn::Mul(p.x, dx), hn::Mul(p.y, dy));
-    const auto at_q = hn::Add(hn::Mul(q.x, dx), hn::Mul(q.y, dy));
-    const auto turn = hn::Sub(hn::Mul(p.x, q.y), hn::Mul(p.y, q.x));
-    const auto length2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-    const auto room = hn::Sub(hn::Mul(squared_radius, length2), hn::Mul(turn, turn));
-    const auto away = hn::Or(hn::Or(hn::Lt(at_p, hn::Neg(dot_bound)), hn::Gt(at_q, dot_bound)),
-                             hn::Lt(room, hn::Neg(room_bound)));
-    const auto both = hn::Or(hn::And(p_inside, q_inside), hn::And(hn::And(p_outside, q_outside), away));
-    const auto none = hn::Or(missed, hn::AndNot(touches, both));
+    const auto beyond =
+        hn::And(hn::And(p_outside, q_outside), no_chord(p, q, dx, dy, squared_radius, bounds));
+    const auto none = hn::Or(missed, hn::AndNot(touches, hn::Or(hn::And(p_inside, q_inside), beyond)));
 
     const auto one = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
-    const auto crosses = hn::AndNot(touches, one);
     const auto passage =
         hn::IfThenElse(hn::Xor(p_inside, in_order), value(CutVerdict::leaves), value(CutVerdict::enters));
-    hn::Store(x, d, ways.x.data() + i), hn::Store(y, d, ways.y.data() + i);
-    hn::Store(dx, d, ways.dx.data() + i), hn::Store(dy, d, ways.dy.data() + i);
-    hn::Store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), d,
-              ways.end_squared_radius.data() + i);
-    hn::Store(hn::IfThenElse(crosses, passage, value(CutVerdict::undecided)), d, ways.verdict.data() + i);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, none, bits);
-    const unsigned valid = (1u << std::min(count - i, hn::Lanes(d))) - 1;
-    const unsigned left = ~static_cast<unsigned>(bits[0]) & valid;
-    // Without a branch, which nobody could foretell.
-    for (std::size_t k = 0; k < hn::MaxLanes(d); ++k) {
-      open[open_count] = static_cast<std::uint32_t>(i + k);
-      open_count += left >> k & 1;
-    }
+    const auto verdict = hn::IfThenElse(hn::AndNot(touches, one), passage, value(CutVerdict::undecided));
+    const auto store = [&](Doubles values, Column& column) { hn::Store(values, d, column.data() + i); };
+    store(x, ways.x), store(y, ways.y), store(dx, ways.dx), store(dy, ways.dy), store(verdict, ways.verdict);
+    store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), ways.end_squared_radius);
+    open_count = note_open(none, i, count, open, open_count);
   }
   return open_count;
 }
