@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "condyle/mesh/winding_number.hpp"
@@ -52,6 +53,53 @@ TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
   EXPECT_GT(free, 5000u);
 }
 
+TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets) {
+  EXPECT_EQ(FreeDirections::between(1u << 3), FreeDirections::Directions{0});
+  EXPECT_EQ(FreeDirections::between(1u << 7 | 1u << 0), FreeDirections::Directions{1u << 0});
+  EXPECT_EQ(FreeDirections::between(1u << 2 | 1u << 5),
+            FreeDirections::Directions{1u << 3 | 1u << 4 | 1u << 5});
+  EXPECT_EQ(FreeDirections::between(1u << 1 | 1u << 5), std::nullopt);
+  EXPECT_EQ(FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::size_t told = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 centre = 2 * Vec3(uniform(random), uniform(random), 0);
+    Points corners;
+    for (int k = 0; k < 3; ++k) corners.push_back(centre + Vec3(uniform(random), uniform(random), 0));
+    const auto sectors = vertices_in_axis_frame(corners, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).sector;
+    unsigned all = 0;
+    bool clear = true;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = corners[static_cast<std::size_t>(k)];
+      const unsigned sector = sectors[static_cast<std::size_t>(k)];
+      const double eighths = std::fmod(std::atan2(p.y(), p.x()) / (two_pi / 8) + 8, 8);
+      clear &= sector != 0, all |= sector;
+      if (sector != 0) {
+        EXPECT_EQ(sector, 1u << static_cast<unsigned>(eighths)) << p.transpose();
+      }
+    }
+    if (!clear) continue;
+    const auto between = FreeDirections::between(static_cast<FreeDirections::Sectors>(all));
+    if (!between) continue;
+    // `near` may name more, on the other side of the axis; no point of the triangle is near those.
+    const auto near = FreeDirections::near(corners[0], corners[1], corners[2]);
+    EXPECT_EQ(*between & near, *between);
+    for (int k = 0; k < FreeDirections::count; ++k) {
+      if (*between >> k & 1 || !(near >> k & 1)) continue;
+      for (int j = 0; j < 20; ++j) {
+        const Vec3 p = corners[0] + std::abs(uniform(random)) * (corners[1] - corners[0]);
+        const Vec3 q = p + std::abs(uniform(random)) * (corners[2] - p);
+        const double off =
+            std::remainder(std::atan2(q.y(), q.x()) - FreeDirections::angle_of(k).radians(), two_pi);
+        EXPECT_GT(std::abs(off), FreeDirections::clearance);
+      }
+    }
+    ++told;
+  }
+  EXPECT_GT(told, 15000u);
+}
+
 /// Bodies beside the axis, around it, pierced by it, nested, hollow: wherever a cell has a free direction,
 /// the winding number there is the one of any point of the cell in that direction.
 TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
@@ -62,7 +110,7 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
        {test::sphere({12, 3, 1}, 7, 3), test::torus(8, 3, 31, 17), test::box({-5, -5, -5}, {5, 5, 5}),
         test::joined(test::sphere({12, 0, 0}, 6, 3), test::sphere({12, 0, 0}, 3, 3)),
         test::socket({10, 4, -3}, 8, 12, 3)}) {
-    const RingTable table(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
+    const RingTable table(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()), {.cells_per_triangle = 2});
     const WindingNumber winding(mesh);
     const ProfileGrid& grid = table.grid();
     std::size_t inside = 0, asked = 0;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "condyle/core/error.hpp"
+#include "condyle/core/instruction_set.hpp"
 #include "support/test_meshes.hpp"
 #include "tangential/circle_oracle.hpp"
 
@@ -618,6 +619,28 @@ TEST(RingTable, AnyFinenessOfTheProfileGivesTheSameAnswersByteForByte) {
   a.work = b.work = {};
   EXPECT_EQ(a, b);
   EXPECT_EQ(coarse.occupied_arcs(points), fine.occupied_arcs(points));
+}
+
+TEST(RingTable, IsTheSameOnEveryInstructionSetByteForByte) {
+  const TriMesh mesh = test::joined(test::torus(8, 3, 50, 30), test::socket({3, 2, 0}, 6, 8, 3));
+  Points points;
+  std::mt19937 random(14);
+  std::uniform_real_distribution<double> uniform(-12, 12);
+  for (int i = 0; i < 5000; ++i) points.push_back({uniform(random), uniform(random), uniform(random) / 2});
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) points.push_back(mesh.vertices[i]);
+  const AxisFrame frame(Vec3(0.3, -0.2, 0), Vec3(1, 2, 7));
+  for (const AxisFrame& axis : {z_axis, frame}) {
+    const RingTable table(mesh, axis);
+    const auto hits = table.query(points);
+    const auto arcs = table.occupied_arcs(points);
+    EXPECT_GT(std::count(hits.state.begin(), hits.state.end(), PointState::inside), 500);
+    for (const InstructionSet& set : instruction_sets()) {
+      const InstructionSetInUse in_use(set);
+      EXPECT_EQ(hits, RingTable(mesh, axis).query(points)) << set.name;
+      EXPECT_EQ(arcs, RingTable(mesh, axis).occupied_arcs(points)) << set.name;
+      EXPECT_EQ(hits, table.query(points)) << set.name;
+    }
+  }
 }
 
 TEST(RingTable, IsTheSameForAnyNumberOfThreadsByteForByte) {

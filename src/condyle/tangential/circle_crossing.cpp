@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "condyle/core/angle.hpp"
+#include "condyle/tangential/arctangent.hpp"
 #include "condyle/tangential/circle_predicates.hpp"
 
 namespace condyle {
@@ -62,7 +63,7 @@ AcrossRay across_ray(const Circle& circle, const CircleCut& cut, TangentialWork&
 /// Angle from the point to (x, y) on its circle, put on the side where it is known to lie.
 double angle_to(const Circle& circle, double x, double y, std::optional<Sign> side) noexcept {
   const Vec3& v = circle.point;
-  const double angle = std::atan2(v.x() * y - v.y() * x, v.x() * x + v.y() * y);
+  const double angle = arctangent(v.x() * y - v.y() * x, v.x() * x + v.y() * y);
   constexpr double least = std::numeric_limits<double>::min();
   // Beyond a quarter turn the other way round is as near: sides only matter close to the point.
   if (std::abs(angle) > two_pi / 4) return angle;
@@ -88,22 +89,8 @@ std::pair<double, double> way_out(const Circle& circle, double in_x, double in_y
 
 }  // namespace
 
-double CircleCrossing::ahead() const noexcept {
-  return angle > 0 ? angle : angle + two_pi;
-}
-double CircleCrossing::behind() const noexcept {
-  return angle < 0 ? -angle : two_pi - angle;
-}
-
-bool operator<(const CircleCrossing& a, const CircleCrossing& b) noexcept {
-  if ((a.angle > 0) != (b.angle > 0)) return a.angle > 0;
-  if (a.angle != b.angle) return a.angle < b.angle;
-  if (a.passage != b.passage) return a.passage == Passage::enters;
-  return a.triangle < b.triangle;
-}
-
 TangentialWork& TangentialWork::operator+=(const TangentialWork& other) noexcept {
-  points += other.points, candidates += other.candidates, cut += other.cut, crossings += other.crossings;
+  points += other.points, candidates += other.candidates, tried += other.tried, crossings += other.crossings;
   exact_decisions += other.exact_decisions;
   return *this;
 }
@@ -112,7 +99,6 @@ void add_crossings(const Circle& circle, const TriangleRef& triangle, Index numb
                    std::vector<CircleCrossing>& out, TangentialWork& work) {
   const auto cut = cut_at_height(circle, triangle);
   if (!cut) return;
-  ++work.cut;
   const bool p_inside = end_is_inside(circle, cut->p, work), q_inside = end_is_inside(circle, cut->q, work);
   if (p_inside && q_inside) return;
   if (p_inside != q_inside) {
@@ -128,7 +114,6 @@ void add_crossings(const Circle& circle, const TriangleRef& triangle, Index numb
     }
     // The solid is on the left of the cut: where that leaves the disc, the circle enters the solid.
     out.push_back({angle_to(circle, x, y, side), p_inside ? Passage::enters : Passage::leaves, number});
-    ++work.crossings;
     return;
   }
   if (!has_chord(circle, *cut, work)) return;
@@ -152,7 +137,6 @@ void add_crossings(const Circle& circle, const TriangleRef& triangle, Index numb
   }
   out.push_back({angle_to(circle, first_x, first_y, first_side), Passage::leaves, number});
   out.push_back({angle_to(circle, second_x, second_y, second_side), Passage::enters, number});
-  work.crossings += 2;
 }
 
 int outward_crossing(const Circle& circle, const TriangleRef& triangle, TangentialWork& work) {

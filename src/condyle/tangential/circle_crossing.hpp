@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "condyle/core/angle.hpp"
 #include "condyle/core/predicates.hpp"
 #include "condyle/core/vec3.hpp"
 
@@ -23,18 +24,25 @@ struct CircleCrossing {
   Passage passage;
   Index triangle;
 
-  double ahead() const noexcept;   ///< Counter-clockwise from the point, in (0, 2 pi].
-  double behind() const noexcept;  ///< Clockwise from the point, in (0, 2 pi].
+  /// Counter-clockwise from the point, in (0, 2 pi].
+  double ahead() const noexcept { return angle > 0 ? angle : angle + two_pi; }
+  /// Clockwise from the point, in (0, 2 pi].
+  double behind() const noexcept { return angle < 0 ? -angle : two_pi - angle; }
 
   /// Order in which the circle, walked counter-clockwise from the point, meets them.
-  friend bool operator<(const CircleCrossing& a, const CircleCrossing& b) noexcept;
+  friend bool operator<(const CircleCrossing& a, const CircleCrossing& b) noexcept {
+    if ((a.angle > 0) != (b.angle > 0)) return a.angle > 0;
+    if (a.angle != b.angle) return a.angle < b.angle;
+    if (a.passage != b.passage) return a.passage == Passage::enters;
+    return a.triangle < b.triangle;
+  }
 };
 
 /// Counts of what a query did; the same for any number of threads.
 struct TangentialWork {
   std::size_t points = 0;           ///< Points asked about.
   std::size_t candidates = 0;       ///< Triangles in their cells.
-  std::size_t cut = 0;              ///< Of those, triangles that reach the point's height.
+  std::size_t tried = 0;            ///< Of those, triangles whose box holds the circle.
   std::size_t crossings = 0;        ///< Crossings found.
   std::size_t exact_decisions = 0;  ///< Signs that double arithmetic left open, of the circle's own.
 

@@ -10,8 +10,23 @@ namespace {
 
 using Directions = FreeDirections::Directions;
 
-/// Where no more than one cell in so many is left, each is asked for by itself.
-constexpr std::size_t few_of = 512;
+/// By the sectors of a triangle's corners; one more bit than there are directions where they do not tell.
+constexpr std::uint16_t untold = 0x100;
+constexpr std::array<std::uint16_t, 256> directions_between = [] {
+  std::array<std::uint16_t, 256> table{};
+  table.fill(untold);
+  // From the widest angle to the narrowest: `width` sectors from sector `first` on.
+  for (unsigned width = 4; width > 0; --width) {
+    for (unsigned first = 0; first < 8; ++first) {
+      unsigned sectors = 0, directions = 0;
+      for (unsigned k = 0; k < width; ++k) sectors |= 1u << (first + k) % 8;
+      for (unsigned k = 1; k < width; ++k) directions |= 1u << (first + k) % 8;
+      for (unsigned within = 1; within < 256; ++within)
+        if ((within & ~sectors) == 0) table[within] = static_cast<std::uint16_t>(directions);
+    }
+  }
+  return table;
+}();
 
 /// The connected patches of cells that are free in one direction.
 class Patches {
@@ -117,8 +132,14 @@ Directions FreeDirections::near(const Vec3& a, const Vec3& b, const Vec3& c) noe
   return static_cast<Directions>(directions);
 }
 
+std::optional<FreeDirections::Directions> FreeDirections::between(Sectors sectors) noexcept {
+  const std::uint16_t directions = directions_between[sectors];
+  if (directions == untold) return std::nullopt;
+  return static_cast<Directions>(directions);
+}
+
 FreeDirections::FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken,
-                               const WindingAt& winding_at)
+                               const WindingAt& winding_at, std::size_t cells_per_winding)
     : anchor_(grid.cells()) {
   constexpr int unknown = std::numeric_limits<std::int8_t>::max() + 1;
   const auto winding_in_middle = [&](int direction, std::size_t cell) {
@@ -136,9 +157,10 @@ FreeDirections::FreeDirections(const ProfileGrid& grid, const std::vector<Direct
     anchor_[cell] = {static_cast<std::int8_t>(direction), static_cast<std::int8_t>(winding)};
     --open;
   };
-  // A direction costs a walk over all cells, and one or two leave next to nothing to do.
+  // A direction costs a walk over all cells, and one or two leave next to nothing to do: where that is less
+  // than a walk, each cell is asked about by itself.
   int direction = 0;
-  for (; direction < count && open * few_of >= grid.cells(); ++direction) {
+  for (; direction < count && open * cells_per_winding >= grid.cells(); ++direction) {
     const Patches patches(grid, taken, direction);
     std::vector<int> winding(patches.size(), 0);
     patches.for_each([&](Index patch, std::size_t cell, bool at_border) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "condyle/core/angle.hpp"
@@ -33,6 +34,13 @@ class FreeDirections {
   /// Directions which the triangle comes near.
   static Directions near(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 
+  /// Eighths of a turn between the directions, sector k from direction k to the next: one bit each.
+  using Sectors = std::uint8_t;
+  /// The same, of a triangle whose corners keep the clearance from all directions and lie in these sectors:
+  /// those inside the narrowest angle around them. None where that is half a turn or more, for the triangle
+  /// may then go round the axis on either side.
+  static std::optional<Directions> between(Sectors sectors) noexcept;
+
   struct Anchor {
     std::int8_t direction = none;  ///< Or `none`, where each is taken or the winding number is huge.
     std::int8_t winding = 0;
@@ -43,8 +51,10 @@ class FreeDirections {
   using WindingAt = std::function<int(int direction, double rho, double z)>;
 
   FreeDirections() = default;
-  /// `taken` has for each cell the directions that its triangles come near.
-  FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken, const WindingAt& winding_at);
+  /// `taken` has for each cell the directions that its triangles come near; a winding number costs about as
+  /// much as to look at so many cells.
+  FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken, const WindingAt& winding_at,
+                 std::size_t cells_per_winding);
 
   Anchor of(std::size_t cell) const noexcept { return anchor_[cell]; }
   /// Asks memory for what is of this cell.

@@ -36,9 +36,36 @@ void for_each_change(int winding, std::span<const CircleCrossing> crossings, con
   }
 }
 
+/// Whether entries and exits take turns, each at an angle of its own, between places outside and places that
+/// are once inside: nearly always.
+bool take_turns(int winding, std::span<const CircleCrossing> crossings) noexcept {
+  bool so = (winding == 0) | (winding == 1);
+  int passage = winding == 0 ? 1 : -1;
+  for (std::size_t i = 0; i < crossings.size(); ++i, passage = -passage) {
+    so &= static_cast<int>(crossings[i].passage) == passage;
+    so &= i == 0 || crossings[i].angle != crossings[i - 1].angle;
+  }
+  return so;
+}
+
 }  // namespace
 
 void append_arcs(int winding, std::span<const CircleCrossing> crossings, std::vector<OccupiedArc>& arcs) {
+  if (crossings.empty()) {
+    if (winding > 0) arcs.push_back({0, two_pi, no_index, no_index});
+    return;
+  }
+  if (take_turns(winding, crossings)) {
+    std::size_t i = static_cast<std::size_t>(winding);
+    for (; i + 1 < crossings.size(); i += 2) {
+      const CircleCrossing &enters = crossings[i], &leaves = crossings[i + 1];
+      arcs.push_back({enters.ahead(), leaves.ahead(), enters.triangle, leaves.triangle});
+    }
+    if (i < crossings.size())
+      arcs.push_back({crossings[i].ahead(), crossings[0].ahead() + two_pi, crossings[i].triangle,
+                      crossings[0].triangle});
+    return;
+  }
   const std::size_t first = arcs.size();
   // Inside from the start: what ends first is the end of the last arc, one turn on.
   const CircleCrossing* end_of_last = nullptr;

@@ -38,9 +38,12 @@ struct ProfileGrid {
   double columns_per_mm = 1, rows_per_mm = 1;
   Index columns = 1, rows = 1;
 
-  /// Cells of one size, about square and about `cells` in number, over all triangles (in the axis frame).
-  static ProfileGrid over(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                          std::size_t cells);
+  /// Radii and heights from the least to the greatest, in mm.
+  struct Extent {
+    double rho_min, rho_max, z_min, z_max;
+  };
+  /// Cells of one size, about square and about `cells` in number, over all of these.
+  static ProfileGrid over(const Extent& extent, std::size_t cells);
 
   std::size_t cells() const noexcept { return static_cast<std::size_t>(columns) * rows; }
 
@@ -123,70 +126,6 @@ void for_each_profile_run(const ProfileGrid& grid, const ProfilePolygon& polygon
   }
 }
 
-/// A triangle with its corners by height, small against its distance from the axis and not flat in z.
-class SmallTriangle {
- public:
-  /// None where the figure has to be looked at more closely.
-  static std::optional<SmallTriangle> of(const ProfileGrid& grid, const Vec3& a, const Vec3& b,
-                                         const Vec3& c) noexcept;
-
-  /// The same as of the polygon, some columns wider: no edge and no face comes nearer to the axis than
-  /// `sag_` below the squares of its corners.
-  template <class Visit>
-  void for_each_profile_run(const ProfileGrid& grid, Visit&& visit) const {
-    const Index first = grid.row_at(low_.z), last = grid.row_at(high_.z);
-    SquaredRadii below = none;  // of the cut at the row's lower end
-    for (Index row = first; row <= last; ++row) {
-      SquaredRadii radii = below;
-      const double floor = row == first ? -infinity : grid.z_min + row * grid.z_cell - band_;
-      double ceiling = infinity;
-      if (row < last) {
-        const double height = grid.z_min + (row + 1) * grid.z_cell;
-        below = cut_at(height);
-        radii.extend(below);
-        ceiling = height + band_;
-      }
-      for (const Corner* corner : {&low_, &middle_, &high_})
-        if (corner->z >= floor && corner->z <= ceiling) radii.extend({corner->rho2, corner->rho2});
-      const double low = std::sqrt(std::max(0.0, radii.low - sag_)) - margin_;
-      visit(row, grid.column_at(low), grid.column_at(std::sqrt(radii.high) + margin_));
-    }
-  }
-
- private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
-  struct Corner {
-    double x, y, z, rho2;
-  };
-  struct SquaredRadii {
-    double low, high;
-    void extend(const SquaredRadii& more) noexcept {
-      low = std::min(low, more.low), high = std::max(high, more.high);
-    }
-  };
-  static constexpr SquaredRadii none{infinity, 0};
-
-  /// `per_height` is the reciprocal of the height from a to b.
-  static double squared_radius_at(const Corner& a, const Corner& b, double per_height,
-                                  double height) noexcept {
-    const double t = std::clamp((height - a.z) * per_height, 0.0, 1.0);
-    const double x = a.x + t * (b.x - a.x), y = a.y + t * (b.y - a.y);
-    return x * x + y * y;
-  }
-  SquaredRadii cut_at(double height) const noexcept {
-    const double along = squared_radius_at(low_, high_, per_height_, height);
-    const double beside = height < middle_.z    ? squared_radius_at(low_, middle_, per_lower_height_, height)
-                          : middle_.z < high_.z ? squared_radius_at(middle_, high_, per_upper_height_, height)
-                                                : high_.rho2;
-    return {std::min(along, beside), std::max(along, beside)};
-  }
-
-  Corner low_, middle_, high_;
-  double per_height_, per_lower_height_, per_upper_height_;
-  double sag_, margin_, band_;
-};
-
 }  // namespace detail
 
 /// Calls visit(row, first_column, last_column) for the cells which a triangle meets as it turns about z: at
@@ -196,10 +135,6 @@ class SmallTriangle {
 template <class Visit>
 void for_each_profile_run(const ProfileGrid& grid, const Vec3& a, const Vec3& b, const Vec3& c,
                           Visit&& visit) {
-  if (const auto small = detail::SmallTriangle::of(grid, a, b, c)) {
-    small->for_each_profile_run(grid, visit);
-    return;
-  }
   ProfilePolygon triangle;
   triangle.push_back(a), triangle.push_back(b), triangle.push_back(c);
   detail::for_each_profile_run(grid, triangle, visit);

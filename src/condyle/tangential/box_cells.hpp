@@ -1,0 +1,78 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "condyle/tangential/circle_places.hpp"
+#include "condyle/tangential/profile.hpp"
+#include "condyle/tangential/profile_boxes.hpp"
+
+namespace condyle {
+
+/// Sides of a box in 256ths of a cell, from the grid's corner, rounded outwards and kept within the grid: the
+/// cell in the upper bits, the byte in it in the lower eight.
+struct BoxSides {
+  std::int32_t rho_low, rho_high, z_low, z_high;
+
+  Index first_column() const noexcept { return static_cast<Index>(rho_low) >> 8; }
+  Index last_column() const noexcept { return static_cast<Index>(rho_high) >> 8; }
+  Index first_row() const noexcept { return static_cast<Index>(z_low) >> 8; }
+  Index last_row() const noexcept { return static_cast<Index>(z_high) >> 8; }
+
+  /// The part of the box within a cell that it meets.
+  CellBox in_cell(Index row, Index column) const noexcept;
+};
+
+/// Some triangles and the cells that their boxes meet.
+struct BoxCells {
+  static constexpr std::size_t most = 256;
+  using Column = std::array<Index, most>;
+
+  /// Of boxes of at most two by two cells those cells, in four columns of which each may hold a spare one:
+  /// cell `spare` + k of column k. And the box within each.
+  alignas(64) std::array<Column, 4> cell;
+  alignas(64) std::array<Column, 4> box;
+  /// Places in the batch of boxes that meet more cells; they have spare ones only.
+  std::array<Index, most> large;
+  std::size_t large_count;
+};
+
+/// From units of the boxes to cells of the grid.
+class BoxScale {
+ public:
+  BoxScale(const ProfileGrid& grid, double units_per_mm) noexcept;
+
+  /// Cells of the boxes [first, first + count), count at most a batch.
+  void cells(const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxCells& out) const;
+  BoxSides sides(const ProfileBoxes& boxes, std::size_t triangle) const noexcept;
+
+  struct Axis {
+    float origin, per_unit, slack, last;
+  };
+
+ private:
+  Axis rho_, z_;
+  Index columns_, spare_;
+};
+
+/// visit(row, column) for the cells in which a triangle is listed: those that its box meets, of a box of many
+/// cells those that it meets itself.
+template <class Visit>
+void for_each_cell(const ProfileGrid& grid, const BoxSides& sides, const Vec3& a, const Vec3& b,
+                   const Vec3& c, const Visit& visit) {
+  constexpr std::size_t many = 16;
+  const Index first = sides.first_column(), last = sides.last_column();
+  if (std::size_t{last - first + 1} * (sides.last_row() - sides.first_row() + 1) <= many) {
+    for (Index row = sides.first_row(); row <= sides.last_row(); ++row) {
+      for (Index column = first; column <= last; ++column) visit(row, column);
+    }
+    return;
+  }
+  for_each_profile_run(grid, a, b, c, [&](Index row, Index from, Index to) {
+    for (Index column = std::max(from, first); column <= std::min(to, last); ++column) visit(row, column);
+  });
+}
+
+}  // namespace condyle

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "condyle/core/uninitialised.hpp"
+#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/tangential/axis_frame.hpp"
+
+/// What sorts triangles into rings: each in a box of radii and heights, in single precision, rounded
+/// outwards.
+
+namespace condyle {
+
+/// A vertex in the axis frame, each value rounded to the nearest float, in units of the boxes.
+struct alignas(16) ProfileVertex {
+  float x, y, rho, z;
+};
+
+/// A vertex in the axis frame: four doubles, which vectors read at once.
+struct alignas(32) AxisVertex {
+  Vec3 at;
+  double unused;
+};
+
+/// Vertices of a mesh in the frame of an axis.
+struct AxisVertices {
+  UninitialisedVector<AxisVertex> exact;
+  UninitialisedVector<ProfileVertex> rounded;
+  /// Eighth of a turn in which the vertex lies, as a bit, counter-clockwise from +x; none where it is near a
+  /// border (FreeDirections::clearance).
+  UninitialisedVector<std::uint8_t> sector;
+  /// Units of the rounded values in a millimetre: a power of two, so that no square of a float overflows and
+  /// none that matters underflows.
+  double units_per_mm = 1;
+};
+
+AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame);
+
+/// One float per triangle and side of its box, in units: complete, for every circle (rho, z) that meets the
+/// closed triangle lies in it, with rho computed by `axis_radius`. Filled up to a multiple of 16 with the
+/// last one.
+struct ProfileBoxes {
+  UninitialisedVector<float> rho_low, rho_high, z_low, z_high;
+  /// The box around all; empty (low > high) where there is no triangle.
+  float rho_min, rho_max, z_min, z_max;
+  /// At least every |x| and |y| of the triangles, in units.
+  float scale;
+};
+
+ProfileBoxes profile_boxes(std::span<const ProfileVertex> vertices, std::span<const Triangle> triangles);
+
+}  // namespace condyle

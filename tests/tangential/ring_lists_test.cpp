@@ -1,0 +1,160 @@
+#include "condyle/tangential/ring_lists.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "condyle/core/instruction_set.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
+
+struct Listed {
+  AxisVertices vertices;
+  ProfileBoxes boxes;
+  RingLists lists;
+};
+
+Listed listed(const TriMesh& mesh, std::size_t cells) {
+  Listed out;
+  out.vertices = vertices_in_axis_frame(mesh.vertices, z_axis);
+  out.boxes = profile_boxes(out.vertices.rounded, mesh.triangles);
+  out.lists = RingLists(out.vertices, mesh.triangles, out.boxes, cells);
+  return out;
+}
+
+/// Triangles of all sizes, one in three flat in z, one in three on a lattice, `shift` away from the axis.
+TriMesh triangles(std::mt19937& random, double shift, double scale) {
+  std::uniform_real_distribution<double> uniform(-1, 1), weight(0, 1);
+  TriMesh mesh;
+  for (Index t = 0; t < 300; ++t) {
+    const Vec3 centre(uniform(random) + shift, uniform(random), uniform(random));
+    const double size = std::exp2(-6 * weight(random));
+    for (Index k = 0; k < 3; ++k) {
+      Vec3 p = centre + size * Vec3(uniform(random), uniform(random), t % 3 ? uniform(random) : 0);
+      if (t % 3 == 2) p = (p * 4).array().round() / 4;
+      mesh.vertices.push_back(scale * p);
+    }
+    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  return mesh;
+}
+
+TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> weight(0, 1);
+  for (const double scale : {1.0, 1e-9, 1e12, 1e-30, 1e30, 1e150}) {
+    for (const double shift : {0.0, 3.0, 1e4}) {
+      const TriMesh mesh = triangles(random, shift, scale);
+      for (const std::size_t cells : {1u, 64u, 4096u}) {
+        const RingLists lists = listed(mesh, cells).lists;
+        Points points;
+        std::vector<Index> expected;
+        for (Index t = 0; t < mesh.triangles.size(); ++t) {
+          const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+          for (int i = 0; i < 20; ++i) {
+            double u = i == 0 ? 0 : weight(random), v = i < 2 ? 0 : weight(random);
+            if (u + v > 1) u = 1 - u, v = 1 - v;
+            const Vec3 p = a + u * (b - a) + v * (c - a);
+            points.push_back(p), expected.push_back(t);
+          }
+        }
+        PlacedCircles circles;
+        place_circles(z_axis, lists.grid(), points, circles);
+        ASSERT_EQ(circles.size(), points.size()) << "shift " << shift << " scale " << scale;
+        CirclePairs pairs;
+        std::set<std::pair<Index, Index>> found;
+        for (std::size_t done = 0; done < circles.size();) {
+          done = lists.find(circles.place, done, pairs);
+          for (std::size_t k = 0; k < pairs.circle.size(); ++k)
+            EXPECT_TRUE(found.emplace(pairs.circle[k], pairs.triangle[k]).second);
+        }
+        for (Index i = 0; i < circles.size(); ++i)
+          EXPECT_TRUE(found.contains({i, expected[i]})) << "triangle " << expected[i] << " shift " << shift;
+      }
+    }
+  }
+}
+
+/// On a real size of triangles boxes are tight: of those that hold a circle, the triangle's own heights and
+/// radii hold it too, but for 256ths of a cell and what a triangle may come nearer than its corners.
+TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
+  const TriMesh mesh = test::sphere({60, 3, 1}, 20, 5);
+  const Listed all = listed(mesh, mesh.triangles.size() / 8);
+  const ProfileGrid& grid = all.lists.grid();
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> weight(0, 1);
+  std::size_t asked = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double rho = grid.rho_min + weight(random) * (grid.rho_max - grid.rho_min);
+    const double z = grid.z_min + weight(random) * (grid.z_max - grid.z_min);
+    Points point;
+    point.push_back({rho, 0, z});
+    PlacedCircles circle;
+    place_circles(z_axis, grid, point, circle);
+    ASSERT_EQ(circle.size(), 1u);
+    CirclePairs pairs;
+    all.lists.find(circle.place, 0, pairs);
+    for (const Index t : pairs.triangle) {
+      double low = 1e9, high = 0, z_low = 1e9, z_high = -1e9, longest2 = 0;
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 p = mesh.corner(t, k), q = mesh.corner(t, (k + 1) % 3);
+        const double radius = axis_radius(p.x(), p.y());
+        low = std::min(low, radius), high = std::max(high, radius);
+        z_low = std::min(z_low, p.z()), z_high = std::max(z_high, p.z());
+        longest2 = std::max(longest2, (p - q).squaredNorm());
+      }
+      // The sides of the extent in x and y are L at most each: squares fall short by 2 L^2 / 3, radii, L
+      // being a thirtieth of them, by that over 2 * 2.9 / 3 of the radius.
+      const double sag = longest2 / (2.9 * low), parts = 2.0 / 256;
+      EXPECT_GE(rho, low - sag - parts * grid.rho_cell);
+      EXPECT_LE(rho, high + parts * grid.rho_cell);
+      EXPECT_GE(z, z_low - parts * grid.z_cell);
+      EXPECT_LE(z, z_high + parts * grid.z_cell);
+      ++asked;
+    }
+  }
+  EXPECT_GT(asked, 2000u);
+}
+
+TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
+  std::mt19937 random(8);
+  const TriMesh mesh = triangles(random, 2, 1);
+  const Listed best = listed(mesh, 200);
+  std::vector<CirclePlace> circles;
+  for (Index cell = 0; cell < best.lists.grid().cells(); ++cell) {
+    const auto list = best.lists.of(cell);
+    std::set<Index> triangles_listed;
+    for (const RingEntry& entry : list) triangles_listed.insert(entry.triangle);
+    EXPECT_EQ(triangles_listed.size(), list.size());
+    for (CellBox at = 0; at < 16; ++at) {
+      const CellBox z = 16 * at + 3, rho = 255 - 7 * at;
+      circles.push_back({cell, z | (255 - z) << 8 | rho << 16 | (255 - rho) << 24});
+    }
+  }
+  CirclePairs expected;
+  best.lists.find(circles, 0, expected);
+  EXPECT_GT(expected.circle.size(), 1000u);
+  for (const InstructionSet& set : instruction_sets()) {
+    const InstructionSetInUse in_use(set);
+    const Listed here = listed(mesh, 200);
+    CirclePairs pairs;
+    here.lists.find(circles, 0, pairs);
+    const std::size_t both = std::min(pairs.circle.size(), expected.circle.size());
+    EXPECT_GT(both, 1000u);
+    for (std::size_t k = 0; k < both; ++k) {
+      ASSERT_EQ(pairs.circle[k], expected.circle[k]) << set.name;
+      ASSERT_EQ(pairs.triangle[k], expected.triangle[k]) << set.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace condyle
