@@ -3,7 +3,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "condyle/core/vec3.hpp"
 #include "condyle/radial/radius_scale.hpp"
@@ -125,25 +124,6 @@ constexpr bool holds(std::uint32_t range, std::uint32_t point) noexcept {
 struct FaceParts {
   std::array<int, 4> least, greatest;
 };
-
-/// Its octagon in a cell; nothing where it keeps off the cell. A point's parts are rounded down one by one:
-/// their sum may be 1 less than that of what it is rounded from, their difference 1 more. One part more on
-/// either side is for points on the face's last edge.
-constexpr std::optional<CellOctagon> octagon_in_cell(const FaceParts& parts, int cells_per_side, int column,
-                                                     int row) noexcept {
-  const auto within = [](int value, int most) { return value < 0 ? 0 : value > most ? most : value; };
-  const int sum_start = parts_per_cell * (column + row);
-  const int difference_start = parts_per_cell * (cells_per_side + column - row) - 255;
-  const int sum_least = parts.least[2] - 2 - sum_start, sum_greatest = parts.greatest[2] + 1 - sum_start;
-  const int difference_least = parts.least[3] - 1 - difference_start;
-  const int difference_greatest = parts.greatest[3] + 2 - difference_start;
-  if (sum_greatest < 0 || sum_least > 510 || difference_greatest < 0 || difference_least > 510) return {};
-  const int u = parts_per_cell * column, w = parts_per_cell * row;
-  return CellOctagon{range_word(within(parts.least[0] - u, 255), within(parts.greatest[0] - u, 255),
-                                within(parts.least[1] - w, 255), within(parts.greatest[1] - w, 255)),
-                     range_word(within(sum_least, 510) / 2, within(sum_greatest, 510) / 2,
-                                within(difference_least, 510) / 2, within(difference_greatest, 510) / 2)};
-}
 
 /// A pose as the passes read it, about the joint centre: rotation by rows, translation, its length.
 struct FloatPose {

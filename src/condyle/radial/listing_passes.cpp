@@ -27,7 +27,9 @@ struct PartsInLanes {
   hn::Vec<DI> least[4], greatest[4];
 };
 
-/// octagon_in_cell(), lane by lane.
+/// Octagons of triangles in cells, lane by lane, and whether the triangle does not keep off the cell. A
+/// point's parts are rounded down one by one: their sum may be 1 less than that of what it is rounded from,
+/// their difference 1 more. One part more on either side is for points on the face's last edge.
 template <class DI>
 struct OctagonsInCells {
   using Ints = hn::Vec<DI>;
