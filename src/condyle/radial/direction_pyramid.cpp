@@ -89,8 +89,7 @@ struct EdgeLine {
   }
 };
 
-/// The widest border, and how far along an edge a piece is asked for then.
-constexpr std::size_t most_border = 3, most_reach = 2 * most_border;
+constexpr std::size_t most_border = DirectionPyramid::most_border, most_reach = DirectionPyramid::most_reach;
 
 /// Room for borders: rows with a margin of `most_reach` words at either end.
 struct Room {
@@ -225,7 +224,7 @@ void DirectionPyramid::fill(int cells_per_side, std::span<const RadiusWord> cell
   const auto n = static_cast<std::size_t>(cells_per_side);
   // Five rows with their margins, and of one level after the first its pieces, those with a border, and the
   // next ones.
-  room_.resize(5 * (n + 12) + 18 * square(cells_per_side / 2));
+  room_.resize((most_border + 2) * (n + 2 * most_reach) + 3 * 6 * square(cells_per_side / 2));
   HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), room_, entry_.data());
 }
 

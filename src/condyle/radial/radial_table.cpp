@@ -25,10 +25,11 @@ int cells_per_side(const RadialOptions& options, std::size_t triangles) {
   }
   if (options.cells_per_side) return *options.cells_per_side;
   if (options.map == DirectionMapKind::cartesian) return 64;
-  // A few triangles to a cell: finer cells hardly shorten a query, and each doubles the time to build, since
-  // a triangle is then listed in more of them. Powers of two have the deepest pyramids.
+  // A few triangles to a cell: with finer ones each is listed more often, which costs time to build and
+  // memory, and a query gains little. Sides that can be halved have deep pyramids.
   if (triangles < 6000) return triangles < 3000 ? 16 : 24;
-  return triangles < 60000 ? 32 : triangles < 600000 ? 64 : 128;
+  if (triangles < 12000) return 32;
+  return triangles < 60000 ? 40 : triangles < 600000 ? 80 : 128;
 }
 
 std::variant<CartesianMap, CubeMap> make_map(const RadialOptions& options, std::size_t triangles) {
