@@ -23,6 +23,8 @@ struct CellLists {
   UninitialisedVector<std::uint8_t>
       nearest;  ///< upper half of the code of its triangle's least squared radius
   UninitialisedVector<ConeForms> forms;
+  UninitialisedVector<TrianglePlane>
+      plane;                           ///< of each triangle, from when it is measured until radii are found
   UninitialisedVector<Vec3> corner;    ///< the mesh's vertices again, each in one place
   std::vector<float> inverse_length;   ///< of the directions to a face's cell corners
   std::vector<std::uint32_t> unknown;  ///< triangles whose forms were no numbers when all were measured

@@ -33,9 +33,8 @@ float cosine_to_corners(int n) {
 ListedRadii listed_radii(const CubeMap& map, CellLists& lists) {
   const int n = map.cells_per_side();
   return {n,
-          lists.row.data(),
           lists.triangle.data(),
-          lists.forms.data(),
+          lists.plane.data(),
           lists.scale,
           lists.inverse_length.data(),
           cosine_to_corners(n),
@@ -49,6 +48,36 @@ RadiusWord word_of(const CellRadii& radii, const CellLists& lists) {
   return lists.starts_at_centre ? union_of(word, radius_word(0, 0)) : word;
 }
 
+/// Single rows, with the planes of their triangles copied side by side.
+class RowAlone {
+ public:
+  explicit RowAlone(const ListedRadii& listed) : listed_(listed) {}
+
+  CellRadii measure(CellLists& lists, Index cell) {
+    const CellRow row = lists.row[cell];
+    const std::uint32_t length = row.last - row.first;
+    while (number_.size() < length + vector_room) number_.push_back(static_cast<Index>(number_.size()));
+    plane_.resize(std::max(plane_.size(), number_.size()));
+    for (std::uint32_t i = 0; i < length; ++i)
+      plane_[i] = plane_of(lists.forms[lists.triangle[row.first + i]]);
+    listed_.triangle = number_.data(), listed_.plane = plane_.data();
+    // Whole vectors are written: not to the lists, where another row follows.
+    nearest_.resize(plane_.size());
+    listed_.nearest = nearest_.data();
+    const CellRadii radii = measure_row(listed_, cell, {0, length});
+    std::copy_n(nearest_.data(), length, lists.nearest.data() + row.first);
+    return radii;
+  }
+
+ private:
+  static constexpr std::size_t vector_room = 32;  // what is read or fetched beyond a row
+
+  ListedRadii listed_;
+  std::vector<Index> number_;
+  std::vector<TrianglePlane> plane_;
+  std::vector<std::uint8_t> nearest_;
+};
+
 /// How many cells before its turn the planes of a cell's triangles are fetched.
 constexpr std::size_t cells_ahead = 3;
 
@@ -58,7 +87,12 @@ void find_radii(const CubeMap& map, CellLists& lists) {
   if (lists.inverse_length.empty()) lists.inverse_length = inverse_lengths(map.cells_per_side());
   const Index cells = map.cell_count();
   UninitialisedVector<CellRadii> radii(cells);
-  measure_cells(listed_radii(map, lists), 0, cells, radii.data());
+  if (lists.plane.empty()) {
+    lists.plane.resize(lists.forms.size());
+    std::transform(lists.forms.begin(), lists.forms.end(), lists.plane.begin(), plane_of);
+  }
+  measure_rows(listed_radii(map, lists), lists.row, radii.data());
+  lists.plane = {};
   lists.least_squared = std::numeric_limits<float>::infinity(), lists.greatest_squared = 0;
   for (const CellRadii& cell : radii) {
     lists.least_squared = std::min(lists.least_squared, cell.least);
@@ -69,7 +103,7 @@ void find_radii(const CubeMap& map, CellLists& lists) {
 }
 
 bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& lists) {
-  const ListedRadii listed = listed_radii(map, lists);
+  RowAlone alone(listed_radii(map, lists));
   bool are_changed = false;
   // Rows, what is listed in them and the planes of that all lie anywhere: each is fetched before its turn.
   for (const Index cell : cells) hwy::Prefetch(&lists.row[cell]);
@@ -82,8 +116,7 @@ bool find_radii_in(const CubeMap& map, std::span<const Index> cells, CellLists& 
       for (const Index t : lists.of(cells[i + cells_ahead])) hwy::Prefetch(&lists.forms[t]);
     }
     const Index cell = cells[i];
-    CellRadii radii{};
-    measure_cells(listed, cell, cell + 1, &radii);
+    const CellRadii radii = alone.measure(lists, cell);
     const RadiusWord word = word_of(radii, lists);
     are_changed |= word != lists.radii[cell];
     lists.radii[cell] = word;

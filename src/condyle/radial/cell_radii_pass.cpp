@@ -74,13 +74,35 @@ struct Planes {
   Ints radii;
 };
 
-HWY_INLINE Planes load_planes(const ConeForms* forms, const std::uint32_t* triangle) {
-  constexpr std::int32_t words = sizeof(ConeForms) / sizeof(float);
-  const auto at =
-      hn::Mul(hn::BitCast(di, hn::LoadU(hn::RebindToUnsigned<D>(), triangle)), hn::Set(di, words));
-  const auto gathered = [&](const float* from) { return hn::GatherIndex(d, from, at); };
-  return {{gathered(&forms->x[3]), gathered(&forms->y[3]), gathered(&forms->z[3])},
-          hn::GatherIndex(di, reinterpret_cast<const std::int32_t*>(&forms->radii), at)};
+/// Side by side, then turned into columns: gathering each column takes several times as long.
+HWY_INLINE Planes load_planes(const TrianglePlane* planes, const std::uint32_t* triangle) {
+  Planes out;
+#if HWY_MAX_BYTES >= 64
+  constexpr hn::Full128<float> d4;
+  constexpr hn::Full256<float> d8;
+  constexpr hn::Repartition<double, D> d64;
+  const auto one = [&](std::size_t i) { return hn::Load(d4, planes[triangle[i]].n); };
+  // Block b of row k holds triangle 4 b + k.
+  const auto row = [&](std::size_t k) {
+    return hn::Combine(d, hn::Combine(d8, one(k + 12), one(k + 8)), hn::Combine(d8, one(k + 4), one(k)));
+  };
+  const auto a = row(0), b = row(1), c = row(2), e = row(3);
+  const auto ab_low = hn::BitCast(d64, hn::InterleaveLower(d, a, b));
+  const auto ab_high = hn::BitCast(d64, hn::InterleaveUpper(d, a, b));
+  const auto ce_low = hn::BitCast(d64, hn::InterleaveLower(d, c, e));
+  const auto ce_high = hn::BitCast(d64, hn::InterleaveUpper(d, c, e));
+  out.n[0] = hn::BitCast(d, hn::InterleaveLower(d64, ab_low, ce_low));
+  out.n[1] = hn::BitCast(d, hn::InterleaveUpper(d64, ab_low, ce_low));
+  out.n[2] = hn::BitCast(d, hn::InterleaveLower(d64, ab_high, ce_high));
+  out.radii = hn::BitCast(di, hn::InterleaveUpper(d64, ab_high, ce_high));
+#else
+  alignas(64) TrianglePlane rows[lanes];
+  for (std::size_t k = 0; k < lanes; ++k) rows[k] = planes[triangle[k]];
+  Floats radii;
+  hn::LoadInterleaved4(d, rows[0].n, out.n[0], out.n[1], out.n[2], radii);
+  out.radii = hn::BitCast(di, radii);
+#endif
+  return out;
 }
 
 /// Squared radii of a RadiusWord.
@@ -105,8 +127,8 @@ HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& c
   auto all_least = hn::Set(d, infinity), all_greatest = hn::Zero(d);
   for (std::uint32_t i = row.first; i < row.last; i += lanes) {
     const std::uint32_t* triangle = lists.triangle + i;
-    for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.forms + triangle[k + prefetch_ahead]);
-    const Planes planes = load_planes(lists.forms, triangle);
+    for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.plane + triangle[k + prefetch_ahead]);
+    const Planes planes = load_planes(lists.plane, triangle);
     const auto is_listed =
         hn::RebindMask(d, hn::Lt(hn::Iota(di, 0), hn::Set(di, static_cast<std::int32_t>(row.last - i))));
     const Bounds of_planes = radii_of_planes(cell, lists.cosine, planes.n[cell.axis], planes.n[cell.axis_u],
@@ -133,13 +155,15 @@ HWY_INLINE CellRadii radii_of_row(const ListedRadii& lists, const CellCorners& c
   return {hn::GetLane(hn::MinOfLanes(d, all_least)), hn::GetLane(hn::MaxOfLanes(d, all_greatest))};
 }
 
-void measure_cells_any(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out) {
+CellRadii measure_row_any(const ListedRadii& lists, std::size_t cell, CellRow row) {
   const auto n = static_cast<std::size_t>(lists.cells_per_side);
-  for (std::size_t cell = first; cell < last; ++cell) {
-    const CellCorners corners(lists, static_cast<int>(cell / (n * n)), static_cast<int>(cell / n % n),
-                              static_cast<int>(cell % n));
-    out[cell - first] = radii_of_row(lists, corners, lists.row[cell]);
-  }
+  const CellCorners corners(lists, static_cast<int>(cell / (n * n)), static_cast<int>(cell / n % n),
+                            static_cast<int>(cell % n));
+  return radii_of_row(lists, corners, row);
+}
+
+void measure_rows_any(const ListedRadii& lists, std::span<const CellRow> rows, CellRadii* out) {
+  for (std::size_t cell = 0; cell < rows.size(); ++cell) out[cell] = measure_row_any(lists, cell, rows[cell]);
 }
 
 }  // namespace
@@ -149,10 +173,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle {
 
-HWY_EXPORT(measure_cells_any);
+HWY_EXPORT(measure_row_any);
+HWY_EXPORT(measure_rows_any);
 
-void measure_cells(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out) {
-  HWY_DYNAMIC_DISPATCH(measure_cells_any)(lists, first, last, out);
+CellRadii measure_row(const ListedRadii& lists, std::size_t cell, CellRow row) {
+  return HWY_DYNAMIC_DISPATCH(measure_row_any)(lists, cell, row);
+}
+
+void measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, CellRadii* out) {
+  HWY_DYNAMIC_DISPATCH(measure_rows_any)(lists, rows, out);
 }
 
 }  // namespace condyle

@@ -48,10 +48,12 @@ void measure(const TriMesh& mesh, CellLists& lists) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) lists.corner[i] = mesh.vertices[i];
   lists.scale = scale_of(lists.corner);
   lists.forms.resize(mesh.triangles.size());
+  lists.plane.resize(mesh.triangles.size());
   lists.unknown.clear();
   MeshView view = view_of(mesh);
   view.xyz = lists.corner.data()->data();
-  measure_triangles(view, 0, mesh.triangles.size(), lists.scale, lists.forms.data(), lists.unknown);
+  measure_triangles(view, 0, mesh.triangles.size(), lists.scale, lists.forms.data(), lists.plane.data(),
+                    lists.unknown);
 }
 
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map) {

@@ -12,7 +12,7 @@ namespace condyle {
 /// Rows and octagons of all triangles, for vertices anywhere between their places.
 void list_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed, CellLists& lists);
 
-/// Where vertices are, the scale of their radii, and the forms of all triangles.
+/// Where vertices are, the scale of their radii, and the forms and planes of all triangles.
 void measure(const TriMesh& mesh, CellLists& lists);
 
 /// Radii of some cells, on the scale that there is. Whether any are others than before.

@@ -162,7 +162,7 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<DF>> radius_codes(const RadiusScale& scale
 }
 
 void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last,
-                           const RadiusScale& radius_scale, ConeForms* forms,
+                           const RadiusScale& radius_scale, ConeForms* forms, TrianglePlane* planes,
                            std::vector<std::uint32_t>& unknown) {
   const auto nan = hn::Set(dd, std::numeric_limits<double>::quiet_NaN());
   alignas(64) std::int64_t corner[3][lanes];
@@ -244,6 +244,7 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
       std::copy_n(packed[2] + 4 * k, 4, out.z);
       std::copy_n(packed[3] + 4 * k, 3, out.rest);
       out.radii = static_cast<RadiusWord>(words[k]);
+      planes[t + k] = plane_of(out);
     }
     if (hn::AllTrue(dd, known)) continue;
     for (std::size_t k = 0; k < count; ++k) {
@@ -273,8 +274,8 @@ std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const F
 }
 
 void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
-                       ConeForms* forms, std::vector<std::uint32_t>& unknown) {
-  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, scale, forms, unknown);
+                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown) {
+  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, scale, forms, planes, unknown);
 }
 
 }  // namespace condyle

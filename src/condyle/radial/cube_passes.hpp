@@ -20,6 +20,17 @@ struct alignas(16) FacePoint {
   float w() const noexcept { return at[1]; }
 };
 
+/// A triangle's plane, lane 3 of its ConeForms, and its radii, in one place: what is read again for every
+/// cell that it is in.
+struct alignas(16) TrianglePlane {
+  float n[3];
+  RadiusWord radii;
+};
+
+inline TrianglePlane plane_of(const ConeForms& forms) noexcept {
+  return {{forms.x[3], forms.y[3], forms.z[3]}, forms.radii};
+}
+
 struct MeshView {
   const double *x, *y, *z;
   const double* xyz;  ///< the same, three for each vertex: one line of the cache, where x, y, z are three
@@ -69,13 +80,12 @@ struct FaceTriangle {
 /// Entries that listing may write beyond those it makes.
 inline constexpr std::size_t listing_room = 16;
 
-/// Rows of lists, and what is known of the triangles in them.
+/// Lists, and what is known of the triangles in them.
 struct ListedRadii {
   int cells_per_side;
-  const CellRow* row;
   const std::uint32_t* triangle;
-  const ConeForms* forms;
-  RadiusScale scale;            ///< of the forms' radii
+  const TrianglePlane* plane;
+  RadiusScale scale;            ///< of the planes' radii
   const float* inverse_length;  ///< see CellCorners
   float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
   std::uint8_t* nearest;        ///< written for each entry, see CellLists
@@ -94,14 +104,14 @@ void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out);
 std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
                          std::uint32_t* out);
 
-/// Forms of triangles [first, last), each at its own number; adds those whose forms are no numbers
+/// Forms and planes of triangles [first, last), each at its own number; adds those whose forms are no numbers
 /// to `unknown`.
 ///
 /// No point of a triangle is nearer than the vertices are by more than its edges say: for p = sum l_i v_i,
 /// |p|^2 = sum l_i |v_i|^2 - sum l_i l_j |v_i - v_j|^2, and the last sum is at most L^2 / 3, L the longest
 /// edge.
 void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
-                       ConeForms* forms, std::vector<std::uint32_t>& unknown);
+                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown);
 
 /// Lists those triangles of [first, last) that lie within one face, off its edges, and in at most 2 x 2
 /// cells. At most four entries for each.
@@ -113,13 +123,15 @@ void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, 
 /// than there are where `listing` has not room for all cells that the next one may meet, and listing_room.
 std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing);
 
-/// Radii of the surface in cells [first, last): of each listed triangle those of its plane within the cell,
-/// or those of the triangle where they are closer. `out` starts at the first cell.
+/// Radii of the surface in a cell: of each listed triangle those of its plane within the cell,
+/// or those of the triangle where they are closer.
 ///
 /// In unit direction d a plane has the radius 1 / (n . d), n its form. d is a sum of the cell's corner
 /// directions with weights >= 0, whose sum is at least 1 and at most 1 / cosine: so n . d lies between the
 /// least n . corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and
 /// the floats.
-void measure_cells(const ListedRadii& lists, std::size_t first, std::size_t last, CellRadii* out);
+CellRadii measure_row(const ListedRadii& lists, std::size_t cell, CellRow row);
+/// The same for all cells.
+void measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, CellRadii* out);
 
 }  // namespace condyle

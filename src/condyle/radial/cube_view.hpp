@@ -39,10 +39,11 @@ struct CellRow {
   std::uint32_t first, last;
   std::uint16_t left_end = whole, right_begin = 0;
 
-  /// Those that a point with this box can meet.
+  /// Those that a point with this box can meet. In which half it is cannot be foretold: bits choose, not
+  /// branches.
   constexpr CellRow half_at(std::uint32_t box) const noexcept {
-    const bool is_right = (box & 128) != 0;
-    return {is_right ? first + right_begin : first, is_right || left_end == whole ? last : first + left_end};
+    const std::uint32_t is_right = 0u - (box >> 7 & 1u), end = left_end == whole ? last : first + left_end;
+    return {first + (right_begin & is_right), end ^ ((end ^ last) & is_right)};
   }
 };
 

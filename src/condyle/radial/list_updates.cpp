@@ -208,10 +208,11 @@ void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index
   UninitialisedVector<Vec3> corner(parts.mesh().vertices.size());
   for (std::size_t i = 0; i < corner.size(); ++i) corner[i] = parts.mesh().vertices[i];
   UninitialisedVector<ConeForms> forms(triangles.size());
+  UninitialisedVector<TrianglePlane> planes(triangles.size());
   MeshView view = view_of(parts.mesh());
   view.xyz = corner.data()->data();
   std::vector<std::uint32_t> unknown;
-  measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), unknown);
+  measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), planes.data(), unknown);
   for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
 }
 
