@@ -174,26 +174,25 @@ void alone(const Do& what) {
   tbb::task_arena(1).execute(what);
 }
 
-/// Seconds of each pose, warm: where all poses together are so quick that what the method before left behind
-/// would be felt, in the caches and in what the processor foretells of branches, they are gone through
-/// untimed for as long as it takes to be rid of that.
+/// Seconds of each of the first poses, warm: where they are so quick together that what the method before
+/// left behind would be felt, in the caches and in what the processor foretells of branches, all poses are
+/// gone through untimed for as long as it takes to be rid of that. All: a few, again and again, it would come
+/// to know by heart.
 std::vector<double> sweep(Asked& asked, Question question, const std::vector<Pose>& poses,
                           std::size_t count) {
   constexpr double quick_seconds = 5e-3;
-  std::vector<double> seconds(count);
-  const auto go_through = [&] {
-    for (std::size_t p = 0; p < count; ++p) seconds[p] = seconds_of([&] { asked.ask(question, poses[p]); });
+  std::vector<double> seconds(poses.size());
+  const auto go_through = [&](std::size_t end) {
+    for (std::size_t p = 0; p < end; ++p) seconds[p] = seconds_of([&] { asked.ask(question, poses[p]); });
+    return std::accumulate(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(end), 0.0);
   };
   alone([&] {
-    go_through();
-    double spent = std::accumulate(seconds.begin(), seconds.end(), 0.0);
-    const bool is_quick = spent < quick_seconds;
-    while (spent < quick_seconds) {
-      go_through();
-      spent += std::accumulate(seconds.begin(), seconds.end(), 0.0);
-    }
-    if (is_quick) go_through();
+    double spent = go_through(count);
+    if (spent >= quick_seconds) return;
+    while (spent < quick_seconds) spent += go_through(poses.size());
+    go_through(count);
   });
+  seconds.resize(count);
   return seconds;
 }
 
