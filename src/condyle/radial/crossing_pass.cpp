@@ -268,14 +268,16 @@ HWY_INLINE bool leave_simply(const Crossings& all, const Tally& tally, FoundPoin
       hn::And(is_before, hn::Not(hn::Gt(hn::Sub(s, before), hn::Add(error, hn::Set(d, error_before)))));
   const auto near_after =
       hn::And(is_after, hn::Not(hn::Gt(hn::Sub(after, s), hn::Add(error, hn::Set(d, error_after)))));
-  const bool in_order = (hn::CountTrue(d, near_before) == 1) & (hn::CountTrue(d, near_after) <= 1);
-  const bool passes = (all.s[at_before] < 0) & (!has_after | (all.s[at_after] > 0));
+  // Bits, for a branch on each could not be foretold.
+  const auto bit = [](bool value) { return static_cast<unsigned>(value); };
+  const unsigned in_order = bit(hn::CountTrue(d, near_before) == 1) & bit(hn::CountTrue(d, near_after) <= 1);
+  const unsigned passes = bit(all.s[at_before] < 0) & (bit(!has_after) | bit(all.s[at_after] > 0));
   const float difference = a + b - 2 * a * b;
   const float doubt = 1.01f * (error_before * (1 + 2 * a) + error_after * (1 + 2 * b));
   found.away_from_centre = difference < 0;
   found.triangle = all.triangle[found.away_from_centre ? at_after : at_before];
-  return in_order & passes & (std::abs(difference) > doubt) & (tally.winding == 1) &
-         (tally.crossings <= hn::MaxLanes(d));
+  const unsigned simple = bit(tally.winding == 1) & bit(tally.crossings <= hn::MaxLanes(d));
+  return (in_order & passes & simple & bit(std::abs(difference) > doubt)) != 0;
 }
 
 /// Room for what decide() knows of near points.
