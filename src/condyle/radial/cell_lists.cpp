@@ -7,9 +7,6 @@
 namespace condyle {
 namespace {
 
-/// Room beyond the last entry, for a vector that starts on it.
-constexpr std::size_t vector_room = 32;
-
 /// One triangle in one cell, before it is sorted into that cell's list.
 struct Entry {
   Index cell, triangle;
@@ -31,11 +28,11 @@ std::size_t CellLists::bytes() const noexcept {
 }
 
 void CellLists::resize_entries(std::size_t count) {
-  triangle.resize(count + vector_room);
-  box.resize(count + vector_room);
-  slant.resize(count + vector_room);
-  nearest.resize(count + vector_room);
-  for (std::size_t i = count; i < count + vector_room; ++i) set_entry(i, 0, {0, 0});
+  triangle.resize(count + entries_beyond);
+  box.resize(count + entries_beyond);
+  slant.resize(count + entries_beyond);
+  nearest.resize(count + entries_beyond);
+  for (std::size_t i = count; i < count + entries_beyond; ++i) set_entry(i, 0, {0, 0});
 }
 
 void CellLists::split_rows() {
@@ -80,12 +77,12 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
   if (row_end.empty()) {
     // Rows are still one behind the other, but for entries removed.
     row_end.resize(row.size());
-    const auto entries = static_cast<std::uint32_t>(triangle.size() - vector_room);
+    const auto entries = static_cast<std::uint32_t>(triangle.size() - entries_beyond);
     for (std::size_t i = 0; i < row.size(); ++i) row_end[i] = i + 1 < row.size() ? row[i + 1].first : entries;
   }
   if (at.last == row_end[cell]) {
     // To the end, with room for as many again.
-    const auto first = static_cast<std::uint32_t>(triangle.size() - vector_room);
+    const auto first = static_cast<std::uint32_t>(triangle.size() - entries_beyond);
     const std::uint32_t length = at.last - at.first, capacity = 2 * length + 4;
     resize_entries(first + capacity);
     for (std::uint32_t i = 0; i < length; ++i) {

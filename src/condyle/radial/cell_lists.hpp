@@ -12,13 +12,17 @@ namespace condyle {
 ///   row        [0,2) [2,2) [2,5)  ...      one entry per cell
 ///   triangle  | a b |     | c d e |  ...   cell i owns [row[i].first, row[i].last)
 struct CellLists {
+  /// Entries beyond the last one that vector code may read: a vector that starts on it, and one fetched
+  /// ahead.
+  static constexpr std::size_t entries_beyond = 32;
+
   UninitialisedVector<CellRow> row;
   UninitialisedVector<Index> triangle;
   std::vector<RadiusWord> radii;  ///< of each cell; no_radii where no triangle is met
   RadiusScale scale;
   float least_squared = 0, greatest_squared = 0;  ///< of the radii of all cells
 
-  /// For a cube map alone, for its vector code, which reads up to a vector beyond the last entry.
+  /// For a cube map alone, for its vector code, which reads beyond the last entry.
   UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
   UninitialisedVector<std::uint8_t>
       nearest;  ///< upper half of the code of its triangle's least squared radius

@@ -56,7 +56,8 @@ class RowAlone {
   CellRadii measure(CellLists& lists, Index cell) {
     const CellRow row = lists.row[cell];
     const std::uint32_t length = row.last - row.first;
-    while (number_.size() < length + vector_room) number_.push_back(static_cast<Index>(number_.size()));
+    while (number_.size() < length + CellLists::entries_beyond)
+      number_.push_back(static_cast<Index>(number_.size()));
     plane_.resize(std::max(plane_.size(), number_.size()));
     for (std::uint32_t i = 0; i < length; ++i)
       plane_[i] = plane_of(lists.forms[lists.triangle[row.first + i]]);
@@ -70,8 +71,6 @@ class RowAlone {
   }
 
  private:
-  static constexpr std::size_t vector_room = 32;  // what is read or fetched beyond a row
-
   ListedRadii listed_;
   std::vector<Index> number_;
   std::vector<TrianglePlane> plane_;
