@@ -10,6 +10,7 @@
 
 #include "condyle/core/error.hpp"
 #include "condyle/tangential/axis_frame.hpp"
+#include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -77,20 +78,9 @@ TEST(Profile, WhatLiesBeyondTheGridIsLeftOut) {
 
 TEST(Profile, EveryPointOfEveryTriangleFallsInAListedCell) {
   std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(-1, 1), weight(0, 1);
+  std::uniform_real_distribution<double> weight(0, 1);
   for (const double shift : {0.0, 3.0, 1e4}) {
-    TriMesh mesh;
-    for (Index t = 0; t < 300; ++t) {
-      const Vec3 centre(uniform(random) + shift, uniform(random), uniform(random));
-      const double size = std::exp2(-6 * weight(random));
-      for (Index k = 0; k < 3; ++k) {
-        // One in three is flat in z, one in three lies on a coarse lattice: corners on cell boundaries.
-        Vec3 p = centre + size * Vec3(uniform(random), uniform(random), t % 3 ? uniform(random) : 0);
-        if (t % 3 == 2) p = (p * 4).array().round() / 4;
-        mesh.vertices.push_back(p);
-      }
-      mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    }
+    const TriMesh mesh = test::triangles_of_all_sizes(random, shift, 1);
     // No triangle reaches further in from its corners than across: 2^1.5.
     ProfileGrid::Extent extent{1e9, 0, 1e9, -1e9};
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "condyle/core/instruction_set.hpp"
+#include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -30,29 +31,12 @@ Listed listed(const TriMesh& mesh, std::size_t cells) {
   return out;
 }
 
-/// Triangles of all sizes, one in three flat in z, one in three on a lattice, `shift` away from the axis.
-TriMesh triangles(std::mt19937& random, double shift, double scale) {
-  std::uniform_real_distribution<double> uniform(-1, 1), weight(0, 1);
-  TriMesh mesh;
-  for (Index t = 0; t < 300; ++t) {
-    const Vec3 centre(uniform(random) + shift, uniform(random), uniform(random));
-    const double size = std::exp2(-6 * weight(random));
-    for (Index k = 0; k < 3; ++k) {
-      Vec3 p = centre + size * Vec3(uniform(random), uniform(random), t % 3 ? uniform(random) : 0);
-      if (t % 3 == 2) p = (p * 4).array().round() / 4;
-      mesh.vertices.push_back(scale * p);
-    }
-    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-  }
-  return mesh;
-}
-
 TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> weight(0, 1);
   for (const double scale : {1.0, 1e-9, 1e12, 1e-30, 1e30, 1e150}) {
     for (const double shift : {0.0, 3.0, 1e4}) {
-      const TriMesh mesh = triangles(random, shift, scale);
+      const TriMesh mesh = test::triangles_of_all_sizes(random, shift, scale);
       for (const std::size_t cells : {1u, 64u, 4096u}) {
         const RingLists lists = listed(mesh, cells).lists;
         Points points;
@@ -126,7 +110,7 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
 
 TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
   std::mt19937 random(8);
-  const TriMesh mesh = triangles(random, 2, 1);
+  const TriMesh mesh = test::triangles_of_all_sizes(random, 2, 1);
   const Listed best = listed(mesh, 200);
   std::vector<CirclePlace> circles;
   for (Index cell = 0; cell < best.lists.grid().cells(); ++cell) {
