@@ -23,6 +23,9 @@ struct Goal {
 /// One row of the table `goals`.
 void add_goal(const Goal& goal, double measured, Report& report);
 
+/// Whether there is a goal for Condyle against this method, at the mean over all poses of the scene.
+bool has_goal_at_all_poses(Question question, std::string_view scene, std::string_view method);
+
 /// All goals that compare outcomes of the experiment.
 void add_goals(const ExperimentResult& result, Report& report);
 

@@ -24,6 +24,15 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_start_;  ///< Taken last: the other clock is slow to read.
 };
 
+/// Seconds on the wall that this takes: for what is so short that asking the system for the processor's time,
+/// before, would be felt in it.
+template <class Do>
+double wall_seconds_of(const Do& what) {
+  const auto start = std::chrono::steady_clock::now();
+  what();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Seconds that this takes. Short ones by the clock on the wall, which is read in a few nanoseconds; from a
 /// millisecond on, where others are likely to take the processor away meanwhile, by the processor's.
 template <class Do>
