@@ -36,12 +36,17 @@ struct JointQuestion {
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<JointQuestion, 4> joint_questions = {{
+const std::array<JointQuestion, 5> joint_questions = {{
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
     {"motion_map", ask_motion_map, {"hip_vhf_right", "sample_3"}, {"sample_1"}},
     {"radial_table",
      ask_radial_table,
      {"libhip_1", "libhip_2", "libhip_3", "libhip_4", "ball_0.1mm_4"},
+     {"sample_1"}},
+    {"inside_limits",
+     ask_inside_limits,
+     {"libhip_1", "libhip_2", "libhip_3", "libhip_4", "ball_0.1mm_1", "ball_0.1mm_4", "libhip_cartilage_gap",
+      "libhip_cartilage_nogap", "sample_8"},
      {"sample_1"}},
     {"ring_table", ask_ring_table, {"libhip_1", "libhip_2", "libhip_3", "libhip_4"}, {"sample_1"}},
 }};

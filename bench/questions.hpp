@@ -21,6 +21,10 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report);
 /// poses along a motion, other instruction sets.
 void ask_radial_table(const Scene& scene, Effort effort, Report& report);
 
+/// What no method that tells every vertex inside, with triangle and depth, can do without: beside what
+/// Condyle and Embree take.
+void ask_inside_limits(const Scene& scene, Effort effort, Report& report);
+
 /// What the ring table costs: building it, a pose, and all angles at once.
 void ask_ring_table(const Scene& scene, Effort effort, Report& report);
 

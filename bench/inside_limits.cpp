@@ -1,0 +1,137 @@
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "condyle/radial/penetrations.hpp"
+#include "condyle/radial/radial_table.hpp"
+#include "condyle/radial/triangle_plane.hpp"
+#include "method.hpp"
+#include "questions.hpp"
+#include "timing.hpp"
+#include "turned.hpp"
+
+/// How fast "every vertex: inside, through which triangle, how deep" could be answered at best, whatever the
+/// method, and what that leaves of the ratios to Embree.
+
+namespace bench {
+namespace {
+
+using condyle::Index;
+using condyle::Pose;
+using condyle::Vec3;
+
+const TableHead limits_head{"inside_limits",
+                            "Every vertex at a pose: what no method can do without, mean µs; one thread",
+                            {{"scene", "scene"},
+                             {"mobile_vertices", "mobile vertices"},
+                             {"inside", "inside"},
+                             {"turned_us", "all vertices turned"},
+                             {"told_us", "answers told, written"},
+                             {"condyle_us", "Condyle"},
+                             {"over_told", "over told"},
+                             {"robust_us", "Embree robust"},
+                             {"robust_limit", "over told"},
+                             {"culled_us", "Embree culled"},
+                             {"culled_limit", "over told"}}};
+
+/// Which vertices are inside at a pose, and the triangles that they leave through: the answer but for its
+/// numbers.
+struct Told {
+  Pose X_FM;
+  std::vector<InsideVertex> inside;
+};
+
+std::vector<Told> all_told(const Scene& scene, Method& ours) {
+  std::vector<Told> told;
+  for (const ScenePose& pose : scene.poses) {
+    told.push_back({pose.X_FM, {}});
+    ours.find_inside(pose.X_FM, told.back().inside);
+  }
+  return told;
+}
+
+/// Planes of all triangles, as depths are taken from.
+std::vector<Vec3> all_planes(const condyle::TriMesh& mesh) {
+  std::vector<Vec3> planes;
+  for (const auto& [i, j, k] : mesh.triangles)
+    planes.push_back(condyle::scaled_normal(mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]));
+  return planes;
+}
+
+/// The answer of one that is told it: each vertex is read and posed, its triangle's plane read, the depth
+/// computed, everything written.
+void write_told(const Told& told, const std::vector<Vec3>& vertices, const std::vector<Vec3>& planes,
+                std::vector<InsideVertex>& out) {
+  out.resize(told.inside.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto [vertex, triangle, depth] = told.inside[i];
+    const double gap = condyle::gap_to_plane(condyle::posed(told.X_FM, vertices[vertex]), planes[triangle]);
+    out[i] = {vertex, triangle, std::isnan(gap) ? depth : std::abs(gap)};
+  }
+}
+
+std::vector<Vec3> as_vectors(condyle::PointsView points) {
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < points.size(); ++i) out.push_back(points[i]);
+  return out;
+}
+
+}  // namespace
+
+void ask_inside_limits(const Scene& scene, Effort effort, Report& report) {
+  const auto robust_kind = method_named("embree_16_robust"), culled_kind = method_named("embree_16_culled");
+  const Bodies bodies{scene.joint.fixed.mesh, scene.joint.mobile.mesh};
+  const auto ours = method_named("radial")->make(bodies);
+  const auto robust = robust_kind ? robust_kind->make(bodies) : nullptr;
+  const auto culled = culled_kind ? culled_kind->make(bodies) : nullptr;
+  const std::vector<Told> told = all_told(scene, *ours);
+  const std::vector<Vec3> vertices = as_vectors(bodies.mobile.vertices), planes = all_planes(bodies.fixed);
+  const condyle::SortedPoints sorted(bodies.mobile.vertices);
+  std::vector<InsideVertex> out;
+  volatile float kept = 0;
+  const auto at_all_poses = [&](Method* method) {
+    for (const Told& pose : told)
+      if (method) method->find_inside(pose.X_FM, out);
+  };
+  // What is quick is done several times over: its first time finds what the others left in the caches.
+  constexpr int times = 20;
+  std::vector<std::vector<double>> samples;
+  tbb::task_arena(1).execute([&] {
+    samples = interleaved(effort == Effort::full ? 5 : 1, {
+                                                              [&] {
+                                                                for (int i = 0; i < times; ++i)
+                                                                  for (const Told& pose : told)
+                                                                    kept = greatest_turned(sorted, pose.X_FM);
+                                                              },
+                                                              [&] {
+                                                                for (int i = 0; i < times; ++i)
+                                                                  for (const Told& pose : told)
+                                                                    write_told(pose, vertices, planes, out);
+                                                              },
+                                                              [&] {
+                                                                for (int i = 0; i < times; ++i)
+                                                                  at_all_poses(ours.get());
+                                                              },
+                                                              [&] { at_all_poses(robust.get()); },
+                                                              [&] { at_all_poses(culled.get()); },
+                                                          });
+  });
+  std::size_t inside = 0;
+  for (const Told& pose : told) inside += pose.inside.size();
+  const auto us = [&](std::size_t way, int repeats) {
+    return median(samples[way]) * 1e6 / repeats / static_cast<double>(told.size());
+  };
+  const double turned = us(0, times), written = us(1, times), ours_us = us(2, times);
+  const double robust_us = us(3, 1), culled_us = us(4, 1);
+  const auto measured = [](const auto& method, double value) { return method ? Cell(value) : Cell("-"); };
+  report.table(limits_head)
+      .add({scene.joint.name, static_cast<std::int64_t>(vertices.size()),
+            static_cast<double>(inside) / static_cast<double>(told.size()), turned, written, ours_us,
+            ours_us / written, measured(robust, robust_us), measured(robust, robust_us / written),
+            measured(culled, culled_us), measured(culled, culled_us / written)});
+}
+
+}  // namespace bench
