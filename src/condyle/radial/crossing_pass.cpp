@@ -11,7 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "condyle/radial/compaction-inl.hpp"
+#include "condyle/radial/crossing_decision-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
@@ -25,7 +25,7 @@ constexpr DU du;
 
 /// Triangles whose octagons hold a point, with the number of the point among the near ones.
 struct Pairs {
-  static constexpr std::size_t most = 4096, room = 3 * vector_room;
+  static constexpr std::size_t most = most_pairs, room = 3 * vector_room;
   std::array<std::uint32_t, most + room> triangle, point;
   std::size_t count;
 };
@@ -105,17 +105,6 @@ HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, cons
   return count;
 }
 
-/// Crossings of near points' rays, those of a point side by side. `s` is |v| over the crossing's radius,
-/// positive where the ray leaves the solid and negative where it enters; NaN where floats do not say whether
-/// there is one.
-struct Crossings {
-  template <class T>
-  using Array = std::array<T, Pairs::most + vector_room>;
-  alignas(64) Array<float> s, error;
-  alignas(64) Array<std::uint32_t> triangle, point;
-  std::size_t count;
-};
-
 /// Lane k of four vectors as vector k.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void transpose(D, [[maybe_unused]] std::array<V, 4>& v) {
@@ -141,7 +130,7 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
   }
   const auto fetch = [&](std::size_t i) { hwy::Prefetch(cube.forms + pairs.triangle[i]); };
   for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
-  std::size_t count = 0;
+  std::size_t end = Crossings::begin;
   for (std::size_t i = 0; i < pairs.count; i += side_by_side) {
     std::array<V, 4> value, error;
     for (std::size_t k = 0; k < side_by_side; ++k) fetch(i + ahead + k);
@@ -166,173 +155,20 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
     const auto s = hn::IfThenElse(above, value[3], hn::Set(d4, std::numeric_limits<float>::quiet_NaN()));
     const auto kept = hn::AndNot(below, hn::FirstN(d4, pairs.count - i));
     const auto kept_words = hn::RebindMask(du4, kept);
-    store_compacted(d4, s, kept, out.s.data() + count);
-    store_compacted(d4, error[3], kept, out.error.data() + count);
-    store_compacted(du4, hn::LoadU(du4, pairs.triangle.data() + i), kept_words, out.triangle.data() + count);
-    store_compacted(du4, hn::LoadU(du4, pairs.point.data() + i), kept_words, out.point.data() + count);
-    count += hn::CountTrue(d4, kept);
+    store_compacted(d4, s, kept, out.s.data() + end);
+    store_compacted(d4, error[3], kept, out.error.data() + end);
+    store_compacted(du4, hn::LoadU(du4, pairs.triangle.data() + i), kept_words, out.triangle.data() + end);
+    store_compacted(du4, hn::LoadU(du4, pairs.point.data() + i), kept_words, out.point.data() + end);
+    end += hn::CountTrue(d4, kept);
   }
-  out.count = count;
-}
-
-/// What the crossings of a near point say of it.
-struct Tally {
-  std::int16_t winding;
-  std::uint16_t crossings;
-  std::uint32_t end;  ///< behind the last of them
-  std::uint8_t doubtful;
-};
-
-/// More crossings of one ray are left to double precision.
-constexpr std::size_t most_of_a_ray = 24;
-
-/// The crossings of one ray from the centre outwards: with falling |s|.
-struct Ray {
-  struct Crossing {
-    float s, error;
-    int outwards;
-    std::uint32_t triangle;
-  };
-  std::array<Crossing, most_of_a_ray> crossing;
-  std::size_t count = 0;
-
-  Ray(const Crossings& all, const Tally& tally) {
-    for (std::size_t i = tally.end - tally.crossings; i < tally.end; ++i) {
-      std::size_t k = count++;
-      const Crossing next{std::abs(all.s[i]), all.error[i], all.s[i] > 0 ? 1 : -1, all.triangle[i]};
-      for (; k > 0 && crossing[k - 1].s < next.s; --k) crossing[k] = crossing[k - 1];
-      crossing[k] = next;
-    }
-  }
-};
-
-/// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
-///
-/// The gaps 1 - 1/s before and 1/s' - 1 behind compare as 2 s s' does with s + s'.
-HWY_INLINE bool leave(const Ray& ray, int winding_at_centre, FoundPoint& found) {
-  using Crossing = Ray::Crossing;
-  for (std::size_t i = 1; i < ray.count; ++i) {
-    const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
-    if (!(nearer.s - further.s > nearer.error + further.error)) return false;
-  }
-  const Crossing *before = nullptr, *after = nullptr;
-  int winding = winding_at_centre;
-  for (std::size_t i = 0; i < ray.count; ++i) {
-    const Crossing& crossing = ray.crossing[i];
-    const bool was_inside = winding > 0;
-    winding -= crossing.outwards;
-    if (was_inside == (winding > 0)) continue;
-    if (crossing.s > 1) {
-      before = &crossing;
-    } else if (!after) {
-      after = &crossing;
-    }
-  }
-  // Surface that is too far behind to matter was not looked at, unless the centre is inside.
-  if (!after && (!before || winding_at_centre > 0)) return false;
-  found.away_from_centre = !before;
-  if (before && after) {
-    const float b = before->s, a = after->s;
-    const float difference = a + b - 2 * a * b;
-    const float error = 1.01f * (before->error * (1 + 2 * a) + after->error * (1 + 2 * b));
-    if (!(std::abs(difference) > error)) return false;
-    found.away_from_centre = difference < 0;
-  }
-  found.triangle = (found.away_from_centre ? after : before)->triangle;
-  return true;
-}
-
-/// As leave(), for a point of winding number 1 with few crossings, the centre outside: nearly all. Where the
-/// crossing nearest before the point certainly is that and enters the solid, and the one nearest behind it
-/// certainly is that and leaves it, these are the ways out. No branch asks which is the shorter: there is no
-/// telling beforehand.
-HWY_INLINE bool leave_simply(const Crossings& all, const Tally& tally, FoundPoint& found) {
-  constexpr hn::CappedTag<float, 4> d;
-  const std::size_t begin = tally.end - tally.crossings;
-  const auto valid = hn::FirstN(d, tally.crossings);
-  const auto s = hn::Abs(hn::LoadU(d, all.s.data() + begin)), error = hn::LoadU(d, all.error.data() + begin);
-  const auto is_before = hn::And(valid, hn::Gt(s, hn::Set(d, 1.0f))), is_after = hn::AndNot(is_before, valid);
-  const auto before =
-      hn::MinOfLanes(d, hn::IfThenElse(is_before, s, hn::Set(d, std::numeric_limits<float>::max())));
-  const auto after = hn::MaxOfLanes(d, hn::IfThenElseZero(is_after, s));
-  const auto at = [&](hn::Mask<decltype(d)> mask) {
-    return begin + static_cast<std::size_t>(std::max<std::intptr_t>(hn::FindFirstTrue(d, mask), 0));
-  };
-  const std::size_t at_before = at(hn::And(is_before, hn::Eq(s, before)));
-  const std::size_t at_after = at(hn::And(is_after, hn::Eq(s, after)));
-  const bool has_after = !hn::AllFalse(d, is_after);
-  const float b = hn::GetLane(before), a = hn::GetLane(after);
-  const float error_before = all.error[at_before], error_after = has_after ? all.error[at_after] : 0;
-  // Each is too near to itself, and no other may be.
-  const auto near_before =
-      hn::And(is_before, hn::Not(hn::Gt(hn::Sub(s, before), hn::Add(error, hn::Set(d, error_before)))));
-  const auto near_after =
-      hn::And(is_after, hn::Not(hn::Gt(hn::Sub(after, s), hn::Add(error, hn::Set(d, error_after)))));
-  // Bits, for a branch on each could not be foretold.
-  const auto bit = [](bool value) { return static_cast<unsigned>(value); };
-  const unsigned in_order = bit(hn::CountTrue(d, near_before) == 1) & bit(hn::CountTrue(d, near_after) <= 1);
-  const unsigned passes = bit(all.s[at_before] < 0) & (bit(!has_after) | bit(all.s[at_after] > 0));
-  const float difference = a + b - 2 * a * b;
-  const float doubt = 1.01f * (error_before * (1 + 2 * a) + error_after * (1 + 2 * b));
-  found.away_from_centre = difference < 0;
-  found.triangle = all.triangle[found.away_from_centre ? at_after : at_before];
-  const unsigned simple = bit(tally.winding == 1) & bit(tally.crossings <= hn::MaxLanes(d));
-  return (in_order & passes & simple & bit(std::abs(difference) > doubt)) != 0;
-}
-
-/// Room for what decide() knows of near points.
-struct Tallies {
-  std::array<Tally, points_per_batch> of;
-  std::array<std::uint32_t, points_per_batch + 1> kept;
-};
-
-/// Decides near points [first, last), whose crossings these are. Which points stay cannot be foretold: no
-/// branch asks before they are counted.
-HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
-                       const Crossings& crossings, Tallies& tallies, FoundPoints& found) {
-  const bool from_inside = cube.winding_at_centre > 0;
-  for (std::size_t i = first; i < last; ++i) {
-    // Nearer to the centre than any surface, floats may have lost the direction.
-    const float x = points.x[i], y = points.y[i], z = points.z[i];
-    const bool too_near = from_inside && x * x + y * y + z * z < cube.nearest_squared;
-    tallies.of[i] = {static_cast<std::int16_t>(cube.winding_at_centre), 0, 0, too_near};
-  }
-  for (std::size_t i = 0; i < crossings.count; ++i) {
-    Tally& tally = tallies.of[crossings.point[i]];
-    const float beyond = std::abs(crossings.s[i]) - 1;
-    const int outwards = crossings.s[i] > 0 ? 1 : -1;
-    tally.winding = static_cast<std::int16_t>(tally.winding - (beyond > 0 ? outwards : 0));
-    tally.doubtful |= static_cast<std::uint8_t>(!(std::abs(beyond) > crossings.error[i]));
-    ++tally.crossings;
-    tally.end = static_cast<std::uint32_t>(i + 1);
-  }
-  std::size_t count = 0;
-  for (std::size_t i = first; i < last; ++i) {
-    Tally& tally = tallies.of[i];
-    tally.doubtful |= static_cast<std::uint8_t>(tally.crossings > most_of_a_ray);
-    tallies.kept[count] = static_cast<std::uint32_t>(i);
-    count += static_cast<std::size_t>((tally.doubtful != 0) | (tally.winding > 0));
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const Tally& tally = tallies.of[tallies.kept[k]];
-    FoundPoint& at = found.point[found.count++];
-    at = {points.point[tallies.kept[k]], no_index, tally.winding, false, tally.doubtful != 0};
-    if (at.doubtful) continue;
-    if (tally.crossings == 1 && !from_inside) {
-      at.triangle = crossings.triangle[tally.end - 1];
-      continue;
-    }
-    if (!from_inside && leave_simply(crossings, tally, at)) continue;
-    at.triangle = no_index;
-    at.doubtful = !leave(Ray(crossings, tally), cube.winding_at_centre, at);
-  }
+  out.close(end);
 }
 
 std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
                               FoundPoints& found) {
   Pairs pairs;
   Crossings crossings;
-  Tallies tallies;
+  Decisions decisions;
   Asked asked;
   prepare(points, form_bound, asked);
   std::size_t tried = 0;
@@ -350,7 +186,11 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
       pairs.count = count;
     }
     cross(cube, points, asked, pairs, crossings);
-    decide(cube, points, first, last, crossings, tallies, found);
+    if (cube.winding_at_centre == 0) {
+      decide_from_outside(points, crossings, decisions, found);
+    } else {
+      decide(cube, points, first, last, crossings, decisions, found);
+    }
     tried += pairs.count;
     if (last == first) {
       // More triangles at one point than there is room for.
