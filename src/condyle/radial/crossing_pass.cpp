@@ -26,7 +26,9 @@ constexpr DU du;
 /// Triangles whose octagons hold a point, with the number of the point among the near ones.
 struct Pairs {
   static constexpr std::size_t most = most_pairs, room = 3 * vector_room;
-  std::array<std::uint32_t, most + room> triangle, point;
+  std::array<std::uint32_t, most + room> triangle;
+  std::array<std::uint16_t, most + room> point;
+  static_assert(points_per_batch <= std::numeric_limits<std::uint16_t>::max());
   std::size_t count;
 };
 
@@ -90,7 +92,8 @@ HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, cons
                             std::size_t count, Pairs& pairs) {
   const CellRow row = cube.row[points.cell[i]].half_at(points.box[i]);
   const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, asked.slant[i]);
-  const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
+  constexpr hn::Rebind<std::uint16_t, DU> du16;
+  const auto number = hn::Set(du16, static_cast<std::uint16_t>(i));
   const Words relevant = hn::Set(du, points.relevant[i] >> 8);
   for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
     const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint8_t, DU>(), cube.nearest + first));
@@ -99,7 +102,7 @@ HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, cons
     // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
     if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
     store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + count);
-    hn::StoreU(number, du, pairs.point.data() + count);
+    hn::StoreU(number, du16, pairs.point.data() + count);
     count += hn::CountTrue(du, holding);
   }
   return count;
@@ -122,6 +125,7 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
   // Four pairs side by side; without vectors one, of which each form is a "vector".
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToUnsigned<decltype(d4)> du4;
+  constexpr hn::Rebind<std::uint16_t, decltype(du4)> du16;
   using V = hn::Vec<decltype(d4)>;
   constexpr std::size_t side_by_side = hn::MaxLanes(d4), ahead = 32;
   const std::size_t last = std::max(pairs.count, std::size_t{1}) - 1;
@@ -158,7 +162,8 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
     store_compacted(d4, s, kept, out.s.data() + end);
     store_compacted(d4, error[3], kept, out.error.data() + end);
     store_compacted(du4, hn::LoadU(du4, pairs.triangle.data() + i), kept_words, out.triangle.data() + end);
-    store_compacted(du4, hn::LoadU(du4, pairs.point.data() + i), kept_words, out.point.data() + end);
+    store_compacted(du4, hn::PromoteTo(du4, hn::LoadU(du16, pairs.point.data() + i)), kept_words,
+                    out.point.data() + end);
     end += hn::CountTrue(d4, kept);
   }
   out.close(end);
