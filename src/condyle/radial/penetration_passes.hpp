@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "condyle/core/pose.hpp"
 #include "condyle/radial/cube_view.hpp"
 
 /// The passes that find penetrating points, each compiled for every instruction set and chosen at run time.
@@ -79,5 +80,15 @@ std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uin
 /// Those of them that have crossed the surface, or may have. Returns how many listed triangles were tried.
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
                           FoundPoints& found);
+
+/// Some points found, with their triangles' scaled normals, and what comes of them.
+struct GapColumns {
+  static constexpr std::size_t size = 64;
+  std::size_t count;
+  alignas(64) double point[3][size], normal[3][size], gap[size];
+};
+
+/// Poses the points and finds their ways to the planes: posed() and gap_to_plane(), to the bit.
+void gaps_to_planes(const Pose& X_FM, GapColumns& columns);
 
 }  // namespace condyle

@@ -29,6 +29,23 @@ bool is_rotation(const Pose& X) {
   return ((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().array() <= rotation_error).all();
 }
 
+/// Columns of Penetrations by address: behind vectors the compiler asks for these anew at every store.
+struct OutColumns {
+  explicit OutColumns(Penetrations& out)
+      : point(out.point.data()),
+        triangle(out.triangle.data()),
+        state(out.state.data()),
+        winding(out.winding.data()),
+        depth(out.depth.data()),
+        direction(out.direction.data()) {}
+
+  Index *point, *triangle;
+  PointState* state;
+  int* winding;
+  double* depth;
+  RayDirection* direction;
+};
+
 }  // namespace
 
 FloatPose float_pose(const Pose& X, const Vec3& centre) {
@@ -144,39 +161,60 @@ void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose>
   });
 }
 
+/// Ways to the planes of their triangles, of `count` points found from `first` on.
+void RadialTable::find_gaps(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found,
+                            std::size_t first, std::size_t count, GapColumns& out) const {
+  constexpr std::size_t ahead = 16;
+  const Vec3* const all_points = &points[0];
+  const ConeForms* const all_forms = lists_.forms.data();
+  const auto sum = [](float high, float low) { return static_cast<double>(high) + static_cast<double>(low); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const FoundPoint& at = found.point[first + i];
+    __builtin_prefetch(all_points + found.point[std::min(first + i + ahead, found.count - 1)].point);
+    const Vec3& p = all_points[at.point];
+    // Of one in doubt any will do: its way is not asked for.
+    const ConeForms& forms = all_forms[at.doubtful ? 0 : at.triangle];
+    out.point[0][i] = p.x(), out.point[1][i] = p.y(), out.point[2][i] = p.z();
+    out.normal[0][i] = sum(forms.x[3], forms.rest[0]);
+    out.normal[1][i] = sum(forms.y[3], forms.rest[1]);
+    out.normal[2][i] = sum(forms.z[3], forms.rest[2]);
+  }
+  out.count = count;
+  gaps_to_planes(X_FM, out);
+}
+
 /// Depths in double; points in doubt from the start.
 void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found,
                          RayScan& scan, Penetrations& out) const {
-  const std::size_t first = out.size();
-  std::size_t count = first;
+  std::size_t count = out.size();
+  out.resize(count + found.count);
+  const OutColumns to(out);
+  const Index* const number = points.index().data();
   std::vector<Index> room;
-  out.resize(first + found.count);
-  constexpr std::size_t ahead = 16;
+  GapColumns gaps;
   for (std::size_t i = 0; i < found.count; ++i) {
-    if (i + ahead < found.count) __builtin_prefetch(&points[found.point[i + ahead].point]);
+    const std::size_t in_turn = i % GapColumns::size;
+    if (in_turn == 0) find_gaps(points, X_FM, found, i, std::min(GapColumns::size, found.count - i), gaps);
     const FoundPoint& at = found.point[i];
-    const Vec3 v = posed(X_FM, points[at.point]);
-    out.point[count] = points.index()[at.point];
+    to.point[count] = number[at.point];
     if (at.doubtful) {
+      const Vec3 v = posed(X_FM, points[at.point]);
       const RayAnswer answer = scan.answer(v, candidates(v, room));
       if (answer.state == PointState::outside) continue;
-      out.state[count] = answer.state;
-      out.winding[count] = answer.winding;
-      out.triangle[count] = answer.triangle;
-      out.depth[count] = std::abs(answer.gap);
-      out.direction[count] = answer.direction;
+      to.state[count] = answer.state;
+      to.winding[count] = answer.winding;
+      to.triangle[count] = answer.triangle;
+      to.depth[count] = std::abs(answer.gap);
+      to.direction[count] = answer.direction;
     } else {
-      const ConeForms& forms = lists_.forms[at.triangle];
-      const auto normal = [&](std::size_t k, const float* of) {
-        return static_cast<double>(of[3]) + static_cast<double>(forms.rest[k]);
-      };
-      double gap = gap_to_plane(v, {normal(0, forms.x), normal(1, forms.y), normal(2, forms.z)});
-      if (std::isnan(gap)) gap = distance_along_ray(v, cone_of(mesh_, at.triangle));
-      out.state[count] = PointState::inside;
-      out.winding[count] = at.winding;
-      out.triangle[count] = at.triangle;
-      out.depth[count] = std::abs(gap);
-      out.direction[count] =
+      double gap = gaps.gap[in_turn];
+      if (std::isnan(gap))
+        gap = distance_along_ray(posed(X_FM, points[at.point]), cone_of(mesh_, at.triangle));
+      to.state[count] = PointState::inside;
+      to.winding[count] = at.winding;
+      to.triangle[count] = at.triangle;
+      to.depth[count] = std::abs(gap);
+      to.direction[count] =
           at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
     }
     ++count;

@@ -22,6 +22,7 @@
 namespace condyle {
 
 struct FoundPoints;
+struct GapColumns;
 struct PenetrationSearch;
 
 struct RadialOptions {
@@ -179,6 +180,8 @@ class RadialTable {
   /// Triangles that the ray through v may meet, in the given room or in the list itself.
   std::span<const Index> candidates(const Vec3& v, std::vector<Index>& room) const;
   void penetrations_one_by_one(const SortedPoints& points, const Pose& X_FM, Penetrations& out) const;
+  void find_gaps(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, std::size_t first,
+                 std::size_t count, GapColumns& out) const;
   void finish(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found, RayScan& scan,
               Penetrations& out) const;
 
