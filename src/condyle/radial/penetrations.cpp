@@ -165,6 +165,7 @@ void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose>
 void RadialTable::find_gaps(const SortedPoints& points, const Pose& X_FM, const FoundPoints& found,
                             std::size_t first, std::size_t count, GapColumns& out) const {
   constexpr std::size_t ahead = 16;
+  constexpr ConeForms none{};  // what becomes of one in doubt is not asked for
   const Vec3* const all_points = &points[0];
   const ConeForms* const all_forms = lists_.forms.data();
   const auto sum = [](float high, float low) { return static_cast<double>(high) + static_cast<double>(low); };
@@ -172,8 +173,7 @@ void RadialTable::find_gaps(const SortedPoints& points, const Pose& X_FM, const 
     const FoundPoint& at = found.point[first + i];
     __builtin_prefetch(all_points + found.point[std::min(first + i + ahead, found.count - 1)].point);
     const Vec3& p = all_points[at.point];
-    // Of one in doubt any will do: its way is not asked for.
-    const ConeForms& forms = all_forms[at.doubtful ? 0 : at.triangle];
+    const ConeForms& forms = at.doubtful ? none : all_forms[at.triangle];
     out.point[0][i] = p.x(), out.point[1][i] = p.y(), out.point[2][i] = p.z();
     out.normal[0][i] = sum(forms.x[3], forms.rest[0]);
     out.normal[1][i] = sum(forms.y[3], forms.rest[1]);
