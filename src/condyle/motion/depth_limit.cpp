@@ -18,12 +18,26 @@ void check(const AllowedDepth& allowed) {
     throw UsageError("allowed depth: the tolerance must be above 0 and at most the step");
 }
 
-std::optional<Index> deepest_vertex(const RadialHits& hits) {
-  std::optional<Index> deepest;
-  for (Index v = 0; v < hits.size(); ++v)
-    if (hits.state[v] == PointState::inside && (!deepest || hits.radial_gap[v] < hits.radial_gap[*deepest]))
-      deepest = v;
+/// A vertex of one body in the other, and the triangle that it leaves through.
+struct DeepVertex {
+  Index vertex, triangle;
+  double depth_mm;
+};
+
+/// The first in number of those that are deepest.
+std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
+  std::optional<DeepVertex> deepest;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside.state[i] != PointState::inside) continue;
+    const DeepVertex at{inside.point[i], inside.triangle[i], inside.depth[i]};
+    if (!deepest || std::pair(-at.depth_mm, at.vertex) < std::pair(-deepest->depth_mm, deepest->vertex))
+      deepest = at;
+  }
   return deepest;
+}
+
+Angle angle_to_ray(const Vec3& v, const TriMesh& mesh, Index triangle) {
+  return Angle::radians(triangle == no_index ? 0 : angle_to_normal(v, cone_of(mesh, triangle)));
 }
 
 /// How far along its way a search got: allowed at `free`, too deep at `deep`.
@@ -40,6 +54,8 @@ struct DepthRange::Parts {
   AllowedDepth allowed;
   std::optional<ArticularRegion> articular;
   JointContact contact;
+  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices);
+  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices);
 };
 
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
@@ -67,22 +83,23 @@ DeepestPlace DepthRange::deepest(const JointAngles& at) const {
   }
   const Pose X_MF = X.inverse();
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
-  const RadialHits mobile_hits = parts_->contact.fixed_table().query(posed(X, mobile.vertices.view()));
-  const RadialHits fixed_hits = parts_->contact.mobile_table().query(posed(X_MF, fixed.vertices.view()));
-  const auto m = deepest_vertex(mobile_hits), f = deepest_vertex(fixed_hits);
-  const double of_mobile = m ? -mobile_hits.radial_gap[*m] : 0, of_fixed = f ? -fixed_hits.radial_gap[*f] : 0;
-  if (m && of_mobile >= of_fixed) {
-    const Vec3 p = mobile.vertices[*m];
-    deepest.depth_mm = of_mobile;
-    deepest.ray_to_normal = Angle::radians(mobile_hits.ray_to_normal[*m]);
-    deepest.place = ContactPlace{
-        {FeatureKind::face, mobile_hits.triangle[*m]}, {FeatureKind::vertex, *m}, posed(X, p), p};
+  Penetrations found;
+  parts_->contact.fixed_table().penetrations(parts_->mobile_points, X, found);
+  const auto m = deepest_vertex(found);
+  parts_->contact.mobile_table().penetrations(parts_->fixed_points, X_MF, found);
+  const auto f = deepest_vertex(found);
+  if (m && (!f || m->depth_mm >= f->depth_mm)) {
+    const Vec3 p = mobile.vertices[m->vertex], in_fixed = posed(X, p);
+    deepest.depth_mm = m->depth_mm;
+    deepest.ray_to_normal = angle_to_ray(in_fixed, fixed, m->triangle);
+    deepest.place =
+        ContactPlace{{FeatureKind::face, m->triangle}, {FeatureKind::vertex, m->vertex}, in_fixed, p};
   } else if (f) {
-    const Vec3 p = fixed.vertices[*f];
-    deepest.depth_mm = of_fixed;
-    deepest.ray_to_normal = Angle::radians(fixed_hits.ray_to_normal[*f]);
-    deepest.place = ContactPlace{
-        {FeatureKind::vertex, *f}, {FeatureKind::face, fixed_hits.triangle[*f]}, p, posed(X_MF, p)};
+    const Vec3 p = fixed.vertices[f->vertex], in_mobile = posed(X_MF, p);
+    deepest.depth_mm = f->depth_mm;
+    deepest.ray_to_normal = angle_to_ray(in_mobile, mobile, f->triangle);
+    deepest.place =
+        ContactPlace{{FeatureKind::vertex, f->vertex}, {FeatureKind::face, f->triangle}, p, in_mobile};
   }
   return deepest;
 }

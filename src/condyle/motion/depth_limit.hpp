@@ -62,7 +62,6 @@ class DepthRange {
   DeepestPlace deepest(const JointAngles& at) const;
   /// `contact_at_start` where the depth at the start is too large already.
   DepthLimit limit(const Motion& motion) const;
-  /// One after the other: each pose is asked on all threads.
   std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
 
   const std::optional<ArticularRegion>& articular_region() const noexcept;
