@@ -78,6 +78,7 @@ struct CubeView {
   int steps;                  ///< of the pyramid
   const RadiusWord* radii;    ///< of each cell
   const RadiusWord* pyramid;  ///< see DirectionPyramid
+  RadiusWord all_radii;
   const CellRow* row;
   const std::uint32_t* triangle;
   const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "condyle/radial/direction_pyramid.cpp"
@@ -226,6 +227,10 @@ void DirectionPyramid::fill(int cells_per_side, std::span<const RadiusWord> cell
   // next ones.
   room_.resize((most_border + 2) * (n + 2 * most_reach) + 3 * 6 * square(cells_per_side / 2));
   HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), room_, entry_.data());
+  // The last step has the fewest entries, and every cell is in one of them.
+  const auto last_step =
+      entry_.begin() + static_cast<std::ptrdiff_t>(start_of(step_count(cells_per_side) - 1, cells_per_side));
+  all_ = std::accumulate(last_step, entry_.end(), no_radii, union_of);
 }
 
 }  // namespace condyle

@@ -37,10 +37,13 @@ class DirectionPyramid {
   void fill(int cells_per_side, std::span<const RadiusWord> cells);
 
   const RadiusWord* data() const noexcept { return entry_.data(); }
+  /// Radii of all directions together: for caps that are wider than any border.
+  RadiusWord all() const noexcept { return all_; }
   std::size_t size() const noexcept { return entry_.size(); }
 
  private:
   std::vector<RadiusWord> entry_;
+  RadiusWord all_ = no_radii;
   std::vector<RadiusWord> room_;  // for filling
 };
 

@@ -172,14 +172,16 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
   const auto cells = hn::Div(hn::Mul(hn::Mul(sine, hn::Set(d, finest_cells * (1 + 0x1p-10f))), product),
                              hn::Sub(one, opening));
   const auto step = step_for(hn::Add(cells, hn::Set(d, 0.01f)));
-  certain = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
-  const auto in_pyramid = hn::And(hn::RebindMask(di, certain), hn::Lt(step, hn::Set(di, cube.steps)));
+  const auto has_cells = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
+  const auto in_pyramid = hn::And(hn::RebindMask(di, has_cells), hn::Lt(step, hn::Set(di, cube.steps)));
   const auto index =
       hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, step)));
-  const auto entry = hn::GatherIndex(du, cube.pyramid, index);
+  // What is too wide for the pyramid is held against all directions.
+  const auto entry = hn::IfThenElse(hn::RebindMask(du, in_pyramid), hn::GatherIndex(du, cube.pyramid, index),
+                                    hn::Set(du, cube.all_radii));
   const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
                                radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-  return hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, in_pyramid)));
+  return hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, certain)));
 }
 
 template <bool translated>

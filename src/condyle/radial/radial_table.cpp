@@ -147,12 +147,19 @@ int RadialTable::find_winding_at_centre() const {
 }
 
 CubeView RadialTable::view_of(const CubeMap& map) const {
-  return {map.cells_per_side(),  DirectionPyramid::step_count(map.cells_per_side()),
-          lists_.radii.data(),   pyramid_.data(),
-          lists_.row.data(),     lists_.triangle.data(),
-          lists_.box.data(),     lists_.slant.data(),
-          lists_.nearest.data(), lists_.forms.data(),
-          lists_.scale,          winding_at_centre_.value_or(0),
+  return {map.cells_per_side(),
+          DirectionPyramid::step_count(map.cells_per_side()),
+          lists_.radii.data(),
+          pyramid_.data(),
+          pyramid_.all(),
+          lists_.row.data(),
+          lists_.triangle.data(),
+          lists_.box.data(),
+          lists_.slant.data(),
+          lists_.nearest.data(),
+          lists_.forms.data(),
+          lists_.scale,
+          winding_at_centre_.value_or(0),
           lists_.least_squared};
 }
 
