@@ -28,14 +28,19 @@ struct BoxSides {
 /// Some triangles and the cells that their boxes meet.
 struct BoxCells {
   static constexpr std::size_t most = 256;
-  using Column = std::array<Index, most>;
+  /// Vectors are stored whole.
+  static constexpr std::size_t room = most + 16;
+  using Places = std::array<Index, room>;
 
-  /// Of boxes of at most two by two cells those cells, in four columns of which each may hold a spare one:
-  /// cell `spare` + k of column k. And the box within each.
-  alignas(64) std::array<Column, 4> cell;
-  alignas(64) std::array<Column, 4> box;
-  /// Places in the batch of boxes that meet more cells; they have spare ones only.
-  std::array<Index, most> large;
+  /// For each place in the batch a cell, and the box within it.
+  struct Column {
+    alignas(64) std::array<Index, most> cell, box;
+    Places own;  ///< Those that have this cell, ascending.
+    std::size_t count;
+  };
+  /// Of boxes of at most two by two cells: the first, that beside it, that above it, and that above both.
+  std::array<Column, 4> column;
+  Places large;  ///< Of boxes that meet more cells: they have none of these.
   std::size_t large_count;
 };
 
@@ -54,7 +59,7 @@ class BoxScale {
 
  private:
   Axis rho_, z_;
-  Index columns_, spare_;
+  Index columns_;
 };
 
 /// visit(row, column) for the cells in which a triangle is listed: those that its box meets, of a box of many
