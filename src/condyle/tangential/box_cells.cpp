@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/tangential/places-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
@@ -43,26 +45,6 @@ HWY_INLINE Span span_of(const BoxScale::Axis& axis, const float* low, const floa
   return {first, more, hn::Or(low_byte, only), high_byte};
 }
 
-/// Adds the places of those lanes of which the mask is set, of a vector that begins at place `first`; returns
-/// how many there are then. Without a branch: which they are nobody could foretell.
-HWY_INLINE std::size_t add_places(Chosen mask, std::size_t first, BoxCells::Places& places,
-                                  std::size_t count) {
-  if constexpr (hn::MaxLanes(du) == 16) {
-    // From 0, which is a constant: of other numbers GCC 12 builds the vector lane by lane.
-    const auto all = hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<Index>(first)));
-    hn::StoreU(hn::Compress(all, mask), du, places.data() + count);
-    return count + hn::CountTrue(du, mask);
-  } else {
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(du, mask, bits);
-    for (std::size_t k = 0; k < hn::MaxLanes(du); ++k) {
-      places[count] = static_cast<Index>(first + k);
-      count += bits[0] >> k & 1;
-    }
-    return count;
-  }
-}
-
 void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns, const ProfileBoxes& boxes,
                std::size_t first, std::size_t count, BoxCells& out) {
   const auto one = hn::Set(du, 1);
@@ -83,13 +65,13 @@ void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns
       BoxCells::Column& column = out.column[k];
       hn::Store(cell, du, column.cell.data() + i);
       hn::Store(hn::Or(box_z, hn::ShiftLeft<16>(box_rho)), du, column.box.data() + i);
-      counts[k] = add_places(own, i, column.own, counts[k]);
+      counts[k] += store_places(du, own, i, column.own.data() + counts[k]);
     };
     put(0, is_small, lower, across.box_in_first, up.box_in_first);
     put(1, two_columns, hn::Add(lower, one), across.box_in_last, up.box_in_first);
     put(2, two_rows, upper, across.box_in_first, up.box_in_last);
     put(3, hn::And(two_columns, two_rows), hn::Add(upper, one), across.box_in_last, up.box_in_last);
-    large_count = add_places(is_large, i, out.large, large_count);
+    large_count += store_places(du, is_large, i, out.large.data() + large_count);
   }
   for (std::size_t k = 0; k < counts.size(); ++k) out.column[k].count = counts[k];
   out.large_count = large_count;

@@ -188,7 +188,9 @@ std::span<const Index> RingTable::Chunk::circles_to_survey() {
   for (std::size_t i = 0; i < circles_.size(); ++i) {
     const FreeDirections::Anchor anchor = table_.free_.of(circles_.place[i].cell);
     const bool is_outside = is_anchored(i, anchor) & (anchor.winding <= 0);
-    const bool is_met = (end_[i] != begin_of(i)) | (holding_[i] != no_index);
+    const std::size_t begin = begin_of(i), end = end_[i];
+    const Index holding = holding_[i];
+    const bool is_met = (end != begin) | (holding != no_index);
     to_survey_[count] = static_cast<Index>(i);
     count += is_met | !is_outside;
   }
