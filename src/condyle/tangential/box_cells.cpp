@@ -98,15 +98,6 @@ BoxScale::Axis axis_of(double from, double cells_per_mm, Index cells, double uni
 
 }  // namespace
 
-CellBox BoxSides::in_cell(Index row, Index column) const noexcept {
-  const auto low = [](std::int32_t side, bool here) { return here ? static_cast<CellBox>(side & 0xff) : 0; };
-  const auto high = [](std::int32_t side, bool here) {
-    return here ? static_cast<CellBox>(~side & 0xff) : 0;
-  };
-  return low(z_low, row == first_row()) | high(z_high, row == last_row()) << 8 |
-         low(rho_low, column == first_column()) << 16 | high(rho_high, column == last_column()) << 24;
-}
-
 BoxScale::BoxScale(const ProfileGrid& grid, double units_per_mm) noexcept
     : rho_(axis_of(grid.rho_min, grid.columns_per_mm, grid.columns, units_per_mm)),
       z_(axis_of(grid.z_min, grid.rows_per_mm, grid.rows, units_per_mm)),
@@ -114,15 +105,6 @@ BoxScale::BoxScale(const ProfileGrid& grid, double units_per_mm) noexcept
 
 void BoxScale::cells(const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxCells& out) const {
   HWY_DYNAMIC_DISPATCH(cells_any)(rho_, z_, columns_, boxes, first, count, out);
-}
-
-BoxSides BoxScale::sides(const ProfileBoxes& boxes, std::size_t triangle) const noexcept {
-  const auto side = [](const Axis& axis, float from, float outwards) {
-    const float moved = (from - axis.origin) * axis.per_unit + outwards * axis.slack;
-    return static_cast<std::int32_t>(std::min(std::max(moved, 0.0f), axis.last));
-  };
-  return {side(rho_, boxes.rho_low[triangle], -1), side(rho_, boxes.rho_high[triangle], 1),
-          side(z_, boxes.z_low[triangle], -1), side(z_, boxes.z_high[triangle], 1)};
 }
 
 }  // namespace condyle
