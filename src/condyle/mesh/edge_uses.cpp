@@ -20,33 +20,26 @@ class EdgeSlots {
  public:
   explicit EdgeSlots(std::size_t count) : slot_(count, no_use) {}
 
-  /// Writes what is driven out to `left`, or something else that does not count; returns how many that is.
-  /// Without a branch: what happens nobody could foretell.
-  std::size_t take(EdgeUse use, std::size_t number, EdgeUse* left) noexcept {
+  /// Takes a use; returns what it drives out, or `no_use`. Without a branch, and so that the compiler finds
+  /// none: what happens nobody could foretell.
+  EdgeUse take(EdgeUse use, std::size_t number) noexcept {
     const EdgeUse waited = slot_[number];
-    const bool is_met = (waited ^ use) == 1;
-    slot_[number] = is_met ? no_use : use;
-    *left = waited;
-    return static_cast<std::size_t>((waited != no_use) & !is_met);
+    const EdgeUse unless_met = EdgeUse{(waited ^ use) == 1} - 1;
+    slot_[number] = use & unless_met;
+    return waited & unless_met;
   }
 
-  /// Writes those that still wait to `left`, and one more that does not count; returns how many they are.
-  std::size_t empty_into(EdgeUse* left) const noexcept {
-    std::size_t count = 0;
-    for (const EdgeUse use : slot_) {
-      left[count] = use;
-      count += use != no_use;
-    }
-    return count;
-  }
+  std::span<const EdgeUse> all() const noexcept { return slot_; }
 
  private:
   UninitialisedVector<EdgeUse> slot_;
 };
 
 /// 64 kB: all that most meshes ask for at a time, as their triangles keep together, in the processor's nearer
-/// caches. With a quarter, or four times as many, the four sizes of a hip bone take up to 1.2 times as long.
-constexpr unsigned first_slots_log2 = 13;
+/// caches; less for small ones, where emptying it would take as long as filling it.
+unsigned first_slots_log2(std::size_t triangles) noexcept {
+  return std::clamp(static_cast<unsigned>(std::bit_width(triangles)), 5u, 13u);
+}
 
 }  // namespace
 }  // namespace condyle
@@ -80,7 +73,7 @@ struct UseBatch {
   }
 };
 
-HWY_INLINE void fill(const Triangle* triangles, UseBatch& out) {
+HWY_INLINE void fill(const Triangle* triangles, unsigned slots_log2, UseBatch& out) {
   std::size_t count = 0;
   // The slot by the upper bits of a sum of products with odd numbers (2^32 over the golden ratio, and one of
   // xxHash's primes).
@@ -92,7 +85,7 @@ HWY_INLINE void fill(const Triangle* triangles, UseBatch& out) {
     const auto lower_half = hn::IfThenElseZero(is_edge, hn::Add(hn::Add(high, high), from_high));
     hn::StoreInterleaved2(lower_half, hn::IfThenElseZero(is_edge, low), d, out.half.data() + 2 * count);
     const auto mixed = hn::Add(hn::Mul(low, by_low), hn::Mul(high, by_high));
-    hn::Store(hn::ShiftRight<32 - first_slots_log2>(mixed), d, out.slot.data() + count);
+    hn::Store(hn::ShiftRightSame(mixed, static_cast<int>(32 - slots_log2)), d, out.slot.data() + count);
     count += hn::Lanes(d);
   };
   for (std::size_t i = 0; i < UseBatch::triangles; i += hn::Lanes(d)) {
@@ -102,20 +95,42 @@ HWY_INLINE void fill(const Triangle* triangles, UseBatch& out) {
   }
 }
 
-UninitialisedVector<EdgeUse> first_pass_any(std::span<const Triangle> triangles) {
-  EdgeSlots slots(std::size_t{1} << first_slots_log2);
+/// Writes those that are uses to `to`, one behind the other, and up to a vector more that does not count;
+/// returns how many they are. None goes to where one after it is.
+std::size_t write_uses(std::span<const EdgeUse> uses, EdgeUse* to) {
+  std::size_t count = 0, i = 0;
+  if constexpr (hn::MaxLanes(d) == 16) {
+    // By halves: of vectors of whole ones GCC 12 copies a table to the stack each time.
+    for (; i + 8 <= uses.size(); i += 8) {
+      const auto halves = hn::LoadU(d, reinterpret_cast<const std::uint32_t*>(uses.data() + i));
+      const auto is_use = hn::Ne(hn::Or(halves, hn::Reverse2(d, halves)), hn::Zero(d));
+      hn::StoreU(hn::Compress(halves, is_use), d, reinterpret_cast<std::uint32_t*>(to + count));
+      count += hn::CountTrue(d, is_use) / 2;
+    }
+  }
+  for (; i < uses.size(); ++i) {
+    to[count] = uses[i];
+    count += uses[i] != no_use;
+  }
+  return count;
+}
+
+UninitialisedVector<EdgeUse> first_pass(std::span<const Triangle> triangles) {
+  const unsigned slots_log2 = first_slots_log2(triangles.size());
+  EdgeSlots slots(std::size_t{1} << slots_log2);
   UseBatch batch;
+  std::array<EdgeUse, UseBatch::most> driven_out;
   UninitialisedVector<EdgeUse> left;
   std::size_t count = 0;
-  const auto make_room = [&](std::size_t more) {
-    if (left.size() < count + more) left.resize(2 * count + more);
+  const auto keep = [&](std::span<const EdgeUse> uses) {
+    if (left.size() < count + uses.size()) left.resize(2 * count + uses.size());
+    count += write_uses(uses, left.data() + count);
   };
-  make_room(triangles.size());
   const auto take_batch = [&](const Triangle* some) {
-    fill(some, batch);
-    make_room(UseBatch::most);
-    for (std::size_t i = 0; i < UseBatch::most; ++i)
-      count += slots.take(batch.use(i), batch.slot[i], left.data() + count);
+    fill(some, slots_log2, batch);
+    // In two steps: where the next one is written would else be known too late for what is read meanwhile.
+    for (std::size_t i = 0; i < UseBatch::most; ++i) driven_out[i] = slots.take(batch.use(i), batch.slot[i]);
+    keep(driven_out);
   };
   std::size_t first = 0;
   for (; first + UseBatch::triangles <= triangles.size(); first += UseBatch::triangles)
@@ -124,9 +139,33 @@ UninitialisedVector<EdgeUse> first_pass_any(std::span<const Triangle> triangles)
   std::array<Triangle, UseBatch::triangles> last{};
   std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(first), triangles.end(), last.begin());
   take_batch(last.data());
-  make_room((std::size_t{1} << first_slots_log2) + 1);
-  count += slots.empty_into(left.data() + count);
+  keep(slots.all());
   left.resize(count);
+  return left;
+}
+
+/// Goes through uses once more, with about as many slots as there are uses, told by the upper bits of a
+/// product with `odd`.
+void cancel_again(UninitialisedVector<EdgeUse>& uses, std::uint64_t odd) {
+  const auto slots_log2 = static_cast<unsigned>(std::bit_width(uses.size()));
+  EdgeSlots slots(std::size_t{1} << slots_log2);
+  for (EdgeUse& use : uses) use = slots.take(use, (use >> 1) * odd >> (64 - slots_log2));
+  std::size_t count = write_uses(uses, uses.data());
+  uses.resize(count + slots.all().size());
+  count += write_uses(slots.all(), uses.data() + count);
+  uses.resize(count);
+}
+
+UninitialisedVector<EdgeUse> uncancelled_any(std::span<const Triangle> triangles) {
+  UninitialisedVector<EdgeUse> left = first_pass(triangles);
+  // So few are sorted in no time. Other slots each time: those that drove each other out seldom meet again.
+  constexpr std::size_t few = 8;
+  std::uint64_t odd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
+  for (std::size_t before = 2 * left.size(); left.size() > few && left.size() <= before / 4 * 3;) {
+    before = left.size();
+    cancel_again(left, odd);
+    odd *= 0xd6e8feb86659fd93;  // any odd number with bits of both kinds everywhere
+  }
   return left;
 }
 
@@ -136,40 +175,11 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace condyle {
-namespace {
 
-/// Goes through uses once more, with about as many slots as there are uses, told by the upper bits of a
-/// product with `odd`.
-void cancel_again(UninitialisedVector<EdgeUse>& uses, std::uint64_t odd) {
-  const auto slots_log2 = static_cast<unsigned>(std::bit_width(uses.size()));
-  EdgeSlots slots(std::size_t{1} << slots_log2);
-  // None goes to where one after it is; room for one that does not count.
-  const std::size_t size = uses.size();
-  uses.resize(size + 1);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < size; ++i) {
-    const EdgeUse use = uses[i];
-    count += slots.take(use, (use >> 1) * odd >> (64 - slots_log2), uses.data() + count);
-  }
-  count += slots.empty_into(uses.data() + count);
-  uses.resize(count);
-}
-
-}  // namespace
-
-HWY_EXPORT(first_pass_any);
+HWY_EXPORT(uncancelled_any);
 
 UninitialisedVector<EdgeUse> uncancelled_edge_uses(std::span<const Triangle> triangles) {
-  UninitialisedVector<EdgeUse> left = HWY_DYNAMIC_DISPATCH(first_pass_any)(triangles);
-  // So few are sorted in less time. Other slots each time: those that drove each other out seldom meet again.
-  constexpr std::size_t few = 64;
-  std::uint64_t odd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
-  for (std::size_t before = 2 * left.size(); left.size() > few && left.size() <= before / 4 * 3;) {
-    before = left.size();
-    cancel_again(left, odd);
-    odd *= 0xd6e8feb86659fd93;  // any odd number with bits of both kinds everywhere
-  }
-  return left;
+  return HWY_DYNAMIC_DISPATCH(uncancelled_any)(triangles);
 }
 
 }  // namespace condyle
