@@ -23,7 +23,7 @@ class SpareBlocks {
   /// Keeps the block; releases it, or others, where that would be more than the bound.
   void keep(void* memory, std::size_t bytes) noexcept;
 
-  static constexpr std::size_t most_blocks = 64;
+  static constexpr std::size_t most_blocks = 256;
 
  private:
   struct Block {

@@ -22,7 +22,7 @@ constexpr std::size_t large_page = std::size_t{2} << 20;
 constexpr std::size_t small_alignment = 64;
 
 /// Blocks from here on are kept when they are freed. Smaller ones are a matter of the allocator.
-constexpr std::size_t least_kept = std::size_t{64} << 10;
+constexpr std::size_t least_kept = std::size_t{16} << 10;
 
 /// As much as GNU's allocator keeps by itself at most: room for the ring and the radial table of 156,288
 /// triangles.
