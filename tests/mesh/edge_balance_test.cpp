@@ -97,6 +97,41 @@ TEST_P(EdgeBalanceOn, OneTriangleTooFewOrTwiceOrTurnedIsFoundAmongMany) {
   }
 }
 
+TEST_P(EdgeBalanceOn, OfManyTrianglesInAnyOrderTheOneThatIsMissingIsFound) {
+  // Far more edges than wait at a time.
+  const TriMesh torus = test::torus(2, 1, 200, 150);
+  for (const TriMesh& closed : {torus, shuffled(torus, 4), shuffled(test::joined(torus, torus), 5)}) {
+    EXPECT_FALSE(unbalanced_edge(closed));
+    TriMesh mesh = closed;
+    const Triangle gone = mesh.triangles.back();
+    mesh.triangles.pop_back();
+    const auto edge = unbalanced_edge(mesh);
+    ASSERT_TRUE(edge);
+    int sides = 0;
+    for (int k = 0; k < 3; ++k) sides += gone[k] == edge->second && gone[(k + 1) % 3] == edge->first;
+    EXPECT_EQ(sides, 1);
+  }
+}
+
+TEST_P(EdgeBalanceOn, SheetsUsedSeveralTimesCancelAsOftenAsTheyAreUsed) {
+  TriMesh mesh = test::torus(2, 1, 60, 50);
+  const std::vector<Triangle> once = mesh.triangles;
+  for (int copy = 0; copy < 4; ++copy) mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
+  mesh = shuffled(mesh, 6);
+  EXPECT_FALSE(unbalanced_edge(mesh));
+  mesh.triangles.pop_back();
+  EXPECT_TRUE(unbalanced_edge(mesh));
+}
+
+TEST_P(EdgeBalanceOn, EverySizeOfMeshIsGoneThroughToItsLastTriangle) {
+  for (int around = 3; around < 140; ++around) {
+    TriMesh mesh = double_cone(static_cast<Index>(around));
+    EXPECT_FALSE(unbalanced_edge(mesh)) << around;
+    mesh.triangles.pop_back();
+    EXPECT_TRUE(unbalanced_edge(mesh)) << around;
+  }
+}
+
 TEST_P(EdgeBalanceOn, TrianglesThatAreAnEdgeOrAPointChangeNothing) {
   TriMesh mesh = test::torus(2, 1, 24, 16);
   for (Index v = 0; v < 60; ++v) {

@@ -108,6 +108,30 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
   EXPECT_GT(asked, 2000u);
 }
 
+TEST(ProfileBoxes, TrianglesNotAcrossSectorsHaveAllCornersInOneTheSameOnEveryInstructionSet) {
+  std::mt19937 random(9);
+  std::size_t within = 0, across = 0;
+  for (const double shift : {0.0, 3.0}) {
+    const TriMesh mesh = test::triangles_of_all_sizes(random, shift, 1);
+    const Listed best = listed(mesh, 20);
+    std::set<Index> listed_across(best.boxes.across_sectors.begin(), best.boxes.across_sectors.end());
+    ASSERT_EQ(listed_across.size(), best.boxes.across_sectors.size());
+    for (Index t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const auto& sector = best.vertices.sector;
+      const bool in_one = (sector[a] & sector[b] & sector[c]) != 0;
+      EXPECT_TRUE(in_one || listed_across.contains(t));
+      within += !listed_across.contains(t), across += !in_one;
+    }
+    for (const InstructionSet& set : instruction_sets()) {
+      const InstructionSetInUse in_use(set);
+      EXPECT_EQ(listed(mesh, 20).boxes.across_sectors, best.boxes.across_sectors) << set.name;
+    }
+  }
+  EXPECT_GT(within, 200u);
+  EXPECT_GT(across, 100u);
+}
+
 TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
   std::mt19937 random(8);
   const TriMesh mesh = test::triangles_of_all_sizes(random, 2, 1);

@@ -1,8 +1,9 @@
 #include "condyle/mesh/edge_balance.hpp"
 
 #include <algorithm>
-#include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "condyle/core/error.hpp"
 #include "condyle/mesh/edge_uses.hpp"
@@ -10,7 +11,8 @@
 namespace condyle {
 namespace {
 
-struct EdgeUse {
+/// An edge's use by a triangle, to name the one at fault.
+struct TriangleEdge {
   std::uint64_t edge;  // smaller vertex in the upper half, larger in the lower
   Index triangle;
   int direction;  // +1 from the smaller to the larger vertex
@@ -21,31 +23,24 @@ struct EdgeUse {
 
 /// Whether the uses of each edge, the same number but for its last bit, are as many in one direction as in
 /// the other.
-bool cancel(std::vector<std::uint64_t> uses) {
+bool cancel(UninitialisedVector<EdgeUse> uses) {
   std::sort(uses.begin(), uses.end());
   for (auto at = uses.begin(); at != uses.end();) {
     int balance = 0;
-    const std::uint64_t edge = *at >> 1;
+    const EdgeUse edge = *at >> 1;
     for (; at != uses.end() && *at >> 1 == edge; ++at) balance += (*at & 1) == 0 ? 1 : -1;
     if (balance != 0) return false;
   }
   return true;
 }
 
-/// Whether every edge is used as often in one direction as in the other: uses cancel in pairs as they come,
-/// and what is left over, if anything, is sorted. Linear for a closed mesh.
-bool edges_balance(const TriMesh& mesh) {
-  std::vector<std::uint64_t> left_over;
-  cancel_edge_uses(mesh.triangles, mesh.vertices.size(), left_over);
-  return cancel(std::move(left_over));
-}
-
 }  // namespace
 
 std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
   // A use is a number of 32 bits with one to spare.
-  if (mesh.vertices.size() < std::size_t{1} << 31 && edges_balance(mesh)) return std::nullopt;
-  std::vector<EdgeUse> uses;
+  if (mesh.vertices.size() < std::size_t{1} << 31 && cancel(uncancelled_edge_uses(mesh.triangles)))
+    return std::nullopt;
+  std::vector<TriangleEdge> uses;
   uses.reserve(3 * mesh.triangles.size());
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -55,10 +50,10 @@ std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
       uses.push_back({std::uint64_t{low} << 32 | high, t, a < b ? 1 : -1});
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
+  std::sort(uses.begin(), uses.end(), [](const TriangleEdge& a, const TriangleEdge& b) {
     return a.edge != b.edge ? a.edge < b.edge : a.triangle < b.triangle;
   });
-  const EdgeUse* first = nullptr;
+  const TriangleEdge* first = nullptr;
   int first_balance = 0;
   for (auto at = uses.begin(); at != uses.end();) {
     int balance = 0;

@@ -12,7 +12,7 @@ namespace condyle {
 /// cross it as often inwards as outwards. This asks less than being a closed manifold, and exactly as much as
 /// a winding number needs.
 ///
-/// Linear in the number of triangles for a closed mesh of ordinary vertices; n log n otherwise.
+/// Linear in the number of triangles for a closed mesh; n log n otherwise.
 std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh);
 
 /// Raises MeshError naming that edge: without an inside there is no winding number; what can still be

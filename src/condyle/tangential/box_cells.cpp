@@ -7,6 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/tangential/places-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
@@ -43,10 +45,11 @@ HWY_INLINE Span span_of(const BoxScale::Axis& axis, const float* low, const floa
   return {first, more, hn::Or(low_byte, only), high_byte};
 }
 
-void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns, Index spare,
-               const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxCells& out) {
+void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns, const ProfileBoxes& boxes,
+               std::size_t first, std::size_t count, BoxCells& out) {
   const auto one = hn::Set(du, 1);
-  out.large_count = 0;
+  std::array<std::size_t, 4> counts{};
+  std::size_t large_count = 0;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t at = first + i;
     const Span across = span_of(rho, boxes.rho_low.data() + at, boxes.rho_high.data() + at);
@@ -59,19 +62,19 @@ void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns
     const auto lower = hn::Add(hn::Mul(up.first, hn::Set(du, columns)), across.first);
     const auto upper = hn::Add(lower, hn::Set(du, columns));
     const auto put = [&](std::size_t k, Chosen own, Words cell, Words box_rho, Words box_z) {
-      const auto number = hn::IfThenElse(own, cell, hn::Set(du, spare + static_cast<Index>(k)));
-      hn::Store(number, du, out.cell[k].data() + i);
-      hn::Store(hn::Or(box_z, hn::ShiftLeft<16>(box_rho)), du, out.box[k].data() + i);
+      BoxCells::Column& column = out.column[k];
+      hn::Store(cell, du, column.cell.data() + i);
+      hn::Store(hn::Or(box_z, hn::ShiftLeft<16>(box_rho)), du, column.box.data() + i);
+      counts[k] += store_places(du, own, i, column.own.data() + counts[k]);
     };
     put(0, is_small, lower, across.box_in_first, up.box_in_first);
     put(1, two_columns, hn::Add(lower, one), across.box_in_last, up.box_in_first);
     put(2, two_rows, upper, across.box_in_first, up.box_in_last);
     put(3, hn::And(two_columns, two_rows), hn::Add(upper, one), across.box_in_last, up.box_in_last);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(du, is_large, bits);
-    for (unsigned left = bits[0] | unsigned{bits[1]} << 8; left != 0; left &= left - 1)
-      out.large[out.large_count++] = static_cast<Index>(i + hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+    large_count += store_places(du, is_large, i, out.large.data() + large_count);
   }
+  for (std::size_t k = 0; k < counts.size(); ++k) out.column[k].count = counts[k];
+  out.large_count = large_count;
 }
 
 }  // namespace
@@ -95,32 +98,13 @@ BoxScale::Axis axis_of(double from, double cells_per_mm, Index cells, double uni
 
 }  // namespace
 
-CellBox BoxSides::in_cell(Index row, Index column) const noexcept {
-  const auto low = [](std::int32_t side, bool here) { return here ? static_cast<CellBox>(side & 0xff) : 0; };
-  const auto high = [](std::int32_t side, bool here) {
-    return here ? static_cast<CellBox>(~side & 0xff) : 0;
-  };
-  return low(z_low, row == first_row()) | high(z_high, row == last_row()) << 8 |
-         low(rho_low, column == first_column()) << 16 | high(rho_high, column == last_column()) << 24;
-}
-
 BoxScale::BoxScale(const ProfileGrid& grid, double units_per_mm) noexcept
     : rho_(axis_of(grid.rho_min, grid.columns_per_mm, grid.columns, units_per_mm)),
       z_(axis_of(grid.z_min, grid.rows_per_mm, grid.rows, units_per_mm)),
-      columns_(grid.columns),
-      spare_(static_cast<Index>(grid.cells())) {}
+      columns_(grid.columns) {}
 
 void BoxScale::cells(const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxCells& out) const {
-  HWY_DYNAMIC_DISPATCH(cells_any)(rho_, z_, columns_, spare_, boxes, first, count, out);
-}
-
-BoxSides BoxScale::sides(const ProfileBoxes& boxes, std::size_t triangle) const noexcept {
-  const auto side = [](const Axis& axis, float from, float outwards) {
-    const float moved = (from - axis.origin) * axis.per_unit + outwards * axis.slack;
-    return static_cast<std::int32_t>(std::min(std::max(moved, 0.0f), axis.last));
-  };
-  return {side(rho_, boxes.rho_low[triangle], -1), side(rho_, boxes.rho_high[triangle], 1),
-          side(z_, boxes.z_low[triangle], -1), side(z_, boxes.z_high[triangle], 1)};
+  HWY_DYNAMIC_DISPATCH(cells_any)(rho_, z_, columns_, boxes, first, count, out);
 }
 
 }  // namespace condyle

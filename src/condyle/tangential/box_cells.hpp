@@ -22,20 +22,34 @@ struct BoxSides {
   Index last_row() const noexcept { return static_cast<Index>(z_high) >> 8; }
 
   /// The part of the box within a cell that it meets.
-  CellBox in_cell(Index row, Index column) const noexcept;
+  CellBox in_cell(Index row, Index column) const noexcept {
+    const auto low = [](std::int32_t side, bool here) {
+      return here ? static_cast<CellBox>(side & 0xff) : 0;
+    };
+    const auto high = [](std::int32_t side, bool here) {
+      return here ? static_cast<CellBox>(~side & 0xff) : 0;
+    };
+    return low(z_low, row == first_row()) | high(z_high, row == last_row()) << 8 |
+           low(rho_low, column == first_column()) << 16 | high(rho_high, column == last_column()) << 24;
+  }
 };
 
 /// Some triangles and the cells that their boxes meet.
 struct BoxCells {
   static constexpr std::size_t most = 256;
-  using Column = std::array<Index, most>;
+  /// Vectors are stored whole.
+  static constexpr std::size_t room = most + 16;
+  using Places = std::array<Index, room>;
 
-  /// Of boxes of at most two by two cells those cells, in four columns of which each may hold a spare one:
-  /// cell `spare` + k of column k. And the box within each.
-  alignas(64) std::array<Column, 4> cell;
-  alignas(64) std::array<Column, 4> box;
-  /// Places in the batch of boxes that meet more cells; they have spare ones only.
-  std::array<Index, most> large;
+  /// For each place in the batch a cell, and the box within it.
+  struct Column {
+    alignas(64) std::array<Index, most> cell, box;
+    Places own;  ///< Those that have this cell, ascending.
+    std::size_t count;
+  };
+  /// Of boxes of at most two by two cells: the first, that beside it, that above it, and that above both.
+  std::array<Column, 4> column;
+  Places large;  ///< Of boxes that meet more cells: they have none of these.
   std::size_t large_count;
 };
 
@@ -46,15 +60,23 @@ class BoxScale {
 
   /// Cells of the boxes [first, first + count), count at most a batch.
   void cells(const ProfileBoxes& boxes, std::size_t first, std::size_t count, BoxCells& out) const;
-  BoxSides sides(const ProfileBoxes& boxes, std::size_t triangle) const noexcept;
 
   struct Axis {
     float origin, per_unit, slack, last;
   };
 
+  BoxSides sides(const ProfileBoxes& boxes, std::size_t triangle) const noexcept {
+    const auto side = [](const Axis& axis, float from, float outwards) {
+      const float moved = (from - axis.origin) * axis.per_unit + outwards * axis.slack;
+      return static_cast<std::int32_t>(std::min(std::max(moved, 0.0f), axis.last));
+    };
+    return {side(rho_, boxes.rho_low[triangle], -1), side(rho_, boxes.rho_high[triangle], 1),
+            side(z_, boxes.z_low[triangle], -1), side(z_, boxes.z_high[triangle], 1)};
+  }
+
  private:
   Axis rho_, z_;
-  Index columns_, spare_;
+  Index columns_;
 };
 
 /// visit(row, column) for the cells in which a triangle is listed: those that its box meets, of a box of many

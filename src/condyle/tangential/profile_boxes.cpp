@@ -15,6 +15,9 @@ namespace {
 /// Eighths of a turn by the signs of x (1) and y (2) and which of them is larger (4: y).
 struct Sectors {
   static constexpr int none = 8;
+  /// In radii, least distance of a vertex in a sector from its borders. Along diagonals the distance is the
+  /// square root of 2 too large; 3/2 covers that and all rounding.
+  static constexpr float apart = static_cast<float>(1.5 * FreeDirections::clearance);
   /// A bit each, counter-clockwise from +x; none for `none`.
   static constexpr std::array<std::uint8_t, 9> bit = {1 << 0, 1 << 3, 1 << 7, 1 << 4, 1 << 1,
                                                       1 << 2, 1 << 6, 1 << 5, 0};
@@ -28,6 +31,8 @@ struct Sectors {
 #define HWY_TARGET_INCLUDE "condyle/tangential/profile_boxes.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "condyle/tangential/places-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
@@ -61,9 +66,7 @@ HWY_INLINE void place_some(D d, const PointsView& vertices, const AxisFrame& fra
   const auto rho = rounded(hn::Sqrt(hn::Add(hn::Mul(x, x), hn::Mul(y, y))));
   hn::StoreInterleaved4(fx, fy, rho, fz, df, &out.rounded[first].x);
 
-  // Along diagonals the distance from the line is the square root of 2 too large; 3/2 covers that and all
-  // rounding.
-  const auto apart = hn::Mul(rho, hn::Set(df, static_cast<float>(1.5 * FreeDirections::clearance)));
+  const auto apart = hn::Mul(rho, hn::Set(df, Sectors::apart));
   const auto ax = hn::Abs(fx), ay = hn::Abs(fy);
   const auto near = hn::Or(hn::Le(hn::Min(ax, ay), apart), hn::Le(hn::Abs(hn::Sub(ax, ay)), apart));
   const hn::RebindToSigned<decltype(df)> di;
@@ -100,6 +103,7 @@ void place_any(const PointsView& vertices, const AxisFrame& frame, AxisVertices&
 using D = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<D>;
 constexpr D d;
+constexpr hn::RebindToUnsigned<D> du;
 constexpr std::size_t most_lanes = hn::MaxLanes(d);
 
 /// Least and greatest of the corners of as many triangles as a vector has lanes, value by value.
@@ -126,6 +130,16 @@ HWY_INLINE Extents extents_of(const ProfileVertex* vertices, const Triangle* tri
   return out;
 }
 
+/// Extents that lie within one sector, apart from its borders: each corner then does, by the same floats.
+HWY_INLINE hn::Mask<D> within_sector(const Extents& e) {
+  const auto apart = hn::Mul(e.rho_high, hn::Set(d, Sectors::apart));
+  // The least and the greatest |x| where x keeps its sign; the least is negative where it does not.
+  const auto least_x = hn::Max(e.x_low, hn::Neg(e.x_high)), least_y = hn::Max(e.y_low, hn::Neg(e.y_high));
+  const auto most_x = hn::Max(hn::Neg(e.x_low), e.x_high), most_y = hn::Max(hn::Neg(e.y_low), e.y_high);
+  const auto off_diagonal = hn::Max(hn::Sub(least_x, most_y), hn::Sub(least_y, most_x));
+  return hn::Gt(hn::Min(hn::Min(least_x, least_y), off_diagonal), apart);
+}
+
 /// Squares of radii fall short of the nearest corner's by L^2 / 3 at most, L being the longest edge seen
 /// along the axis: the nearest point is a corner, or the foot on an edge whose nearer end is at most L / 2
 /// away, or the axis itself, at most L / sqrt(3) from the nearest corner.
@@ -139,6 +153,7 @@ void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
   auto rho_min = infinity, rho_max = hn::Zero(d), z_min = infinity, z_max = hn::Neg(infinity),
        scale = hn::Zero(d);
+  std::size_t across_count = 0;
   const auto store = [&](Floats values, UninitialisedVector<float>& to, std::size_t first) {
     hn::StoreU(values, d, to.data() + first);
   };
@@ -164,7 +179,11 @@ void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle
       return hn::Add(hn::Max(hn::Abs(low), hn::Abs(high)), error);
     };
     scale = hn::Max(scale, hn::Max(reach(e.x_low, e.x_high), reach(e.y_low, e.y_high)));
+    const auto across = hn::AndNot(within_sector(e), hn::FirstN(d, count));
+    across_count +=
+        store_places(du, hn::RebindMask(du, across), first, out.across_sectors.data() + across_count);
   }
+  out.across_sectors.resize(across_count);
   out.rho_min = hn::GetLane(hn::MinOfLanes(d, rho_min)),
   out.rho_max = hn::GetLane(hn::MaxOfLanes(d, rho_max));
   out.z_min = hn::GetLane(hn::MinOfLanes(d, z_min)), out.z_max = hn::GetLane(hn::MaxOfLanes(d, z_max));
@@ -200,6 +219,8 @@ ProfileBoxes profile_boxes(std::span<const ProfileVertex> vertices, std::span<co
   ProfileBoxes out;
   for (auto* side : {&out.rho_low, &out.rho_high, &out.z_low, &out.z_high})
     side->resize((triangles.size() + 15) / 16 * 16);
+  // A vector is written whole.
+  out.across_sectors.resize(triangles.size() + 16);
   HWY_DYNAMIC_DISPATCH(boxes_any)(vertices, triangles, out);
   return out;
 }

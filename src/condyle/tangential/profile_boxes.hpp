@@ -47,6 +47,9 @@ struct ProfileBoxes {
   float rho_min, rho_max, z_min, z_max;
   /// At least every |x| and |y| of the triangles, in units.
   float scale;
+  /// Triangles that may have corners in several sectors or in none, ascending: where what a triangle takes in
+  /// x and y is well within one sector, its corners are.
+  UninitialisedVector<Index> across_sectors;
 };
 
 ProfileBoxes profile_boxes(std::span<const ProfileVertex> vertices, std::span<const Triangle> triangles);

@@ -84,8 +84,8 @@ HWY_EXPORT(find_any);
 
 namespace {
 
-/// Room beyond the last entry, for a vector that starts on it, and for the spare entries of a batch.
-constexpr std::size_t room = BoxCells::most;
+/// Room beyond the last entry, for a vector that starts on it.
+constexpr std::size_t room = 16;
 
 /// Puts triangles into the cells of their boxes: first to count them, then to list them.
 class Listing {
@@ -98,29 +98,22 @@ class Listing {
         boxes_(boxes),
         scale_(grid, vertices.units_per_mm) {}
 
-  /// Numbers beyond the cells, which stand for a cell that a triangle does not have.
-  static constexpr std::size_t spare = 4;
-
-  /// Adds to the count of each cell how many triangles it lists; those of the spare ones mean nothing.
+  /// Adds to the count of each cell how many triangles it lists.
   void count(Index* counts) const {
-    for_each_batch([&](const BoxCells& batch, std::size_t first, std::size_t size) {
-      // Without a branch: nobody could foretell how many cells a triangle meets.
-      for (std::size_t i = 0; i < size; ++i) {
-        for (const BoxCells::Column& cell : batch.cell) ++counts[cell[i]];
+    for_each_batch([&](const BoxCells& batch, std::size_t first) {
+      for (const BoxCells::Column& column : batch.column) {
+        for (const Index place : std::span(column.own).first(column.count)) ++counts[column.cell[place]];
       }
       for_each_of_large(batch, first, [&](std::size_t cell, CellBox, Index) { ++counts[cell]; });
     });
   }
 
-  /// Lists each triangle; `next` has for each cell where its next entry goes. Spare cells have room for a
-  /// batch from `end` on.
-  void list(Index* next, RingEntry* entries, Index end) const {
-    for_each_batch([&](const BoxCells& batch, std::size_t first, std::size_t size) {
-      std::fill_n(next + grid_.cells(), spare, end);
-      for (std::size_t i = 0; i < size; ++i) {
-        for (std::size_t k = 0; k < 4; ++k) {
-          entries[next[batch.cell[k][i]]++] = {static_cast<Index>(first + i), batch.box[k][i]};
-        }
+  /// Lists each triangle; `next` has for each cell where its next entry goes.
+  void list(Index* next, RingEntry* entries) const {
+    for_each_batch([&](const BoxCells& batch, std::size_t first) {
+      for (const BoxCells::Column& column : batch.column) {
+        for (const Index place : std::span(column.own).first(column.count))
+          entries[next[column.cell[place]]++] = {static_cast<Index>(first + place), column.box[place]};
       }
       for_each_of_large(batch, first, [&](std::size_t cell, CellBox part, Index t) {
         entries[next[cell]++] = {t, part};
@@ -133,9 +126,8 @@ class Listing {
   void for_each_batch(const Visit& visit) const {
     BoxCells batch;
     for (std::size_t first = 0; first < triangles_.size(); first += batch.most) {
-      const std::size_t size = std::min(batch.most, triangles_.size() - first);
-      scale_.cells(boxes_, first, size, batch);
-      visit(batch, first, size);
+      scale_.cells(boxes_, first, std::min(batch.most, triangles_.size() - first), batch);
+      visit(batch, first);
     }
   }
 
@@ -168,7 +160,7 @@ RingLists::RingLists(const AxisVertices& vertices, std::span<const Triangle> tri
     grid_ = ProfileGrid::over({boxes.rho_min * mm, boxes.rho_max * mm, boxes.z_min * mm, boxes.z_max * mm},
                               cells);
   }
-  offset_.resize(grid_.cells() + 1 + Listing::spare);
+  offset_.resize(grid_.cells() + 1);
   std::fill(offset_.begin(), offset_.end(), 0);
   const Listing listing(grid_, vertices, triangles, boxes);
   // While triangles are listed, each cell's offset stands one to the right, and moves to its end.
@@ -180,8 +172,7 @@ RingLists::RingLists(const AxisVertices& vertices, std::span<const Triangle> tri
     sum += std::exchange(next[cell], sum);
   }
   entry_.resize(sum + room);
-  listing.list(next, entry_.data(), sum);
-  offset_.resize(grid_.cells() + 1);
+  listing.list(next, entry_.data());
 }
 
 std::size_t RingLists::find(std::span<const CirclePlace> circles, std::size_t first,

@@ -80,6 +80,9 @@ class RingTable::Chunk {
     std::span<const CircleCrossing> crossings;
   };
   Survey survey(std::size_t circle);
+  /// Circles that may have arcs, ascending: all but those that cross no surface and are known to be outside,
+  /// which are most. Told without a branch, for nobody could foretell which they are.
+  std::span<const Index> circles_to_survey();
   /// Of one circle, in order.
   std::span<const CircleCrossing> crossings_of(std::size_t circle);
 
@@ -93,6 +96,13 @@ class RingTable::Chunk {
   void take_verdicts();
   void decide_exactly(std::size_t circle, Index triangle);
   int winding_ahead_of(std::size_t circle, bool on_surface, std::span<const CircleCrossing> crossings);
+  std::size_t begin_of(std::size_t circle) const noexcept { return circle == 0 ? 0 : end_[circle - 1]; }
+  /// Whether the free direction of its cell tells the winding number of a point that is not on the surface.
+  bool is_anchored(std::size_t circle, FreeDirections::Anchor anchor) const noexcept {
+    const double least_radius = least_anchored_radius * table_.scale_;
+    const bool is_far = circles_.point[circle].squared_radius >= least_radius * least_radius;
+    return (anchor.direction != FreeDirections::none) & is_far;
+  }
 
   const RingTable& table_;
   PlacedCircles circles_;
@@ -103,6 +113,7 @@ class RingTable::Chunk {
   std::size_t crossings_ = 0;
   std::array<std::size_t, points_per_chunk> end_;
   std::array<Index, points_per_chunk> holding_;  ///< The first triangle that holds the point.
+  std::array<Index, points_per_chunk> to_survey_;
   std::vector<CircleCrossing> exact_;
   TangentialWork work_;
 };
@@ -164,12 +175,26 @@ void RingTable::Chunk::decide_exactly(std::size_t circle, Index triangle) {
 }
 
 std::span<const CircleCrossing> RingTable::Chunk::crossings_of(std::size_t circle) {
-  const std::size_t begin = circle == 0 ? 0 : end_[circle - 1];
+  const std::size_t begin = begin_of(circle);
   const std::span<CircleCrossing> crossings(crossing_.data() + begin, end_[circle] - begin);
   sort_few(crossings);
   assert(std::accumulate(crossings.begin(), crossings.end(), 0,
                          [](int sum, const auto& c) { return sum + static_cast<int>(c.passage); }) == 0);
   return crossings;
+}
+
+std::span<const Index> RingTable::Chunk::circles_to_survey() {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < circles_.size(); ++i) {
+    const FreeDirections::Anchor anchor = table_.free_.of(circles_.place[i].cell);
+    const bool is_outside = is_anchored(i, anchor) & (anchor.winding <= 0);
+    const std::size_t begin = begin_of(i), end = end_[i];
+    const Index holding = holding_[i];
+    const bool is_met = (end != begin) | (holding != no_index);
+    to_survey_[count] = static_cast<Index>(i);
+    count += is_met | !is_outside;
+  }
+  return std::span(to_survey_).first(count);
 }
 
 RingTable::Chunk::Survey RingTable::Chunk::survey(std::size_t circle) {
@@ -187,10 +212,9 @@ RingTable::Chunk::Survey RingTable::Chunk::survey(std::size_t circle) {
 int RingTable::Chunk::winding_ahead_of(std::size_t circle, bool on_surface,
                                        std::span<const CircleCrossing> crossings) {
   const TurningPoint& point = circles_.point[circle];
-  const auto [direction, winding] = table_.free_.of(circles_.place[circle].cell);
-  const double least_radius = least_anchored_radius * table_.scale_;
-  if (!on_surface && direction != FreeDirections::none && point.squared_radius >= least_radius * least_radius)
-    return winding_from(direction, winding, point, crossings);
+  const FreeDirections::Anchor anchor = table_.free_.of(circles_.place[circle].cell);
+  if (!on_surface && is_anchored(circle, anchor))
+    return winding_from(anchor.direction, anchor.winding, point, crossings);
   if (point.x == 0 && point.y == 0) return on_surface ? 0 : table_.winding_on_axis(point.at());
   return table_.winding_outwards(table_.circle_of(point.at()), circles_.place[circle], work_);
 }
@@ -282,31 +306,28 @@ OccupiedArcs RingTable::occupied_arcs(PointsView points) const {
   // Chunks of a fixed size, joined in their order: the same bytes for any number of threads.
   const std::size_t chunks = (points.size() + points_per_chunk - 1) / points_per_chunk;
   std::vector<std::vector<OccupiedArc>> arcs(chunks);
+  // For now the number of arcs of each point, one to the right.
   std::vector<std::size_t> offset(points.size() + 1, 0);
+  std::size_t* const count = offset.data() + 1;
   parallel_chunks(chunks, 1, [&](std::size_t first, std::size_t last) {
     Chunk chunk(*this);
     for (std::size_t c = first; c < last; ++c) {
       const std::size_t begin = c * points_per_chunk, end = std::min(points.size(), begin + points_per_chunk);
       chunk.cross(points.subspan(begin, end - begin));
       arcs[c].reserve(chunk.most_arcs());
-      std::size_t* next = offset.data() + begin + 1;
-      for (std::size_t circle = 0; circle < chunk.circles().size(); ++circle) {
-        std::size_t* const at = offset.data() + begin + 1 + chunk.circles().number[circle];
-        next = std::fill_n(next, at - next, arcs[c].size());
+      for (const Index circle : chunk.circles_to_survey()) {
+        const std::size_t before = arcs[c].size();
         const auto survey = chunk.survey(circle);
         append_arcs(survey.winding, survey.crossings, arcs[c]);
+        count[begin + chunk.circles().number[circle]] = arcs[c].size() - before;
       }
-      std::fill(next, offset.data() + end + 1, arcs[c].size());
     }
   });
   std::vector<OccupiedArc> all;
   all.reserve(std::accumulate(arcs.begin(), arcs.end(), std::size_t{0},
                               [](std::size_t sum, const auto& some) { return sum + some.size(); }));
-  for (std::size_t c = 0; c < chunks; ++c) {
-    const std::size_t end = std::min(points.size(), (c + 1) * points_per_chunk);
-    for (std::size_t i = c * points_per_chunk; i < end; ++i) offset[i + 1] += all.size();
-    all.insert(all.end(), arcs[c].begin(), arcs[c].end());
-  }
+  for (const auto& some : arcs) all.insert(all.end(), some.begin(), some.end());
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
   return {std::move(offset), std::move(all)};
 }
 

@@ -50,20 +50,14 @@ RingTable::RingTable(const ClosedMesh& closed, const AxisFrame& frame, RingTable
 /// Triangles with all corners in one sector are near no direction; few others are left.
 FreeDirections RingTable::free_directions_of(const AxisVertices& vertices, const ProfileBoxes& boxes) const {
   const auto& sector = vertices.sector;
-  UninitialisedVector<Index> across;
-  across.resize(triangles_.size());
-  std::size_t count = 0;
-  for (Index t = 0; t < triangles_.size(); ++t) {
-    const auto& [a, b, c] = triangles_[t];
-    // Without a branch, which nobody could foretell.
-    across[count] = t;
-    count += (sector[a] & sector[b] & sector[c]) == 0;
-  }
   const BoxScale scale(grid(), vertices.units_per_mm);
   std::vector<FreeDirections::Directions> taken(grid().cells(), 0);
   std::array<std::vector<Index>, FreeDirections::count> near;
-  for (const Index t : std::span(across).first(count)) {
+  std::size_t count = 0;
+  for (const Index t : boxes.across_sectors) {
     const auto& [a, b, c] = triangles_[t];
+    if ((sector[a] & sector[b] & sector[c]) != 0) continue;
+    ++count;
     const bool clear = sector[a] != 0 && sector[b] != 0 && sector[c] != 0;
     const auto between = clear ? FreeDirections::between(sector[a] | sector[b] | sector[c]) : std::nullopt;
     const auto directions =
