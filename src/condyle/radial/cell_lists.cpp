@@ -22,8 +22,8 @@ std::size_t CellLists::entry_count() const noexcept {
 
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
-         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) + nearest.size() +
-         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3) + face.size() +
+         (box.size() + slant.size() + row_end.size() + entry_radii.size()) * sizeof(std::uint32_t) +
+         nearest.size() + forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3) + face.size() +
          room.size() * sizeof(FaceRoom);
 }
 
@@ -32,6 +32,7 @@ void CellLists::resize_entries(std::size_t count) {
   box.resize(count + entries_beyond);
   slant.resize(count + entries_beyond);
   nearest.resize(count + entries_beyond);
+  if (!entry_radii.empty()) entry_radii.resize(count + entries_beyond);
   for (std::size_t i = count; i < count + entries_beyond; ++i) set_entry(i, 0, {0, 0});
 }
 
@@ -63,13 +64,19 @@ void CellLists::split_rows() {
   }
 }
 
+void CellLists::move_entry(std::size_t from, std::size_t to) noexcept {
+  set_entry(to, triangle[from], {box[from], slant[from]});
+  nearest[to] = nearest[from];
+  if (!entry_radii.empty()) entry_radii[to] = entry_radii[from];
+}
+
 void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
   CellRow& at = row[cell];
   std::uint32_t i = at.first;
   while (i < at.last && triangle[i] != triangle_listed) ++i;
   assert(i < at.last);
   at = {at.first, at.last - 1};
-  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]});
+  move_entry(at.last, i);
 }
 
 void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon) {
@@ -85,9 +92,7 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
     const auto first = static_cast<std::uint32_t>(triangle.size() - entries_beyond);
     const std::uint32_t length = at.last - at.first, capacity = 2 * length + 4;
     resize_entries(first + capacity);
-    for (std::uint32_t i = 0; i < length; ++i) {
-      set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
-    }
+    for (std::uint32_t i = 0; i < length; ++i) move_entry(at.first + i, first + i);
     for (std::uint32_t i = length; i < capacity; ++i) set_entry(first + i, 0, {0, 0});
     at = {first, first + length};
     row_end[cell] = first + capacity;

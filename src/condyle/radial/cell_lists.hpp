@@ -26,6 +26,8 @@ struct CellLists {
   UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
   UninitialisedVector<std::uint8_t>
       nearest;  ///< upper half of the code of its triangle's least squared radius
+  UninitialisedVector<RadiusWord>
+      entry_radii;  ///< of each entry's triangle in its cell; kept once single triangles have changed
   UninitialisedVector<ConeForms> forms;
   UninitialisedVector<TrianglePlane>
       plane;                           ///< of each triangle, from when it is measured until radii are found
@@ -56,6 +58,7 @@ struct CellLists {
     box[at] = octagon.box;
     slant[at] = octagon.slant;
   }
+  void move_entry(std::size_t from, std::size_t to) noexcept;
   /// Sorts long rows by halves of their cells. Linear in their entries.
   void split_rows();
   /// Changes to single rows, which are whole then; linear in the row. The entry to remove is there, the one

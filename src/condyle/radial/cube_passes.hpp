@@ -88,11 +88,34 @@ struct ListedRadii {
   RadiusScale scale;            ///< of the planes' radii
   const float* inverse_length;  ///< see CellCorners
   float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
+  RadiusWord of_every_cell;     ///< what all cells have: no_radii, or those of the centre
   std::uint8_t* nearest;        ///< written for each entry, see CellLists
+  RadiusWord* entry_radii;      ///< the same; null where they are not kept
 };
 
-/// Squared radii of the surface in a cell; infinity and 0 where there is none.
-struct CellRadii {
+/// Triangles that have changed: their numbers and planes, and for each cell where entries have changed, the
+/// places here of those that are listed in it now.
+///
+///   listed     | 0 4 7 |     | 4 8 |  ...      cells[i] has [first[i], first[i + 1])
+struct TouchedTriangles {
+  std::span<const std::uint32_t> number;
+  std::span<const TrianglePlane> plane;
+  std::span<const std::uint32_t> cells, first, listed;
+
+  std::span<const std::uint32_t> listed_in(std::size_t i) const noexcept {
+    return listed.subspan(first[i], first[i + 1] - first[i]);
+  }
+};
+
+/// What is new of an entry: radii of its triangle in its cell, and the nearest one, see CellLists.
+struct ChangedEntry {
+  std::uint32_t triangle;
+  RadiusWord radii;
+  std::int32_t nearest;
+};
+
+/// Squared radii of a surface; infinity and 0 where there is none.
+struct SurfaceRadii {
   float least, greatest;
 };
 
@@ -123,15 +146,19 @@ void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, 
 /// than there are where `listing` has not room for all cells that the next one may meet, and listing_room.
 std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing);
 
-/// Radii of the surface in a cell: of each listed triangle those of its plane within the cell,
-/// or those of the triangle where they are closer.
+/// Radii of the surface in each cell: of each listed triangle those of its plane within the cell, or those of
+/// the triangle where they are closer. Returns those of all cells.
 ///
 /// In unit direction d a plane has the radius 1 / (n . d), n its form. d is a sum of the cell's corner
 /// directions with weights >= 0, whose sum is at least 1 and at most 1 / cosine: so n . d lies between the
 /// least n . corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and
-/// the floats.
-CellRadii measure_row(const ListedRadii& lists, std::size_t cell, CellRow row);
-/// The same for all cells.
-void measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, CellRadii* out);
+/// the floats. A triangle whose plane and corners have no radius in common there is not in the cell.
+SurfaceRadii measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, RadiusWord* out);
+
+/// The same for cells of which single triangles have changed; all others have their entry_radii. Adds those
+/// of the changed ones to `surface`. Whether the radii of any cell are others than before. `room` is for what
+/// is listed.
+bool measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
+                     ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface);
 
 }  // namespace condyle

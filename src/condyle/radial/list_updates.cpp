@@ -196,8 +196,27 @@ std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
   return strayed;
 }
 
-/// Forms and radii of some triangles, and the cells that they are listed in.
-void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
+/// Which triangles of a listing are in each of its cells, see TouchedTriangles.
+struct EntriesByCell {
+  std::vector<std::uint32_t> first;
+  UninitialisedVector<std::uint32_t> listed;
+
+  EntriesByCell(const CubeListing& listing, std::span<const Index> cells, Index cell_count)
+      : listed(listing.entries().size()) {
+    UninitialisedVector<std::uint32_t> next(cell_count);
+    first.reserve(cells.size() + 1);
+    first.push_back(0);
+    for (const Index cell : cells) {
+      next[cell] = first.back();
+      first.push_back(first.back() + listing.length(cell));
+    }
+    for (const ListedTriangle& entry : listing.entries()) listed[next[entry.cell]++] = entry.triangle;
+  }
+};
+
+/// Forms of some triangles, and the radii of the cells that they are listed in and of the `touched` ones.
+/// Whether any of these are others than before.
+bool measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
                   CellSet& touched) {
   // Far apart, and needed only when all are measured.
   for (const Index t : triangles) hwy::Prefetch(&lists.forms[t]);
@@ -205,15 +224,22 @@ void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index
   CubeListing listing(parts.mesh(), map, parts.placed());
   listing.list();
   for (const ListedTriangle& entry : listing.entries()) touched.add(entry.cell);
-  UninitialisedVector<Vec3> corner(parts.mesh().vertices.size());
-  for (std::size_t i = 0; i < corner.size(); ++i) corner[i] = parts.mesh().vertices[i];
+  const EntriesByCell by_cell(listing, touched.cells(), map.cell_count());
+  std::vector<Triangle> corners(triangles.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = mesh.triangles[triangles[i]];
   UninitialisedVector<ConeForms> forms(triangles.size());
   UninitialisedVector<TrianglePlane> planes(triangles.size());
-  MeshView view = view_of(parts.mesh());
-  view.xyz = corner.data()->data();
+  const MeshView view{nullptr,
+                      nullptr,
+                      nullptr,
+                      lists.corner.data()->data(),
+                      lists.corner.size(),
+                      corners.empty() ? nullptr : corners[0].data(),
+                      corners.size()};
   std::vector<std::uint32_t> unknown;
   measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), planes.data(), unknown);
   for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
+  return find_radii_in(map, {triangles, planes, touched.cells(), by_cell.first, by_cell.listed}, lists);
 }
 
 }  // namespace
@@ -262,8 +288,7 @@ bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const In
     find_radii(map, lists);
     return true;
   }
-  measure_some(mesh, map, triangles, lists, touched);
-  return find_radii_in(map, touched.cells(), lists);
+  return measure_some(mesh, map, triangles, lists, touched);
 }
 
 }  // namespace condyle
