@@ -26,7 +26,7 @@ struct PlacedCorner {
 };
 
 PlacedCorner corner_at(const PlacedVertices& placed, Index vertex) {
-  const FacePoint &low = placed.low[vertex], &high = placed.high[vertex];
+  const FacePoint low = placed.lowest(vertex), high = placed.highest(vertex);
   const int face = placed.face[vertex], axis = face % 3;
   PlacedCorner corner;
   corner.direction[axis] = face < 3 ? 1 : -1;
@@ -84,23 +84,24 @@ FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index 
 
 }  // namespace
 
-MeshView view_of(const TriMesh& mesh) noexcept {
-  return {mesh.vertices.x.data(), mesh.vertices.y.data(),
-          mesh.vertices.z.data(), nullptr,
-          mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
-          mesh.triangles.size()};
+MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexcept {
+  return {vertices.x.data(), vertices.y.data(), vertices.z.data(),
+          nullptr,           vertices.size(),   triangles.empty() ? nullptr : triangles[0].data(),
+          triangles.size()};
 }
 
-CubeListing::CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed)
-    : mesh_(mesh),
+CubeListing::CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+                         const PlacedVertices& placed)
+    : vertices_(vertices),
+      triangles_(triangles),
       map_(map),
       placed_(placed),
       n_(map.cells_per_side()),
-      view_(view_of(mesh)),
       length_(map.cell_count() + spare_cells, 0) {}
 
 void CubeListing::list() {
-  const std::size_t triangles = mesh_.triangles.size();
+  const std::size_t triangles = triangles_.size();
+  const MeshView view = view_of(vertices_, triangles_);
   // Room for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
   entry_.resize(6 * triangles);
   std::array<std::uint32_t, triangles_per_chunk> larger;
@@ -109,7 +110,7 @@ void CubeListing::list() {
     make_room(4 * (last - first));
     Listing small = listing();
     small.elsewhere = larger.data();
-    list_small_triangles(view_, placed_, first, last, small);
+    list_small_triangles(view, placed_, first, last, small);
     count_ = small.count;
     for (std::size_t i = 0; i < small.elsewhere_count; ++i) list_larger(larger[i]);
     list_seen();
@@ -127,13 +128,13 @@ void CubeListing::list_larger(Index triangle) {
 
 /// False where it reaches over the face's edges.
 bool CubeListing::see_on_one_face(Index triangle) {
-  const Triangle& vertex = mesh_.triangles[triangle];
+  const Triangle& vertex = triangles_[triangle];
   const int face = placed_.face[vertex[0]];
   if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
   FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
   float furthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const FacePoint &low = placed_.low[vertex[k]], &high = placed_.high[vertex[k]];
+    const FacePoint low = placed_.lowest(vertex[k]), high = placed_.highest(vertex[k]);
     furthest = std::max({furthest, -low.u(), -low.w(), high.u(), high.w()});
     for (std::size_t i = 0; i < 4; ++i) seen.corner[k].at[i] = 0.5f * (low.at[i] + high.at[i]);
     seen.slack_u = std::max(seen.slack_u, 0.5f * (high.u() - low.u()));
@@ -146,7 +147,7 @@ bool CubeListing::see_on_one_face(Index triangle) {
 
 /// False where it is too near to the plane between the centre and a face.
 bool CubeListing::see_on_faces(Index triangle) {
-  const Triangle& at = mesh_.triangles[triangle];
+  const Triangle& at = triangles_[triangle];
   const std::array<PlacedCorner, 3> corner = {corner_at(placed_, at[0]), corner_at(placed_, at[1]),
                                               corner_at(placed_, at[2])};
   std::array<bool, 6> is_seen{};
@@ -184,7 +185,8 @@ void CubeListing::list_seen() {
 
 void CubeListing::list_clipped(Index triangle) {
   has_clipped_ = true;
-  const Cone cone{mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
+  const auto& [a, b, c] = triangles_[triangle];
+  const Cone cone{vertices_[a], vertices_[b], vertices_[c]};
   map_.visit_cells(cone, [&](const CellOverlap& overlap) {
     make_room(1);
     entry_[count_++] = {overlap.cell, triangle, whole_cell};

@@ -20,8 +20,9 @@ namespace condyle {
 /// faces for that is clipped (CubeMap::visit_cells).
 class CubeListing {
  public:
-  /// Borrows all three; `placed` are the mesh's vertices.
-  CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed);
+  /// Borrows all; `placed` are the vertices.
+  CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+              const PlacedVertices& placed);
 
   /// Lists all triangles.
   void list();
@@ -44,11 +45,11 @@ class CubeListing {
     return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
   }
 
-  const TriMesh& mesh_;
+  PointsView vertices_;
+  std::span<const Triangle> triangles_;
   const CubeMap& map_;
   PlacedVertices placed_;
   int n_;
-  MeshView view_;
   UninitialisedVector<ListedTriangle> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
@@ -56,7 +57,7 @@ class CubeListing {
   bool has_clipped_ = false;
 };
 
-/// The mesh as the passes read it; its vertices in one place each are not given.
-MeshView view_of(const TriMesh& mesh) noexcept;
+/// A mesh as the passes read it; its vertices in one place each are not given.
+MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexcept;
 
 }  // namespace condyle

@@ -39,16 +39,27 @@ struct MeshView {
   std::size_t triangles;
 };
 
-/// Where each vertex may be on the cube: its face, and the least and the greatest of its u, w, u + w and
-/// u - w there. Both are its place where it is not to move.
-struct PlacedVertices {
-  const std::uint8_t* face;
-  const FacePoint *low, *high;
-};
-
 /// Where a vertex may be on its face.
 struct FaceRoom {
   float low_u, low_w, high_u, high_w;
+
+  /// Least and greatest u, w, u + w and u - w.
+  FacePoint lowest() const noexcept { return {{low_u, low_w, low_u + low_w, low_u - high_w}}; }
+  FacePoint highest() const noexcept { return {{high_u, high_w, high_u + high_w, high_u - low_w}}; }
+};
+
+/// Where each vertex may be on the cube: its face, and its place there or, where there are rooms, its room.
+struct PlacedVertices {
+  const std::uint8_t* face;
+  const FacePoint* place;
+  const FaceRoom* room;
+
+  FacePoint lowest(std::size_t vertex) const noexcept {
+    return room == nullptr ? place[vertex] : room[vertex].lowest();
+  }
+  FacePoint highest(std::size_t vertex) const noexcept {
+    return room == nullptr ? place[vertex] : room[vertex].highest();
+  }
 };
 
 /// A triangle in one cell, before it is sorted into that cell's list.

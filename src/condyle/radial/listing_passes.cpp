@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <span>
 
 #include <hwy/cache_control.h>
@@ -77,7 +78,44 @@ struct TriangleBatch {
   alignas(64) std::int32_t face[lanes];
 };
 
+#if HWY_TARGET != HWY_SCALAR
+constexpr hn::CappedTag<float, 4> four;
+
+/// FaceRoom::lowest() and highest().
+HWY_INLINE hn::Vec<decltype(four)> end_of_room(hn::Vec<decltype(four)> room, const std::int32_t* first,
+                                               const std::int32_t* second) {
+  constexpr hn::RebindToSigned<decltype(four)> words;
+  alignas(16) constexpr std::int32_t is_added[4] = {0, 0, -1, -1};
+  alignas(16) constexpr std::int32_t is_negative[4] = {0, 0, 0, std::numeric_limits<std::int32_t>::min()};
+  const auto a = hn::TableLookupLanes(room, hn::SetTableIndices(four, first));
+  const auto b = hn::And(hn::TableLookupLanes(room, hn::SetTableIndices(four, second)),
+                         hn::BitCast(four, hn::Load(words, is_added)));
+  return hn::Add(a, hn::Xor(b, hn::BitCast(four, hn::Load(words, is_negative))));
+}
+#endif
+
+/// Coordinates of a vertex's place from the given one on, as many as fit the tag: the least ones, or the
+/// greatest.
+template <bool has_rooms, bool is_least, class Tag>
+HWY_INLINE hn::Vec<Tag> end_of_place(Tag tag, const PlacedVertices& vertices, std::uint32_t vertex,
+                                     std::size_t coordinate) {
+  if constexpr (!has_rooms) {
+    return hn::Load(tag, vertices.place[vertex].at + coordinate);
+  } else {
+#if HWY_TARGET == HWY_SCALAR
+    const FaceRoom& room = vertices.room[vertex];
+    return hn::Set(tag, (is_least ? room.lowest() : room.highest()).at[coordinate]);
+#else
+    alignas(16) static constexpr std::int32_t first[2][4] = {{2, 3, 2, 2}, {0, 1, 0, 0}};
+    alignas(16) static constexpr std::int32_t second[2][4] = {{3, 3, 3, 1}, {1, 1, 1, 3}};
+    const auto room = hn::LoadU(tag, &vertices.room[vertex].low_u);
+    return end_of_room(room, first[is_least], second[is_least]);
+#endif
+  }
+}
+
 /// Triangles from the given one on; the last one again where there are not as many.
+template <bool has_rooms>
 HWY_INLINE void read_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
                                std::size_t count, int cells_per_side, TriangleBatch& batch) {
   constexpr hn::CappedTag<float, 4> d4;
@@ -91,10 +129,16 @@ HWY_INLINE void read_triangles(const MeshView& mesh, const PlacedVertices& verti
     const std::size_t t = first + std::min(lane, count - 1);
     const std::uint32_t* corner = mesh.corner + 3 * t;
     const std::uint32_t* later = mesh.corner + 3 * std::min(t + triangles_ahead, mesh.triangles - 1);
-    for (int i = 0; i < 3; ++i) hwy::Prefetch(vertices.low + later[i]);
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (has_rooms) {
+        hwy::Prefetch(vertices.room + later[i]);
+      } else {
+        hwy::Prefetch(vertices.place + later[i]);
+      }
+    }
     for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d4)) {
-      const auto least = [&](int i) { return hn::Load(d4, vertices.low[corner[i]].at + k); };
-      const auto greatest = [&](int i) { return hn::Load(d4, vertices.high[corner[i]].at + k); };
+      const auto least = [&](int i) { return end_of_place<has_rooms, true>(d4, vertices, corner[i], k); };
+      const auto greatest = [&](int i) { return end_of_place<has_rooms, false>(d4, vertices, corner[i], k); };
       const auto first_of_all = hn::Min(least(0), hn::Min(least(1), least(2)));
       const auto last_of_all = hn::Max(greatest(0), hn::Max(greatest(1), greatest(2)));
       const auto low = hn::Mul(hn::Add(first_of_all, hn::Load(d4, low_shift + k)), scale);
@@ -120,7 +164,11 @@ void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertic
   ListedTriangle* next = listing.entry + listing.count;
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
-    read_triangles(mesh, vertices, t, count, n, batch);
+    if (vertices.room != nullptr) {
+      read_triangles<true>(mesh, vertices, t, count, n, batch);
+    } else {
+      read_triangles<false>(mesh, vertices, t, count, n, batch);
+    }
     PartsInLanes<Lanes> parts;
     hn::LoadInterleaved4(di, batch.least[0], parts.least[0], parts.least[1], parts.least[2], parts.least[3]);
     hn::LoadInterleaved4(di, batch.greatest[0], parts.greatest[0], parts.greatest[1], parts.greatest[2],
