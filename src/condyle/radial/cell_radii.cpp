@@ -42,17 +42,6 @@ ListedRadii listed_radii(const CubeMap& map, CellLists& lists) {
           lists.entry_radii.empty() ? nullptr : lists.entry_radii.data()};
 }
 
-/// Rows and what is listed in them lie anywhere.
-void prefetch_rows(const CellLists& lists, std::span<const Index> cells) {
-  constexpr std::uint32_t words_per_line = 16;
-  for (const Index cell : cells) hwy::Prefetch(&lists.row[cell]), hwy::Prefetch(&lists.radii[cell]);
-  for (const Index cell : cells) {
-    const CellRow row = lists.row[cell];
-    for (std::uint32_t i = row.first; i < row.last; i += words_per_line)
-      hwy::Prefetch(&lists.triangle[i]), hwy::Prefetch(&lists.entry_radii[i]);
-  }
-}
-
 }  // namespace
 
 void find_radii(const CubeMap& map, CellLists& lists) {
@@ -75,7 +64,8 @@ bool find_radii_in(const CubeMap& map, const TouchedTriangles& touched, CellList
     return true;
   }
   SurfaceRadii all{lists.least_squared, lists.greatest_squared};
-  prefetch_rows(lists, touched.cells);
+  // Rows lie anywhere.
+  for (const Index cell : touched.cells) hwy::Prefetch(&lists.row[cell]), hwy::Prefetch(&lists.radii[cell]);
   UninitialisedVector<ChangedEntry> room(touched.listed.size());
   const bool are_changed = measure_touched(listed_radii(map, lists), lists.row.data(), touched, room.data(),
                                            lists.radii.data(), all);

@@ -334,6 +334,16 @@ HWY_INLINE RadiusWord write_entries(const ListedRadii& lists, CellRow row,
   return found.word();
 }
 
+/// How many cells before its turn what is listed in a cell is fetched.
+constexpr std::size_t cells_ahead = 8;
+
+void prefetch_entries(const ListedRadii& lists, CellRow row) {
+  constexpr std::uint32_t words_per_line = 16, bytes_per_line = 64;
+  for (std::uint32_t i = row.first; i < row.last; i += words_per_line)
+    hwy::Prefetch(lists.triangle + i), hwy::Prefetch(lists.entry_radii + i);
+  for (std::uint32_t i = row.first; i < row.last; i += bytes_per_line) hwy::Prefetch(lists.nearest + i);
+}
+
 bool measure_touched_any(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
                          ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface) {
   ChangedEntries changed(lists, room);
@@ -347,6 +357,7 @@ bool measure_touched_any(const ListedRadii& lists, const CellRow* rows, const To
   bool are_changed = false;
   for (std::size_t i = 0; i < touched.cells.size(); ++i) {
     const std::uint32_t cell = touched.cells[i];
+    prefetch_entries(lists, rows[touched.cells[std::min(i + cells_ahead, touched.cells.size() - 1)]]);
     const RadiusWord word =
         write_entries(lists, rows[cell], {room + touched.first[i], room + touched.first[i + 1]});
     are_changed |= word != radii[cell];
