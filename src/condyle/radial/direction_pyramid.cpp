@@ -43,20 +43,6 @@ std::size_t square(std::size_t n) noexcept {
   return n * n;
 }
 
-/// A line of pieces along an edge of a face, so many others away from it.
-struct EdgeLine {
-  std::size_t first, step;
-
-  /// On the side of the face where the coordinate of the given axis is least or greatest. Columns run along
-  /// the face's axis + 1, rows along axis + 2.
-  EdgeLine(int face, int axis, bool is_greatest, std::size_t away, std::size_t n) {
-    const std::size_t at = is_greatest ? n - 1 - away : away;
-    const bool is_column = axis == (face + 1) % 3;
-    first = static_cast<std::size_t>(face) * square(n) + (is_column ? at : at * n);
-    step = is_column ? n : 1;
-  }
-};
-
 constexpr std::size_t border = DirectionPyramid::most_border;
 
 /// A face's pieces with those beyond its edges around them, row by row.
@@ -90,40 +76,65 @@ void copy_words(const RadiusWord* in, std::size_t n, RadiusWord* out) {
   in_vectors(n, [&](auto words, std::size_t i) { hn::StoreU(hn::LoadU(words, in + i), words, out + i); });
 }
 
+/// An edge of a face: the side where the coordinate of `axis` is least or greatest. Columns run along the
+/// face's axis + 1, rows along axis + 2.
+struct FaceEdge {
+  int face, axis;
+  bool is_greatest;
+
+  bool is_column() const noexcept { return axis == (face + 1) % 3; }
+  /// The same edge of the other face that has it.
+  FaceEdge other_side() const noexcept { return {is_greatest ? axis : axis + 3, face % 3, face < 3}; }
+};
+
+/// Lines of pieces along an edge, the nearest ones of its face, each into a row of its own.
+void read_lines(const RadiusWord* pieces, std::size_t n, const FaceEdge& edge, const BorderedFace& out) {
+  const std::size_t lines = std::min(border, n);
+  const RadiusWord* own = pieces + static_cast<std::size_t>(edge.face) * square(n);
+  const auto from_edge = [&](std::size_t m) { return edge.is_greatest ? n - 1 - m : m; };
+  if (edge.is_column()) {
+    for (std::size_t k = 0; k < n; ++k, own += n)
+      for (std::size_t m = 0; m < lines; ++m) *out.at(m, border + k) = own[from_edge(m)];
+  } else {
+    for (std::size_t m = 0; m < lines; ++m) copy_words(own + from_edge(m) * n, n, out.at(m, border));
+  }
+  for (std::size_t m = lines; m < border; ++m) std::fill_n(out.at(m, border), n, no_radii);
+}
+
+/// Each word of a line with those up to `reach` before and after it.
+template <std::size_t reach>
+HWY_INLINE void spread_line(const RadiusWord* line, std::size_t n, RadiusWord* out) {
+  in_vectors(n, [&](auto words, std::size_t i) {
+    auto all = hn::LoadU(words, line + i);
+    for (std::size_t by = 1; by <= reach; ++by) {
+      const auto before = hn::LoadU(words, line + i - by), after = hn::LoadU(words, line + i + by);
+      all = union_of_words(words, all, union_of_words(words, before, after));
+    }
+    hn::StoreU(all, words, out + i);
+  });
+}
+
 /// What is beyond an edge. A direction displaced beyond it, to a coordinate 1 + e, is e / (1 + e) away from
 /// the edge on the neighbouring face, less than e; the other coordinate is divided by 1 + e too, which brings
 /// it nearer to the middle by no more than that. So the pieces m others away from the edge, which take
-/// displacements of up to m + 1 pieces to be reached, are spread by so many along it. Rows of `room` are
-/// free.
-void add_beyond_edge(const RadiusWord* pieces, std::size_t n, int face, int axis, bool is_greatest,
-                     const BorderedFace& room, const BorderedFace& out) {
-  RadiusWord *const line = room.at(0, 0), *const spread = room.at(1, 0);
-  std::fill_n(line, border, no_radii);
-  std::fill_n(line + border + n, border, no_radii);
-  const bool is_column = axis == (face + 1) % 3;
-  for (std::size_t m = 0; m < border; ++m) {
-    const std::size_t across = is_greatest ? border + n + m : border - 1 - m;
-    RadiusWord* const to = is_column ? out.at(border, across) : out.at(across, border);
-    const std::size_t step = is_column ? out.stride() : 1;
-    if (m >= n) {
-      for (std::size_t k = 0; k < n; ++k) to[k * step] = no_radii;
-      continue;
-    }
-    const EdgeLine beyond(is_greatest ? axis : axis + 3, face % 3, face < 3, m, n);
-    for (std::size_t k = 0; k < n; ++k) line[border + k] = pieces[beyond.first + k * beyond.step];
-    RadiusWord* const row = is_column ? spread : to;
-    in_vectors(n, [&](auto words, std::size_t i) {
-      const RadiusWord* middle = line + border + i;
-      auto all = hn::LoadU(words, middle);
-      for (std::size_t by = 1; by <= m + 1; ++by) {
-        const auto both = union_of_words(words, hn::LoadU(words, middle - by), hn::LoadU(words, middle + by));
-        all = union_of_words(words, all, both);
-      }
-      hn::StoreU(all, words, row + i);
-    });
-    if (!is_column) continue;
-    for (std::size_t k = 0; k < n; ++k) to[k * step] = spread[k];
-  }
+/// displacements of up to m + 1 pieces to be reached, are spread by so many along it.
+///
+/// Rows of `room` are free but for their margins, which hold nothing.
+void add_beyond_edge(const RadiusWord* pieces, std::size_t n, const FaceEdge& edge, const BorderedFace& room,
+                     const BorderedFace& out) {
+  static_assert(border == 3);
+  read_lines(pieces, n, edge.other_side(), room);
+  const auto across = [&](std::size_t m) { return edge.is_greatest ? border + n + m : border - 1 - m; };
+  const auto row = [&](std::size_t m) {
+    return edge.is_column() ? room.at(border + m, border) : out.at(across(m), border);
+  };
+  spread_line<1>(room.at(0, border), n, row(0));
+  spread_line<2>(room.at(1, border), n, row(1));
+  spread_line<3>(room.at(2, border), n, row(2));
+  if (!edge.is_column()) return;
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t m = 0; m < border; ++m)
+      *out.at(border + k, across(m)) = *room.at(border + m, border + k);
 }
 
 void add_borders(const RadiusWord* pieces, std::size_t n, int face, const BorderedFace& room,
@@ -132,13 +143,14 @@ void add_borders(const RadiusWord* pieces, std::size_t n, int face, const Border
     for (const std::size_t first : {std::size_t{0}, border + n}) {
       std::fill_n(out.at(row, first), border, no_radii);
       std::fill_n(out.at(border + n + row, first), border, no_radii);
+      std::fill_n(room.at(row, first), border, no_radii);
     }
   }
   const RadiusWord* own = pieces + static_cast<std::size_t>(face) * square(n);
   for (std::size_t row = 0; row < n; ++row) copy_words(own + row * n, n, out.at(border + row, border));
   for (const int axis : {(face + 1) % 3, (face + 2) % 3})
     for (const bool is_greatest : {false, true})
-      add_beyond_edge(pieces, n, face, axis, is_greatest, room, out);
+      add_beyond_edge(pieces, n, {face, axis, is_greatest}, room, out);
 }
 
 /// Columns of a vector's width, rows after each other: each word with its eight neighbours. `in` is where the
