@@ -291,6 +291,32 @@ HWY_INLINE bool is_beside_face(const FaceTriangle& t) {
 constexpr int tile_cells = static_cast<int>(lanes);
 constexpr int tile_columns = std::min(4, tile_cells), tile_rows = tile_cells / tile_columns;
 
+/// Entries of the cells that a triangle meets, one behind the other; returns how many they are. May write as
+/// many as there are lanes. How many it meets is not to be foretold: sixteen lanes have an instruction for
+/// that.
+HWY_INLINE std::size_t store_met(hn::Mask<Lanes> meets, hn::Vec<Words> cell, std::uint32_t triangle,
+                                 hn::Vec<Words> box, hn::Vec<Words> slant, ListedTriangle* to) {
+  constexpr Lanes di;
+  constexpr Words du;
+  const auto all = hn::Set(du, triangle);
+  if constexpr (lanes == 16) {
+    static_assert(listing_room >= lanes && sizeof *to == 4 * sizeof(std::uint32_t));
+    const auto met = hn::RebindMask(du, meets);
+    hn::StoreInterleaved4(hn::Compress(cell, met), all, hn::Compress(box, met), hn::Compress(slant, met), du,
+                          &to->cell);
+    return hn::CountTrue(di, meets);
+  } else {
+    alignas(64) std::uint32_t entry[4 * lanes];
+    hn::StoreInterleaved4(cell, all, box, slant, du, entry);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(di, meets, bits);
+    std::size_t count = 0;
+    for (unsigned left = bits[0]; left != 0; left &= left - 1)
+      std::memcpy(to + count++, entry + 4 * hwy::Num0BitsBelowLS1Bit_Nonzero32(left), sizeof *to);
+    return count;
+  }
+}
+
 std::size_t list_face_triangles_any(std::span<const FaceTriangle> triangles, Listing& listing) {
   constexpr LaneFloats d;
   constexpr Lanes di;
@@ -299,7 +325,6 @@ std::size_t list_face_triangles_any(std::span<const FaceTriangle> triangles, Lis
   const auto lane = hn::Iota(di, 0);
   const auto column_step = hn::And(lane, hn::Set(di, tile_columns - 1));
   const auto row_step = tile_columns == 4 ? hn::ShiftRight<2>(lane) : hn::Zero(di);
-  alignas(64) std::uint32_t entry[4 * lanes];
   ListedTriangle* next = listing.entry + listing.count;
   std::size_t listed = 0;
   for (; listed < triangles.size(); ++listed) {
@@ -334,18 +359,13 @@ std::size_t list_face_triangles_any(std::span<const FaceTriangle> triangles, Lis
           meets = hn::And(meets, hn::RebindMask(di, hn::Ge(least, hn::Zero(d))));
         }
         const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di, t.face * n), j), hn::Set(di, n)), i);
-        hn::StoreInterleaved4(hn::BitCast(du, own), hn::Set(du, t.triangle), hn::BitCast(du, octagons.box),
-                              hn::BitCast(du, octagons.slant), du, entry);
-        std::uint8_t bytes[8] = {};
-        hn::StoreMaskBits(di, meets, bytes);
-        for (unsigned left = bytes[0] | static_cast<unsigned>(bytes[1]) << 8; left != 0; left &= left - 1) {
-          const std::size_t k = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
-          std::memcpy(next, entry + 4 * k, sizeof *next);
-          ++listing.length[next++->cell];
-        }
+        next += store_met(meets, hn::BitCast(du, own), t.triangle, hn::BitCast(du, octagons.box),
+                          hn::BitCast(du, octagons.slant), next);
       }
     }
   }
+  for (const ListedTriangle* entry = listing.entry + listing.count; entry != next; ++entry)
+    ++listing.length[entry->cell];
   listing.count = static_cast<std::size_t>(next - listing.entry);
   return listed;
 }
