@@ -62,11 +62,16 @@ bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
   });
 }
 
+/// A triangle seen on a face.
+struct SeenOnFace {
+  FaceCorners u{}, w{};
+};
+
 /// Where the triangle is seen on a face that it is in front of. A corner (depth, u, w) that is displaced by
 /// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
-FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index triangle) {
+SeenOnFace seen_on(const std::array<PlacedCorner, 3>& corner, int face) {
   const int axis = face % 3;
-  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
+  SeenOnFace seen;
   const auto slack = [](double at, double depth, double s) {
     return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
   };
@@ -74,10 +79,9 @@ FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index 
     const double depth = std::abs(corner[k].direction[axis]);
     const double u = corner[k].direction[(axis + 1) % 3] / depth;
     const double w = corner[k].direction[(axis + 2) % 3] / depth;
-    const auto at_u = static_cast<float>(u), at_w = static_cast<float>(w);
-    seen.corner[k] = {{at_u, at_w, at_u + at_w, at_u - at_w}};
-    seen.slack_u = std::max(seen.slack_u, slack(u, depth, corner[k].slack));
-    seen.slack_w = std::max(seen.slack_w, slack(w, depth, corner[k].slack));
+    seen.u.at[k] = static_cast<float>(u), seen.w.at[k] = static_cast<float>(w);
+    seen.u.slack = std::max(seen.u.slack, slack(u, depth, corner[k].slack));
+    seen.w.slack = std::max(seen.w.slack, slack(w, depth, corner[k].slack));
   }
   return seen;
 }
@@ -123,6 +127,8 @@ void CubeListing::make_room(std::size_t entries) {
 }
 
 void CubeListing::list_larger(Index triangle) {
+  // It is seen on six faces at most.
+  if (seen_count_ + 6 > most_seen) list_seen();
   if (!see_on_one_face(triangle) && !see_on_faces(triangle)) list_clipped(triangle);
 }
 
@@ -131,17 +137,17 @@ bool CubeListing::see_on_one_face(Index triangle) {
   const Triangle& vertex = triangles_[triangle];
   const int face = placed_.face[vertex[0]];
   if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
-  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
+  FaceCorners u{}, w{};
   float furthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const FacePoint low = placed_.lowest(vertex[k]), high = placed_.highest(vertex[k]);
     furthest = std::max({furthest, -low.u(), -low.w(), high.u(), high.w()});
-    for (std::size_t i = 0; i < 4; ++i) seen.corner[k].at[i] = 0.5f * (low.at[i] + high.at[i]);
-    seen.slack_u = std::max(seen.slack_u, 0.5f * (high.u() - low.u()));
-    seen.slack_w = std::max(seen.slack_w, 0.5f * (high.w() - low.w()));
+    u.at[k] = 0.5f * (low.u() + high.u()), w.at[k] = 0.5f * (low.w() + high.w());
+    u.slack = std::max(u.slack, 0.5f * (high.u() - low.u()));
+    w.slack = std::max(w.slack, 0.5f * (high.w() - low.w()));
   }
   if (furthest >= 1 - 2 * list_margin) return false;
-  add_seen(seen);
+  add_seen(triangle, face, u, w);
   return true;
 }
 
@@ -157,30 +163,30 @@ bool CubeListing::see_on_faces(Index triangle) {
   }
   for (int face = 0; face < 6; ++face) {
     if (!is_seen[static_cast<std::size_t>(face)]) continue;
-    add_seen(seen_on(corner, face, triangle));
+    const SeenOnFace seen = seen_on(corner, face);
+    add_seen(triangle, face, seen.u, seen.w);
   }
   return true;
 }
 
-void CubeListing::add_seen(FaceTriangle seen) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    const FacePoint& corner = seen.corner[k % 3];
-    seen.u[k] = corner.u(), seen.w[k] = corner.w();
-  }
-  seen_.push_back(seen);
+void CubeListing::add_seen(Index triangle, int face, const FaceCorners& u, const FaceCorners& w) {
+  seen_triangle_[seen_count_] = triangle, seen_face_[seen_count_] = face;
+  seen_u_[seen_count_] = u, seen_w_[seen_count_] = w;
+  ++seen_count_;
 }
 
 void CubeListing::list_seen() {
-  std::span<const FaceTriangle> left = seen_;
-  while (!left.empty()) {
+  const SeenTriangles seen{seen_u_.data(), seen_w_.data(), seen_triangle_.data(), seen_face_.data(),
+                           seen_count_};
+  for (std::size_t listed = 0; listed < seen_count_;) {
     Listing larger = listing();
-    const std::size_t listed = list_face_triangles(left, larger);
+    listed = list_seen_triangles(seen, listed, larger);
     count_ = larger.count;
-    left = left.subspan(listed);
     // A triangle is in all cells of a face at most.
-    if (!left.empty()) make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
+    if (listed < seen_count_)
+      make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
   }
-  seen_.clear();
+  seen_count_ = 0;
 }
 
 void CubeListing::list_clipped(Index triangle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,7 @@ class CubeListing {
   void list_larger(Index triangle);
   bool see_on_one_face(Index triangle);
   bool see_on_faces(Index triangle);
-  void add_seen(FaceTriangle seen);
+  void add_seen(Index triangle, int face, const FaceCorners& u, const FaceCorners& w);
   void list_clipped(Index triangle);
   void list_seen();
   Listing listing() noexcept {
@@ -53,7 +54,12 @@ class CubeListing {
   UninitialisedVector<ListedTriangle> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
-  std::vector<FaceTriangle> seen_;  ///< waiting to be listed
+  /// Waiting to be listed, see SeenTriangles.
+  static constexpr std::size_t most_seen = 256;
+  std::array<FaceCorners, most_seen + listing_room> seen_u_, seen_w_;
+  std::array<std::uint32_t, most_seen> seen_triangle_;
+  std::array<std::int32_t, most_seen> seen_face_;
+  std::size_t seen_count_ = 0;
   bool has_clipped_ = false;
 };
 

@@ -78,17 +78,21 @@ struct Listing {
   std::size_t elsewhere_count;
 };
 
-/// A triangle seen on a face: its corners there, in turn and the first one again, and how far each may be
-/// from that.
-struct FaceTriangle {
-  FacePoint corner[3];
-  float u[4], w[4];
-  float slack_u, slack_w;
-  std::uint32_t triangle;
-  std::int32_t face;
+/// One coordinate of a triangle's corners on a face, and how far each may be from that.
+struct alignas(16) FaceCorners {
+  float at[3], slack;
 };
 
-/// Entries that listing may write beyond those it makes.
+/// Triangles seen on faces, off them too: corners within four times the face's size. Arrays have
+/// listing_room more.
+struct SeenTriangles {
+  const FaceCorners *u, *w;
+  const std::uint32_t* triangle;
+  const std::int32_t* face;
+  std::size_t count;
+};
+
+/// Entries that listing may write beyond those it makes, and triangles seen that it may read.
 inline constexpr std::size_t listing_room = 16;
 
 /// Lists, and what is known of the triangles in them.
@@ -152,10 +156,10 @@ void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last
 void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
                           std::size_t last, Listing& listing);
 
-/// Lists triangles seen on a face in the cells that they meet: those of their octagon, but for cells beyond
-/// one of their edges. Corners are within four times the face's size. Returns how many it has listed: fewer
-/// than there are where `listing` has not room for all cells that the next one may meet, and listing_room.
-std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing);
+/// Lists triangles seen on faces, from the given one on, in the cells that they meet: those of their octagon,
+/// but for cells beyond one of their edges. Returns the first one that is not listed: there is one where
+/// `listing` has not room for all cells that it may meet, and listing_room.
+std::size_t list_seen_triangles(const SeenTriangles& seen, std::size_t first, Listing& listing);
 
 /// Radii of the surface in each cell: of each listed triangle those of its plane within the cell, or those of
 /// the triangle where they are closer. Returns those of all cells.

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <span>
 
 #include <hwy/cache_control.h>
 
@@ -215,76 +214,110 @@ void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertic
   listing.count = static_cast<std::size_t>(next - listing.entry);
 }
 
-/// The edges of a triangle on a face, over its cells: inside is where normal . (p - start) >= 0. The point of
-/// a cell that is furthest inside is one of its corners, and its value moves by equal steps from cell to
-/// cell. Floats err by less than list_margin (|u| + |w|), the other half of the widening: a cell is left out
-/// only if no point of it, widened, is inside.
-struct EdgesOverCells {
-  alignas(16) float first[4];  ///< in the cell (0, 0) of the face, and what counts as outside on top
-  alignas(16) float to_next_column[4];
-  alignas(16) float to_next_row[4];
-  bool are_known;
-
-  HWY_INLINE EdgesOverCells(const FaceTriangle& t, float cell) {
-    constexpr hn::CappedTag<float, 4> d4;
-    const float turn = (t.u[1] - t.u[0]) * (t.w[2] - t.w[0]) - (t.w[1] - t.w[0]) * (t.u[2] - t.u[0]);
-    // Of a sliver the turn may be rounding: it keeps its octagon. Places err by up to 8 u, u = 2^-24.
-    const auto extent = [](const float* x) {
-      return std::max({x[0], x[1], x[2]}) - std::min({x[0], x[1], x[2]});
-    };
-    are_known = std::abs(turn) > 16 * list_margin * std::max(extent(t.u), extent(t.w));
-    const auto sign = hn::Set(d4, std::copysign(1.0f, turn)), low = hn::Set(d4, -1.0f);
-    const auto width = hn::Set(d4, cell), slack_u = hn::Set(d4, 2 * list_margin + t.slack_u);
-    const auto slack_w = hn::Set(d4, 2 * list_margin + t.slack_w);
-    for (std::size_t k = 0; k < 3; k += hn::MaxLanes(d4)) {
-      const auto start_u = hn::LoadU(d4, t.u + k), start_w = hn::LoadU(d4, t.w + k);
-      const auto u = hn::Mul(sign, hn::Sub(start_w, hn::LoadU(d4, t.w + k + 1)));
-      const auto w = hn::Mul(sign, hn::Sub(hn::LoadU(d4, t.u + k + 1), start_u));
-      const auto step_u = hn::Mul(u, width), step_w = hn::Mul(w, width);
-      const auto at_u = hn::Mul(u, hn::Sub(low, start_u)), at_w = hn::Mul(w, hn::Sub(low, start_w));
-      const auto best =
-          hn::Add(hn::Add(at_u, hn::Max(step_u, hn::Zero(d4))), hn::Add(at_w, hn::Max(step_w, hn::Zero(d4))));
-      const auto slack = hn::Add(hn::Mul(hn::Abs(u), slack_u), hn::Mul(hn::Abs(w), slack_w));
-      hn::Store(hn::Add(best, slack), d4, first + k);
-      hn::Store(step_u, d4, to_next_column + k);
-      hn::Store(step_w, d4, to_next_row + k);
-    }
-  }
+/// Triangles seen on faces, one in each lane: what is asked of their cells.
+struct SeenBatch {
+  /// Parts of the face that they take, widened: of u, w, u + w and u - w.
+  alignas(64) std::int32_t least[4][lanes], greatest[4][lanes];
+  /// Last column and row; -1 where the triangle is beside the face.
+  alignas(64) std::int32_t last_column[lanes], last_row[lanes];
+  /// Their edges over the face's cells: inside is where normal . (p - start) >= 0. The point of a cell that
+  /// is furthest inside is one of its corners, and its value moves by equal steps from cell to cell; `first`
+  /// is that in the cell (0, 0), and what counts as outside on top. Floats err by less than list_margin
+  /// (|u| + |w|), the other half of the widening: a cell is left out only if no point of it, widened, is
+  /// inside. All zero for slivers, of which the turn may be rounding: these keep their octagons.
+  alignas(64) float first[3][lanes], to_next_column[3][lanes], to_next_row[3][lanes];
 };
 
-/// Parts of the face that the triangle takes, widened. Corners may lie off the face.
-HWY_INLINE FaceParts parts_of(const FaceTriangle& t, int cells_per_side) {
-  constexpr hn::CappedTag<float, 4> d4;
-  constexpr hn::RebindToSigned<decltype(d4)> di4;
-  const float margin_u = t.slack_u + list_margin, margin_w = t.slack_w + list_margin;
-  alignas(16) const float margin[4] = {margin_u, margin_w, margin_u + margin_w, margin_u + margin_w};
-  alignas(16) constexpr float start[4] = {1, 1, 2, 2};
-  const int last = cells_per_side * parts_per_cell - 1;
-  alignas(16) const std::int32_t most[4] = {last, last, 2 * last + 1, 2 * last + 1};
-  const auto scale = hn::Set(d4, 0.5f * static_cast<float>(cells_per_side * parts_per_cell));
-  FaceParts parts;
-  for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d4)) {
-    const auto a = hn::Load(d4, t.corner[0].at + k), b = hn::Load(d4, t.corner[1].at + k);
-    const auto c = hn::Load(d4, t.corner[2].at + k), by = hn::Load(d4, margin + k);
-    const auto from = hn::Load(d4, start + k);
-    const auto low = hn::Sub(hn::Min(a, hn::Min(b, c)), by), high = hn::Add(hn::Max(a, hn::Max(b, c)), by);
-    const auto part = [&](auto at) {
-      const auto whole = hn::ConvertTo(di4, hn::Mul(hn::Add(at, from), scale));
-      return hn::Min(hn::Max(whole, hn::Zero(di4)), hn::Load(di4, most + k));
-    };
-    hn::StoreU(part(low), di4, parts.least.data() + k);
-    hn::StoreU(part(high), di4, parts.greatest.data() + k);
-  }
-  return parts;
+using LaneVector = hn::Vec<LaneFloats>;
+
+HWY_INLINE LaneVector least_of(const LaneVector* at) {
+  return hn::Min(at[0], hn::Min(at[1], at[2]));
+}
+HWY_INLINE LaneVector greatest_of(const LaneVector* at) {
+  return hn::Max(at[0], hn::Max(at[1], at[2]));
 }
 
-/// Whether all corners are beyond the same edge of the face.
-HWY_INLINE bool is_beside_face(const FaceTriangle& t) {
-  const auto is_beyond = [](const float* at, float slack) {
-    const float edge = 1 + 2 * list_margin + slack;
-    return std::max({at[0], at[1], at[2]}) < -edge || std::min({at[0], at[1], at[2]}) > edge;
+/// Corners of as many triangles as there are lanes, and how far they may be from there.
+struct SeenCorners {
+  LaneVector u[3], w[3], slack_u, slack_w;
+};
+
+HWY_INLINE void find_parts(const SeenCorners& at, int cells_per_side, SeenBatch& batch) {
+  constexpr LaneFloats d;
+  constexpr Lanes di;
+  const int last = cells_per_side * parts_per_cell - 1;
+  const auto scale = hn::Set(d, 0.5f * static_cast<float>(cells_per_side * parts_per_cell));
+  const auto margin_u = hn::Add(at.slack_u, hn::Set(d, list_margin));
+  const auto margin_w = hn::Add(at.slack_w, hn::Set(d, list_margin));
+  const auto store = [&](std::size_t k, const LaneVector* corner, LaneVector margin, float start, int most) {
+    const auto part = [&](LaneVector value) {
+      const auto whole = hn::ConvertTo(di, hn::Mul(hn::Add(value, hn::Set(d, start)), scale));
+      return hn::Min(hn::Max(whole, hn::Zero(di)), hn::Set(di, most));
+    };
+    hn::Store(part(hn::Sub(least_of(corner), margin)), di, batch.least[k]);
+    hn::Store(part(hn::Add(greatest_of(corner), margin)), di, batch.greatest[k]);
   };
-  return is_beyond(t.u, t.slack_u) || is_beyond(t.w, t.slack_w);
+  const LaneVector sum[3] = {hn::Add(at.u[0], at.w[0]), hn::Add(at.u[1], at.w[1]), hn::Add(at.u[2], at.w[2])};
+  const LaneVector difference[3] = {hn::Sub(at.u[0], at.w[0]), hn::Sub(at.u[1], at.w[1]),
+                                    hn::Sub(at.u[2], at.w[2])};
+  store(0, at.u, margin_u, 1, last);
+  store(1, at.w, margin_w, 1, last);
+  store(2, sum, hn::Add(margin_u, margin_w), 2, 2 * last + 1);
+  store(3, difference, hn::Add(margin_u, margin_w), 2, 2 * last + 1);
+}
+
+/// After the parts are found. Beside the face are triangles of which all corners are beyond the same edge.
+HWY_INLINE void find_last_cells(const SeenCorners& at, SeenBatch& batch) {
+  constexpr LaneFloats d;
+  constexpr Lanes di;
+  const auto is_beyond = [&](const LaneVector* corner, LaneVector slack) {
+    const auto edge = hn::Add(hn::Set(d, 1 + 2 * list_margin), slack);
+    return hn::Or(hn::Lt(greatest_of(corner), hn::Neg(edge)), hn::Gt(least_of(corner), edge));
+  };
+  const auto is_beside = hn::RebindMask(di, hn::Or(is_beyond(at.u, at.slack_u), is_beyond(at.w, at.slack_w)));
+  const auto last = [&](std::size_t k) {
+    return hn::IfThenElse(is_beside, hn::Set(di, -1), hn::ShiftRight<8>(hn::Load(di, batch.greatest[k])));
+  };
+  hn::Store(last(0), di, batch.last_column);
+  hn::Store(last(1), di, batch.last_row);
+}
+
+HWY_INLINE void find_edges(const SeenCorners& at, float cell, SeenBatch& batch) {
+  constexpr LaneFloats d;
+  const auto set = [](float value) { return hn::Set(LaneFloats(), value); };
+  const auto turn = hn::Sub(hn::Mul(hn::Sub(at.u[1], at.u[0]), hn::Sub(at.w[2], at.w[0])),
+                            hn::Mul(hn::Sub(at.w[1], at.w[0]), hn::Sub(at.u[2], at.u[0])));
+  // Places err by up to 8 u, u = 2^-24.
+  const auto extent =
+      hn::Max(hn::Sub(greatest_of(at.u), least_of(at.u)), hn::Sub(greatest_of(at.w), least_of(at.w)));
+  const auto are_known = hn::Gt(hn::Abs(turn), hn::Mul(set(16 * list_margin), extent));
+  const auto sign = hn::CopySign(set(1), turn), low = set(-1), width = set(cell);
+  const auto slack_u = hn::Add(set(2 * list_margin), at.slack_u);
+  const auto slack_w = hn::Add(set(2 * list_margin), at.slack_w);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = k == 2 ? 0 : k + 1;
+    const auto u = hn::Mul(sign, hn::Sub(at.w[k], at.w[next])),
+               w = hn::Mul(sign, hn::Sub(at.u[next], at.u[k]));
+    const auto step_u = hn::Mul(u, width), step_w = hn::Mul(w, width);
+    const auto at_u = hn::Mul(u, hn::Sub(low, at.u[k])), at_w = hn::Mul(w, hn::Sub(low, at.w[k]));
+    const auto best =
+        hn::Add(hn::Add(at_u, hn::Max(step_u, hn::Zero(d))), hn::Add(at_w, hn::Max(step_w, hn::Zero(d))));
+    const auto slack = hn::Add(hn::Mul(hn::Abs(u), slack_u), hn::Mul(hn::Abs(w), slack_w));
+    hn::Store(hn::IfThenElseZero(are_known, hn::Add(best, slack)), d, batch.first[k]);
+    hn::Store(hn::IfThenElseZero(are_known, step_u), d, batch.to_next_column[k]);
+    hn::Store(hn::IfThenElseZero(are_known, step_w), d, batch.to_next_row[k]);
+  }
+}
+
+HWY_INLINE void read_seen(const SeenTriangles& seen, std::size_t first, int cells_per_side,
+                          SeenBatch& batch) {
+  constexpr LaneFloats d;
+  SeenCorners at;
+  hn::LoadInterleaved4(d, seen.u[first].at, at.u[0], at.u[1], at.u[2], at.slack_u);
+  hn::LoadInterleaved4(d, seen.w[first].at, at.w[0], at.w[1], at.w[2], at.slack_w);
+  find_parts(at, cells_per_side, batch);
+  find_last_cells(at, batch);
+  find_edges(at, 2.0f / static_cast<float>(cells_per_side), batch);
 }
 
 /// Cells that are looked at together: four columns, and as many rows as fill a vector.
@@ -317,52 +350,63 @@ HWY_INLINE std::size_t store_met(hn::Mask<Lanes> meets, hn::Vec<Words> cell, std
   }
 }
 
-std::size_t list_face_triangles_any(std::span<const FaceTriangle> triangles, Listing& listing) {
+/// Lists one triangle of a batch.
+HWY_INLINE ListedTriangle* list_seen_triangle(const SeenBatch& batch, std::size_t lane, int face,
+                                              std::uint32_t triangle, int n, ListedTriangle* next) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   constexpr Words du;
-  const int n = listing.cells_per_side;
-  const auto lane = hn::Iota(di, 0);
-  const auto column_step = hn::And(lane, hn::Set(di, tile_columns - 1));
-  const auto row_step = tile_columns == 4 ? hn::ShiftRight<2>(lane) : hn::Zero(di);
+  const auto in_tile = hn::Iota(di, 0);
+  const auto column_step = hn::And(in_tile, hn::Set(di, tile_columns - 1));
+  const auto row_step = tile_columns == 4 ? hn::ShiftRight<2>(in_tile) : hn::Zero(di);
+  PartsInLanes<Lanes> parts;
+  for (std::size_t k = 0; k < 4; ++k) {
+    parts.least[k] = hn::Set(di, batch.least[k][lane]),
+    parts.greatest[k] = hn::Set(di, batch.greatest[k][lane]);
+  }
+  const int first_column = batch.least[0][lane] >> 8, first_row = batch.least[1][lane] >> 8;
+  const int last_column = batch.last_column[lane], last_row = batch.last_row[lane];
+  for (int row = first_row; row <= last_row; row += tile_rows) {
+    for (int column = first_column; column <= last_column; column += tile_columns) {
+      const auto i = hn::Add(hn::Set(di, column), column_step), j = hn::Add(hn::Set(di, row), row_step);
+      const OctagonsInCells<Lanes> octagons(parts, n, i, j);
+      const auto beyond = hn::Or(hn::Gt(i, hn::Set(di, last_column)), hn::Gt(j, hn::Set(di, last_row)));
+      const auto at_column = hn::ConvertTo(d, i), at_row = hn::ConvertTo(d, j);
+      const auto inside = [&](std::size_t k) {
+        const auto in_column = hn::Mul(at_column, hn::Set(d, batch.to_next_column[k][lane]));
+        const auto in_row = hn::Mul(at_row, hn::Set(d, batch.to_next_row[k][lane]));
+        return hn::Add(hn::Add(hn::Set(d, batch.first[k][lane]), in_column), in_row);
+      };
+      const auto least = hn::Min(inside(0), hn::Min(inside(1), inside(2)));
+      const auto is_inside = hn::RebindMask(di, hn::Ge(least, hn::Zero(d)));
+      const auto meets = hn::And(hn::And(octagons.meet, hn::Not(beyond)), is_inside);
+      const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di, face * n), j), hn::Set(di, n)), i);
+      next += store_met(meets, hn::BitCast(du, own), triangle, hn::BitCast(du, octagons.box),
+                        hn::BitCast(du, octagons.slant), next);
+    }
+  }
+  return next;
+}
+
+std::size_t list_seen_triangles_any(const SeenTriangles& seen, std::size_t first, Listing& listing) {
+  SeenBatch batch;
   ListedTriangle* next = listing.entry + listing.count;
-  std::size_t listed = 0;
-  for (; listed < triangles.size(); ++listed) {
-    const FaceTriangle& t = triangles[listed];
-    if (is_beside_face(t)) continue;
-    const FaceParts taken = parts_of(t, n);
-    const int first_column = taken.least[0] >> 8, last_column = taken.greatest[0] >> 8;
-    const int first_row = taken.least[1] >> 8, last_row = taken.greatest[1] >> 8;
-    const auto cells_in_box =
-        static_cast<std::size_t>((last_column - first_column + 1) * (last_row - first_row + 1));
+  std::size_t listed = first;
+  const auto has_room = [&](std::size_t lane) {
+    const int columns = batch.last_column[lane] - (batch.least[0][lane] >> 8) + 1;
+    const int rows = batch.last_row[lane] - (batch.least[1][lane] >> 8) + 1;
     const auto made = static_cast<std::size_t>(next - listing.entry);
-    if (made + cells_in_box + listing_room > listing.room) break;
-    PartsInLanes<Lanes> parts;
-    for (std::size_t k = 0; k < 4; ++k) {
-      parts.least[k] = hn::Set(di, taken.least[k]), parts.greatest[k] = hn::Set(di, taken.greatest[k]);
+    const int cells = std::max(columns, 0) * std::max(rows, 0);
+    return made + static_cast<std::size_t>(cells) + listing_room <= listing.room;
+  };
+  for (std::size_t lane = lanes; listed < seen.count; ++listed, ++lane) {
+    if (lane == lanes) {
+      read_seen(seen, listed, listing.cells_per_side, batch);
+      lane = 0;
     }
-    const EdgesOverCells edges(t, 2.0f / static_cast<float>(n));
-    for (int row = first_row; row <= last_row; row += tile_rows) {
-      for (int column = first_column; column <= last_column; column += tile_columns) {
-        const auto i = hn::Add(hn::Set(di, column), column_step), j = hn::Add(hn::Set(di, row), row_step);
-        const OctagonsInCells<Lanes> octagons(parts, n, i, j);
-        const auto beyond = hn::Or(hn::Gt(i, hn::Set(di, last_column)), hn::Gt(j, hn::Set(di, last_row)));
-        auto meets = hn::And(octagons.meet, hn::Not(beyond));
-        if (edges.are_known) {
-          const auto at_column = hn::ConvertTo(d, i), at_row = hn::ConvertTo(d, j);
-          const auto inside = [&](std::size_t k) {
-            const auto in_column = hn::Mul(at_column, hn::Set(d, edges.to_next_column[k]));
-            const auto in_row = hn::Mul(at_row, hn::Set(d, edges.to_next_row[k]));
-            return hn::Add(hn::Add(hn::Set(d, edges.first[k]), in_column), in_row);
-          };
-          const auto least = hn::Min(inside(0), hn::Min(inside(1), inside(2)));
-          meets = hn::And(meets, hn::RebindMask(di, hn::Ge(least, hn::Zero(d))));
-        }
-        const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di, t.face * n), j), hn::Set(di, n)), i);
-        next += store_met(meets, hn::BitCast(du, own), t.triangle, hn::BitCast(du, octagons.box),
-                          hn::BitCast(du, octagons.slant), next);
-      }
-    }
+    if (!has_room(lane)) break;
+    next = list_seen_triangle(batch, lane, seen.face[listed], seen.triangle[listed], listing.cells_per_side,
+                              next);
   }
   for (const ListedTriangle* entry = listing.entry + listing.count; entry != next; ++entry)
     ++listing.length[entry->cell];
@@ -378,15 +422,15 @@ HWY_AFTER_NAMESPACE();
 namespace condyle {
 
 HWY_EXPORT(list_small_triangles_any);
-HWY_EXPORT(list_face_triangles_any);
+HWY_EXPORT(list_seen_triangles_any);
 
 void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
                           std::size_t last, Listing& listing) {
   HWY_DYNAMIC_DISPATCH(list_small_triangles_any)(mesh, vertices, first, last, listing);
 }
 
-std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing) {
-  return HWY_DYNAMIC_DISPATCH(list_face_triangles_any)(triangles, listing);
+std::size_t list_seen_triangles(const SeenTriangles& seen, std::size_t first, Listing& listing) {
+  return HWY_DYNAMIC_DISPATCH(list_seen_triangles_any)(seen, first, listing);
 }
 
 }  // namespace condyle
