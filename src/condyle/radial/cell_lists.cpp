@@ -43,24 +43,25 @@ void CellLists::split_rows() {
     Index triangle;
     CellOctagon octagon;
   };
-  std::array<std::vector<Listed>, 3> part;  // left alone, both, right alone
+  std::vector<Listed> sorted;  // for left alone, both, right alone: each may be the whole row
   for (CellRow& at : row) {
     const std::uint32_t length = at.last - at.first;
     if (length <= longest_whole || length >= CellRow::whole) continue;
-    for (auto& listed : part) listed.resize(std::max<std::size_t>(listed.size(), length));
-    std::array<std::uint32_t, 3> count{};
+    sorted.resize(std::max<std::size_t>(sorted.size(), std::size_t{3} * length));
+    const std::array<Listed*, 3> part = {sorted.data(), sorted.data() + length, sorted.data() + 2 * length};
+    std::array<Listed*, 3> end = part;
     for (std::uint32_t i = at.first; i < at.last; ++i) {
-      const bool is_right = (box[i] & 128) != 0,
-                 is_left = (box[i] >> 8 & 128) != 0;  // of least u, of 255 - greatest u
-      const std::size_t to = is_left ? 0 : is_right ? 2 : 1;
-      part[to][count[to]++] = {triangle[i], {box[i], slant[i]}};
+      // Of least u, and of 255 - greatest u: never both. Which, is not to be foretold.
+      const std::uint32_t is_right = box[i] >> 7 & 1, is_left = box[i] >> 15 & 1;
+      *end[1 + is_right - is_left]++ = {triangle[i], {box[i], slant[i]}};
     }
     std::uint32_t next = at.first;
     for (std::size_t k = 0; k < 3; ++k) {
-      for (std::uint32_t i = 0; i < count[k]; ++i) set_entry(next++, part[k][i].triangle, part[k][i].octagon);
+      for (const Listed* listed = part[k]; listed != end[k]; ++listed)
+        set_entry(next++, listed->triangle, listed->octagon);
     }
-    at.right_begin = static_cast<std::uint16_t>(count[0]);
-    at.left_end = static_cast<std::uint16_t>(count[0] + count[1]);
+    at.right_begin = static_cast<std::uint16_t>(end[0] - part[0]);
+    at.left_end = static_cast<std::uint16_t>(at.right_begin + (end[1] - part[1]));
   }
 }
 
