@@ -78,7 +78,8 @@ CellLists list_cells(const TriMesh& mesh, const CartesianMap& map);
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map);
 /// All but the radii of the cells, into the memory of lists that exist.
 void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists);
-/// Least and greatest radius in each cell, and the nearest one of each entry. Linear in entries.
+/// Least and greatest radius in each cell, and the nearest one of each entry; those of each entry where they
+/// are kept. Linear in entries.
 void find_radii(const CubeMap& map, CellLists& lists);
 
 /// Rooms that hold each vertex where it is, no more. To be called before vertices move; does nothing where
