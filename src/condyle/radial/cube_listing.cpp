@@ -62,16 +62,11 @@ bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
   });
 }
 
-/// A triangle seen on a face.
-struct SeenOnFace {
-  FaceCorners u{}, w{};
-};
-
 /// Where the triangle is seen on a face that it is in front of. A corner (depth, u, w) that is displaced by
 /// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
-SeenOnFace seen_on(const std::array<PlacedCorner, 3>& corner, int face) {
+void see_on(const std::array<PlacedCorner, 3>& corner, int face, FaceCorners& at_u, FaceCorners& at_w) {
   const int axis = face % 3;
-  SeenOnFace seen;
+  at_u.slack = at_w.slack = 0;
   const auto slack = [](double at, double depth, double s) {
     return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
   };
@@ -79,11 +74,10 @@ SeenOnFace seen_on(const std::array<PlacedCorner, 3>& corner, int face) {
     const double depth = std::abs(corner[k].direction[axis]);
     const double u = corner[k].direction[(axis + 1) % 3] / depth;
     const double w = corner[k].direction[(axis + 2) % 3] / depth;
-    seen.u.at[k] = static_cast<float>(u), seen.w.at[k] = static_cast<float>(w);
-    seen.u.slack = std::max(seen.u.slack, slack(u, depth, corner[k].slack));
-    seen.w.slack = std::max(seen.w.slack, slack(w, depth, corner[k].slack));
+    at_u.at[k] = static_cast<float>(u), at_w.at[k] = static_cast<float>(w);
+    at_u.slack = std::max(at_u.slack, slack(u, depth, corner[k].slack));
+    at_w.slack = std::max(at_w.slack, slack(w, depth, corner[k].slack));
   }
-  return seen;
 }
 
 }  // namespace
@@ -137,7 +131,9 @@ bool CubeListing::see_on_one_face(Index triangle) {
   const Triangle& vertex = triangles_[triangle];
   const int face = placed_.face[vertex[0]];
   if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
-  FaceCorners u{}, w{};
+  // In its place: what is copied right after it was written in parts is waited for.
+  FaceCorners &u = seen_u_[seen_count_], &w = seen_w_[seen_count_];
+  u.slack = w.slack = 0;
   float furthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const FacePoint low = placed_.lowest(vertex[k]), high = placed_.highest(vertex[k]);
@@ -147,7 +143,7 @@ bool CubeListing::see_on_one_face(Index triangle) {
     w.slack = std::max(w.slack, 0.5f * (high.w() - low.w()));
   }
   if (furthest >= 1 - 2 * list_margin) return false;
-  add_seen(triangle, face, u, w);
+  add_seen(triangle, face);
   return true;
 }
 
@@ -163,15 +159,14 @@ bool CubeListing::see_on_faces(Index triangle) {
   }
   for (int face = 0; face < 6; ++face) {
     if (!is_seen[static_cast<std::size_t>(face)]) continue;
-    const SeenOnFace seen = seen_on(corner, face);
-    add_seen(triangle, face, seen.u, seen.w);
+    see_on(corner, face, seen_u_[seen_count_], seen_w_[seen_count_]);
+    add_seen(triangle, face);
   }
   return true;
 }
 
-void CubeListing::add_seen(Index triangle, int face, const FaceCorners& u, const FaceCorners& w) {
+void CubeListing::add_seen(Index triangle, int face) {
   seen_triangle_[seen_count_] = triangle, seen_face_[seen_count_] = face;
-  seen_u_[seen_count_] = u, seen_w_[seen_count_] = w;
   ++seen_count_;
 }
 

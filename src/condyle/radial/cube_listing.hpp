@@ -39,7 +39,8 @@ class CubeListing {
   void list_larger(Index triangle);
   bool see_on_one_face(Index triangle);
   bool see_on_faces(Index triangle);
-  void add_seen(Index triangle, int face, const FaceCorners& u, const FaceCorners& w);
+  /// Its corners are in their place already.
+  void add_seen(Index triangle, int face);
   void list_clipped(Index triangle);
   void list_seen();
   Listing listing() noexcept {
