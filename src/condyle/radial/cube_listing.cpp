@@ -67,16 +67,15 @@ bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
 void see_on(const std::array<PlacedCorner, 3>& corner, int face, FaceCorners& at_u, FaceCorners& at_w) {
   const int axis = face % 3;
   at_u.slack = at_w.slack = 0;
-  const auto slack = [](double at, double depth, double s) {
-    return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
-  };
   for (std::size_t k = 0; k < 3; ++k) {
-    const double depth = std::abs(corner[k].direction[axis]);
-    const double u = corner[k].direction[(axis + 1) % 3] / depth;
-    const double w = corner[k].direction[(axis + 2) % 3] / depth;
+    const double depth = std::abs(corner[k].direction[axis]), inverse = 1 / depth;
+    const double u = corner[k].direction[(axis + 1) % 3] * inverse;
+    const double w = corner[k].direction[(axis + 2) % 3] * inverse;
+    const double displaced = corner[k].slack / (depth - corner[k].slack);
+    const auto slack = [&](double at) { return static_cast<float>(displaced * (1 + std::abs(at))); };
     at_u.at[k] = static_cast<float>(u), at_w.at[k] = static_cast<float>(w);
-    at_u.slack = std::max(at_u.slack, slack(u, depth, corner[k].slack));
-    at_w.slack = std::max(at_w.slack, slack(w, depth, corner[k].slack));
+    at_u.slack = std::max(at_u.slack, slack(u));
+    at_w.slack = std::max(at_w.slack, slack(w));
   }
 }
 
