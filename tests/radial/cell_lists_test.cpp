@@ -156,11 +156,17 @@ TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
       const std::vector<RadiusWord> before = lists.radii;
       const bool are_changed = follow_vertices(mesh, map, moved, triangles, lists);
       expect_points_find_their_triangles(mesh, map, lists, 10);
-      // Radii of the cells touched are those of all cells.
+      // Radii of the cells touched, and of what is listed there, are those found anew for all.
       EXPECT_EQ(are_changed, lists.radii != before);
-      const std::vector<RadiusWord> radii = lists.radii;
-      find_radii(map, lists);
-      EXPECT_EQ(lists.radii, radii);
+      CellLists again = lists;
+      find_radii(map, again);
+      EXPECT_EQ(again.radii, lists.radii);
+      for (const CellRow& row : lists.row) {
+        for (std::uint32_t i = row.first; i < row.last; ++i) {
+          ASSERT_EQ(again.entry_radii[i], lists.entry_radii[i]);
+          ASSERT_EQ(again.nearest[i], lists.nearest[i]);
+        }
+      }
     }
   }
 }
@@ -270,6 +276,66 @@ TEST_P(CubeListsOn, AnEntryOfThePyramidHoldsAllDirectionsDisplacedByNoMoreThanIt
       displaced[(at.face + 2) % 3] = at.w + width * uniform(random);
       const RadiusWord word = radii[map.cell_of(displaced)];
       ASSERT_EQ(union_of(entry, word), entry);
+    }
+  }
+}
+
+/// A piece of the cube: its face, and the middle of it.
+struct Piece {
+  int face;
+  Vec3 middle;
+};
+
+std::vector<Piece> pieces_of(int n) {
+  std::vector<Piece> pieces;
+  for (int face = 0; face < 6; ++face) {
+    for (int row = 0; row < n; ++row) {
+      for (int column = 0; column < n; ++column) {
+        Vec3 middle;
+        middle[face % 3] = face < 3 ? 1 : -1;
+        middle[(face + 1) % 3] = (2.0 * column + 1) / n - 1, middle[(face + 2) % 3] = (2.0 * row + 1) / n - 1;
+        pieces.push_back({face, middle});
+      }
+    }
+  }
+  return pieces;
+}
+
+/// Whether a piece's entry with that border takes in another piece: within the border on its face; beyond an
+/// edge, as far as the border reaches, and along it by the border and what lies beyond the edge.
+bool reaches(const Piece& from, const Piece& to, int n, int border) {
+  const auto apart = [&](int axis) {
+    return static_cast<int>(std::lround(std::abs(from.middle[axis] - to.middle[axis]) * n / 2));
+  };
+  const int own = from.face % 3, other = to.face % 3;
+  if (from.face == to.face) return std::max(apart((own + 1) % 3), apart((own + 2) % 3)) <= border;
+  if (own == other) return false;
+  // From one's middle to the edge between them, in pieces, and on to the other's: both count from the edge.
+  const auto from_edge = [&](const Vec3& middle, int axis, int face) {
+    return static_cast<int>(std::floor((1 - (face < 3 ? 1 : -1) * middle[axis]) * n / 2));
+  };
+  const int before = from_edge(from.middle, other, to.face), beyond = from_edge(to.middle, own, from.face);
+  return before + beyond < border && apart(3 - own - other) <= border + beyond + 1;
+}
+
+TEST_P(CubeListsOn, AnEntryOfThePyramidIsTheUnionOfThePiecesThatItsBorderReaches) {
+  std::mt19937 random(8);
+  for (const int cells : {1, 2, 3, 5, 8, 12, 20}) {
+    std::vector<RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
+    for (auto& word : radii)
+      word = radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
+    DirectionPyramid pyramid;
+    pyramid.fill(cells, radii);
+    for (const int step : {0, 1, 2}) {
+      const std::vector<Piece> pieces = pieces_of(cells);
+      for (std::size_t i = 0; i < pieces.size(); ++i) {
+        RadiusWord all = no_radii;
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+          if (reaches(pieces[i], pieces[k], cells, DirectionPyramid::border_of(step)))
+            all = union_of(all, radii[k]);
+        }
+        ASSERT_EQ(pyramid.data()[DirectionPyramid::start_of(step, cells) + i], all) << cells << " " << step;
+      }
     }
   }
 }

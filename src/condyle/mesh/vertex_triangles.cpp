@@ -1,6 +1,7 @@
 #include "condyle/mesh/vertex_triangles.hpp"
 
-#include <algorithm>
+#include <bit>
+#include <cstdint>
 
 namespace condyle {
 
@@ -15,10 +16,19 @@ VertexTriangles::VertexTriangles(const TriMesh& mesh)
 }
 
 std::vector<Index> VertexTriangles::of(std::span<const Index> vertices) const {
+  constexpr Index bits = 64;
+  std::vector<std::uint64_t> is_asked(triangle_.size() / 3 / bits + 1);
+  std::size_t uses = 0;
+  for (const Index v : vertices) {
+    for (const Index t : of(v)) is_asked[t / bits] |= std::uint64_t{1} << t % bits;
+    uses += of(v).size();
+  }
   std::vector<Index> triangles;
-  for (const Index v : vertices) triangles.insert(triangles.end(), of(v).begin(), of(v).end());
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  triangles.reserve(uses);
+  for (Index i = 0; i < is_asked.size(); ++i) {
+    for (std::uint64_t left = is_asked[i]; left != 0; left &= left - 1)
+      triangles.push_back(i * bits + static_cast<Index>(std::countr_zero(left)));
+  }
   return triangles;
 }
 

@@ -21,7 +21,8 @@ class VertexTriangles {
   std::span<const Index> of(Index vertex) const noexcept {
     return {triangle_.data() + first_[vertex], triangle_.data() + first_[vertex + 1]};
   }
-  /// Those of several vertices, each once, in ascending order. n log n in what it returns.
+  /// Those of several vertices, each once, in ascending order. Linear in what it returns, and a look at a bit
+  /// for each triangle of the mesh.
   std::vector<Index> of(std::span<const Index> vertices) const;
 
   std::size_t bytes() const noexcept { return (first_.size() + triangle_.size()) * sizeof(Index); }

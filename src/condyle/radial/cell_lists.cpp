@@ -22,8 +22,8 @@ std::size_t CellLists::entry_count() const noexcept {
 
 std::size_t CellLists::bytes() const noexcept {
   return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) + radii.size() * sizeof(RadiusWord) +
-         (box.size() + slant.size() + row_end.size()) * sizeof(std::uint32_t) + nearest.size() +
-         forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3) + face.size() +
+         (box.size() + slant.size() + row_end.size() + entry_radii.size()) * sizeof(std::uint32_t) +
+         nearest.size() + forms.size() * sizeof(ConeForms) + corner.size() * sizeof(Vec3) + face.size() +
          room.size() * sizeof(FaceRoom);
 }
 
@@ -32,6 +32,7 @@ void CellLists::resize_entries(std::size_t count) {
   box.resize(count + entries_beyond);
   slant.resize(count + entries_beyond);
   nearest.resize(count + entries_beyond);
+  if (!entry_radii.empty()) entry_radii.resize(count + entries_beyond);
   for (std::size_t i = count; i < count + entries_beyond; ++i) set_entry(i, 0, {0, 0});
 }
 
@@ -42,25 +43,32 @@ void CellLists::split_rows() {
     Index triangle;
     CellOctagon octagon;
   };
-  std::array<std::vector<Listed>, 3> part;  // left alone, both, right alone
+  std::vector<Listed> sorted;  // for left alone, both, right alone: each may be the whole row
   for (CellRow& at : row) {
     const std::uint32_t length = at.last - at.first;
     if (length <= longest_whole || length >= CellRow::whole) continue;
-    for (auto& listed : part) listed.resize(std::max<std::size_t>(listed.size(), length));
-    std::array<std::uint32_t, 3> count{};
+    sorted.resize(std::max<std::size_t>(sorted.size(), std::size_t{3} * length));
+    const std::array<Listed*, 3> part = {sorted.data(), sorted.data() + length, sorted.data() + 2 * length};
+    std::array<Listed*, 3> end = part;
     for (std::uint32_t i = at.first; i < at.last; ++i) {
-      const bool is_right = (box[i] & 128) != 0,
-                 is_left = (box[i] >> 8 & 128) != 0;  // of least u, of 255 - greatest u
-      const std::size_t to = is_left ? 0 : is_right ? 2 : 1;
-      part[to][count[to]++] = {triangle[i], {box[i], slant[i]}};
+      // Of least u, and of 255 - greatest u: never both. Which, is not to be foretold.
+      const std::uint32_t is_right = box[i] >> 7 & 1, is_left = box[i] >> 15 & 1;
+      *end[1 + is_right - is_left]++ = {triangle[i], {box[i], slant[i]}};
     }
     std::uint32_t next = at.first;
     for (std::size_t k = 0; k < 3; ++k) {
-      for (std::uint32_t i = 0; i < count[k]; ++i) set_entry(next++, part[k][i].triangle, part[k][i].octagon);
+      for (const Listed* listed = part[k]; listed != end[k]; ++listed)
+        set_entry(next++, listed->triangle, listed->octagon);
     }
-    at.right_begin = static_cast<std::uint16_t>(count[0]);
-    at.left_end = static_cast<std::uint16_t>(count[0] + count[1]);
+    at.right_begin = static_cast<std::uint16_t>(end[0] - part[0]);
+    at.left_end = static_cast<std::uint16_t>(at.right_begin + (end[1] - part[1]));
   }
+}
+
+void CellLists::move_entry(std::size_t from, std::size_t to) noexcept {
+  set_entry(to, triangle[from], {box[from], slant[from]});
+  nearest[to] = nearest[from];
+  if (!entry_radii.empty()) entry_radii[to] = entry_radii[from];
 }
 
 void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
@@ -69,7 +77,7 @@ void CellLists::remove_entry(Index cell, Index triangle_listed) noexcept {
   while (i < at.last && triangle[i] != triangle_listed) ++i;
   assert(i < at.last);
   at = {at.first, at.last - 1};
-  set_entry(i, triangle[at.last], {box[at.last], slant[at.last]});
+  move_entry(at.last, i);
 }
 
 void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& octagon) {
@@ -85,9 +93,7 @@ void CellLists::add_entry(Index cell, Index triangle_listed, const CellOctagon& 
     const auto first = static_cast<std::uint32_t>(triangle.size() - entries_beyond);
     const std::uint32_t length = at.last - at.first, capacity = 2 * length + 4;
     resize_entries(first + capacity);
-    for (std::uint32_t i = 0; i < length; ++i) {
-      set_entry(first + i, triangle[at.first + i], {box[at.first + i], slant[at.first + i]});
-    }
+    for (std::uint32_t i = 0; i < length; ++i) move_entry(at.first + i, first + i);
     for (std::uint32_t i = length; i < capacity; ++i) set_entry(first + i, 0, {0, 0});
     at = {first, first + length};
     row_end[cell] = first + capacity;

@@ -26,6 +26,8 @@ struct CellLists {
   UninitialisedVector<std::uint32_t> box, slant;  ///< CellOctagon of each entry
   UninitialisedVector<std::uint8_t>
       nearest;  ///< upper half of the code of its triangle's least squared radius
+  UninitialisedVector<RadiusWord>
+      entry_radii;  ///< of each entry's triangle in its cell; kept once single triangles have changed
   UninitialisedVector<ConeForms> forms;
   UninitialisedVector<TrianglePlane>
       plane;                           ///< of each triangle, from when it is measured until radii are found
@@ -56,6 +58,7 @@ struct CellLists {
     box[at] = octagon.box;
     slant[at] = octagon.slant;
   }
+  void move_entry(std::size_t from, std::size_t to) noexcept;
   /// Sorts long rows by halves of their cells. Linear in their entries.
   void split_rows();
   /// Changes to single rows, which are whole then; linear in the row. The entry to remove is there, the one
@@ -75,7 +78,8 @@ CellLists list_cells(const TriMesh& mesh, const CartesianMap& map);
 CellLists list_cells(const TriMesh& mesh, const CubeMap& map);
 /// All but the radii of the cells, into the memory of lists that exist.
 void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists);
-/// Least and greatest radius in each cell, and the nearest one of each entry. Linear in entries.
+/// Least and greatest radius in each cell, and the nearest one of each entry; those of each entry where they
+/// are kept. Linear in entries.
 void find_radii(const CubeMap& map, CellLists& lists);
 
 /// Rooms that hold each vertex where it is, no more. To be called before vertices move; does nothing where

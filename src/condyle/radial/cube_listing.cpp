@@ -26,7 +26,7 @@ struct PlacedCorner {
 };
 
 PlacedCorner corner_at(const PlacedVertices& placed, Index vertex) {
-  const FacePoint &low = placed.low[vertex], &high = placed.high[vertex];
+  const FacePoint low = placed.lowest(vertex), high = placed.highest(vertex);
   const int face = placed.face[vertex], axis = face % 3;
   PlacedCorner corner;
   corner.direction[axis] = face < 3 ? 1 : -1;
@@ -64,43 +64,41 @@ bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
 
 /// Where the triangle is seen on a face that it is in front of. A corner (depth, u, w) that is displaced by
 /// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
-FaceTriangle seen_on(const std::array<PlacedCorner, 3>& corner, int face, Index triangle) {
+void see_on(const std::array<PlacedCorner, 3>& corner, int face, FaceCorners& at_u, FaceCorners& at_w) {
   const int axis = face % 3;
-  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
-  const auto slack = [](double at, double depth, double s) {
-    return static_cast<float>(s * (1 + std::abs(at)) / (depth - s));
-  };
+  at_u.slack = at_w.slack = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double depth = std::abs(corner[k].direction[axis]);
-    const double u = corner[k].direction[(axis + 1) % 3] / depth;
-    const double w = corner[k].direction[(axis + 2) % 3] / depth;
-    const auto at_u = static_cast<float>(u), at_w = static_cast<float>(w);
-    seen.corner[k] = {{at_u, at_w, at_u + at_w, at_u - at_w}};
-    seen.slack_u = std::max(seen.slack_u, slack(u, depth, corner[k].slack));
-    seen.slack_w = std::max(seen.slack_w, slack(w, depth, corner[k].slack));
+    const double depth = std::abs(corner[k].direction[axis]), inverse = 1 / depth;
+    const double u = corner[k].direction[(axis + 1) % 3] * inverse;
+    const double w = corner[k].direction[(axis + 2) % 3] * inverse;
+    const double displaced = corner[k].slack / (depth - corner[k].slack);
+    const auto slack = [&](double at) { return static_cast<float>(displaced * (1 + std::abs(at))); };
+    at_u.at[k] = static_cast<float>(u), at_w.at[k] = static_cast<float>(w);
+    at_u.slack = std::max(at_u.slack, slack(u));
+    at_w.slack = std::max(at_w.slack, slack(w));
   }
-  return seen;
 }
 
 }  // namespace
 
-MeshView view_of(const TriMesh& mesh) noexcept {
-  return {mesh.vertices.x.data(), mesh.vertices.y.data(),
-          mesh.vertices.z.data(), nullptr,
-          mesh.vertices.size(),   mesh.triangles.empty() ? nullptr : mesh.triangles[0].data(),
-          mesh.triangles.size()};
+MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexcept {
+  return {vertices.x.data(), vertices.y.data(), vertices.z.data(),
+          nullptr,           vertices.size(),   triangles.empty() ? nullptr : triangles[0].data(),
+          triangles.size()};
 }
 
-CubeListing::CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed)
-    : mesh_(mesh),
+CubeListing::CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+                         const PlacedVertices& placed)
+    : vertices_(vertices),
+      triangles_(triangles),
       map_(map),
       placed_(placed),
       n_(map.cells_per_side()),
-      view_(view_of(mesh)),
       length_(map.cell_count() + spare_cells, 0) {}
 
 void CubeListing::list() {
-  const std::size_t triangles = mesh_.triangles.size();
+  const std::size_t triangles = triangles_.size();
+  const MeshView view = view_of(vertices_, triangles_);
   // Room for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
   entry_.resize(6 * triangles);
   std::array<std::uint32_t, triangles_per_chunk> larger;
@@ -109,7 +107,7 @@ void CubeListing::list() {
     make_room(4 * (last - first));
     Listing small = listing();
     small.elsewhere = larger.data();
-    list_small_triangles(view_, placed_, first, last, small);
+    list_small_triangles(view, placed_, first, last, small);
     count_ = small.count;
     for (std::size_t i = 0; i < small.elsewhere_count; ++i) list_larger(larger[i]);
     list_seen();
@@ -122,31 +120,35 @@ void CubeListing::make_room(std::size_t entries) {
 }
 
 void CubeListing::list_larger(Index triangle) {
+  // It is seen on six faces at most.
+  if (seen_count_ + 6 > most_seen) list_seen();
   if (!see_on_one_face(triangle) && !see_on_faces(triangle)) list_clipped(triangle);
 }
 
 /// False where it reaches over the face's edges.
 bool CubeListing::see_on_one_face(Index triangle) {
-  const Triangle& vertex = mesh_.triangles[triangle];
+  const Triangle& vertex = triangles_[triangle];
   const int face = placed_.face[vertex[0]];
   if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
-  FaceTriangle seen{{}, {}, {}, 0, 0, triangle, face};
+  // In its place: what is copied right after it was written in parts is waited for.
+  FaceCorners &u = seen_u_[seen_count_], &w = seen_w_[seen_count_];
+  u.slack = w.slack = 0;
   float furthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const FacePoint &low = placed_.low[vertex[k]], &high = placed_.high[vertex[k]];
+    const FacePoint low = placed_.lowest(vertex[k]), high = placed_.highest(vertex[k]);
     furthest = std::max({furthest, -low.u(), -low.w(), high.u(), high.w()});
-    for (std::size_t i = 0; i < 4; ++i) seen.corner[k].at[i] = 0.5f * (low.at[i] + high.at[i]);
-    seen.slack_u = std::max(seen.slack_u, 0.5f * (high.u() - low.u()));
-    seen.slack_w = std::max(seen.slack_w, 0.5f * (high.w() - low.w()));
+    u.at[k] = 0.5f * (low.u() + high.u()), w.at[k] = 0.5f * (low.w() + high.w());
+    u.slack = std::max(u.slack, 0.5f * (high.u() - low.u()));
+    w.slack = std::max(w.slack, 0.5f * (high.w() - low.w()));
   }
   if (furthest >= 1 - 2 * list_margin) return false;
-  add_seen(seen);
+  add_seen(triangle, face);
   return true;
 }
 
 /// False where it is too near to the plane between the centre and a face.
 bool CubeListing::see_on_faces(Index triangle) {
-  const Triangle& at = mesh_.triangles[triangle];
+  const Triangle& at = triangles_[triangle];
   const std::array<PlacedCorner, 3> corner = {corner_at(placed_, at[0]), corner_at(placed_, at[1]),
                                               corner_at(placed_, at[2])};
   std::array<bool, 6> is_seen{};
@@ -156,35 +158,35 @@ bool CubeListing::see_on_faces(Index triangle) {
   }
   for (int face = 0; face < 6; ++face) {
     if (!is_seen[static_cast<std::size_t>(face)]) continue;
-    add_seen(seen_on(corner, face, triangle));
+    see_on(corner, face, seen_u_[seen_count_], seen_w_[seen_count_]);
+    add_seen(triangle, face);
   }
   return true;
 }
 
-void CubeListing::add_seen(FaceTriangle seen) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    const FacePoint& corner = seen.corner[k % 3];
-    seen.u[k] = corner.u(), seen.w[k] = corner.w();
-  }
-  seen_.push_back(seen);
+void CubeListing::add_seen(Index triangle, int face) {
+  seen_triangle_[seen_count_] = triangle, seen_face_[seen_count_] = face;
+  ++seen_count_;
 }
 
 void CubeListing::list_seen() {
-  std::span<const FaceTriangle> left = seen_;
-  while (!left.empty()) {
+  const SeenTriangles seen{seen_u_.data(), seen_w_.data(), seen_triangle_.data(), seen_face_.data(),
+                           seen_count_};
+  for (std::size_t listed = 0; listed < seen_count_;) {
     Listing larger = listing();
-    const std::size_t listed = list_face_triangles(left, larger);
+    listed = list_seen_triangles(seen, listed, larger);
     count_ = larger.count;
-    left = left.subspan(listed);
     // A triangle is in all cells of a face at most.
-    if (!left.empty()) make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
+    if (listed < seen_count_)
+      make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
   }
-  seen_.clear();
+  seen_count_ = 0;
 }
 
 void CubeListing::list_clipped(Index triangle) {
   has_clipped_ = true;
-  const Cone cone{mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2)};
+  const auto& [a, b, c] = triangles_[triangle];
+  const Cone cone{vertices_[a], vertices_[b], vertices_[c]};
   map_.visit_cells(cone, [&](const CellOverlap& overlap) {
     make_room(1);
     entry_[count_++] = {overlap.cell, triangle, whole_cell};

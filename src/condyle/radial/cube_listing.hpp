@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -20,8 +21,9 @@ namespace condyle {
 /// faces for that is clipped (CubeMap::visit_cells).
 class CubeListing {
  public:
-  /// Borrows all three; `placed` are the mesh's vertices.
-  CubeListing(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed);
+  /// Borrows all; `placed` are the vertices.
+  CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+              const PlacedVertices& placed);
 
   /// Lists all triangles.
   void list();
@@ -37,26 +39,32 @@ class CubeListing {
   void list_larger(Index triangle);
   bool see_on_one_face(Index triangle);
   bool see_on_faces(Index triangle);
-  void add_seen(FaceTriangle seen);
+  /// Its corners are in their place already.
+  void add_seen(Index triangle, int face);
   void list_clipped(Index triangle);
   void list_seen();
   Listing listing() noexcept {
     return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
   }
 
-  const TriMesh& mesh_;
+  PointsView vertices_;
+  std::span<const Triangle> triangles_;
   const CubeMap& map_;
   PlacedVertices placed_;
   int n_;
-  MeshView view_;
   UninitialisedVector<ListedTriangle> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
-  std::vector<FaceTriangle> seen_;  ///< waiting to be listed
+  /// Waiting to be listed, see SeenTriangles.
+  static constexpr std::size_t most_seen = 256;
+  std::array<FaceCorners, most_seen + listing_room> seen_u_, seen_w_;
+  std::array<std::uint32_t, most_seen> seen_triangle_;
+  std::array<std::int32_t, most_seen> seen_face_;
+  std::size_t seen_count_ = 0;
   bool has_clipped_ = false;
 };
 
-/// The mesh as the passes read it; its vertices in one place each are not given.
-MeshView view_of(const TriMesh& mesh) noexcept;
+/// A mesh as the passes read it; its vertices in one place each are not given.
+MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexcept;
 
 }  // namespace condyle

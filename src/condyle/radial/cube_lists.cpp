@@ -37,7 +37,7 @@ void sort_into_rows(const CubeListing& listing, const CubeMap& map, CellLists& l
 }  // namespace
 
 void list_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& placed, CellLists& lists) {
-  CubeListing listing(mesh, map, placed);
+  CubeListing listing(mesh.vertices, mesh.triangles, map, placed);
   listing.list();
   sort_into_rows(listing, map, lists);
   lists.has_clipped = listing.has_clipped();
@@ -50,7 +50,7 @@ void measure(const TriMesh& mesh, CellLists& lists) {
   lists.forms.resize(mesh.triangles.size());
   lists.plane.resize(mesh.triangles.size());
   lists.unknown.clear();
-  MeshView view = view_of(mesh);
+  MeshView view = view_of(mesh.vertices, mesh.triangles);
   view.xyz = lists.corner.data()->data();
   measure_triangles(view, 0, mesh.triangles.size(), lists.scale, lists.forms.data(), lists.plane.data(),
                     lists.unknown);
@@ -66,9 +66,9 @@ CellLists list_cells(const TriMesh& mesh, const CubeMap& map) {
 void list_cells(const TriMesh& mesh, const CubeMap& map, CellLists& lists) {
   UninitialisedVector<std::uint8_t> face(mesh.vertices.size());
   UninitialisedVector<FacePoint> place(mesh.vertices.size());
-  place_vertices(view_of(mesh), face.data(), place.data());
+  place_vertices(view_of(mesh.vertices, mesh.triangles), face.data(), place.data());
   lists.room.clear();
-  list_all(mesh, map, {face.data(), place.data(), place.data()}, lists);
+  list_all(mesh, map, {face.data(), place.data(), nullptr}, lists);
   measure(mesh, lists);
 }
 

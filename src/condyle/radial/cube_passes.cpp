@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include <hwy/cache_control.h>
@@ -20,12 +22,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using DD = hn::CappedTag<double, 8>;
 using DF = hn::Rebind<float, DD>;
-using DL = hn::RebindToSigned<DD>;
 using Doubles = hn::Vec<DD>;
 using Singles = hn::Vec<DF>;
 constexpr DD dd;
 constexpr DF df;
-constexpr DL dl;
 constexpr std::size_t lanes = hn::MaxLanes(dd);
 
 /// How long before its turn a triangle's corners are fetched: they lie anywhere.
@@ -148,11 +148,6 @@ HWY_INLINE hn::Mask<DD> fits_floats(Doubles largest, Doubles smallest) {
   return hn::And(hn::Lt(largest, hn::Set(dd, 0x1p60)), hn::Gt(smallest, hn::Set(dd, 0x1p-60)));
 }
 
-HWY_INLINE void store_interleaved(Doubles ab, Doubles bc, Doubles ca, Doubles plane, float* out) {
-  hn::StoreInterleaved4(hn::DemoteTo(df, ab), hn::DemoteTo(df, bc), hn::DemoteTo(df, ca),
-                        hn::DemoteTo(df, plane), df, out);
-}
-
 /// Codes of squared radii, within the scale.
 HWY_INLINE hn::Vec<hn::RebindToSigned<DF>> radius_codes(const RadiusScale& scale, Singles squared) {
   constexpr hn::RebindToSigned<DF> di;
@@ -161,30 +156,52 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<DF>> radius_codes(const RadiusScale& scale
   return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
 }
 
+#if HWY_TARGET != HWY_SCALAR
+/// Two coordinates of every other vertex, one behind the other.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> load_pairs(Tag tag, const double* xyz, const std::size_t* at) {
+  constexpr std::size_t half_lanes = hn::MaxLanes(tag) / 2;
+  if constexpr (half_lanes == 1) {
+    return hn::LoadU(tag, xyz + at[0]);
+  } else {
+    constexpr hn::Half<Tag> half;
+    return hn::Combine(tag, load_pairs(half, xyz, at + half_lanes), load_pairs(half, xyz, at));
+  }
+}
+#endif
+
+/// Vertices side by side in memory, turned: gathering each coordinate takes several times as long.
+HWY_INLINE Vectors load_vertices(const double* xyz, const std::size_t* at) {
+#if HWY_TARGET == HWY_SCALAR
+  return {hn::Set(dd, xyz[at[0]]), hn::Set(dd, xyz[at[0] + 1]), hn::Set(dd, xyz[at[0] + 2])};
+#else
+  // Blocks of two lanes: vertices 0, 2, ... and 1, 3, ...
+  const auto even_xy = load_pairs(dd, xyz, at), odd_xy = load_pairs(dd, xyz, at + 1);
+  const auto even_yz = load_pairs(dd, xyz + 1, at), odd_yz = load_pairs(dd, xyz + 1, at + 1);
+  return {hn::InterleaveLower(dd, even_xy, odd_xy), hn::InterleaveUpper(dd, even_xy, odd_xy),
+          hn::InterleaveUpper(dd, even_yz, odd_yz)};
+#endif
+}
+
 void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last,
                            const RadiusScale& radius_scale, ConeForms* forms, TrianglePlane* planes,
                            std::vector<std::uint32_t>& unknown) {
   const auto nan = hn::Set(dd, std::numeric_limits<double>::quiet_NaN());
-  alignas(64) std::int64_t corner[3][lanes];
-  alignas(64) float packed[4][4 * lanes];
+  std::size_t corner[3][lanes];
+  alignas(64) float packed[5][4 * lanes];
   constexpr hn::RebindToSigned<DF> di;
-  alignas(64) std::int32_t words[lanes];
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
     for (std::size_t k = 0; k < lanes; ++k) {
       const std::uint32_t* corners = mesh.corner + 3 * (t + std::min(k, count - 1));
       const std::uint32_t* later = mesh.corner + 3 * std::min(t + k + triangles_ahead, mesh.triangles - 1);
       for (std::size_t i = 0; i < 3; ++i) {
-        corner[i][k] = 3 * static_cast<std::int64_t>(corners[i]);
+        corner[i][k] = 3 * std::size_t{corners[i]};
         hwy::Prefetch(mesh.xyz + 3 * std::size_t{later[i]});
       }
     }
-    const auto gathered = [&](std::size_t i) {
-      const auto at = hn::Load(dl, corner[i]);
-      return Vectors{hn::GatherIndex(dd, mesh.xyz, at), hn::GatherIndex(dd, mesh.xyz + 1, at),
-                     hn::GatherIndex(dd, mesh.xyz + 2, at)};
-    };
-    const Vectors a = gathered(0), b = gathered(1), c = gathered(2);
+    const Vectors a = load_vertices(mesh.xyz, corner[0]), b = load_vertices(mesh.xyz, corner[1]),
+                  c = load_vertices(mesh.xyz, corner[2]);
     const Vectors n_ab = cross(a, b), n_bc = cross(b, c), n_ca = cross(c, a);
     const Vectors ab = b - a, ac = c - a, bc = c - b;
     const Vectors n = cross(ab, ac);
@@ -217,18 +234,19 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const auto scale = hn::IfThenElse(known, inverse, nan);
     const auto plane =
         hn::IfThenElse(plane_known, hn::Abs(hn::Div(hn::Set(dd, 1.0), offset)), hn::Abs(scale));
-    const auto store = [&](Doubles p, Doubles q, Doubles r, Doubles s, float* out) {
-      store_interleaved(hn::Mul(p, scale), hn::Mul(q, scale), hn::Mul(r, scale), hn::Mul(s, plane), out);
+    const auto times = [](Doubles value, Doubles factor) { return hn::DemoteTo(df, hn::Mul(value, factor)); };
+    const auto n_x = times(n.x, plane), n_y = times(n.y, plane), n_z = times(n.z, plane);
+    const auto store = [&](Doubles p, Doubles q, Doubles r, Singles s, float* out) {
+      hn::StoreInterleaved4(times(p, scale), times(q, scale), times(r, scale), s, df, out);
     };
-    store(n_ab.x, n_bc.x, n_ca.x, n.x, packed[0]);
-    store(n_ab.y, n_bc.y, n_ca.y, n.y, packed[1]);
-    store(n_ab.z, n_bc.z, n_ca.z, n.z, packed[2]);
+    store(n_ab.x, n_bc.x, n_ca.x, n_x, packed[0]);
+    store(n_ab.y, n_bc.y, n_ca.y, n_y, packed[1]);
+    store(n_ab.z, n_bc.z, n_ca.z, n_z, packed[2]);
     const auto rest = [&](Doubles component) {
       const auto value = hn::Mul(component, plane);
       const auto left = hn::Sub(value, hn::PromoteTo(dd, hn::DemoteTo(df, value)));
-      return hn::IfThenElse(plane_known, left, nan);
+      return hn::DemoteTo(df, hn::IfThenElse(plane_known, left, nan));
     };
-    store_interleaved(rest(n.x), rest(n.y), rest(n.z), hn::Zero(dd), packed[3]);
     const auto edge = hn::Max(ab_ab, hn::Max(ac_ac, dot(bc, bc)));
     const auto dip = hn::Mul(edge, hn::Set(dd, 1.0 / 3));
     const auto least = hn::Max(hn::Zero(dd), hn::Sub(hn::Min(aa, hn::Min(bb, cc)), dip));
@@ -236,16 +254,19 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
       return radius_codes(radius_scale, hn::DemoteTo(df, hn::Mul(squared, hn::Set(dd, by))));
     };
     const auto to_greatest = hn::Sub(hn::Set(di, greatest_radius_code), widened(furthest, 1 + 0x1p-16));
-    hn::Store(hn::Or(widened(least, 1 - 0x1p-16), hn::ShiftLeft<16>(to_greatest)), di, words);
+    const auto radii = hn::BitCast(df, hn::Or(widened(least, 1 - 0x1p-16), hn::ShiftLeft<16>(to_greatest)));
+    hn::StoreInterleaved4(rest(n.x), rest(n.y), rest(n.z), radii, df, packed[3]);
+    hn::StoreInterleaved4(n_x, n_y, n_z, radii, df, packed[4]);
+    static_assert(offsetof(ConeForms, radii) == offsetof(ConeForms, rest) + sizeof ConeForms::rest);
     for (std::size_t k = 0; k < count; ++k) {
       ConeForms& out = forms[t + k];
-      std::copy_n(packed[0] + 4 * k, 4, out.x);
-      std::copy_n(packed[1] + 4 * k, 4, out.y);
-      std::copy_n(packed[2] + 4 * k, 4, out.z);
-      std::copy_n(packed[3] + 4 * k, 3, out.rest);
-      out.radii = static_cast<RadiusWord>(words[k]);
-      planes[t + k] = plane_of(out);
+      std::memcpy(out.x, packed[0] + 4 * k, sizeof out.x);
+      std::memcpy(out.y, packed[1] + 4 * k, sizeof out.y);
+      std::memcpy(out.z, packed[2] + 4 * k, sizeof out.z);
+      std::memcpy(reinterpret_cast<char*>(&out) + offsetof(ConeForms, rest), packed[3] + 4 * k,
+                  sizeof out.rest + sizeof out.radii);
     }
+    std::memcpy(planes + t, packed[4], count * sizeof *planes);
     if (hn::AllTrue(dd, known)) continue;
     for (std::size_t k = 0; k < count; ++k) {
       if (std::isnan(packed[0][4 * k])) unknown.push_back(static_cast<std::uint32_t>(t + k));

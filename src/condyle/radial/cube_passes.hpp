@@ -39,16 +39,27 @@ struct MeshView {
   std::size_t triangles;
 };
 
-/// Where each vertex may be on the cube: its face, and the least and the greatest of its u, w, u + w and
-/// u - w there. Both are its place where it is not to move.
-struct PlacedVertices {
-  const std::uint8_t* face;
-  const FacePoint *low, *high;
-};
-
 /// Where a vertex may be on its face.
 struct FaceRoom {
   float low_u, low_w, high_u, high_w;
+
+  /// Least and greatest u, w, u + w and u - w.
+  FacePoint lowest() const noexcept { return {{low_u, low_w, low_u + low_w, low_u - high_w}}; }
+  FacePoint highest() const noexcept { return {{high_u, high_w, high_u + high_w, high_u - low_w}}; }
+};
+
+/// Where each vertex may be on the cube: its face, and its place there or, where there are rooms, its room.
+struct PlacedVertices {
+  const std::uint8_t* face;
+  const FacePoint* place;
+  const FaceRoom* room;
+
+  FacePoint lowest(std::size_t vertex) const noexcept {
+    return room == nullptr ? place[vertex] : room[vertex].lowest();
+  }
+  FacePoint highest(std::size_t vertex) const noexcept {
+    return room == nullptr ? place[vertex] : room[vertex].highest();
+  }
 };
 
 /// A triangle in one cell, before it is sorted into that cell's list.
@@ -67,17 +78,21 @@ struct Listing {
   std::size_t elsewhere_count;
 };
 
-/// A triangle seen on a face: its corners there, in turn and the first one again, and how far each may be
-/// from that.
-struct FaceTriangle {
-  FacePoint corner[3];
-  float u[4], w[4];
-  float slack_u, slack_w;
-  std::uint32_t triangle;
-  std::int32_t face;
+/// One coordinate of a triangle's corners on a face, and how far each may be from that.
+struct alignas(16) FaceCorners {
+  float at[3], slack;
 };
 
-/// Entries that listing may write beyond those it makes.
+/// Triangles seen on faces, off them too: corners within four times the face's size. Arrays have
+/// listing_room more.
+struct SeenTriangles {
+  const FaceCorners *u, *w;
+  const std::uint32_t* triangle;
+  const std::int32_t* face;
+  std::size_t count;
+};
+
+/// Entries that listing may write beyond those it makes, and triangles seen that it may read.
 inline constexpr std::size_t listing_room = 16;
 
 /// Lists, and what is known of the triangles in them.
@@ -88,11 +103,34 @@ struct ListedRadii {
   RadiusScale scale;            ///< of the planes' radii
   const float* inverse_length;  ///< see CellCorners
   float cosine;                 ///< of the angle between the middle of a cell and its corners, at most
+  RadiusWord of_every_cell;     ///< what all cells have: no_radii, or those of the centre
   std::uint8_t* nearest;        ///< written for each entry, see CellLists
+  RadiusWord* entry_radii;      ///< the same; null where they are not kept
 };
 
-/// Squared radii of the surface in a cell; infinity and 0 where there is none.
-struct CellRadii {
+/// Triangles that have changed: their numbers and planes, and for each cell where entries have changed, the
+/// places here of those that are listed in it now.
+///
+///   listed     | 0 4 7 |     | 4 8 |  ...      cells[i] has [first[i], first[i + 1])
+struct TouchedTriangles {
+  std::span<const std::uint32_t> number;
+  std::span<const TrianglePlane> plane;
+  std::span<const std::uint32_t> cells, first, listed;
+
+  std::span<const std::uint32_t> listed_in(std::size_t i) const noexcept {
+    return listed.subspan(first[i], first[i + 1] - first[i]);
+  }
+};
+
+/// What is new of an entry: radii of its triangle in its cell, and the nearest one, see CellLists.
+struct ChangedEntry {
+  std::uint32_t triangle;
+  RadiusWord radii;
+  std::int32_t nearest;
+};
+
+/// Squared radii of a surface; infinity and 0 where there is none.
+struct SurfaceRadii {
   float least, greatest;
 };
 
@@ -118,20 +156,24 @@ void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last
 void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
                           std::size_t last, Listing& listing);
 
-/// Lists triangles seen on a face in the cells that they meet: those of their octagon, but for cells beyond
-/// one of their edges. Corners are within four times the face's size. Returns how many it has listed: fewer
-/// than there are where `listing` has not room for all cells that the next one may meet, and listing_room.
-std::size_t list_face_triangles(std::span<const FaceTriangle> triangles, Listing& listing);
+/// Lists triangles seen on faces, from the given one on, in the cells that they meet: those of their octagon,
+/// but for cells beyond one of their edges. Returns the first one that is not listed: there is one where
+/// `listing` has not room for all cells that it may meet, and listing_room.
+std::size_t list_seen_triangles(const SeenTriangles& seen, std::size_t first, Listing& listing);
 
-/// Radii of the surface in a cell: of each listed triangle those of its plane within the cell,
-/// or those of the triangle where they are closer.
+/// Radii of the surface in each cell: of each listed triangle those of its plane within the cell, or those of
+/// the triangle where they are closer. Returns those of all cells.
 ///
 /// In unit direction d a plane has the radius 1 / (n . d), n its form. d is a sum of the cell's corner
 /// directions with weights >= 0, whose sum is at least 1 and at most 1 / cosine: so n . d lies between the
 /// least n . corner, if that is positive, and the greatest over the cosine. 2^-14 |n| covers the widening and
-/// the floats.
-CellRadii measure_row(const ListedRadii& lists, std::size_t cell, CellRow row);
-/// The same for all cells.
-void measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, CellRadii* out);
+/// the floats. A triangle whose plane and corners have no radius in common there is not in the cell.
+SurfaceRadii measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, RadiusWord* out);
+
+/// The same for cells of which single triangles have changed; all others have their entry_radii. Adds those
+/// of the changed ones to `surface`. Whether the radii of any cell are others than before. `room` is for what
+/// is listed.
+bool measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
+                     ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface);
 
 }  // namespace condyle

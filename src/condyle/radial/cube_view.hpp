@@ -121,12 +121,6 @@ constexpr bool holds(std::uint32_t range, std::uint32_t point) noexcept {
   return true;
 }
 
-/// What a triangle takes of a face, in parts from the face's corner: least and greatest u, w, u + w, and
-/// u - w + 256 N.
-struct FaceParts {
-  std::array<int, 4> least, greatest;
-};
-
 /// A pose as the passes read it, about the joint centre: rotation by rows, translation, its length.
 struct FloatPose {
   std::array<float, 9> rotation;

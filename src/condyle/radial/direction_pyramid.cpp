@@ -1,7 +1,6 @@
 #include "condyle/radial/direction_pyramid.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <numeric>
 
@@ -41,95 +40,144 @@ HWY_INLINE void in_vectors(std::size_t n, const Step& step) {
   for (; i < n; ++i) step(single, i);
 }
 
-/// Columns with their neighbours above and below.
-void unite_rows(const RadiusWord* above, const RadiusWord* middle, const RadiusWord* below, std::size_t n,
-                RadiusWord* out) {
-  in_vectors(n, [&](auto words, std::size_t i) {
-    const auto both = union_of_words(words, hn::LoadU(words, above + i), hn::LoadU(words, below + i));
-    hn::StoreU(union_of_words(words, both, hn::LoadU(words, middle + i)), words, out + i);
-  });
-}
-
-/// Each with those up to `reach` before and after it; `in` starts so far before the first.
-void unite_neighbours(const RadiusWord* in, std::size_t n, std::size_t reach, RadiusWord* out) {
-  in_vectors(n, [&](auto words, std::size_t i) {
-    auto all = hn::LoadU(words, in + i);
-    for (std::size_t k = 1; k <= 2 * reach; ++k)
-      all = union_of_words(words, all, hn::LoadU(words, in + i + k));
-    hn::StoreU(all, words, out + i);
-  });
-}
-
 std::size_t square(std::size_t n) noexcept {
   return n * n;
 }
 
-/// Borders within each face. `row` has room for a row and one word at either end.
-void widen_faces(const RadiusWord* in, std::size_t n, RadiusWord* row, RadiusWord* out) {
-  row[0] = row[n + 1] = no_radii;
-  for (std::size_t face = 0; face < 6; ++face) {
-    for (std::size_t j = 0; j < n; ++j) {
-      const RadiusWord* middle = in + face * square(n) + j * n;
-      unite_rows(j > 0 ? middle - n : middle, middle, j + 1 < n ? middle + n : middle, n, row + 1);
-      unite_neighbours(row, n, 1, out + face * square(n) + j * n);
+constexpr std::size_t border = DirectionPyramid::most_border;
+
+/// A face's pieces with those beyond its edges around them, row by row.
+///
+///        x 0   border         n + border
+///          . . | beyond      | . .            corners hold nothing: a direction beyond two edges is
+///          ----+-------------+----            on one of the two faces beyond them
+///        beyond|  the face   |beyond
+///
+/// Rows end with room for a vector that starts in them; the last one for another.
+class BorderedFace {
+ public:
+  BorderedFace(RadiusWord* words, std::size_t n) : words_(words), stride_(stride(n)) {}
+  static std::size_t room(std::size_t n) noexcept {
+    return (n + 2 * border) * stride(n) + hn::MaxLanes(Long());
+  }
+
+  RadiusWord* at(std::size_t row, std::size_t column) const noexcept {
+    return words_ + row * stride_ + column;
+  }
+  std::size_t stride() const noexcept { return stride_; }
+
+ private:
+  static std::size_t stride(std::size_t n) noexcept { return n + 2 * border + 2 * hn::MaxLanes(Long()); }
+
+  RadiusWord* words_;
+  std::size_t stride_;
+};
+
+void copy_words(const RadiusWord* in, std::size_t n, RadiusWord* out) {
+  in_vectors(n, [&](auto words, std::size_t i) { hn::StoreU(hn::LoadU(words, in + i), words, out + i); });
+}
+
+/// An edge of a face: the side where the coordinate of `axis` is least or greatest. Columns run along the
+/// face's axis + 1, rows along axis + 2.
+struct FaceEdge {
+  int face, axis;
+  bool is_greatest;
+
+  bool is_column() const noexcept { return axis == (face + 1) % 3; }
+  /// The same edge of the other face that has it.
+  FaceEdge other_side() const noexcept { return {is_greatest ? axis : axis + 3, face % 3, face < 3}; }
+};
+
+/// Lines of pieces along an edge, the nearest ones of its face, each into a row of its own.
+void read_lines(const RadiusWord* pieces, std::size_t n, const FaceEdge& edge, const BorderedFace& out) {
+  const std::size_t lines = std::min(border, n);
+  const RadiusWord* own = pieces + static_cast<std::size_t>(edge.face) * square(n);
+  const auto from_edge = [&](std::size_t m) { return edge.is_greatest ? n - 1 - m : m; };
+  if (edge.is_column()) {
+    for (std::size_t k = 0; k < n; ++k, own += n)
+      for (std::size_t m = 0; m < lines; ++m) *out.at(m, border + k) = own[from_edge(m)];
+  } else {
+    for (std::size_t m = 0; m < lines; ++m) copy_words(own + from_edge(m) * n, n, out.at(m, border));
+  }
+  for (std::size_t m = lines; m < border; ++m) std::fill_n(out.at(m, border), n, no_radii);
+}
+
+/// Each word of a line with those up to `reach` before and after it.
+template <std::size_t reach>
+HWY_INLINE void spread_line(const RadiusWord* line, std::size_t n, RadiusWord* out) {
+  in_vectors(n, [&](auto words, std::size_t i) {
+    auto all = hn::LoadU(words, line + i);
+    for (std::size_t by = 1; by <= reach; ++by) {
+      const auto before = hn::LoadU(words, line + i - by), after = hn::LoadU(words, line + i + by);
+      all = union_of_words(words, all, union_of_words(words, before, after));
     }
+    hn::StoreU(all, words, out + i);
+  });
+}
+
+/// What is beyond an edge. A direction displaced beyond it, to a coordinate 1 + e, is e / (1 + e) away from
+/// the edge on the neighbouring face, less than e; the other coordinate is divided by 1 + e too, which brings
+/// it nearer to the middle by no more than that. So the pieces m others away from the edge, which take
+/// displacements of up to m + 1 pieces to be reached, are spread by so many along it.
+///
+/// Rows of `room` are free but for their margins, which hold nothing.
+void add_beyond_edge(const RadiusWord* pieces, std::size_t n, const FaceEdge& edge, const BorderedFace& room,
+                     const BorderedFace& out) {
+  static_assert(border == 3);
+  read_lines(pieces, n, edge.other_side(), room);
+  const auto across = [&](std::size_t m) { return edge.is_greatest ? border + n + m : border - 1 - m; };
+  const auto row = [&](std::size_t m) {
+    return edge.is_column() ? room.at(border + m, border) : out.at(across(m), border);
+  };
+  spread_line<1>(room.at(0, border), n, row(0));
+  spread_line<2>(room.at(1, border), n, row(1));
+  spread_line<3>(room.at(2, border), n, row(2));
+  if (!edge.is_column()) return;
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t m = 0; m < border; ++m)
+      *out.at(border + k, across(m)) = *room.at(border + m, border + k);
+}
+
+void add_borders(const RadiusWord* pieces, std::size_t n, int face, const BorderedFace& room,
+                 const BorderedFace& out) {
+  for (std::size_t row = 0; row < border; ++row) {
+    for (const std::size_t first : {std::size_t{0}, border + n}) {
+      std::fill_n(out.at(row, first), border, no_radii);
+      std::fill_n(out.at(border + n + row, first), border, no_radii);
+      std::fill_n(room.at(row, first), border, no_radii);
+    }
+  }
+  const RadiusWord* own = pieces + static_cast<std::size_t>(face) * square(n);
+  for (std::size_t row = 0; row < n; ++row) copy_words(own + row * n, n, out.at(border + row, border));
+  for (const int axis : {(face + 1) % 3, (face + 2) % 3})
+    for (const bool is_greatest : {false, true})
+      add_beyond_edge(pieces, n, {face, axis, is_greatest}, room, out);
+}
+
+/// Columns of a vector's width, rows after each other: each word with its eight neighbours. `in` is where the
+/// first of them is.
+template <class Words>
+HWY_INLINE void widen_columns(Words words, const RadiusWord* in, std::size_t stride, std::size_t rows,
+                              RadiusWord* out, std::size_t out_stride) {
+  const auto three = [&](const RadiusWord* middle) {
+    const auto sides = union_of_words(words, hn::LoadU(words, middle - 1), hn::LoadU(words, middle + 1));
+    return union_of_words(words, sides, hn::LoadU(words, middle));
+  };
+  auto above = three(in - stride), here = three(in);
+  for (std::size_t row = 0; row < rows; ++row) {
+    in += stride;
+    const auto below = three(in);
+    hn::StoreU(union_of_words(words, union_of_words(words, above, here), below), words, out);
+    above = here, here = below;
+    out += out_stride;
   }
 }
 
-/// A line of pieces along an edge of a face, so many others away from it.
-struct EdgeLine {
-  std::size_t first, step;
-
-  /// On the side of the face where the coordinate of the given axis is least or greatest. Columns run along
-  /// the face's axis + 1, rows along axis + 2.
-  EdgeLine(int face, int axis, bool is_greatest, std::size_t away, std::size_t n) {
-    const std::size_t at = is_greatest ? n - 1 - away : away;
-    const bool is_column = axis == (face + 1) % 3;
-    first = static_cast<std::size_t>(face) * square(n) + (is_column ? at : at * n);
-    step = is_column ? n : 1;
-  }
-};
-
-constexpr std::size_t most_border = DirectionPyramid::most_border, most_reach = DirectionPyramid::most_reach;
-
-/// Room for borders: rows with a margin of `most_reach` words at either end.
-struct Room {
-  std::array<RadiusWord*, most_border> beyond;
-  RadiusWord *united, *widened;
-};
-
-/// Borders across the edges of the cube. A direction of a piece that q others part from an edge may be
-/// displaced beyond it by d = border - q pieces. There a coordinate 1 + e is 1 / (1 + e), at least 1 - e: it
-/// enters the neighbouring face by no more than d pieces. The other coordinate is divided by 1 + e too, which
-/// brings it nearer to the middle by at most d pieces more than it is displaced by.
-void widen_across_edges(const RadiusWord* in, std::size_t n, std::size_t border, const Room& room,
-                        RadiusWord* out) {
-  const std::size_t depths = std::min(border, n);
-  for (int face = 0; face < 6; ++face) {
-    for (const int axis : {(face + 1) % 3, (face + 2) % 3}) {
-      for (const bool is_greatest : {false, true}) {
-        // beyond[m]: the first m + 1 pieces beyond the edge.
-        for (std::size_t m = 0; m < depths; ++m) {
-          const EdgeLine line(is_greatest ? axis : axis + 3, face % 3, face < 3, m, n);
-          RadiusWord* row = room.beyond[m];
-          for (std::size_t k = 0; k < n; ++k) row[most_reach + k] = in[line.first + k * line.step];
-          if (m > 0)
-            unite_rows(row + most_reach, row + most_reach, room.beyond[m - 1] + most_reach, n,
-                       row + most_reach);
-        }
-        for (std::size_t q = 0; q < depths; ++q) {
-          const std::size_t depth = border - q, reach = border + depth;
-          const RadiusWord* row = room.beyond[std::min(depth, n) - 1];
-          unite_neighbours(row + most_reach - reach, n, reach, room.united);
-          const EdgeLine own(face, axis, is_greatest, q, n);
-          for (std::size_t k = 0; k < n; ++k) {
-            RadiusWord& entry = out[own.first + k * own.step];
-            entry = union_of(entry, room.united[k]);
-          }
-        }
-      }
-    }
-  }
+/// Each word but the outermost `by` ones on every side, with its eight neighbours: one piece more of border.
+void widen(const BorderedFace& in, std::size_t n, std::size_t by, const BorderedFace& out) {
+  const std::size_t width = n + 2 * (border - by);
+  for (std::size_t i = 0; i < width; i += hn::MaxLanes(Long()))
+    widen_columns(Long(), in.at(by, by + i), in.stride(), width, out.at(by, by + i), out.stride());
 }
 
 /// Four pieces to one.
@@ -147,36 +195,39 @@ void halve(const RadiusWord* in, std::size_t n, RadiusWord* out) {
   }
 }
 
-void fill_any(int cells_per_side, const RadiusWord* cells, std::span<RadiusWord> words, RadiusWord* entries) {
-  const auto finest = static_cast<std::size_t>(cells_per_side);
-  const std::size_t row_room = finest + 2 * most_reach;
-  Room room{};
-  RadiusWord* next = words.data();
-  const auto take = [&](std::size_t count) {
-    RadiusWord* start = next;
-    next += count;
-    return start;
+/// The entries of one level, of borders 1 (where asked for), 2 and 3.
+void fill_level(const RadiusWord* pieces, std::size_t n, const BorderedFace& a, const BorderedFace& b,
+                RadiusWord* border_1, RadiusWord* border_2, RadiusWord* border_3) {
+  const auto copy_face = [&](const BorderedFace& from, RadiusWord* to) {
+    for (std::size_t row = 0; row < n; ++row) copy_words(from.at(border + row, border), n, to + row * n);
   };
-  for (RadiusWord*& row : room.beyond) row = take(row_room);
-  room.united = take(row_room), room.widened = take(row_room);
-  RadiusWord *bordered = take(6 * square(finest / 2)), *piece = take(6 * square(finest / 2)),
-             *coarser = take(6 * square(finest / 2));
+  for (int face = 0; face < 6; ++face) {
+    const std::size_t first = static_cast<std::size_t>(face) * square(n);
+    add_borders(pieces, n, face, b, a);
+    widen(a, n, 1, b);
+    if (border_1 != nullptr) copy_face(b, border_1 + first);
+    widen(b, n, 2, a);
+    copy_face(a, border_2 + first);
+    in_vectors(n, [&](auto words, std::size_t i) {
+      widen_columns(words, a.at(border, border + i), a.stride(), n, border_3 + first + i, n);
+    });
+  }
+}
+
+std::size_t room_needed_any(std::size_t cells_per_side) {
+  return 2 * BorderedFace::room(cells_per_side) + 2 * 6 * square(cells_per_side / 2);
+}
+
+void fill_any(int cells_per_side, const RadiusWord* cells, RadiusWord* room, RadiusWord* entries) {
+  const auto finest = static_cast<std::size_t>(cells_per_side);
+  RadiusWord *const first = room, *const second = first + BorderedFace::room(finest);
+  RadiusWord *piece = second + BorderedFace::room(finest), *coarser = piece + 6 * square(finest / 2);
   const RadiusWord* pieces = cells;
   const int steps = DirectionPyramid::step_count(cells_per_side);
   for (int step = 1; step < steps; step += 2) {
     const std::size_t n = finest >> DirectionPyramid::level_of(step);
-    for (RadiusWord* row : room.beyond) {
-      std::fill_n(row, most_reach, no_radii), std::fill_n(row + most_reach + n, most_reach, no_radii);
-    }
     const auto at = [&](int of) { return entries + DirectionPyramid::start_of(of, cells_per_side); };
-    RadiusWord* const one = step == 1 ? at(0) : bordered;
-    // Within the faces all of them first: what is beyond an edge is not to be widened again.
-    widen_faces(pieces, n, room.widened, one);
-    widen_faces(one, n, room.widened, at(step));
-    widen_faces(at(step), n, room.widened, at(step + 1));
-    if (step == 1) widen_across_edges(pieces, n, 1, room, one);
-    widen_across_edges(pieces, n, 2, room, at(step));
-    widen_across_edges(pieces, n, 3, room, at(step + 1));
+    fill_level(pieces, n, {first, n}, {second, n}, step == 1 ? at(0) : nullptr, at(step), at(step + 1));
     if (step + 2 >= steps) break;
     halve(pieces, n, coarser);
     std::swap(piece, coarser);
@@ -197,6 +248,7 @@ std::size_t square(int n) noexcept {
 }
 
 HWY_EXPORT(fill_any);
+HWY_EXPORT(room_needed_any);
 
 }  // namespace
 
@@ -222,11 +274,8 @@ std::size_t DirectionPyramid::entry_count(int cells_per_side) noexcept {
 void DirectionPyramid::fill(int cells_per_side, std::span<const RadiusWord> cells) {
   assert(cells.size() == 6 * square(cells_per_side));
   entry_.resize(entry_count(cells_per_side));
-  const auto n = static_cast<std::size_t>(cells_per_side);
-  // Five rows with their margins, and of one level after the first its pieces, those with a border, and the
-  // next ones.
-  room_.resize((most_border + 2) * (n + 2 * most_reach) + 3 * 6 * square(cells_per_side / 2));
-  HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), room_, entry_.data());
+  room_.resize(HWY_DYNAMIC_DISPATCH(room_needed_any)(static_cast<std::size_t>(cells_per_side)));
+  HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), room_.data(), entry_.data());
   // The last step has the fewest entries, and every cell is in one of them.
   const auto last_step =
       entry_.begin() + static_cast<std::ptrdiff_t>(start_of(step_count(cells_per_side) - 1, cells_per_side));

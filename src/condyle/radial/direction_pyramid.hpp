@@ -30,8 +30,8 @@ class DirectionPyramid {
   static std::size_t start_of(int step, int cells_per_side) noexcept;
   static std::size_t entry_count(int cells_per_side) noexcept;
 
-  /// The widest border, and how far along an edge of the cube a piece is asked for then.
-  static constexpr std::size_t most_border = 3, most_reach = 2 * most_border;
+  /// The widest border.
+  static constexpr std::size_t most_border = 3;
 
   /// From the radii of each cell of a CubeMap. Linear in cells.
   void fill(int cells_per_side, std::span<const RadiusWord> cells);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include <hwy/cache_control.h>
@@ -12,63 +13,34 @@ namespace {
 /// How long before their turn triangles and their corners are fetched: they lie anywhere.
 constexpr std::size_t triangles_ahead = 8;
 
-/// Vertices of some triangles of their own, with their rooms: for listing these alone.
-class PartsInRooms {
- public:
-  PartsInRooms(const TriMesh& mesh, const CellLists& lists, std::span<const Index> triangles) {
-    const std::size_t corners = 3 * triangles.size();
-    parts_.vertices.reserve(corners);
-    parts_.triangles.reserve(triangles.size());
-    face_.reserve(corners), low_.reserve(corners), high_.reserve(corners);
-    const auto ahead = [&](std::size_t i, std::size_t by) {
-      return triangles[std::min(i + by, triangles.size() - 1)];
-    };
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-      hwy::Prefetch(&mesh.triangles[ahead(i, 2 * triangles_ahead)]);
-      for (const Index v : mesh.triangles[ahead(i, triangles_ahead)]) {
-        hwy::Prefetch(&lists.corner[v]), hwy::Prefetch(&lists.room[v]), hwy::Prefetch(&lists.face[v]);
-      }
-      const auto first = static_cast<Index>(low_.size());
-      parts_.triangles.push_back({first, first + 1, first + 2});
-      for (const Index v : mesh.triangles[triangles[i]]) {
-        parts_.vertices.push_back(lists.corner[v]);
-        face_.push_back(lists.face[v]);
-        const FaceRoom& room = lists.room[v];
-        low_.push_back(lowest_in(room)), high_.push_back(highest_in(room));
-      }
+PlacedVertices in_rooms(const CellLists& lists) {
+  return {lists.face.data(), nullptr, lists.room.data()};
+}
+
+/// Corners of some triangles; what else is known of these and their corners is fetched.
+std::vector<Triangle> corners_of(const TriMesh& mesh, const CellLists& lists,
+                                 std::span<const Index> triangles) {
+  std::vector<Triangle> corners(triangles.size());
+  const auto ahead = [&](std::size_t i, std::size_t by) {
+    return triangles[std::min(i + by, triangles.size() - 1)];
+  };
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    hwy::Prefetch(&mesh.triangles[ahead(i, 2 * triangles_ahead)]);
+    hwy::Prefetch(&lists.forms[triangles[i]]);
+    for (const Index v : mesh.triangles[ahead(i, triangles_ahead)]) {
+      hwy::Prefetch(&lists.corner[v]), hwy::Prefetch(&lists.room[v]), hwy::Prefetch(&lists.face[v]);
     }
+    corners[i] = mesh.triangles[triangles[i]];
   }
-
-  const TriMesh& mesh() const noexcept { return parts_; }
-  PlacedVertices placed() const noexcept { return {face_.data(), low_.data(), high_.data()}; }
-
-  static FacePoint lowest_in(const FaceRoom& r) noexcept {
-    return {{r.low_u, r.low_w, r.low_u + r.low_w, r.low_u - r.high_w}};
-  }
-  static FacePoint highest_in(const FaceRoom& r) noexcept {
-    return {{r.high_u, r.high_w, r.high_u + r.high_w, r.high_u - r.low_w}};
-  }
-
- private:
-  TriMesh parts_;
-  std::vector<std::uint8_t> face_;
-  std::vector<FacePoint> low_, high_;
-};
-
-/// All triangles, with the rooms of their vertices.
-void list_all_in_rooms(const TriMesh& mesh, const CubeMap& map, CellLists& lists) {
-  UninitialisedVector<FacePoint> low(lists.room.size()), high(lists.room.size());
-  for (std::size_t i = 0; i < lists.room.size(); ++i) {
-    low[i] = PartsInRooms::lowest_in(lists.room[i]), high[i] = PartsInRooms::highest_in(lists.room[i]);
-  }
-  list_all(mesh, map, {lists.face.data(), low.data(), high.data()}, lists);
+  return corners;
 }
 
 /// What a vertex that moves on is given beyond where it was seen, in cells: more would make lists longer,
 /// less would soon be left again.
 constexpr float room_around = 1.0f / 16;
-/// What moves further than this between two looks is not expected back where it was.
-constexpr float widest_room = 1.0f;
+/// What moves further than this is not expected back where it was. With one cell, a ball of 130000 triangles
+/// whose vertices go to and fro by 0.8 cells left rooms at each update, which took twice as long.
+constexpr float widest_room = 1.5f;
 
 struct FacePosition {
   float u, w;
@@ -115,10 +87,6 @@ Points points_at(const TriMesh& mesh, std::span<const Index> vertices) {
   return points;
 }
 
-MeshView view_of(const Points& points) {
-  return {points.x.data(), points.y.data(), points.z.data(), nullptr, points.size(), nullptr, 0};
-}
-
 void give_rooms(const TriMesh& mesh, const CubeMap& map, std::span<const Index> vertices, CellLists& lists) {
   for (const Index v : vertices)
     give_room(mesh.vertices[v], map.cells_per_side(), lists.face[v], lists.room[v]);
@@ -140,23 +108,25 @@ std::vector<Index> triangles_at(const TriMesh& mesh, std::span<const Index> vert
 /// Cells, each once.
 class CellSet {
  public:
-  explicit CellSet(Index cells) : is_in_(cells) {}
+  explicit CellSet(Index cells) : is_in_(cells / bits + 1) {}
   void add(Index cell) {
-    if (is_in_[cell] == 0) cells_.push_back(cell);
-    is_in_[cell] = 1;
+    const std::uint64_t bit = std::uint64_t{1} << cell % bits;
+    if ((is_in_[cell / bits] & bit) == 0) cells_.push_back(cell);
+    is_in_[cell / bits] |= bit;
   }
   std::span<const Index> cells() const noexcept { return cells_; }
 
  private:
-  std::vector<unsigned char> is_in_;
+  static constexpr Index bits = 64;
+
+  std::vector<std::uint64_t> is_in_;
   std::vector<Index> cells_;
 };
 
 /// Takes triangles out of the rows that their vertices' rooms put them in; adds those cells to `touched`.
-void unlist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
-            CellSet& touched) {
-  const PartsInRooms parts(mesh, lists, triangles);
-  CubeListing listing(parts.mesh(), map, parts.placed());
+void unlist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles,
+            std::span<const Triangle> corners, CellLists& lists, CellSet& touched) {
+  CubeListing listing(mesh.vertices, corners, map, in_rooms(lists));
   listing.list();
   for (const ListedTriangle& entry : listing.entries()) {
     lists.remove_entry(entry.cell, triangles[entry.triangle]);
@@ -165,9 +135,9 @@ void unlist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> tria
 }
 
 /// Puts triangles that are in no row into those of their vertices' rooms.
-void list_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists) {
-  const PartsInRooms parts(mesh, lists, triangles);
-  CubeListing listing(parts.mesh(), map, parts.placed());
+void list_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles,
+               std::span<const Triangle> corners, CellLists& lists) {
+  CubeListing listing(mesh.vertices, corners, map, in_rooms(lists));
   listing.list();
   lists.has_clipped |= listing.has_clipped();
   for (const ListedTriangle& entry : listing.entries())
@@ -177,9 +147,10 @@ void list_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> t
 /// Lists anew the triangles at vertices that left their rooms.
 void relist(const TriMesh& mesh, const CubeMap& map, std::span<const Index> strayed,
             std::span<const Index> triangles, CellLists& lists, CellSet& touched) {
-  unlist(mesh, map, triangles, lists, touched);
+  const std::vector<Triangle> corners = corners_of(mesh, lists, triangles);
+  unlist(mesh, map, triangles, corners, lists, touched);
   give_rooms(mesh, map, strayed, lists);
-  list_some(mesh, map, triangles, lists);
+  list_some(mesh, map, triangles, corners, lists);
 }
 
 std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
@@ -191,29 +162,58 @@ std::vector<Index> strayed_among(const TriMesh& mesh, const CellLists& lists,
     face[i] = lists.face[vertices[i]], room[i] = lists.room[vertices[i]];
   }
   std::vector<Index> strayed(vertices.size());
-  strayed.resize(find_strayed(view_of(at), face.data(), room.data(), strayed.data()));
+  strayed.resize(find_strayed(view_of(at, {}), face.data(), room.data(), strayed.data()));
   for (Index& i : strayed) i = vertices[i];
   return strayed;
 }
 
-/// Forms and radii of some triangles, and the cells that they are listed in.
-void measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
+/// Which triangles of a listing are in each of its cells, see TouchedTriangles.
+struct EntriesByCell {
+  std::vector<std::uint32_t> first;
+  UninitialisedVector<std::uint32_t> listed;
+
+  EntriesByCell(const CubeListing& listing, std::span<const Index> cells, Index cell_count)
+      : listed(listing.entries().size()) {
+    UninitialisedVector<std::uint32_t> next(cell_count);
+    first.reserve(cells.size() + 1);
+    first.push_back(0);
+    for (const Index cell : cells) {
+      next[cell] = first.back();
+      first.push_back(first.back() + listing.length(cell));
+    }
+    for (const ListedTriangle& entry : listing.entries()) listed[next[entry.cell]++] = entry.triangle;
+  }
+};
+
+/// Forms of some triangles; their planes.
+UninitialisedVector<TrianglePlane> measure_forms(std::span<const Index> triangles,
+                                                 std::span<const Triangle> corners, CellLists& lists) {
+  UninitialisedVector<TrianglePlane> planes(triangles.size());
+  // In parts that stay in the nearest cache on their way to where they belong.
+  constexpr std::size_t most = 64;
+  std::array<ConeForms, most> forms;
+  std::vector<std::uint32_t> unknown;
+  for (std::size_t first = 0; first < triangles.size(); first += most) {
+    const std::size_t count = std::min(most, triangles.size() - first);
+    MeshView view = view_of({}, corners.subspan(first, count));
+    view.xyz = lists.corner.data()->data();
+    measure_triangles(view, 0, count, lists.scale, forms.data(), planes.data() + first, unknown);
+    for (std::size_t i = 0; i < count; ++i) lists.forms[triangles[first + i]] = forms[i];
+  }
+  return planes;
+}
+
+/// Forms of some triangles, and the radii of the cells that they are listed in and of the `touched` ones.
+/// Whether any of these are others than before.
+bool measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
                   CellSet& touched) {
-  // Far apart, and needed only when all are measured.
-  for (const Index t : triangles) hwy::Prefetch(&lists.forms[t]);
-  const PartsInRooms parts(mesh, lists, triangles);
-  CubeListing listing(parts.mesh(), map, parts.placed());
+  const std::vector<Triangle> corners = corners_of(mesh, lists, triangles);
+  CubeListing listing(mesh.vertices, corners, map, in_rooms(lists));
   listing.list();
   for (const ListedTriangle& entry : listing.entries()) touched.add(entry.cell);
-  UninitialisedVector<Vec3> corner(parts.mesh().vertices.size());
-  for (std::size_t i = 0; i < corner.size(); ++i) corner[i] = parts.mesh().vertices[i];
-  UninitialisedVector<ConeForms> forms(triangles.size());
-  UninitialisedVector<TrianglePlane> planes(triangles.size());
-  MeshView view = view_of(parts.mesh());
-  view.xyz = corner.data()->data();
-  std::vector<std::uint32_t> unknown;
-  measure_triangles(view, 0, triangles.size(), lists.scale, forms.data(), planes.data(), unknown);
-  for (std::size_t i = 0; i < triangles.size(); ++i) lists.forms[triangles[i]] = forms[i];
+  const EntriesByCell by_cell(listing, touched.cells(), map.cell_count());
+  const UninitialisedVector<TrianglePlane> planes = measure_forms(triangles, corners, lists);
+  return find_radii_in(map, {triangles, planes, touched.cells(), by_cell.first, by_cell.listed}, lists);
 }
 
 }  // namespace
@@ -223,7 +223,7 @@ void make_rooms(const TriMesh& mesh, CellLists& lists) {
   UninitialisedVector<FacePoint> place(mesh.vertices.size());
   lists.face.resize(mesh.vertices.size());
   lists.room.resize(mesh.vertices.size());
-  place_vertices(view_of(mesh), lists.face.data(), place.data());
+  place_vertices(view_of(mesh.vertices, mesh.triangles), lists.face.data(), place.data());
   for (std::size_t i = 0; i < place.size(); ++i) {
     const float u = place[i].u(), w = place[i].w();
     lists.room[i] = {u, w, u, w};
@@ -233,12 +233,13 @@ void make_rooms(const TriMesh& mesh, CellLists& lists) {
 void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists) {
   if (lists.has_clipped) return list_cells(mesh, map, lists);
   UninitialisedVector<Index> strayed(mesh.vertices.size());
-  strayed.resize(find_strayed(view_of(mesh), lists.face.data(), lists.room.data(), strayed.data()));
+  strayed.resize(find_strayed(view_of(mesh.vertices, mesh.triangles), lists.face.data(), lists.room.data(),
+                              strayed.data()));
   // Listing one triangle among others that stay takes several times what it does when all are listed.
   const bool are_many = strayed.size() > mesh.vertices.size() / 16;
   if (are_many) {
     give_rooms(mesh, map, strayed, lists);
-    list_all_in_rooms(mesh, map, lists);
+    list_all(mesh, map, in_rooms(lists), lists);
   } else if (!strayed.empty()) {
     std::vector<Index> all(mesh.triangles.size());
     std::iota(all.begin(), all.end(), Index{0});
@@ -262,8 +263,7 @@ bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const In
     find_radii(map, lists);
     return true;
   }
-  measure_some(mesh, map, triangles, lists, touched);
-  return find_radii_in(map, touched.cells(), lists);
+  return measure_some(mesh, map, triangles, lists, touched);
 }
 
 }  // namespace condyle

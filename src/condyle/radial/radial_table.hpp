@@ -81,14 +81,15 @@ class RadialTable {
   /// The first update lists triangles with room for their vertices to move on: a box on the cube that holds
   /// where each was and is, and a sixteenth of a cell more. Later ones list those alone whose vertices leave
   /// their rooms, which then grow: a surface that goes to and fro soon stays in them, and an update costs
-  /// measuring the triangles, a quarter to a half of a build. Lists with room are longer by a
+  /// measuring the triangles, a quarter to a third of a build. Lists with room are longer by a
   /// quarter to a half, and a pose asked for takes 1.1 to 1.5 times as long; a new table is without.
   void update(PointsView vertices);
 
   /// New places of some vertices, each named once. The same otherwise.
   ///
-  /// Cost: the triangles at those vertices and the cells they are in. The first such update also finds which
-  /// triangles each vertex has, which takes about 14 bytes per triangle.
+  /// Cost: the triangles at those vertices, the rows of the cells they are in, and a look at the radii of all
+  /// cells. The first such update also finds which triangles each vertex has, and the radii of each triangle
+  /// in each of its cells, which takes some 30 bytes per triangle.
   void update(std::span<const Index> moved, PointsView positions);
 
   /// State, winding number, gap or depth, triangle of every point. Which gap: a point outside reaches the
