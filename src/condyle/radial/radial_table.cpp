@@ -29,7 +29,7 @@ int cells_per_side(const RadialOptions& options, std::size_t triangles) {
   // memory, and a query gains little. Sides that can be halved have deep pyramids.
   if (triangles < 6000) return triangles < 3000 ? 16 : 24;
   if (triangles < 12000) return 32;
-  return triangles < 60000 ? 40 : triangles < 600000 ? 80 : 128;
+  return triangles < 60000 ? 48 : triangles < 600000 ? 64 : 128;
 }
 
 std::variant<CartesianMap, CubeMap> make_map(const RadialOptions& options, std::size_t triangles) {
