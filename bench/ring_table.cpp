@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <vector>
 
 #include "goals.hpp"
@@ -43,32 +42,6 @@ std::vector<Pose> about_flexion_axis(int count, int stride) {
   return poses;
 }
 
-/// The same as often as takes some milliseconds, so that caches are as warm as Embree's are after a few of
-/// its poses, and the clock is fine enough.
-struct Repeated {
-  std::function<void()> once;
-  int times;
-
-  explicit Repeated(std::function<void()> what) : once(std::move(what)) {
-    constexpr double some_seconds = 5e-3;
-    once();
-    times = std::max(1, static_cast<int>(std::ceil(some_seconds / seconds_of(once))));
-  }
-  void operator()() const {
-    for (int i = 0; i < times; ++i) once();
-  }
-};
-
-/// Median of processor seconds of a first table that finds nothing in the caches.
-double cold_first_seconds(const TriMesh& fixed, Effort effort) {
-  std::vector<double> seconds;
-  for (int i = 0; i < (effort == Effort::full ? 5 : 1); ++i) {
-    empty_caches();
-    seconds.push_back(seconds_of([&] { condyle::RingTable(fixed, arc_axis()); }));
-  }
-  return median(std::move(seconds));
-}
-
 }  // namespace
 
 void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
@@ -102,7 +75,7 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
     };
     samples = interleaved(effort == Effort::full ? 5 : 1,
                           {new_axis, first, query, arcs, step_embree, build_embree});
-    cold_first = cold_first_seconds(fixed, effort);
+    cold_first = cold_seconds(effort == Effort::full ? 5 : 1, [&] { condyle::RingTable(fixed, arc_axis()); });
   });
   const auto triangles = static_cast<double>(fixed.triangles.size());
   const auto vertices = static_cast<double>(mobile.vertices.size());

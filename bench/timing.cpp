@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <ctime>
+#include <utility>
 
 namespace bench {
 
@@ -28,6 +30,21 @@ void empty_caches() {
   static std::vector<unsigned char> memory(bytes);
   constexpr std::size_t cache_line = 64;
   for (std::size_t i = 0; i < bytes; i += cache_line) ++memory[i];
+}
+
+Repeated::Repeated(std::function<void()> what) : once(std::move(what)) {
+  constexpr double some_seconds = 5e-3;
+  once();
+  times = std::max(1, static_cast<int>(std::ceil(some_seconds / seconds_of(once))));
+}
+
+double cold_seconds(int rounds, const std::function<void()>& what) {
+  std::vector<double> seconds;
+  for (int i = 0; i < rounds; ++i) {
+    empty_caches();
+    seconds.push_back(seconds_of(what));
+  }
+  return median(std::move(seconds));
 }
 
 double median(std::vector<double> samples) {

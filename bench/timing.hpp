@@ -47,6 +47,21 @@ double seconds_of(const Do& what) {
 /// Goes through more memory than the caches hold, so that what is asked next comes from memory.
 void empty_caches();
 
+/// The same as often as takes some milliseconds, so that the clock is fine enough and caches are as warm as
+/// they are for what takes that long by itself.
+struct Repeated {
+  std::function<void()> once;
+  int times;
+
+  explicit Repeated(std::function<void()> what);
+  void operator()() const {
+    for (int i = 0; i < times; ++i) once();
+  }
+};
+
+/// Median of the seconds that something takes which finds nothing in the caches.
+double cold_seconds(int rounds, const std::function<void()>& what);
+
 /// Middle one of the samples, the mean of both where there are two; the samples must not be none.
 double median(std::vector<double> samples);
 
