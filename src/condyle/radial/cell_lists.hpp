@@ -93,10 +93,15 @@ void make_rooms(const TriMesh& mesh, CellLists& lists);
 /// Linear: measuring all triangles, and listing those at vertices that left their rooms.
 void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists);
 
+/// Cells whose radii are others than before: those named, or perhaps all.
+struct ChangedRadii {
+  bool may_be_all = false;
+  std::vector<Index> cells = {};
+};
+
 /// The same for some vertices, with `triangles` all triangles at them; finds the radii of the cells that
-/// these are in. Returns whether any radii have changed. Costs what these triangles and the rows they are in
-/// do.
-bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
-                     std::span<const Index> triangles, CellLists& lists);
+/// these are in. Costs what these triangles and the rows they are in do.
+ChangedRadii follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
+                             std::span<const Index> triangles, CellLists& lists);
 
 }  // namespace condyle

@@ -57,20 +57,22 @@ void find_radii(const CubeMap& map, CellLists& lists) {
   lists.plane = {};
 }
 
-bool find_radii_in(const CubeMap& map, const TouchedTriangles& touched, CellLists& lists) {
+ChangedRadii find_radii_in(const CubeMap& map, const TouchedTriangles& touched, CellLists& lists) {
   if (lists.entry_radii.empty()) {
     lists.entry_radii.resize(lists.triangle.size());
     find_radii(map, lists);
-    return true;
+    return {.may_be_all = true};
   }
   SurfaceRadii all{lists.least_squared, lists.greatest_squared};
   // Rows lie anywhere.
   for (const Index cell : touched.cells) hwy::Prefetch(&lists.row[cell]), hwy::Prefetch(&lists.radii[cell]);
   UninitialisedVector<ChangedEntry> room(touched.listed.size());
-  const bool are_changed = measure_touched(listed_radii(map, lists), lists.row.data(), touched, room.data(),
-                                           lists.radii.data(), all);
+  ChangedRadii changed;
+  changed.cells.resize(touched.cells.size());
+  changed.cells.resize(measure_touched(listed_radii(map, lists), lists.row.data(), touched, room.data(),
+                                       lists.radii.data(), all, changed.cells.data()));
   lists.least_squared = all.least, lists.greatest_squared = all.greatest;
-  return are_changed;
+  return changed;
 }
 
 }  // namespace condyle

@@ -344,26 +344,28 @@ void prefetch_entries(const ListedRadii& lists, CellRow row) {
   for (std::uint32_t i = row.first; i < row.last; i += bytes_per_line) hwy::Prefetch(lists.nearest + i);
 }
 
-bool measure_touched_any(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
-                         ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface) {
-  ChangedEntries changed(lists, room);
+std::size_t measure_touched_any(const ListedRadii& lists, const CellRow* rows,
+                                const TouchedTriangles& touched, ChangedEntry* room, RadiusWord* radii,
+                                SurfaceRadii& surface, Index* changed) {
+  ChangedEntries entries(lists, room);
   for (std::size_t i = 0; i < touched.cells.size(); ++i) {
     const CellCorners corners(lists, static_cast<int>(touched.cells[i]));
     for (const std::uint32_t place : touched.listed_in(i))
-      changed.add(corners, touched.number[place], touched.plane[place]);
+      entries.add(corners, touched.number[place], touched.plane[place]);
   }
-  const SurfaceRadii found = changed.finish();
+  const SurfaceRadii found = entries.finish();
   surface = {std::min(surface.least, found.least), std::max(surface.greatest, found.greatest)};
-  bool are_changed = false;
+  std::size_t count = 0;
   for (std::size_t i = 0; i < touched.cells.size(); ++i) {
     const std::uint32_t cell = touched.cells[i];
     prefetch_entries(lists, rows[touched.cells[std::min(i + cells_ahead, touched.cells.size() - 1)]]);
     const RadiusWord word =
         write_entries(lists, rows[cell], {room + touched.first[i], room + touched.first[i + 1]});
-    are_changed |= word != radii[cell];
+    changed[count] = cell;
+    count += word != radii[cell];
     radii[cell] = word;
   }
-  return are_changed;
+  return count;
 }
 
 }  // namespace
@@ -380,9 +382,9 @@ SurfaceRadii measure_rows(const ListedRadii& lists, std::span<const CellRow> row
   return HWY_DYNAMIC_DISPATCH(measure_rows_any)(lists, rows, out);
 }
 
-bool measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
-                     ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface) {
-  return HWY_DYNAMIC_DISPATCH(measure_touched_any)(lists, rows, touched, room, radii, surface);
+std::size_t measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
+                            ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface, Index* changed) {
+  return HWY_DYNAMIC_DISPATCH(measure_touched_any)(lists, rows, touched, room, radii, surface, changed);
 }
 
 }  // namespace condyle

@@ -15,8 +15,8 @@ void list_all(const TriMesh& mesh, const CubeMap& map, const PlacedVertices& pla
 /// Where vertices are, the scale of their radii, and the forms and planes of all triangles.
 void measure(const TriMesh& mesh, CellLists& lists);
 
-/// Radii of those cells, on the scale that there is. Whether any are others than before. Those of all entries
-/// are found and kept from the first such call on.
-bool find_radii_in(const CubeMap& map, const TouchedTriangles& touched, CellLists& lists);
+/// Radii of those cells, on the scale that there is. Those of all entries are found and kept from the first
+/// such call on.
+ChangedRadii find_radii_in(const CubeMap& map, const TouchedTriangles& touched, CellLists& lists);
 
 }  // namespace condyle

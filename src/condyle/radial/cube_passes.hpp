@@ -171,9 +171,9 @@ std::size_t list_seen_triangles(const SeenTriangles& seen, std::size_t first, Li
 SurfaceRadii measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, RadiusWord* out);
 
 /// The same for cells of which single triangles have changed; all others have their entry_radii. Adds those
-/// of the changed ones to `surface`. Whether the radii of any cell are others than before. `room` is for what
-/// is listed.
-bool measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
-                     ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface);
+/// of the changed ones to `surface`. Writes the cells whose radii are others than before to `changed`, which
+/// has room for all; returns how many. `room` is for what is listed.
+std::size_t measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
+                            ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface, Index* changed);
 
 }  // namespace condyle

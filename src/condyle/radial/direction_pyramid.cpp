@@ -195,13 +195,14 @@ void halve(const RadiusWord* in, std::size_t n, RadiusWord* out) {
   }
 }
 
-/// The entries of one level, of borders 1 (where asked for), 2 and 3.
+/// The entries of one level, of borders 1 (where asked for), 2 and 3, on the faces whose bits are set.
 void fill_level(const RadiusWord* pieces, std::size_t n, const BorderedFace& a, const BorderedFace& b,
-                RadiusWord* border_1, RadiusWord* border_2, RadiusWord* border_3) {
+                RadiusWord* border_1, RadiusWord* border_2, RadiusWord* border_3, unsigned faces) {
   const auto copy_face = [&](const BorderedFace& from, RadiusWord* to) {
     for (std::size_t row = 0; row < n; ++row) copy_words(from.at(border + row, border), n, to + row * n);
   };
   for (int face = 0; face < 6; ++face) {
+    if ((faces >> face & 1) == 0) continue;
     const std::size_t first = static_cast<std::size_t>(face) * square(n);
     add_borders(pieces, n, face, b, a);
     widen(a, n, 1, b);
@@ -218,7 +219,8 @@ std::size_t room_needed_any(std::size_t cells_per_side) {
   return 2 * BorderedFace::room(cells_per_side) + 2 * 6 * square(cells_per_side / 2);
 }
 
-void fill_any(int cells_per_side, const RadiusWord* cells, RadiusWord* room, RadiusWord* entries) {
+void fill_any(int cells_per_side, const RadiusWord* cells, const std::uint8_t* faces, RadiusWord* room,
+              RadiusWord* entries) {
   const auto finest = static_cast<std::size_t>(cells_per_side);
   RadiusWord *const first = room, *const second = first + BorderedFace::room(finest);
   RadiusWord *piece = second + BorderedFace::room(finest), *coarser = piece + 6 * square(finest / 2);
@@ -227,7 +229,8 @@ void fill_any(int cells_per_side, const RadiusWord* cells, RadiusWord* room, Rad
   for (int step = 1; step < steps; step += 2) {
     const std::size_t n = finest >> DirectionPyramid::level_of(step);
     const auto at = [&](int of) { return entries + DirectionPyramid::start_of(of, cells_per_side); };
-    fill_level(pieces, n, {first, n}, {second, n}, step == 1 ? at(0) : nullptr, at(step), at(step + 1));
+    fill_level(pieces, n, {first, n}, {second, n}, step == 1 ? at(0) : nullptr, at(step), at(step + 1),
+               faces[DirectionPyramid::level_of(step)]);
     if (step + 2 >= steps) break;
     halve(pieces, n, coarser);
     std::swap(piece, coarser);
@@ -272,10 +275,40 @@ std::size_t DirectionPyramid::entry_count(int cells_per_side) noexcept {
 }
 
 void DirectionPyramid::fill(int cells_per_side, std::span<const RadiusWord> cells) {
-  assert(cells.size() == 6 * square(cells_per_side));
+  FacesOfLevels faces;
+  faces.fill(all_faces);
   entry_.resize(entry_count(cells_per_side));
+  fill_faces(cells_per_side, cells, faces);
+}
+
+void DirectionPyramid::refill(int cells_per_side, std::span<const RadiusWord> cells,
+                              std::span<const Index> changed) {
+  if (changed.empty()) return;
+  assert(entry_.size() == entry_count(cells_per_side));
+  FacesOfLevels faces{};
+  const auto finest = static_cast<Index>(cells_per_side);
+  const int levels = level_of(step_count(cells_per_side) - 1) + 1;
+  for (const Index cell : changed) {
+    const Index face = cell / (finest * finest), axis_u = (face + 1) % 3, axis_w = (face + 2) % 3;
+    const Index row = cell / finest % finest, column = cell % finest;
+    for (int level = 0; level < levels; ++level) {
+      const Index n = finest >> level, u = column >> level, w = row >> level;
+      unsigned bits = 1u << face;
+      if (u < most_border) bits |= 1u << (axis_u + 3);
+      if (u + most_border >= n) bits |= 1u << axis_u;
+      if (w < most_border) bits |= 1u << (axis_w + 3);
+      if (w + most_border >= n) bits |= 1u << axis_w;
+      faces[static_cast<std::size_t>(level)] |= static_cast<std::uint8_t>(bits);
+    }
+  }
+  fill_faces(cells_per_side, cells, faces);
+}
+
+void DirectionPyramid::fill_faces(int cells_per_side, std::span<const RadiusWord> cells,
+                                  const FacesOfLevels& faces) {
+  assert(cells.size() == 6 * square(cells_per_side));
   room_.resize(HWY_DYNAMIC_DISPATCH(room_needed_any)(static_cast<std::size_t>(cells_per_side)));
-  HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), room_.data(), entry_.data());
+  HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), faces.data(), room_.data(), entry_.data());
   // The last step has the fewest entries, and every cell is in one of them.
   const auto last_step =
       entry_.begin() + static_cast<std::ptrdiff_t>(start_of(step_count(cells_per_side) - 1, cells_per_side));

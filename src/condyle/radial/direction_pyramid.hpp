@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,9 @@ class DirectionPyramid {
 
   /// From the radii of each cell of a CubeMap. Linear in cells.
   void fill(int cells_per_side, std::span<const RadiusWord> cells);
+  /// The same where the radii of the changed cells alone are others than they were: fills those faces that
+  /// have such a cell, or one within a border of them.
+  void refill(int cells_per_side, std::span<const RadiusWord> cells, std::span<const Index> changed);
 
   const RadiusWord* data() const noexcept { return entry_.data(); }
   /// Radii of all directions together: for caps that are wider than any border.
@@ -42,6 +47,12 @@ class DirectionPyramid {
   std::size_t size() const noexcept { return entry_.size(); }
 
  private:
+  /// Faces to fill on each level, a bit for each.
+  using FacesOfLevels = std::array<std::uint8_t, 16>;
+  static constexpr std::uint8_t all_faces = 0x3f;
+
+  void fill_faces(int cells_per_side, std::span<const RadiusWord> cells, const FacesOfLevels& faces);
+
   std::vector<RadiusWord> entry_;
   RadiusWord all_ = no_radii;
   std::vector<RadiusWord> room_;  // for filling

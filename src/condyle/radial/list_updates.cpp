@@ -204,9 +204,8 @@ UninitialisedVector<TrianglePlane> measure_forms(std::span<const Index> triangle
 }
 
 /// Forms of some triangles, and the radii of the cells that they are listed in and of the `touched` ones.
-/// Whether any of these are others than before.
-bool measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles, CellLists& lists,
-                  CellSet& touched) {
+ChangedRadii measure_some(const TriMesh& mesh, const CubeMap& map, std::span<const Index> triangles,
+                          CellLists& lists, CellSet& touched) {
   const std::vector<Triangle> corners = corners_of(mesh, lists, triangles);
   CubeListing listing(mesh.vertices, corners, map, in_rooms(lists));
   listing.list();
@@ -250,8 +249,8 @@ void follow_vertices(const TriMesh& mesh, const CubeMap& map, CellLists& lists) 
   measure(mesh, lists);
 }
 
-bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
-                     std::span<const Index> triangles, CellLists& lists) {
+ChangedRadii follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const Index> moved,
+                             std::span<const Index> triangles, CellLists& lists) {
   for (const Index v : moved) lists.corner[v] = mesh.vertices[v];
   CellSet touched(map.cell_count());
   if (!lists.has_clipped) {
@@ -261,7 +260,7 @@ bool follow_vertices(const TriMesh& mesh, const CubeMap& map, std::span<const In
   if (lists.has_clipped) {
     list_cells(mesh, map, lists);
     find_radii(map, lists);
-    return true;
+    return {.may_be_all = true};
   }
   return measure_some(mesh, map, triangles, lists, touched);
 }

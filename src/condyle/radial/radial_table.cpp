@@ -89,13 +89,15 @@ void RadialTable::update(std::span<const Index> moved, PointsView positions) {
   }
   if (triangles_at_.empty()) triangles_at_ = VertexTriangles(mesh_);
   const std::vector<Index> triangles = triangles_at_.of(moved);
-  const bool are_radii_changed = follow_vertices(mesh_, *cube, moved, triangles, lists_);
+  const ChangedRadii changed = follow_vertices(mesh_, *cube, moved, triangles, lists_);
   for (const Index t : triangles) require_centre_off_triangle(t);
   if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
   if ((winding_at_centre_.value_or(0) > 0) != lists_.starts_at_centre) {
     find_all_radii();
-  } else if (are_radii_changed) {
+  } else if (changed.may_be_all) {
     pyramid_.fill(cube->cells_per_side(), lists_.radii);
+  } else {
+    pyramid_.refill(cube->cells_per_side(), lists_.radii, changed.cells);
   }
 }
 
