@@ -81,7 +81,7 @@ class RadialTable {
   /// The first update lists triangles with room for their vertices to move on: a box on the cube that holds
   /// where each was and is, and a sixteenth of a cell more. Later ones list those alone whose vertices leave
   /// their rooms, which then grow: a surface that goes to and fro soon stays in them, and an update costs
-  /// measuring the triangles, a quarter to a third of a build. Lists with room are longer by a
+  /// measuring the triangles, a third to nearly half of a build. Lists with room are longer by a
   /// quarter to a half, and a pose asked for takes 1.1 to 1.5 times as long; a new table is without.
   void update(PointsView vertices);
 
