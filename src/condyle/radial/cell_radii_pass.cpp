@@ -10,6 +10,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/radius_words-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
@@ -140,18 +142,6 @@ HWY_INLINE Ints words_of_radii(const RadiusScale& scale, const Bounds& squared) 
     return hn::Min(hn::Max(steps, hn::Zero(di)), most);
   };
   return hn::Or(code(squared.least), hn::ShiftLeft<16>(hn::Sub(most, code(squared.greatest))));
-}
-
-/// union_of(): the halves are numbers of their own.
-template <class Tag>
-HWY_INLINE hn::Vec<Tag> union_of_words(Tag tag, hn::Vec<Tag> a, hn::Vec<Tag> b) {
-#if HWY_TARGET == HWY_SCALAR
-  return hn::Set(tag, static_cast<std::int32_t>(union_of(static_cast<RadiusWord>(hn::GetLane(a)),
-                                                         static_cast<RadiusWord>(hn::GetLane(b)))));
-#else
-  constexpr hn::Repartition<std::uint16_t, Tag> halves;
-  return hn::BitCast(tag, hn::Min(hn::BitCast(halves, a), hn::BitCast(halves, b)));
-#endif
 }
 
 /// What is found of entries: their radii, all together, and in words.

@@ -9,6 +9,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/radius_words-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
@@ -18,17 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 /// Rows are as long as a power of two most of all, and short on the upper levels.
 using Long = hn::CappedTag<std::uint32_t, 16>;
 using Short = hn::CappedTag<std::uint32_t, 4>;
-
-/// union_of(): the halves are numbers of their own.
-template <class Words>
-HWY_INLINE hn::Vec<Words> union_of_words(Words words, hn::Vec<Words> a, hn::Vec<Words> b) {
-#if HWY_TARGET == HWY_SCALAR
-  return hn::Set(words, union_of(hn::GetLane(a), hn::GetLane(b)));
-#else
-  constexpr hn::Repartition<std::uint16_t, Words> halves;
-  return hn::BitCast(words, hn::Min(hn::BitCast(halves, a), hn::BitCast(halves, b)));
-#endif
-}
 
 /// Calls step(tag, i) for vectors of elements [0, n), long ones while they fit.
 template <class Step>
