@@ -13,6 +13,14 @@
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 
+/// Lanes numbered first, first + 1 and so on. Iota of anything but a constant GCC 12 writes to memory lane by
+/// lane, and reads it again.
+template <class Tag>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> numbers_from(Tag tag, std::size_t first) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  return hn::Add(hn::Iota(tag, 0), hn::Set(tag, static_cast<hn::TFromD<Tag>>(first)));
+}
+
 /// Stores those lanes of which the mask is set, one behind the other; may write a whole vector.
 ///
 /// Eight lanes are permuted by a table of our own: of Highway 1.0.3's GCC 12 makes a copy on the stack each

@@ -240,8 +240,7 @@ HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& c
     const auto certain = hn::Gt(hn::Abs(hn::Sub(hn::Abs(s), one)), hn::LoadU(d, crossings.error.data() + i));
     const auto outside = hn::RebindMask(du, hn::And(certain, hn::Gt(s, hn::Neg(one))));
     const auto kept = hn::AndNot(hn::And(is_first, outside), is_last);
-    store_compacted(du, hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(i))), kept,
-                    room.kept.data() + count);
+    store_compacted(du, numbers_from(du, i), kept, room.kept.data() + count);
     count += hn::CountTrue(du, kept);
   }
   for (std::size_t k = 0; k < count; ++k) {

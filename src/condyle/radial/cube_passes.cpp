@@ -14,15 +14,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/double_vectors-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DD = hn::CappedTag<double, 8>;
 using DF = hn::Rebind<float, DD>;
-using Doubles = hn::Vec<DD>;
 using Singles = hn::Vec<DF>;
 constexpr DD dd;
 constexpr DF df;
@@ -110,10 +110,6 @@ std::size_t find_strayed_any(const MeshView& mesh, const std::uint8_t* faces, co
   return strayed;
 }
 
-struct Vectors {
-  Doubles x, y, z;
-};
-
 HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
   return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
 }
@@ -121,10 +117,6 @@ HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
 HWY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)), hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
-
-HWY_INLINE Doubles dot(const Vectors& a, const Vectors& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
 HWY_INLINE Doubles sum_of_magnitudes(const Vectors& a) {

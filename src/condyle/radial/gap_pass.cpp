@@ -7,24 +7,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/double_vectors-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace condyle::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using D = hn::CappedTag<double, 8>;
-using Doubles = hn::Vec<D>;
-constexpr D d;
-
-struct Vectors {
-  Doubles x, y, z;
-};
-
-/// As dot() of triangle_plane.hpp.
-HWY_INLINE Doubles dot(const Vectors& a, const Vectors& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
+constexpr DD d;
 
 void gaps_to_planes_any(const Pose& X_FM, GapColumns& columns) {
   const auto& m = X_FM.matrix();

@@ -29,11 +29,6 @@ constexpr D d;
 constexpr DI di;
 constexpr DU du;
 
-/// first, first + 1 and so on. Iota of a variable GCC 12 writes to memory lane by lane, and reads it again.
-HWY_INLINE Words numbers_from(std::size_t first) {
-  return hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<std::uint32_t>(first)));
-}
-
 /// Where rays meet the cube: face, and u, w in [-1, 1] on it, as CubeMap has them.
 struct CubePlace {
   Ints face;
@@ -192,7 +187,7 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
     const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
     const auto near = hn::And(are_near<translated>(cube, blocks, pose, block, 0),
                               hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
-    const auto number = numbers_from(block);
+    const auto number = numbers_from(du, block);
     store_compacted(du, number, near, found + count);
     count += hn::CountTrue(du, near);
   }
@@ -275,7 +270,7 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
       store_compacted(du, hn::BitCast(du, cell), near, found.cell.data() + count);
       store_compacted(du, hn::BitCast(du, box), near, found.box.data() + count);
       store_compacted(du, relevant_code(cube, squared, entry), near, found.relevant.data() + count);
-      store_compacted(du, numbers_from(at), near, found.point.data() + count);
+      store_compacted(du, numbers_from(du, at), near, found.point.data() + count);
       count += hn::CountTrue(du, near);
     }
     if constexpr (remembering) {
@@ -314,7 +309,7 @@ std::size_t blocks_to_ask_any(const CubeView& cube, const BlockColumns& blocks, 
     hn::StoreU(hn::IfThenElse(freed, hn::Add(turned, hn::Set(d, memory.stride)), free_until), d,
                memory.free_until + block);
     const auto asked = hn::And(due, near);
-    store_compacted(du, numbers_from(block), asked, found + count);
+    store_compacted(du, numbers_from(du, block), asked, found + count);
     count += hn::CountTrue(du, asked);
   }
   return count;

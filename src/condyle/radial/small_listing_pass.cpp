@@ -11,6 +11,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "condyle/radial/compaction-inl.hpp"
 #include "condyle/radial/octagons-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -142,7 +143,7 @@ void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertic
         listing.elsewhere_count += is_here[k] == 0 ? 1 : 0;
       }
     }
-    const auto triangle = hn::Iota(du, static_cast<std::uint32_t>(t));
+    const auto triangle = numbers_from(du, t);
     for (int q = 0; q < 4; ++q) {
       const auto i = hn::Add(i0, hn::Set(di, q & 1)), j = hn::Add(j0, hn::Set(di, q >> 1));
       const OctagonsInCells<Lanes> octagons(parts, n, i, j);
