@@ -29,23 +29,6 @@ bool is_rotation(const Pose& X) {
   return ((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().array() <= rotation_error).all();
 }
 
-/// Columns of Penetrations by address: behind vectors the compiler asks for these anew at every store.
-struct OutColumns {
-  explicit OutColumns(Penetrations& out)
-      : point(out.point.data()),
-        triangle(out.triangle.data()),
-        state(out.state.data()),
-        winding(out.winding.data()),
-        depth(out.depth.data()),
-        direction(out.direction.data()) {}
-
-  Index *point, *triangle;
-  PointState* state;
-  int* winding;
-  double* depth;
-  RayDirection* direction;
-};
-
 }  // namespace
 
 FloatPose float_pose(const Pose& X, const Vec3& centre) {
@@ -188,33 +171,31 @@ void RadialTable::finish(const SortedPoints& points, const Pose& X_FM, const Fou
                          RayScan& scan, Penetrations& out) const {
   std::size_t count = out.size();
   out.resize(count + found.count);
-  const OutColumns to(out);
-  const Index* const number = points.index().data();
   std::vector<Index> room;
   GapColumns gaps;
   for (std::size_t i = 0; i < found.count; ++i) {
     const std::size_t in_turn = i % GapColumns::size;
     if (in_turn == 0) find_gaps(points, X_FM, found, i, std::min(GapColumns::size, found.count - i), gaps);
     const FoundPoint& at = found.point[i];
-    to.point[count] = number[at.point];
+    out.point[count] = points.index()[at.point];
     if (at.doubtful) {
       const Vec3 v = posed(X_FM, points[at.point]);
       const RayAnswer answer = scan.answer(v, candidates(v, room));
       if (answer.state == PointState::outside) continue;
-      to.state[count] = answer.state;
-      to.winding[count] = answer.winding;
-      to.triangle[count] = answer.triangle;
-      to.depth[count] = std::abs(answer.gap);
-      to.direction[count] = answer.direction;
+      out.state[count] = answer.state;
+      out.winding[count] = answer.winding;
+      out.triangle[count] = answer.triangle;
+      out.depth[count] = std::abs(answer.gap);
+      out.direction[count] = answer.direction;
     } else {
       double gap = gaps.gap[in_turn];
       if (std::isnan(gap))
         gap = distance_along_ray(posed(X_FM, points[at.point]), cone_of(mesh_, at.triangle));
-      to.state[count] = PointState::inside;
-      to.winding[count] = at.winding;
-      to.triangle[count] = at.triangle;
-      to.depth[count] = std::abs(gap);
-      to.direction[count] =
+      out.state[count] = PointState::inside;
+      out.winding[count] = at.winding;
+      out.triangle[count] = at.triangle;
+      out.depth[count] = std::abs(gap);
+      out.direction[count] =
           at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
     }
     ++count;
