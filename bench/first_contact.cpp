@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "condyle/motion/range_of_motion.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "goals.hpp"
 #include "method.hpp"
 #include "questions.hpp"

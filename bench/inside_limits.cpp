@@ -5,11 +5,11 @@
 #include <cmath>
 #include <vector>
 
-#include "condyle/radial/penetrations.hpp"
-#include "condyle/radial/radial_table.hpp"
-#include "condyle/radial/triangle_plane.hpp"
 #include "method.hpp"
 #include "questions.hpp"
+#include "radial/exact/triangle_plane.hpp"
+#include "radial/query/penetrations.hpp"
+#include "radial/radial_table.hpp"
 #include "timing.hpp"
 #include "turned.hpp"
 
@@ -57,7 +57,7 @@ std::vector<Told> all_told(const Scene& scene, Method& ours) {
 std::vector<Vec3> all_planes(const condyle::TriMesh& mesh) {
   std::vector<Vec3> planes;
   for (const auto& [i, j, k] : mesh.triangles)
-    planes.push_back(condyle::scaled_normal(mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]));
+    planes.push_back(condyle::radial::scaled_normal(mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]));
   return planes;
 }
 
@@ -68,7 +68,8 @@ void write_told(const Told& told, const std::vector<Vec3>& vertices, const std::
   out.resize(told.inside.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     const auto [vertex, triangle, depth] = told.inside[i];
-    const double gap = condyle::gap_to_plane(condyle::posed(told.X_FM, vertices[vertex]), planes[triangle]);
+    const double gap =
+        condyle::radial::gap_to_plane(condyle::posed(told.X_FM, vertices[vertex]), planes[triangle]);
     out[i] = {vertex, triangle, std::isnan(gap) ? depth : std::abs(gap)};
   }
 }

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "condyle/io/plot_axes.hpp"
-#include "condyle/io/svg_canvas.hpp"
+#include "io/result/plot_axes.hpp"
+#include "io/result/svg_canvas.hpp"
 
 namespace bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "condyle/kinematics/joint_coordinates.hpp"
+#include "condyle/joint_coordinates.hpp"
 #include "methods/kinds.hpp"
 
 namespace bench {

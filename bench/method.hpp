@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/contact/triangle_pairs.hpp"
-#include "condyle/core/pose.hpp"
-#include "condyle/mesh/tri_mesh.hpp"
-#include "condyle/tangential/axis_frame.hpp"
+#include "condyle/axis_frame.hpp"
+#include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
+#include "contact/triangle_pairs.hpp"
 
 /// One way of finding collisions: Condyle's, a library's, or a published one in plain code of our own.
 

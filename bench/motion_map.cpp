@@ -1,4 +1,4 @@
-#include "condyle/motion/motion_map.hpp"
+#include "condyle/motion_map.hpp"
 
 #include <tbb/task_arena.h>
 

@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/kinematics/joint_coordinates.hpp"
-#include "condyle/radial/penetration_track.hpp"
-#include "condyle/radial/radial_table.hpp"
-#include "condyle/radial/sorted_points.hpp"
+#include "condyle/joint_coordinates.hpp"
 #include "goals.hpp"
 #include "questions.hpp"
+#include "radial/query/penetration_track.hpp"
+#include "radial/query/sorted_points.hpp"
+#include "radial/radial_table.hpp"
+#include "simd/instruction_set.hpp"
 #include "table_floor.hpp"
 #include "timing.hpp"
 
@@ -166,12 +166,12 @@ void ask_instruction_sets(const Scene& scene, int rounds, Report& report) {
   const RadialTable table(scene.joint.fixed.mesh);
   const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices);
   const std::vector<Pose> poses = poses_of(scene, 64);
-  const std::vector<condyle::InstructionSet> sets = condyle::instruction_sets();
+  const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();
   condyle::Penetrations found;
   std::vector<std::function<void()>> ways;
-  for (const condyle::InstructionSet& set : sets)
+  for (const condyle::simd::InstructionSet& set : sets)
     ways.emplace_back([&] {
-      const condyle::InstructionSetInUse in_use(set);
+      const condyle::simd::InstructionSetInUse in_use(set);
       for (const Pose& X_FM : poses) table.penetrations(points, X_FM, found);
     });
   std::vector<double> seconds;
@@ -214,7 +214,7 @@ void ask_motion(const Scene& scene, int rounds, Report& report) {
                                                    table.penetrations(points, X, found);
                                                },
                                                [&] {
-                                                 condyle::PenetrationTrack track(table, points);
+                                                 condyle::radial::PenetrationTrack track(table, points);
                                                  for (const Pose& X : steps) track.penetrations(X, found);
                                                },
                                                [&] {

@@ -46,7 +46,7 @@ const std::vector<double>& Reference::depths(std::size_t pose, DepthKind kind) {
       for (const double gap : rings_->query(points).arc_gap) depths.push_back(-gap);
       break;
     case DepthKind::nearest_surface:
-      if (!distance_) distance_ = std::make_unique<condyle::SurfaceDistance>(*fixed_);
+      if (!distance_) distance_ = std::make_unique<condyle::mesh::SurfaceDistance>(*fixed_);
       for (std::size_t i = 0; i < points.size(); ++i) depths.push_back((*distance_)(points[i]));
       break;
     case DepthKind::none:

@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "condyle/mesh/surface_distance.hpp"
-#include "condyle/mesh/winding_number.hpp"
-#include "condyle/radial/radial_table.hpp"
-#include "condyle/tangential/ring_table.hpp"
+#include "mesh/surface_distance.hpp"
+#include "mesh/winding_number.hpp"
 #include "method.hpp"
+#include "radial/radial_table.hpp"
+#include "tangential/ring_table.hpp"
 
 /// What every method's answer is held against.
 
@@ -44,10 +44,10 @@ class Reference {
   const condyle::TriMesh* fixed_;
   const condyle::TriMesh* mobile_;
   std::vector<condyle::Pose> poses_;
-  condyle::WindingNumber winding_;
+  condyle::mesh::WindingNumber winding_;
   condyle::RadialTable radial_;
   std::unique_ptr<condyle::RingTable> rings_;
-  std::unique_ptr<condyle::SurfaceDistance> distance_;
+  std::unique_ptr<condyle::mesh::SurfaceDistance> distance_;
   std::map<std::size_t, std::vector<Inside>> inside_;
   std::map<std::pair<std::size_t, DepthKind>, std::vector<double>> depths_;
   std::map<std::size_t, std::vector<condyle::TrianglePair>> pairs_;

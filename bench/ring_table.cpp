@@ -1,4 +1,4 @@
-#include "condyle/tangential/ring_table.hpp"
+#include "tangential/ring_table.hpp"
 
 #include <tbb/task_arena.h>
 
@@ -49,7 +49,7 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
   const Bodies bodies{fixed, mobile};
   const auto embree_kind = method_named("embree_16_robust");
   const auto embree = embree_kind ? embree_kind->make(bodies) : nullptr;
-  const condyle::ClosedMesh closed(fixed);
+  const condyle::mesh::ClosedMesh closed(fixed);
   const condyle::RingTable ring(closed, arc_axis());
   condyle::TangentialHits hits;
   std::vector<InsideVertex> inside;

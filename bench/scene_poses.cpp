@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "condyle/motion/first_contact.hpp"
+#include "motion/search/first_contact.hpp"
 
 namespace bench {
 namespace {
@@ -40,8 +40,8 @@ constexpr PoseKind kind_of(int i) {
 }  // namespace
 
 std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const condyle::TriMesh& mobile) {
-  const condyle::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
-  condyle::TurningBody turning(mobile_tree);
+  const condyle::motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
+  condyle::motion::TurningBody turning(mobile_tree);
   const int axes = (poses_per_scene + 2) / 3;
   const condyle::TurnRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
 
@@ -53,7 +53,7 @@ std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const con
     if (i % 3 == 0) {
       axis = spiral_direction(k, axes, Angle::degrees(180));
       const condyle::AxisFrame frame({0, 0, 0}, axis);
-      const condyle::RotationTable resting(fixed_tree, frame);
+      const condyle::motion::RotationTable resting(fixed_tree, frame);
       turning.start_at(frame, Pose::Identity());
       limit = first_contact(resting, turning, range).positive.angle;
     }

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/mesh/subdivide.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
+#include "mesh/subdivide.hpp"
 #include "scene_poses.hpp"
 #include "support/test_meshes.hpp"
 
@@ -68,7 +68,7 @@ condyle::Body body_from(const char* name, const fs::path& file) {
 }
 
 TriMesh refined(TriMesh mesh, int times) {
-  for (int i = 0; i < times; ++i) mesh = subdivided(mesh);
+  for (int i = 0; i < times; ++i) mesh = condyle::mesh::subdivided(mesh);
   return mesh;
 }
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/kinematics/joint.hpp"
+#include "condyle/joint.hpp"
 
 /// The joints that are measured, and the poses at which they are.
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <optional>
 
-#include "condyle/core/angle.hpp"
+#include "condyle/angle.hpp"
 
 /// First contact by asking "do they touch" at one angle after the other: what is done where there is no
 /// closed form. Any contact that begins and ends between two angles is missed.

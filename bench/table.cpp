@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "condyle/io/csv_field.hpp"
+#include "io/result/csv_field.hpp"
 
 namespace bench {
 namespace {
@@ -65,7 +65,7 @@ std::string terminal_text(const Table& table) {
 
 std::string csv_text(const Table& table) {
   const auto field = [](const Cell& cell) {
-    if (const auto* words = std::get_if<std::string>(&cell)) return condyle::csv_field(*words);
+    if (const auto* words = std::get_if<std::string>(&cell)) return condyle::io::csv_field(*words);
     if (const auto* count = std::get_if<std::int64_t>(&cell)) return fmt::format("{}", *count);
     return fmt::format("{}", std::get<double>(cell));
   };

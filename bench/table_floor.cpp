@@ -1,12 +1,12 @@
 #include "table_floor.hpp"
 
-#include "condyle/core/uninitialised.hpp"
+#include "core/uninitialised.hpp"
 
 namespace bench {
 
 double write_table_floor(const condyle::TriMesh& mesh, std::size_t bytes) {
   const std::size_t words = bytes / sizeof(double), each = words / mesh.triangles.size();
-  condyle::UninitialisedVector<double> written(words);
+  condyle::core::UninitialisedVector<double> written(words);
   double* next = written.data();
   for (const auto& corners : mesh.triangles) {
     condyle::Vec3 sum = condyle::Vec3::Zero();

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 namespace bench {
 

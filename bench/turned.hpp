@@ -1,7 +1,7 @@
 #pragma once
 
-#include "condyle/core/pose.hpp"
-#include "condyle/radial/sorted_points.hpp"
+#include "condyle/pose.hpp"
+#include "radial/query/sorted_points.hpp"
 
 namespace bench {
 

@@ -10,11 +10,11 @@
 #include <exception>
 #include <random>
 
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/radial/penetration_track.hpp"
-#include "condyle/radial/radial_table.hpp"
-#include "condyle/radial/sorted_points.hpp"
+#include "radial/query/penetration_track.hpp"
+#include "radial/query/sorted_points.hpp"
+#include "radial/radial_table.hpp"
 #include "scenes.hpp"
+#include "simd/instruction_set.hpp"
 
 namespace bench {
 namespace {
@@ -76,15 +76,15 @@ Count verify(const Scene& scene, double decisions, unsigned seed) {
   const condyle::RadialTable table(scene.joint.fixed.mesh);
   const condyle::PointsView vertices = scene.joint.mobile.mesh.vertices.view();
   const condyle::SortedPoints points(vertices);
-  condyle::PenetrationTrack track(table, points);
-  const std::vector<condyle::InstructionSet> sets = condyle::instruction_sets();
+  condyle::radial::PenetrationTrack track(table, points);
+  const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();
   std::mt19937 random(seed);
   Penetrations found;
   Count count;
   for (std::size_t i = 0; static_cast<double>(count.decisions) < decisions; ++i) {
     const Pose X_FM = near(scene.poses[i % scene.poses.size()].X_FM, random);
     const Truth truth(table, vertices, X_FM);
-    const condyle::InstructionSetInUse in_use(sets[i % sets.size()]);
+    const condyle::simd::InstructionSetInUse in_use(sets[i % sets.size()]);
     condyle::PenetrationWork work;
     table.penetrations(points, X_FM, found, &work);
     count.wrong += truth.wrong(found);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 
 namespace condyle::cli {
 

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "answer.hpp"
-#include "condyle/contact/tangential_contact.hpp"
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/depth_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/whole_file.hpp"
-#include "condyle/mesh/require_solid.hpp"
+#include "contact/tangential_contact.hpp"
+#include "mesh/require_solid.hpp"
 #include "verbs.hpp"
 
 namespace condyle::cli {
@@ -63,8 +63,8 @@ void write_results(const std::string& folder, const DepthQuestion& question, con
 
 void require_solids(const LoadedJoint& loaded) {
   try {
-    require_solid(loaded.joint.fixed.mesh, loaded.report.fixed.mesh.string());
-    require_solid(loaded.joint.mobile.mesh, loaded.report.mobile.mesh.string());
+    mesh::require_solid(loaded.joint.fixed.mesh, loaded.report.fixed.mesh.string());
+    mesh::require_solid(loaded.joint.mobile.mesh, loaded.report.mobile.mesh.string());
   } catch (const MeshError& error) {
     throw MeshError(std::string(error.what()) + " (--pairs-only accepts such meshes)");
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/report_text.hpp"

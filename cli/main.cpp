@@ -13,7 +13,7 @@
 #include <string>
 
 #include "answer.hpp"
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "interrupt.hpp"
 #include "verbs.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "condyle/motion/motion_map.hpp"
+#include "condyle/motion_map.hpp"
 
 namespace condyle::cli {
 

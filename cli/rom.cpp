@@ -10,16 +10,16 @@
 #include <vector>
 
 #include "answer.hpp"
-#include "condyle/core/error.hpp"
+#include "condyle/depth_limit.hpp"
+#include "condyle/error.hpp"
+#include "condyle/impingement_zone.hpp"
 #include "condyle/io/grid_text.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_files.hpp"
 #include "condyle/io/rom_result.hpp"
-#include "condyle/motion/depth_limit.hpp"
-#include "condyle/motion/impingement_zone.hpp"
-#include "condyle/motion/motion_map.hpp"
+#include "condyle/motion_map.hpp"
 #include "resumable_map.hpp"
 #include "verbs.hpp"
 

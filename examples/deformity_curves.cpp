@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/plot_axes.hpp"
-#include "condyle/motion/range_of_motion.hpp"
-#include "condyle/sample/femur_shape.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
+#include "io/result/plot_axes.hpp"
+#include "sample/femur_shape.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // How far a door turns before it meets a post: in closed form, without a step size.
 #include <cstdio>
 
-#include "condyle/motion/first_contact.hpp"
+#include "motion/search/first_contact.hpp"
 #include "shapes.hpp"
 
 int main() {
@@ -13,12 +13,12 @@ int main() {
 
   // The axis through the origin along z; positive angles turn x towards y.
   const condyle::AxisFrame axis(condyle::Vec3::Zero(), condyle::Vec3::UnitZ());
-  const condyle::FeatureTree post_features(post), door_features(door);
-  const condyle::RotationTable table(post_features, axis);
-  condyle::TurningBody turning(door_features);
+  const condyle::motion::FeatureTree post_features(post), door_features(door);
+  const condyle::motion::RotationTable table(post_features, axis);
+  condyle::motion::TurningBody turning(door_features);
   turning.start_at(axis, condyle::Pose::Identity());
 
-  const condyle::TurnLimits limits = condyle::first_contact(table, turning);
+  const condyle::TurnLimits limits = condyle::motion::first_contact(table, turning);
   std::printf("turns %.9f deg one way and %.9f deg the other before they touch\n",
               limits.positive.angle.degrees(), -limits.negative.angle.degrees());
 }

@@ -1,7 +1,7 @@
 // Where and how deep a ball penetrates its socket, with the core library alone.
 #include <cstdio>
 
-#include "condyle/contact/joint_contact.hpp"
+#include "contact/joint_contact.hpp"
 #include "shapes.hpp"
 
 int main() {

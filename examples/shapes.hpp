@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 /// Meshes for the examples: a ball, and a block with a spherical socket in it.
 

@@ -1,10 +1,10 @@
 #include <optional>
 
-#include "condyle/contact/body_pair.hpp"
-#include "condyle/radial/radial_table.hpp"
-#include "condyle/radial/sorted_points.hpp"
-#include "condyle/tangential/ring_table.hpp"
+#include "contact/body_pair.hpp"
 #include "kinds.hpp"
+#include "radial/query/sorted_points.hpp"
+#include "radial/radial_table.hpp"
+#include "tangential/ring_table.hpp"
 
 namespace bench {
 namespace {
@@ -60,7 +60,7 @@ class RadialVectors final : public Method {
 class Trees final : public Method {
  public:
   explicit Trees(const Bodies& bodies)
-      : pair_(std::make_shared<condyle::BodyPair>(bodies.fixed, bodies.mobile)) {}
+      : pair_(std::make_shared<condyle::contact::BodyPair>(bodies.fixed, bodies.mobile)) {}
 
   bool touch(const Pose& X_FM) override { return pair_->touch(X_FM, last_hit_); }
 
@@ -71,7 +71,7 @@ class Trees final : public Method {
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<Trees>(*this); }
 
  private:
-  std::shared_ptr<const condyle::BodyPair> pair_;
+  std::shared_ptr<const condyle::contact::BodyPair> pair_;
   std::optional<condyle::TrianglePair> last_hit_;
 };
 
@@ -159,7 +159,7 @@ MethodKind trees() {
           [](const Bodies& bodies) { return std::make_unique<Trees>(bodies); }};
 }
 
-MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind map) {
+MethodKind radial(std::string name, std::string title, condyle::radial::DirectionMapKind map) {
   return {std::move(name),
           "Condyle",
           std::move(title),
@@ -184,12 +184,12 @@ MethodKind tangential(std::string name, std::string title, condyle::TangentialRu
 }  // namespace
 
 std::vector<MethodKind> condyle_kinds() {
-  using condyle::DirectionMapKind, condyle::TangentialRule;
+  using condyle::radial::DirectionMapKind, condyle::TangentialRule;
   return {
       radial_vectors(),
       trees(),
-      radial("radial_plain", "radial, cube map, a vertex at a time", DirectionMapKind::cube),
-      radial("radial_cartesian", "radial, the paper's map", DirectionMapKind::cartesian),
+      radial("radial_plain", "radial, cube map, a vertex at a time", condyle::radial::DirectionMapKind::cube),
+      radial("radial_cartesian", "radial, the paper's map", condyle::radial::DirectionMapKind::cartesian),
       tangential("tangential", "tangential, all crossings in their order", TangentialRule::alternating, true),
       tangential("tangential_nearest_arc", "tangential, the paper's rule", TangentialRule::nearest_arc,
                  false),

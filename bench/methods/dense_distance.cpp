@@ -1,9 +1,9 @@
 #include <algorithm>
 
-#include "condyle/core/parallel.hpp"
-#include "condyle/mesh/surface_distance.hpp"
+#include "core/parallel.hpp"
 #include "depth_raster.hpp"
 #include "kinds.hpp"
+#include "mesh/surface_distance.hpp"
 
 /// Signed distance field on a dense grid over the fixed body's box: the plain form of what OpenVDB stores
 /// sparsely. One multiplication finds a voxel; every voxel is stored, inside or not.
@@ -96,8 +96,8 @@ class DistanceGrid {
       for (std::size_t j = 1; j + 1 < size_[1]; ++j)
         for (std::size_t i = 1; i + 1 < size_[0]; ++i)
           if (value_[voxel(i, j, k)] < 0) mark_neighbours(i, j, k, is_near);
-    const condyle::SurfaceDistance distance(mesh);
-    condyle::parallel_chunks(size_[2], 1, [&](std::size_t first, std::size_t last) {
+    const condyle::mesh::SurfaceDistance distance(mesh);
+    condyle::core::parallel_chunks(size_[2], 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t k = first; k < last; ++k)
         for (std::size_t j = 0; j < size_[1]; ++j)
           for (std::size_t i = 0; i < size_[0]; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 #include "layers.hpp"
 
 namespace bench {

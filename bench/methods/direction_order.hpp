@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "condyle/core/vec3.hpp"
+#include "condyle/points.hpp"
 
 namespace bench {
 

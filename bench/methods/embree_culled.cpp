@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 
-#include "condyle/radial/direction_map.hpp"
 #include "direction_order.hpp"
 #include "embree_query.hpp"
 #include "float_pose.hpp"
 #include "kinds.hpp"
+#include "radial/exact/direction_map.hpp"
 
 /// Embree with everything that is cheap done before it: what an engineer would write who knows that the
 /// bodies turn about the centre.
@@ -34,9 +34,9 @@ struct SurfaceExtent {
       nearest = std::min(nearest, p.norm()), farthest = std::max(farthest, p.norm());
     }
     for (const auto& [i, j, k] : triangles) {
-      const condyle::Cone t{vertices[i], vertices[j], vertices[k]};
+      const condyle::radial::Cone t{vertices[i], vertices[j], vertices[k]};
       const double longest = std::sqrt(std::max((t.b - t.a).squaredNorm(), (t.c - t.a).squaredNorm()));
-      if (t.a.norm() - longest < nearest) nearest = std::min(nearest, condyle::min_radius(t));
+      if (t.a.norm() - longest < nearest) nearest = std::min(nearest, condyle::radial::min_radius(t));
     }
     const double margin = 1e-6 * farthest;
     low = (low_corner.array() - margin).cast<float>(), high = (high_corner.array() + margin).cast<float>();

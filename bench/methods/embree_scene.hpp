@@ -5,7 +5,7 @@
 #include <atomic>
 #include <memory>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 namespace bench {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "condyle/core/pose.hpp"
+#include "condyle/pose.hpp"
 
 namespace bench {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/core/vec3.hpp"
+#include "condyle/points.hpp"
 
 namespace bench {
 

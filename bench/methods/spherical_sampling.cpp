@@ -1,7 +1,7 @@
 #include <numeric>
 
-#include "condyle/radial/direction_map.hpp"
 #include "kinds.hpp"
+#include "radial/exact/direction_map.hpp"
 #include "sphere_raster.hpp"
 
 /// Spherical sampling, after A. Maciel, R. Boulic, D. Thalmann, "Efficient collision detection within
@@ -90,7 +90,7 @@ class SphericalSampling final : public Method {
 
   const condyle::TriMesh* mobile_;
   std::span<const condyle::Triangle> triangles_;
-  condyle::CubeMap map_;
+  condyle::radial::CubeMap map_;
   int cells_per_side_;
   std::shared_ptr<const LayeredImage> rays_;
   int winding_at_centre_ = 0;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "condyle/mesh/surface_distance.hpp"
+#include "mesh/surface_distance.hpp"
 
 namespace bench {
 namespace {
@@ -62,8 +62,8 @@ SphericalShell SphericalShell::around(std::span<const Vec3> corners) {
   shell.cap = cap_around(corners, shell.centre);
   shell.inner = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < corners.size(); i += 3) {
-    const condyle::TriangleCorners t{corners[i], corners[i + 1], corners[i + 2]};
-    shell.inner = std::min(shell.inner, condyle::distance_to_triangle(shell.centre, t));
+    const condyle::mesh::TriangleCorners t{corners[i], corners[i + 1], corners[i + 2]};
+    shell.inner = std::min(shell.inner, condyle::mesh::distance_to_triangle(shell.centre, t));
     for (const Vec3& p : t) shell.outer = std::max(shell.outer, (p - shell.centre).norm());
   }
   shell.widen(shell.centre);

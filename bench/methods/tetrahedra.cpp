@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "condyle/mesh/surface_distance.hpp"
-#include "condyle/mesh/winding_number.hpp"
+#include "mesh/surface_distance.hpp"
+#include "mesh/winding_number.hpp"
 
 namespace bench {
 namespace {
@@ -33,7 +33,7 @@ double stirred(std::uint64_t number) noexcept {
 
 /// Points of a cubic lattice that are inside and at least 0.75 and less than `most` of its spacing from the
 /// surface. Each is moved a little: a perfect lattice has no one Delaunay triangulation.
-void add_lattice(const condyle::WindingNumber& winding, const condyle::SurfaceDistance& distance,
+void add_lattice(const condyle::mesh::WindingNumber& winding, const condyle::mesh::SurfaceDistance& distance,
                  const Vec3& low, const Vec3& high, double spacing, double most, condyle::Points& out) {
   constexpr double least = 0.75, shift = 0.1;
   condyle::Points lattice;
@@ -53,12 +53,12 @@ void add_lattice(const condyle::WindingNumber& winding, const condyle::SurfaceDi
 }
 
 /// Spacings of twice the mesh's edges, four times and so on, each where the surface is as far as that.
-void add_inner_points(const condyle::TriMesh& mesh, const condyle::WindingNumber& winding,
+void add_inner_points(const condyle::TriMesh& mesh, const condyle::mesh::WindingNumber& winding,
                       condyle::Points& out) {
   Vec3 low = mesh.vertices[0], high = low;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
     low = low.cwiseMin(mesh.vertices[v]), high = high.cwiseMax(mesh.vertices[v]);
-  const condyle::SurfaceDistance distance(mesh);
+  const condyle::mesh::SurfaceDistance distance(mesh);
   constexpr int levels = 4;
   double spacing = 2 * mean_edge(mesh);
   for (int level = 0; level < levels; ++level, spacing *= 2) {
@@ -82,7 +82,7 @@ TetMesh filled(const condyle::TriMesh& mesh) {
   using Vertex = CGAL::Triangulation_vertex_base_with_info_3<Index, Kernel>;
   using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, CGAL::Triangulation_data_structure_3<Vertex>,
                                                   CGAL::Fast_location>;
-  const condyle::WindingNumber winding(mesh);
+  const condyle::mesh::WindingNumber winding(mesh);
   TetMesh out{mesh.vertices, {}};
   add_inner_points(mesh, winding, out.vertices);
 

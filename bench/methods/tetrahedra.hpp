@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 namespace bench {
 

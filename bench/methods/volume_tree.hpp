@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/mesh/triangle_intersection.hpp"
+#include "mesh/triangle_intersection.hpp"
 #include "method.hpp"
 
 /// Hierarchies of bounding volumes in plain code, for volumes that no library has. What they share: the tree,
@@ -163,7 +163,7 @@ class TwoTrees final : public Method {
     ++triangle_tests_;
     const auto p = [&](int k) { return fixed_->corner(f, k); };
     const auto q = [&](int k) { return condyle::posed(X_FM, mobile_->corner(m, k)); };
-    return condyle::triangles_intersect({p(0), p(1), p(2)}, {q(0), q(1), q(2)});
+    return condyle::mesh::triangles_intersect({p(0), p(1), p(2)}, {q(0), q(1), q(2)});
   }
 
   std::shared_ptr<Tree> fixed_, mobile_;

@@ -125,8 +125,8 @@ std::vector<TrianglePair> brute_pairs(const TriMesh& fixed, const TriMesh& mobil
   std::vector<TrianglePair> pairs;
   for (Index f = 0; f < fixed.triangles.size(); ++f)
     for (Index m = 0; m < mobile.triangles.size(); ++m)
-      if (condyle::triangles_intersect({p[3 * f], p[3 * f + 1], p[3 * f + 2]},
-                                       {q[3 * m], q[3 * m + 1], q[3 * m + 2]}))
+      if (condyle::mesh::triangles_intersect({p[3 * f], p[3 * f + 1], p[3 * f + 2]},
+                                             {q[3 * m], q[3 * m + 1], q[3 * m + 2]}))
         pairs.push_back({f, m});
   return pairs;
 }

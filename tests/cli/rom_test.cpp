@@ -9,7 +9,7 @@
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/whole_file.hpp"
-#include "condyle/mesh/subdivide.hpp"
+#include "mesh/subdivide.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -40,7 +40,7 @@ class RomCommand : public ::testing::Test {
   void write_fine_meshes() const {
     for (const char* name : {"post.ply", "arm.ply"}) {
       TriMesh mesh = read_mesh(here / name).mesh;
-      for (int level = 0; level < 5; ++level) mesh = subdivided(mesh);
+      for (int level = 0; level < 5; ++level) mesh = mesh::subdivided(mesh);
       write_mesh(here / name, mesh);
     }
   }

@@ -1,4 +1,4 @@
-#include "condyle/contact/radial_summary.hpp"
+#include "contact/radial_summary.hpp"
 
 #include <gtest/gtest.h>
 

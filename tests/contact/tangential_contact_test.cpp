@@ -1,4 +1,4 @@
-#include "condyle/contact/tangential_contact.hpp"
+#include "contact/tangential_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "condyle/contact/triangle_tree.hpp"
+#include "mesh/triangle_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,15 +9,15 @@
 namespace condyle {
 namespace {
 
-using Node = TriangleTree::Node;
+using Node = mesh::TriangleTree::Node;
 
 TEST(TriangleTree, GivesEveryTriangleToOneLeafAndItsRangesToItsChildren) {
   const TriMesh mesh = test::torus(3, 1, 20, 12);
-  const TriangleTree tree(mesh);
+  const mesh::TriangleTree tree(mesh);
   std::vector<int> owners(mesh.triangles.size());
   for (const Node& node : tree.nodes()) {
     if (node.is_leaf()) {
-      EXPECT_LE(node.last - node.first, TriangleTree::leaf_triangles);
+      EXPECT_LE(node.last - node.first, mesh::TriangleTree::leaf_triangles);
       for (Index t = node.first; t < node.last; ++t) ++owners[t];
     } else {
       const Node &left = tree.nodes()[node.child], &right = tree.nodes()[node.child + 1];
@@ -32,7 +32,7 @@ TEST(TriangleTree, GivesEveryTriangleToOneLeafAndItsRangesToItsChildren) {
 TEST(TriangleTree, RemembersTheNumbersOfTheMesh) {
   TriMesh mesh = test::joined(test::box({0, 0, 0}, {1, 1, 1}), test::sphere({5, 0, 0}, 1, 2));
   mesh.vertices.push_back({9, 9, 9});  // of no triangle
-  const TriangleTree tree(mesh);
+  const mesh::TriangleTree tree(mesh);
   EXPECT_EQ(tree.vertices().size(), mesh.vertices.size() - 1);
   std::vector<Index> seen;
   for (Index t = 0; t < tree.triangles().size(); ++t) {
@@ -51,7 +51,7 @@ TEST(TriangleTree, RemembersTheNumbersOfTheMesh) {
 TEST(TriangleTree, HoldsEveryPointOfANodeInItsBoxAndItsShell) {
   for (const TriMesh& mesh : {test::box({-1, -2, -1.5}, {1, 2, 3}), test::sphere({5, 6, 7}, 2, 3),
                               test::torus(3, 1, 20, 12), test::sphere({1e7, 3e7, 0}, 2, 2)}) {
-    const TriangleTree tree(mesh);
+    const mesh::TriangleTree tree(mesh);
     for (const Node& node : tree.nodes()) {
       for (Index t = node.first; t < node.last; ++t) {
         const auto [a, b, c] = tree.corners(t);
@@ -81,7 +81,7 @@ TEST(TriangleTree, HasATightShellForABallAboutTheOrigin) {
   for (std::size_t t = 0; t < ball.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k)
       longest2 = std::max(longest2, (ball.corner(t, k) - ball.corner(t, (k + 1) % 3)).squaredNorm());
-  const TriangleTree tree(ball);
+  const mesh::TriangleTree tree(ball);
   EXPECT_GE(tree.nodes()[0].nearest, std::sqrt(4 - longest2 / 3) * (1 - 0x1p-22));
   EXPECT_LE(tree.nodes()[0].farthest, 2 * (1 + 0x1p-22));
 }
@@ -90,11 +90,11 @@ TEST(TriangleTree, SplitsTrianglesThatLieInOnePlace) {
   TriMesh mesh = test::box({0, 0, 0}, {1, 1, 1});
   const auto one = mesh.triangles[0];
   mesh.triangles.assign(100, one);
-  const TriangleTree tree(mesh);
+  const mesh::TriangleTree tree(mesh);
   for (const Node& node : tree.nodes()) {
-    EXPECT_TRUE(!node.is_leaf() || node.last - node.first <= TriangleTree::leaf_triangles);
+    EXPECT_TRUE(!node.is_leaf() || node.last - node.first <= mesh::TriangleTree::leaf_triangles);
   }
-  EXPECT_TRUE(TriangleTree(TriMesh{}).empty());
+  EXPECT_TRUE(mesh::TriangleTree(TriMesh{}).empty());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "condyle/core/arc_set.hpp"
+#include "core/arc_set.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -11,23 +11,23 @@ namespace {
 Angle deg(double value) {
   return Angle::degrees(value);
 }
-Arc arc(double start_deg, double width_deg) {
+core::Arc arc(double start_deg, double width_deg) {
   return {deg(start_deg), deg(width_deg)};
 }
 
 TEST(ArcSet, of_nothing_holds_nothing_and_of_everything_everything) {
-  EXPECT_TRUE(ArcSet().empty());
-  EXPECT_FALSE(ArcSet().contains(deg(0)));
-  EXPECT_TRUE(ArcSet().complement().is_full_turn());
-  EXPECT_TRUE(ArcSet::full_turn().complement().empty());
-  EXPECT_TRUE(ArcSet::full_turn().contains(deg(-1234)));
-  EXPECT_EQ(ArcSet::full_turn().arcs(), std::vector<Arc>{arc(0, 360)});
-  EXPECT_EQ(ArcSet().measure().radians(), 0);
-  EXPECT_EQ(ArcSet::full_turn().measure().radians(), two_pi);
+  EXPECT_TRUE(core::ArcSet().empty());
+  EXPECT_FALSE(core::ArcSet().contains(deg(0)));
+  EXPECT_TRUE(core::ArcSet().complement().is_full_turn());
+  EXPECT_TRUE(core::ArcSet::full_turn().complement().empty());
+  EXPECT_TRUE(core::ArcSet::full_turn().contains(deg(-1234)));
+  EXPECT_EQ(core::ArcSet::full_turn().arcs(), std::vector<core::Arc>{arc(0, 360)});
+  EXPECT_EQ(core::ArcSet().measure().radians(), 0);
+  EXPECT_EQ(core::ArcSet::full_turn().measure().radians(), two_pi);
 }
 
 TEST(ArcSet, includes_the_ends_of_its_arcs) {
-  const ArcSet set({{Angle::radians(1), Angle::radians(2)}});
+  const core::ArcSet set({{Angle::radians(1), Angle::radians(2)}});
   EXPECT_TRUE(set.contains(Angle::radians(1)));
   EXPECT_TRUE(set.contains(Angle::radians(3)));
   EXPECT_FALSE(set.contains(Angle::radians(std::nextafter(1, 0))));
@@ -35,12 +35,12 @@ TEST(ArcSet, includes_the_ends_of_its_arcs) {
 }
 
 TEST(ArcSet, joins_arcs_that_overlap_or_touch) {
-  const ArcSet set({{Angle::radians(2), Angle::radians(1)}, {Angle::radians(1), Angle::radians(1)}});
-  EXPECT_EQ(set.arcs(), (std::vector<Arc>{{Angle::radians(1), Angle::radians(2)}}));
+  const core::ArcSet set({{Angle::radians(2), Angle::radians(1)}, {Angle::radians(1), Angle::radians(1)}});
+  EXPECT_EQ(set.arcs(), (std::vector<core::Arc>{{Angle::radians(1), Angle::radians(2)}}));
 }
 
 TEST(ArcSet, reports_an_arc_across_zero_as_one) {
-  const ArcSet set({arc(-10, 20), arc(100, 10)});
+  const core::ArcSet set({arc(-10, 20), arc(100, 10)});
   const auto arcs = set.arcs();
   ASSERT_EQ(arcs.size(), 2u);
   EXPECT_NEAR(arcs[0].start.degrees(), 100, 1e-12);
@@ -53,9 +53,9 @@ TEST(ArcSet, reports_an_arc_across_zero_as_one) {
 }
 
 TEST(ArcSet, holds_zero_however_it_is_named) {
-  for (const ArcSet& set :
-       {ArcSet({{Angle(), Angle()}}), ArcSet({{Angle::radians(two_pi - 1), Angle::radians(1)}}),
-        ArcSet({{Angle::radians(0), Angle::radians(1)}})}) {
+  for (const core::ArcSet& set :
+       {core::ArcSet({{Angle(), Angle()}}), core::ArcSet({{Angle::radians(two_pi - 1), Angle::radians(1)}}),
+        core::ArcSet({{Angle::radians(0), Angle::radians(1)}})}) {
     EXPECT_TRUE(set.contains(deg(0)));
     EXPECT_TRUE(set.contains(Angle::radians(two_pi)));
     EXPECT_EQ(set.arcs().size(), 1u);
@@ -64,7 +64,7 @@ TEST(ArcSet, holds_zero_however_it_is_named) {
 }
 
 TEST(ArcSet, of_a_single_direction_has_no_width_and_no_complement_of_its_own) {
-  const ArcSet point({arc(90, 0)});
+  const core::ArcSet point({arc(90, 0)});
   EXPECT_TRUE(point.contains(deg(90)));
   EXPECT_EQ(point.measure().radians(), 0);
   EXPECT_TRUE(point.complement().contains(deg(90))) << "ends belong to both";
@@ -88,10 +88,10 @@ Angle quarter(int count) {
   return Angle::radians(count * (two_pi / quarters));
 }
 
-ArcSet set_of(const Arcs& from) {
-  std::vector<Arc> out;
+core::ArcSet set_of(const Arcs& from) {
+  std::vector<core::Arc> out;
   for (const auto& [start, width] : from) out.push_back({quarter(start), quarter(width)});
-  return ArcSet(out);
+  return core::ArcSet(out);
 }
 
 /// The obvious membership: any arc holds the direction.
@@ -102,7 +102,7 @@ bool any_holds(const Arcs& from, int at) {
 
 RC_GTEST_PROP(ArcSet, holds_what_any_of_its_arcs_holds, ()) {
   const Arcs a = any_arcs(), b = any_arcs();
-  const ArcSet one = set_of(a), other = set_of(b), both = one.united(other), rest = both.complement();
+  const core::ArcSet one = set_of(a), other = set_of(b), both = one.united(other), rest = both.complement();
   for (int at = 1; at < quarters; at += 2) {
     RC_ASSERT(one.contains(quarter(at)) == any_holds(a, at));
     RC_ASSERT(both.contains(quarter(at)) == (any_holds(a, at) || any_holds(b, at)));
@@ -118,7 +118,7 @@ RC_GTEST_PROP(ArcSet, holds_an_arc_where_it_holds_all_of_it, ()) {
   const auto [start, width] = any_arc();
   bool all = true;
   for (int at = start + 1; at < start + width; at += 2) all = all && any_holds(a, at % quarters);
-  RC_ASSERT(set_of(a).contains(Arc{quarter(start + 1), quarter(width - 2)}) == all);
+  RC_ASSERT(set_of(a).contains(core::Arc{quarter(start + 1), quarter(width - 2)}) == all);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "condyle/core/predicates.hpp"
+#include "core/predicates.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +12,12 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-Sign exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+core::Sign exact_orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   const auto e = [](const Vec3& p, const Vec3& q, int k) { return Rational(p[k]) - Rational(q[k]); };
   const Rational det = e(d, a, 0) * (e(b, a, 1) * e(c, a, 2) - e(b, a, 2) * e(c, a, 1)) +
                        e(d, a, 1) * (e(b, a, 2) * e(c, a, 0) - e(b, a, 0) * e(c, a, 2)) +
                        e(d, a, 2) * (e(b, a, 0) * e(c, a, 1) - e(b, a, 1) * e(c, a, 0));
-  return static_cast<Sign>(det.sign());
+  return static_cast<core::Sign>(det.sign());
 }
 
 TEST(Predicates, OrientationOfFourNearlyCoplanarPointsIsThatOfRationalArithmetic) {
@@ -28,9 +28,9 @@ TEST(Predicates, OrientationOfFourNearlyCoplanarPointsIsThatOfRationalArithmetic
     const Vec3 a(uniform(random), uniform(random), uniform(random)), u(uniform(random), 0.5, uniform(random));
     const Vec3 v(0.25, uniform(random), uniform(random));
     const Vec3 d = a + 0.5 * u + 0.25 * v;
-    const Sign sign = orientation(a, Vec3(a + u), Vec3(a + v), d);
+    const core::Sign sign = core::orientation(a, Vec3(a + u), Vec3(a + v), d);
     EXPECT_EQ(sign, exact_orientation(a, a + u, a + v, d));
-    (sign == Sign::zero ? zero : sign == Sign::positive ? positive : negative)++;
+    (sign == core::Sign::zero ? zero : sign == core::Sign::positive ? positive : negative)++;
   }
   // The points are coplanar but for rounding: all three answers must occur, or nothing was tested.
   EXPECT_GT(zero, 0);
@@ -45,9 +45,9 @@ TEST(Predicates, OrientationAboutTheOriginAgreesWithFourPointOrientation) {
     const auto point = [&] { return Vec3(0.1 * grid(random), 0.1 * grid(random), 0.1 * grid(random)); };
     const Vec3 a = point(), b = point(), c = point();
     // det[a b c] is (a - 0) x (b - 0) . (c - 0).
-    EXPECT_EQ(orientation(a, b, c), exact_orientation(Vec3::Zero(), a, b, c));
-    EXPECT_EQ(orientation(a, b, c), -orientation(b, a, c));
-    EXPECT_EQ(orientation(a, b, c), orientation(b, c, a));
+    EXPECT_EQ(core::orientation(a, b, c), exact_orientation(Vec3::Zero(), a, b, c));
+    EXPECT_EQ(core::orientation(a, b, c), -core::orientation(b, a, c));
+    EXPECT_EQ(core::orientation(a, b, c), core::orientation(b, c, a));
   }
 }
 
@@ -57,19 +57,19 @@ TEST(Predicates, ExchangingTwoArgumentsNegatesTheFilteredValueToTheLastBit) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3 v(uniform(random), uniform(random), uniform(random));
     const Vec3 a(uniform(random), uniform(random), uniform(random)), b(uniform(random), uniform(random), 1);
-    EXPECT_EQ(filtered_determinant(v, a, b).value, -filtered_determinant(v, b, a).value);
+    EXPECT_EQ(core::filtered_determinant(v, a, b).value, -core::filtered_determinant(v, b, a).value);
   }
 }
 
 TEST(Predicates, SubnormalAndHugeCoordinatesAreDecided) {
   const double tiny = std::numeric_limits<double>::denorm_min(), huge = std::numeric_limits<double>::max();
-  EXPECT_EQ(orientation(Vec3(tiny, 0, 0), Vec3(0, tiny, 0), Vec3(0, 0, tiny)), Sign::positive);
-  EXPECT_EQ(orientation(Vec3(huge, 0, 0), Vec3(0, huge, 0), Vec3(0, 0, -huge)), Sign::negative);
-  EXPECT_EQ(orientation(Vec3(huge, 0, 0), Vec3(0, tiny, 0), Vec3(0, huge, 0)), Sign::zero);
-  EXPECT_EQ(determinant_2x2(tiny, tiny, tiny, tiny), Sign::zero);
-  EXPECT_EQ(determinant_2x2(huge, tiny, -tiny, huge), Sign::positive);
-  EXPECT_EQ(orientation_2d(0, 0, huge, huge, -huge, -huge), Sign::zero);
-  EXPECT_EQ(orientation_2d(-huge, 0, huge, tiny, huge, 2 * tiny), Sign::positive);
+  EXPECT_EQ(core::orientation(Vec3(tiny, 0, 0), Vec3(0, tiny, 0), Vec3(0, 0, tiny)), core::Sign::positive);
+  EXPECT_EQ(core::orientation(Vec3(huge, 0, 0), Vec3(0, huge, 0), Vec3(0, 0, -huge)), core::Sign::negative);
+  EXPECT_EQ(core::orientation(Vec3(huge, 0, 0), Vec3(0, tiny, 0), Vec3(0, huge, 0)), core::Sign::zero);
+  EXPECT_EQ(core::determinant_2x2(tiny, tiny, tiny, tiny), core::Sign::zero);
+  EXPECT_EQ(core::determinant_2x2(huge, tiny, -tiny, huge), core::Sign::positive);
+  EXPECT_EQ(core::orientation_2d(0, 0, huge, huge, -huge, -huge), core::Sign::zero);
+  EXPECT_EQ(core::orientation_2d(-huge, 0, huge, tiny, huge, 2 * tiny), core::Sign::positive);
 }
 
 TEST(Predicates, ThreePointsOnALineThatDoubleArithmeticBends) {
@@ -79,7 +79,8 @@ TEST(Predicates, ThreePointsOnALineThatDoubleArithmeticBends) {
     const double x = 0.1 * k, y = 0.3 * k;
     const Rational left = (Rational(0.7) - Rational(0.1)) * (Rational(y) - Rational(0.3));
     const Rational right = (Rational(2.1) - Rational(0.3)) * (Rational(x) - Rational(0.1));
-    EXPECT_EQ(orientation_2d(0.1, 0.3, 0.7, 2.1, x, y), static_cast<Sign>(Rational(left - right).sign()));
+    EXPECT_EQ(core::orientation_2d(0.1, 0.3, 0.7, 2.1, x, y),
+              static_cast<core::Sign>(Rational(left - right).sign()));
   }
 }
 

@@ -1,4 +1,4 @@
-#include "condyle/core/spare_blocks.hpp"
+#include "core/spare_blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "condyle/core/uninitialised.hpp"
+#include "core/uninitialised.hpp"
 
 namespace condyle {
 namespace {
@@ -24,8 +24,8 @@ class SpareBlocksTest : public testing::Test {
 
   void* block(std::size_t i) { return &byte_[i]; }
 
-  std::array<char, 2 * SpareBlocks::most_blocks> byte_{};
-  SpareBlocks spare_{1000, note};
+  std::array<char, 2 * core::SpareBlocks::most_blocks> byte_{};
+  core::SpareBlocks spare_{1000, note};
 };
 
 TEST_F(SpareBlocksTest, ABlockComesBackOnceAndToWhoAsksForItsSizeOnly) {
@@ -60,7 +60,7 @@ TEST_F(SpareBlocksTest, BeyondTheBoundThoseThatWaitedLongestAreReleased) {
 }
 
 TEST_F(SpareBlocksTest, ManySmallBlocksReleaseTheOldest) {
-  for (std::size_t i = 0; i < SpareBlocks::most_blocks + 3; ++i) spare_.keep(block(i), 1);
+  for (std::size_t i = 0; i < core::SpareBlocks::most_blocks + 3; ++i) spare_.keep(block(i), 1);
   EXPECT_EQ(released, (std::vector{block(0), block(1), block(2)}));
 }
 
@@ -68,11 +68,11 @@ TEST(LargeMemory, IsAlignedAndHoldsWhatIsWrittenWhoeverHadItBefore) {
   for (const std::size_t bytes : {std::size_t{1}, std::size_t{65535}, std::size_t{65536}, std::size_t{70001},
                                   std::size_t{3} << 20, std::size_t{70} << 20}) {
     for (int again = 0; again < 2; ++again) {
-      auto* const memory = static_cast<unsigned char*>(allocate_large(bytes));
+      auto* const memory = static_cast<unsigned char*>(core::allocate_large(bytes));
       const std::size_t alignment = bytes >= std::size_t{2} << 20 ? std::size_t{2} << 20 : 64;
       EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory) % alignment, 0u) << bytes;
       memory[0] = 1, memory[bytes - 1] = 2;
-      free_large(memory, bytes);
+      core::free_large(memory, bytes);
     }
   }
 }
@@ -80,7 +80,7 @@ TEST(LargeMemory, IsAlignedAndHoldsWhatIsWrittenWhoeverHadItBefore) {
 TEST(LargeMemory, ThreadsThatMakeAndDropVectorsNeverShareOne) {
   const auto work = [](std::size_t number) {
     for (std::size_t round = 0; round < 200; ++round) {
-      UninitialisedVector<std::size_t> values(20000 + 100 * (round % 3));
+      core::UninitialisedVector<std::size_t> values(20000 + 100 * (round % 3));
       for (std::size_t& value : values) value = number;
       for (const std::size_t value : values) ASSERT_EQ(value, number);
     }

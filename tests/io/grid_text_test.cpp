@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 
 namespace condyle {
 namespace {

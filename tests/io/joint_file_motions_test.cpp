@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 
 /// [[motion]] tables of joint files.

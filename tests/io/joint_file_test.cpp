@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "condyle/core/error.hpp"
-#include "condyle/core/predicates.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "core/predicates.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -105,12 +105,12 @@ TEST_F(JointFileTest, MetresBecomeMillimetres) {
   const auto [joint, report] =
       read(replaced(replaced(plain, "\"mm\"", "\"m\""), "[0.0, 0.0, 0.0]", "[0.001, 0.002, -0.003]"));
   const Vec3 centre(1, 2, -3);
-  EXPECT_TRUE(report.X_WF.translation().isApprox(centre, 4 * rounding_unit));
+  EXPECT_TRUE(report.X_WF.translation().isApprox(centre, 4 * core::rounding_unit));
   const TriMesh expected = femur_like();
   for (std::size_t v = 0; v < expected.vertices.size(); ++v)
     // The test's own scaling, that of the file and the centre's: u each, of at most 400 mm.
     EXPECT_LE((joint.mobile.mesh.vertices[v] - (expected.vertices[v] - centre)).cwiseAbs().maxCoeff(),
-              4 * rounding_unit * 400);
+              4 * core::rounding_unit * 400);
   EXPECT_EQ(report.notes.size(), 1u);
 }
 
@@ -145,7 +145,7 @@ TEST_F(JointFileTest, ARestPoseIsTakenOffTheMobileMeshAlone) {
     // At the rest angles the mesh is again where the file has it: two rotations with a few u of 400 mm each.
     const TriMesh given = femur_like(), back = posed(pose_at(side, rest), joint.mobile.mesh);
     for (std::size_t v = 0; v < given.vertices.size(); ++v)
-      EXPECT_LE((back.vertices[v] - given.vertices[v]).norm(), 32 * rounding_unit * 400);
+      EXPECT_LE((back.vertices[v] - given.vertices[v]).norm(), 32 * core::rounding_unit * 400);
   }
 }
 
@@ -186,12 +186,12 @@ TEST_F(JointFileTest, LandmarksGiveTheAxes) {
   const auto isb =
       at("right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\nright_psis = [-150, 0, 45]\nleft_psis = [-150, "
          "0, -45]\n");
-  EXPECT_TRUE(isb.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  EXPECT_TRUE(isb.matrix().isApprox(Pose::Identity().matrix(), 8 * core::rounding_unit));
   const auto plane =
       at("right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\npubic_symphysis = [0, -90, 0]\n");
-  EXPECT_TRUE(plane.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  EXPECT_TRUE(plane.matrix().isApprox(Pose::Identity().matrix(), 8 * core::rounding_unit));
   const auto femur = at("medial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, -400, 40]\n");
-  EXPECT_TRUE(femur.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  EXPECT_TRUE(femur.matrix().isApprox(Pose::Identity().matrix(), 8 * core::rounding_unit));
   const auto knee =
       read(replaced(replaced(plain, axes,
                              "[frame.landmarks]\nmedial_epicondyle = [0, -400, -40]\nlateral_epicondyle = "
@@ -209,7 +209,7 @@ TEST_F(JointFileTest, ACentreIsAlsoTakenInTheFilesUnits) {
           plain, axes,
           "[frame.landmarks]\nmedial_epicondyle = [0, -0.4, -0.04]\nlateral_epicondyle = [0, -0.4, 0.04]\n"),
       "\"mm\"", "\"m\""));
-  EXPECT_TRUE(femur.report.X_WF.matrix().isApprox(Pose::Identity().matrix(), 8 * rounding_unit));
+  EXPECT_TRUE(femur.report.X_WF.matrix().isApprox(Pose::Identity().matrix(), 8 * core::rounding_unit));
 }
 
 TEST_F(JointFileTest, RepairsAreMadeInOrderAndReported) {

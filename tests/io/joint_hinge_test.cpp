@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "condyle/core/error.hpp"
-#include "condyle/core/predicates.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "core/predicates.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 #include "support/tube.hpp"

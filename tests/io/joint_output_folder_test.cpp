@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 
 namespace condyle {

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "support/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <limits>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "support/mesh_bytes.hpp"
 #include "support/test_meshes.hpp"

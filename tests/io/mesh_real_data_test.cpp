@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/mesh/inspect.hpp"
-#include "condyle/mesh/repair.hpp"
+#include "condyle/repair.hpp"
 
 namespace condyle {
 namespace {

@@ -15,7 +15,7 @@
 #include <iterator>
 #include <limits>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/whole_file.hpp"
 #include "support/test_meshes.hpp"

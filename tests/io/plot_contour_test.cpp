@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "condyle/io/contour_fill.hpp"
+#include "io/result/contour_fill.hpp"
 
 namespace condyle::test {
 namespace {
@@ -16,7 +16,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// A field that owns its numbers.
 struct Field {
   std::vector<double> x, y, values;
-  operator GridField() const { return {x, y, values}; }
+  operator io::GridField() const { return {x, y, values}; }
 };
 
 /// Points low, low + h, ... over a square of `cells` cells a side.
@@ -30,13 +30,13 @@ Field sampled(double low, double h, int cells, const F& f) {
   return field;
 }
 
-double area(const ContourRegion& region) {
+double area(const io::ContourRegion& region) {
   double sum = 0;
-  for (const Ring& ring : region.rings) sum += signed_area(ring);
+  for (const Ring& ring : region.rings) sum += io::signed_area(ring);
   return sum;
 }
 
-double length(const ContourRegion& region) {
+double length(const io::ContourRegion& region) {
   double sum = 0;
   for (const Ring& line : region.lines)
     for (std::size_t i = 1; i < line.size(); ++i)
@@ -58,7 +58,7 @@ double part_above(std::array<double, 3> value, double triangle_area, double leve
 }
 
 /// The plain definition: triangles of all cells one by one.
-double plain_area(const GridField& field, double level) {
+double plain_area(const io::GridField& field, double level) {
   double sum = 0;
   const std::size_t columns = field.x.size();
   for (std::size_t j = 0; j + 1 < field.y.size(); ++j) {
@@ -89,7 +89,7 @@ double rounding(const Field& field) {
 TEST(ContourFill, A_plane_is_cut_exactly_along_its_level_line) {
   // f = x + 2 y on [0, 1]^2 is at or above 1 where y >= (1 - x) / 2: all but a triangle with sides 1 and 1/2.
   const Field plane = sampled(0, 0.125, 8, [](double x, double y) { return x + 2 * y; });
-  const ContourRegion region = region_at_or_above(plane, 1);
+  const io::ContourRegion region = io::region_at_or_above(plane, 1);
   ASSERT_EQ(region.rings.size(), 1u);
   EXPECT_NEAR(area(region), 1 - 0.25, rounding(plane));
   ASSERT_EQ(region.lines.size(), 1u);
@@ -105,7 +105,7 @@ TEST(ContourFill, A_cone_is_cut_in_its_circle_as_well_as_linear_pieces_can) {
   for (const int cells : {10, 20, 40, 80}) {
     const double h = 3.0 / cells, e = (h * h / 4 + h * h / 8) / (R - h);
     const Field cone = sampled(-1.5, h, cells, [](double x, double y) { return R - std::hypot(x, y); });
-    const ContourRegion region = region_at_or_above(cone, 0);
+    const io::ContourRegion region = io::region_at_or_above(cone, 0);
     ASSERT_EQ(region.rings.size(), 1u);
     EXPECT_GE(area(region), std::numbers::pi * (R - e) * (R - e));
     EXPECT_LE(area(region), std::numbers::pi * (R + e) * (R + e));
@@ -117,9 +117,9 @@ TEST(ContourFill, A_cone_is_cut_in_its_circle_as_well_as_linear_pieces_can) {
 
 TEST(ContourFill, A_pit_is_a_hole_with_the_opposite_turn) {
   const Field pit = sampled(-1.5, 0.1, 30, [](double x, double y) { return std::hypot(x, y); });
-  const ContourRegion region = region_at_or_above(pit, 1);
+  const io::ContourRegion region = io::region_at_or_above(pit, 1);
   ASSERT_EQ(region.rings.size(), 2u);
-  const double a = signed_area(region.rings[0]), b = signed_area(region.rings[1]);
+  const double a = io::signed_area(region.rings[0]), b = io::signed_area(region.rings[1]);
   EXPECT_NEAR(std::max(a, b), 9, rounding(pit));
   EXPECT_LT(std::min(a, b), -3);
 }
@@ -127,45 +127,45 @@ TEST(ContourFill, A_pit_is_a_hole_with_the_opposite_turn) {
 TEST(ContourFill, A_saddle_is_joined_below_its_mean_and_parted_above_it) {
   // Corners 1 0 / 0 1 (high on one diagonal): the middle is 1/2.
   const Field saddle{{0, 1}, {0, 1}, {1, 0, 0, 1}};
-  EXPECT_EQ(region_at_or_above(saddle, 0.4).rings.size(), 1u);
-  EXPECT_EQ(region_at_or_above(saddle, 0.6).rings.size(), 2u);
+  EXPECT_EQ(io::region_at_or_above(saddle, 0.4).rings.size(), 1u);
+  EXPECT_EQ(io::region_at_or_above(saddle, 0.6).rings.size(), 2u);
   // At 0.6 each high corner keeps, of both triangles beside it, the similar part 0.4 x 0.8 of area 1/4.
-  EXPECT_NEAR(area(region_at_or_above(saddle, 0.6)), 4 * 0.25 * 0.4 * 0.8, rounding(saddle));
+  EXPECT_NEAR(area(io::region_at_or_above(saddle, 0.6)), 4 * 0.25 * 0.4 * 0.8, rounding(saddle));
   // Turning the levels around exchanges high and low.
-  EXPECT_NEAR(area(region_at_or_above(saddle, 0.4)) + area(region_at_or_above(saddle, 0.6)), 1,
+  EXPECT_NEAR(area(io::region_at_or_above(saddle, 0.4)) + area(io::region_at_or_above(saddle, 0.6)), 1,
               rounding(saddle));
 }
 
 TEST(ContourFill, A_value_equal_to_the_level_counts_as_above) {
   const Field level = sampled(0, 1, 3, [](double, double) { return 20; });
-  EXPECT_EQ(area(region_at_or_above(level, 20)), 9);
-  EXPECT_EQ(region_at_or_above(level, 20).rings.size(), 1u);
-  EXPECT_EQ(region_at_or_above(level, 20).rings[0].size(), 4u);
-  EXPECT_TRUE(region_at_or_above(level, 20).lines.empty());
-  EXPECT_TRUE(region_at_or_above(level, std::nextafter(20, 21)).rings.empty());
+  EXPECT_EQ(area(io::region_at_or_above(level, 20)), 9);
+  EXPECT_EQ(io::region_at_or_above(level, 20).rings.size(), 1u);
+  EXPECT_EQ(io::region_at_or_above(level, 20).rings[0].size(), 4u);
+  EXPECT_TRUE(io::region_at_or_above(level, 20).lines.empty());
+  EXPECT_TRUE(io::region_at_or_above(level, std::nextafter(20, 21)).rings.empty());
   // One line of points at the level, the rest below: nothing with an area.
   const Field ridge = sampled(0, 1, 2, [](double x, double) { return x == 1 ? 5 : 0; });
-  EXPECT_TRUE(region_at_or_above(ridge, 5).rings.empty());
+  EXPECT_TRUE(io::region_at_or_above(ridge, 5).rings.empty());
   // Half of the grid at the level: the line between is drawn once.
   const Field step = sampled(0, 1, 2, [](double x, double) { return x >= 1 ? 5 : 0; });
-  EXPECT_EQ(area(region_at_or_above(step, 5)), 2);
-  EXPECT_EQ(length(region_at_or_above(step, 5)), 2);
+  EXPECT_EQ(area(io::region_at_or_above(step, 5)), 2);
+  EXPECT_EQ(length(io::region_at_or_above(step, 5)), 2);
 }
 
 TEST(ContourFill, Missing_points_take_their_cells_with_them_but_for_the_opposite_corners) {
   Field field = sampled(0, 1, 4, [](double, double) { return 1; });
   field.values[2 * 5 + 2] = nan;  // in the middle: four cells keep half
-  EXPECT_EQ(area(region_at_or_above(field, 0)), 16 - 2);
-  EXPECT_TRUE(region_at_or_above(field, 0).lines.empty());
+  EXPECT_EQ(area(io::region_at_or_above(field, 0)), 16 - 2);
+  EXPECT_TRUE(io::region_at_or_above(field, 0).lines.empty());
   field.values[2 * 5 + 3] = nan;  // beside it: two cells lose all, two more keep half
-  EXPECT_EQ(area(region_at_or_above(field, 0)), 16 - 2 - 2);
+  EXPECT_EQ(area(io::region_at_or_above(field, 0)), 16 - 2 - 2);
   field.values.assign(25, nan);
-  EXPECT_TRUE(region_at_or_above(field, 0).rings.empty());
+  EXPECT_TRUE(io::region_at_or_above(field, 0).rings.empty());
 }
 
 TEST(ContourFill, One_row_or_no_point_at_all_has_no_area) {
-  EXPECT_TRUE(region_at_or_above(Field{{0, 1, 2}, {0}, {1, 1, 1}}, 0).rings.empty());
-  EXPECT_TRUE(region_at_or_above(Field{}, 0).rings.empty());
+  EXPECT_TRUE(io::region_at_or_above(Field{{0, 1, 2}, {0}, {1, 1, 1}}, 0).rings.empty());
+  EXPECT_TRUE(io::region_at_or_above(Field{}, 0).rings.empty());
 }
 
 /// Small whole values with gaps: levels through corners and middles, saddles and plateaus are common.
@@ -184,7 +184,7 @@ Field random_field() {
 RC_GTEST_PROP(ContourFill, Has_the_area_of_its_triangles_one_by_one, ()) {
   const Field field = random_field();
   for (const double level : {-1.0, 0.0, 0.5, 1.0, 2.25, 3.0, 3.7, 6.0, 7.0})
-    RC_ASSERT(std::abs(area(region_at_or_above(field, level)) - plain_area(field, level)) <=
+    RC_ASSERT(std::abs(area(io::region_at_or_above(field, level)) - plain_area(field, level)) <=
               100 * rounding(field));
 }
 
@@ -193,7 +193,7 @@ RC_GTEST_PROP(ContourFill, Closes_every_ring_and_walks_no_edge_twice, ()) {
   const double level = *rc::gen::elementOf(std::vector<double>{0, 1, 2.5, 3, 4.2});
   using Edge = std::array<double, 4>;
   std::set<Edge> edges;
-  for (const Ring& ring : region_at_or_above(field, level).rings) {
+  for (const Ring& ring : io::region_at_or_above(field, level).rings) {
     RC_ASSERT(ring.size() >= 3u);
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const ScreenPoint &a = ring[i], &b = ring[(i + 1) % ring.size()];

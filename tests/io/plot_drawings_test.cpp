@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "condyle/io/plot_clock_face.hpp"
-#include "condyle/io/plot_limits.hpp"
 #include "condyle/io/plot_map.hpp"
+#include "io/result/plot_clock_face.hpp"
+#include "io/result/plot_limits.hpp"
 #include "plot_svg_elements.hpp"
 
 namespace condyle::test {

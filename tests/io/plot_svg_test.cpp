@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "condyle/io/plot_axes.hpp"
-#include "condyle/io/svg_canvas.hpp"
+#include "io/result/plot_axes.hpp"
+#include "io/result/svg_canvas.hpp"
 #include "plot_svg_elements.hpp"
 
 namespace condyle::test {

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stop_token>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "condyle/io/map_checkpoint.hpp"
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/rom_result.hpp"

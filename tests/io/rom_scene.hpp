@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/kinematics/joint.hpp"
+#include "condyle/joint.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle::test {

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "condyle/core/angle.hpp"
-#include "condyle/core/error.hpp"
-#include "condyle/core/predicates.hpp"
-#include "condyle/kinematics/fit_cylinder.hpp"
-#include "condyle/kinematics/fit_sphere.hpp"
+#include "condyle/angle.hpp"
+#include "condyle/error.hpp"
+#include "condyle/fit_cylinder.hpp"
+#include "condyle/fit_sphere.hpp"
+#include "core/predicates.hpp"
 #include "support/test_meshes.hpp"
 #include "support/tube.hpp"
 
@@ -38,7 +38,7 @@ std::vector<Index> all_of(const Points& points) {
 /// along its axis (the standard deviation of the rays' heights is h / sqrt(12), entering squared), so errors
 /// grow by at most its inverse.
 double exact_fit_tolerance(double size, double cap_height) {
-  return 8 * rounding_unit * size * 12 / (cap_height * cap_height);
+  return 8 * core::rounding_unit * size * 12 / (cap_height * cap_height);
 }
 
 TEST(FitSphere, IsExactOnExactSpheresWhereverTheyLie) {
@@ -58,8 +58,8 @@ TEST(FitSphere, FourVerticesAreEnough) {
   for (const Vec3& p : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
     corners.push_back(p);
   const auto fit = fit_sphere(corners);
-  EXPECT_LE(fit.sphere.centre.norm(), 16 * rounding_unit);
-  EXPECT_NEAR(fit.sphere.radius, std::sqrt(3), 16 * rounding_unit);
+  EXPECT_LE(fit.sphere.centre.norm(), 16 * core::rounding_unit);
+  EXPECT_NEAR(fit.sphere.radius, std::sqrt(3), 16 * core::rounding_unit);
 }
 
 TEST(FitSphere, IsStationaryUnderGeometricLeastSquares) {

@@ -1,11 +1,11 @@
-#include "condyle/kinematics/joint_coordinates.hpp"
+#include "condyle/joint_coordinates.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "condyle/core/predicates.hpp"
+#include "core/predicates.hpp"
 
 namespace condyle {
 namespace {
@@ -31,13 +31,13 @@ double largest_difference(const Pose& a, const Pose& b) {
 /// An entry of pose_at() is a sum of two products of up to three numbers of magnitude at most 1, each off by
 /// u/2 of rounding its sine or cosine: 3u/2 + 2u per product, and u for the sum; 8u covers both. AngleAxis
 /// goes through quaternions and some ten products more.
-constexpr double pose_tolerance = 8 * rounding_unit;
-constexpr double definition_tolerance = 32 * rounding_unit;
+constexpr double pose_tolerance = 8 * core::rounding_unit;
+constexpr double definition_tolerance = 32 * core::rounding_unit;
 
 /// angles_at() reads adduction with both its sine and cosine: off by the entries' own error and its own
 /// rounding (pi u). The pose made of the angles again is off by the sum of the errors of three angles and of
 /// pose_at().
-constexpr double angle_tolerance = pose_tolerance + 4 * rounding_unit;
+constexpr double angle_tolerance = pose_tolerance + 4 * core::rounding_unit;
 constexpr double round_trip_tolerance = 4 * angle_tolerance + pose_tolerance;
 
 void expect_both_ways(Side side, const JointAngles& a) {
@@ -203,7 +203,7 @@ TEST(JointCoordinates, AnAxisIsTheOneAboutWhichItsAngleTurns) {
                                 pose_at(side, at).linear());
               // Rounding of the sum of two angles of up to 2 pi adds 4u.
               EXPECT_LE(largest_difference(turned, pose_at(side, moved[static_cast<int>(angle)])),
-                        definition_tolerance + 4 * rounding_unit);
+                        definition_tolerance + 4 * core::rounding_unit);
             }
           }
 }

@@ -1,18 +1,18 @@
-#include "condyle/kinematics/joint_frame.hpp"
+#include "condyle/joint_frame.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
 
-#include "condyle/core/error.hpp"
-#include "condyle/core/predicates.hpp"
+#include "condyle/error.hpp"
+#include "core/predicates.hpp"
 
 namespace condyle {
 namespace {
 
 /// Products of unit vectors with a few roundings each.
-constexpr double orthonormal_tolerance = 16 * rounding_unit;
+constexpr double orthonormal_tolerance = 16 * core::rounding_unit;
 
 void expect_rotation(const Pose& X) {
   const Eigen::Matrix3d gram = X.linear().transpose() * X.linear();
@@ -103,7 +103,7 @@ RC_GTEST_PROP(JointFrame, FramesFromLandmarksTurnWithTheLandmarks, ()) {
   const Vec3 symphysis(20, -90, 3), medial(5, -400, -40), lateral(-3, -398, 45), centre(0, 0, 0);
   // Positions are of order 1000 mm with an error of a few u each, directions of landmarks at least 80 mm
   // apart.
-  const double tolerance = 16 * 2000 * rounding_unit / 80 + 4 * orthonormal_tolerance;
+  const double tolerance = 16 * 2000 * core::rounding_unit / 80 + 4 * orthonormal_tolerance;
   const auto expect_same = [&](const Pose& moved, const Pose& still) {
     expect_rotation(moved);
     const Eigen::Matrix3d difference = moved.linear() - X.linear() * still.linear();

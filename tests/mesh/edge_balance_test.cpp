@@ -1,27 +1,27 @@
-#include "condyle/mesh/edge_balance.hpp"
+#include "mesh/edge_balance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "condyle/core/instruction_set.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
 namespace {
 
 TEST(EdgeBalance, ClosedMeshesHaveNoUnbalancedEdge) {
-  EXPECT_FALSE(unbalanced_edge(test::box({0, 0, 0}, {1, 1, 1})));
-  EXPECT_FALSE(unbalanced_edge(test::socket({0, 0, 0}, 1, 2, 2)));
-  EXPECT_FALSE(unbalanced_edge(test::flipped(test::torus(2, 1, 5, 5))));
+  EXPECT_FALSE(mesh::unbalanced_edge(test::box({0, 0, 0}, {1, 1, 1})));
+  EXPECT_FALSE(mesh::unbalanced_edge(test::socket({0, 0, 0}, 1, 2, 2)));
+  EXPECT_FALSE(mesh::unbalanced_edge(test::flipped(test::torus(2, 1, 5, 5))));
 }
 
 TEST(EdgeBalance, TheFirstBoundaryEdgeIsNamedInItsDirection) {
   TriMesh mesh = test::box({0, 0, 0}, {1, 1, 1});
   const Triangle removed = mesh.triangles.back();  // {3, 7, 5}
   mesh.triangles.pop_back();
-  const auto edge = unbalanced_edge(mesh);
+  const auto edge = mesh::unbalanced_edge(mesh);
   ASSERT_TRUE(edge);
   // What is left uses each edge of the hole once, against the direction of the triangle that is gone.
   const auto has = [&](Index from, Index to) {
@@ -36,7 +36,7 @@ TEST(EdgeBalance, TheFirstBoundaryEdgeIsNamedInItsDirection) {
 TEST(EdgeBalance, AFlippedTriangleIsUnbalanced) {
   TriMesh mesh = test::box({0, 0, 0}, {1, 1, 1});
   std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
-  EXPECT_TRUE(unbalanced_edge(mesh));
+  EXPECT_TRUE(mesh::unbalanced_edge(mesh));
 }
 
 TEST(EdgeBalance, AnEdgeOfFourTrianglesMayBalance) {
@@ -48,15 +48,15 @@ TEST(EdgeBalance, AnEdgeOfFourTrianglesMayBalance) {
       if (v == 12) v = 7;
     }
   }
-  EXPECT_FALSE(unbalanced_edge(two));
+  EXPECT_FALSE(mesh::unbalanced_edge(two));
 }
 
-class EdgeBalanceOn : public testing::TestWithParam<InstructionSet> {
+class EdgeBalanceOn : public testing::TestWithParam<simd::InstructionSet> {
  protected:
-  InstructionSetInUse in_use_{GetParam()};
+  simd::InstructionSetInUse in_use_{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, EdgeBalanceOn, testing::ValuesIn(instruction_sets()),
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, EdgeBalanceOn, testing::ValuesIn(simd::instruction_sets()),
                          [](const auto& set) { return set.param.name; });
 
 /// Triangles in another order, each from another corner on.
@@ -82,17 +82,17 @@ TriMesh double_cone(Index around) {
 TEST_P(EdgeBalanceOn, OneTriangleTooFewOrTwiceOrTurnedIsFoundAmongMany) {
   const TriMesh torus = test::torus(2, 1, 24, 16);
   for (const TriMesh& closed : {shuffled(torus, 1), shuffled(double_cone(200), 2), torus}) {
-    EXPECT_FALSE(unbalanced_edge(closed));
+    EXPECT_FALSE(mesh::unbalanced_edge(closed));
     for (std::size_t i = 0; i < closed.triangles.size(); i += 37) {
       TriMesh mesh = closed;
       std::swap(mesh.triangles[i][0], mesh.triangles[i][1]);
-      EXPECT_TRUE(unbalanced_edge(mesh));
+      EXPECT_TRUE(mesh::unbalanced_edge(mesh));
       mesh = closed;
       mesh.triangles.push_back(mesh.triangles[i]);
-      EXPECT_TRUE(unbalanced_edge(mesh));
+      EXPECT_TRUE(mesh::unbalanced_edge(mesh));
       mesh = closed;
       mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(i));
-      EXPECT_TRUE(unbalanced_edge(mesh));
+      EXPECT_TRUE(mesh::unbalanced_edge(mesh));
     }
   }
 }
@@ -101,11 +101,11 @@ TEST_P(EdgeBalanceOn, OfManyTrianglesInAnyOrderTheOneThatIsMissingIsFound) {
   // Far more edges than wait at a time.
   const TriMesh torus = test::torus(2, 1, 200, 150);
   for (const TriMesh& closed : {torus, shuffled(torus, 4), shuffled(test::joined(torus, torus), 5)}) {
-    EXPECT_FALSE(unbalanced_edge(closed));
+    EXPECT_FALSE(mesh::unbalanced_edge(closed));
     TriMesh mesh = closed;
     const Triangle gone = mesh.triangles.back();
     mesh.triangles.pop_back();
-    const auto edge = unbalanced_edge(mesh);
+    const auto edge = mesh::unbalanced_edge(mesh);
     ASSERT_TRUE(edge);
     int sides = 0;
     for (int k = 0; k < 3; ++k) sides += gone[k] == edge->second && gone[(k + 1) % 3] == edge->first;
@@ -118,17 +118,17 @@ TEST_P(EdgeBalanceOn, SheetsUsedSeveralTimesCancelAsOftenAsTheyAreUsed) {
   const std::vector<Triangle> once = mesh.triangles;
   for (int copy = 0; copy < 4; ++copy) mesh.triangles.insert(mesh.triangles.end(), once.begin(), once.end());
   mesh = shuffled(mesh, 6);
-  EXPECT_FALSE(unbalanced_edge(mesh));
+  EXPECT_FALSE(mesh::unbalanced_edge(mesh));
   mesh.triangles.pop_back();
-  EXPECT_TRUE(unbalanced_edge(mesh));
+  EXPECT_TRUE(mesh::unbalanced_edge(mesh));
 }
 
 TEST_P(EdgeBalanceOn, EverySizeOfMeshIsGoneThroughToItsLastTriangle) {
   for (int around = 3; around < 140; ++around) {
     TriMesh mesh = double_cone(static_cast<Index>(around));
-    EXPECT_FALSE(unbalanced_edge(mesh)) << around;
+    EXPECT_FALSE(mesh::unbalanced_edge(mesh)) << around;
     mesh.triangles.pop_back();
-    EXPECT_TRUE(unbalanced_edge(mesh)) << around;
+    EXPECT_TRUE(mesh::unbalanced_edge(mesh)) << around;
   }
 }
 
@@ -138,7 +138,7 @@ TEST_P(EdgeBalanceOn, TrianglesThatAreAnEdgeOrAPointChangeNothing) {
     mesh.triangles.push_back({v, v, v});
     mesh.triangles.push_back({v, v, v + 1});
   }
-  EXPECT_FALSE(unbalanced_edge(shuffled(mesh, 3)));
+  EXPECT_FALSE(mesh::unbalanced_edge(shuffled(mesh, 3)));
 }
 
 }  // namespace

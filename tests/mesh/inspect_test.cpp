@@ -1,4 +1,4 @@
-#include "condyle/mesh/inspect.hpp"
+#include "condyle/inspect.hpp"
 
 #include <gtest/gtest.h>
 

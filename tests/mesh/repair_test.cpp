@@ -1,4 +1,4 @@
-#include "condyle/mesh/repair.hpp"
+#include "condyle/repair.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <functional>
 #include <random>
 
-#include "condyle/core/error.hpp"
-#include "condyle/mesh/inspect.hpp"
+#include "condyle/error.hpp"
+#include "condyle/inspect.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {

@@ -1,8 +1,8 @@
-#include "condyle/mesh/require_solid.hpp"
+#include "mesh/require_solid.hpp"
 
 #include <gtest/gtest.h>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -10,7 +10,7 @@ namespace {
 
 std::string refusal(const TriMesh& mesh) {
   try {
-    require_solid(mesh, "bone.ply");
+    mesh::require_solid(mesh, "bone.ply");
   } catch (const MeshError& error) {
     return error.what();
   }

@@ -1,4 +1,4 @@
-#include "condyle/mesh/subdivide.hpp"
+#include "mesh/subdivide.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -23,7 +23,7 @@ TEST(Subdivide, OneTriangleBecomesFourInTheStatedOrder) {
   TriMesh mesh;
   for (const Vec3& p : {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0)}) mesh.vertices.push_back(p);
   mesh.triangles = {{0, 1, 2}};
-  const TriMesh finer = subdivided(mesh);
+  const TriMesh finer = mesh::subdivided(mesh);
   // Edges ascending: (0, 1), (0, 2), (1, 2) become vertices 3, 4, 5.
   ASSERT_EQ(finer.vertices.size(), 6u);
   EXPECT_EQ(finer.vertices[3], Vec3(1, 0, 0));
@@ -35,7 +35,7 @@ TEST(Subdivide, OneTriangleBecomesFourInTheStatedOrder) {
 
 TEST(Subdivide, NeighboursShareTheirMidpointAndTheSurfaceStays) {
   for (const TriMesh& mesh : {test::box(Vec3(-1, -2, -3), Vec3(4, 5, 6)), test::torus(4, 1, 12, 8)}) {
-    const TriMesh finer = subdivided(mesh);
+    const TriMesh finer = mesh::subdivided(mesh);
     EXPECT_EQ(finer.triangles.size(), 4 * mesh.triangles.size());
     EXPECT_EQ(finer.vertices.size(), mesh.vertices.size() + 3 * mesh.triangles.size() / 2);
     std::set<std::pair<Index, Index>> directed;
@@ -49,7 +49,7 @@ TEST(Subdivide, NeighboursShareTheirMidpointAndTheSurfaceStays) {
 
 TEST(Subdivide, MidpointsGoWhereTheyArePlacedAndOldVerticesStay) {
   const TriMesh mesh = test::sphere(Vec3::Zero(), 2, 1);
-  const TriMesh finer = subdivided(mesh, [](const Vec3& p) { return Vec3(2 * p.normalized()); });
+  const TriMesh finer = mesh::subdivided(mesh, [](const Vec3& p) { return Vec3(2 * p.normalized()); });
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) EXPECT_EQ(finer.vertices[v], mesh.vertices[v]);
   for (std::size_t v = 0; v < finer.vertices.size(); ++v) EXPECT_NEAR(finer.vertices[v].norm(), 2, 1e-15);
 }
@@ -61,7 +61,7 @@ TEST(Subdivide, OpenAndNonManifoldEdgesStayShared) {
     mesh.vertices.push_back(p);
   }
   mesh.triangles = {{0, 1, 2}, {0, 1, 3}, {1, 0, 4}};
-  const TriMesh finer = subdivided(mesh);
+  const TriMesh finer = mesh::subdivided(mesh);
   EXPECT_EQ(finer.vertices.size(), 5u + 7u);
   const auto users = std::count_if(finer.triangles.begin(), finer.triangles.end(), [](const Triangle& t) {
     return std::find(t.begin(), t.end(), Index{5}) != t.end();
@@ -70,15 +70,15 @@ TEST(Subdivide, OpenAndNonManifoldEdgesStayShared) {
 }
 
 TEST(Subdivide, NothingBecomesNothing) {
-  EXPECT_EQ(subdivided(TriMesh{}), TriMesh{});
+  EXPECT_EQ(mesh::subdivided(TriMesh{}), TriMesh{});
 }
 
 TEST(Subdivide, OneThreadGivesTheSameBytesAsMany) {
   const TriMesh mesh = test::sphere(Vec3(1, 2, 3), 5, 4);
   const auto place = [](const Vec3& p) { return Vec3(Vec3(1, 2, 3) + 5 * (p - Vec3(1, 2, 3)).normalized()); };
-  const TriMesh many = subdivided(mesh, place);
+  const TriMesh many = mesh::subdivided(mesh, place);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  EXPECT_EQ(subdivided(mesh, place), many);
+  EXPECT_EQ(mesh::subdivided(mesh, place), many);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "condyle/mesh/surface_distance.hpp"
+#include "mesh/surface_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,19 +11,19 @@ namespace condyle {
 namespace {
 
 TEST(SurfaceDistance, ToATriangleItIsToFaceEdgeOrCorner) {
-  const TriangleCorners t = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  EXPECT_DOUBLE_EQ(distance_to_triangle({1, 1, -3}, t), 3);              // face
-  EXPECT_DOUBLE_EQ(distance_to_triangle({2, -2, 0}, t), 2);              // edge, in the plane
-  EXPECT_DOUBLE_EQ(distance_to_triangle({3, 3, 0}, t), std::sqrt(2.0));  // the long edge
-  EXPECT_DOUBLE_EQ(distance_to_triangle({-3, 0, 4}, t), 5);              // corner
-  EXPECT_DOUBLE_EQ(distance_to_triangle({1, 2, 0}, t), 0);               // on it
-  EXPECT_DOUBLE_EQ(distance_to_triangle({1, 1, 0}, {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, 0, 0)}),
+  const mesh::TriangleCorners t = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  EXPECT_DOUBLE_EQ(mesh::distance_to_triangle({1, 1, -3}, t), 3);              // face
+  EXPECT_DOUBLE_EQ(mesh::distance_to_triangle({2, -2, 0}, t), 2);              // edge, in the plane
+  EXPECT_DOUBLE_EQ(mesh::distance_to_triangle({3, 3, 0}, t), std::sqrt(2.0));  // the long edge
+  EXPECT_DOUBLE_EQ(mesh::distance_to_triangle({-3, 0, 4}, t), 5);              // corner
+  EXPECT_DOUBLE_EQ(mesh::distance_to_triangle({1, 2, 0}, t), 0);               // on it
+  EXPECT_DOUBLE_EQ(mesh::distance_to_triangle({1, 1, 0}, {Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, 0, 0)}),
                    1);  // no area
 }
 
 TEST(SurfaceDistance, ToABoxItIsTheClosedForm) {
   const TriMesh mesh = test::box({-1, -2, -3}, {1, 2, 3});
-  const SurfaceDistance distance(mesh);
+  const mesh::SurfaceDistance distance(mesh);
   EXPECT_DOUBLE_EQ(distance({0.5, 0, 0}), 0.5);
   EXPECT_DOUBLE_EQ(distance({4, 6, 0}), 5);
   EXPECT_DOUBLE_EQ(distance({1, 2, 3}), 0);
@@ -31,15 +31,15 @@ TEST(SurfaceDistance, ToABoxItIsTheClosedForm) {
 
 TEST(SurfaceDistance, TheTreeFindsWhatAllTrianglesGive) {
   const TriMesh mesh = test::torus(5, 1, 24, 12);
-  const SurfaceDistance distance(mesh);
+  const mesh::SurfaceDistance distance(mesh);
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-7, 7);
   for (int i = 0; i < 500; ++i) {
     const Vec3 p(uniform(random), uniform(random), uniform(random) / 3);
     double least = 1e9;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      least =
-          std::min(least, distance_to_triangle(p, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
+      least = std::min(
+          least, mesh::distance_to_triangle(p, {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}));
     }
     EXPECT_EQ(distance(p), least);
   }

@@ -1,4 +1,4 @@
-#include "condyle/mesh/winding_number.hpp"
+#include "mesh/winding_number.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
@@ -18,10 +18,10 @@ namespace {
 
 /// Every point against rational arithmetic on another ray; returns how many lie on the surface.
 int expect_same_as_brute_force(const TriMesh& mesh, const Points& points) {
-  const WindingNumber fast(mesh);
+  const mesh::WindingNumber fast(mesh);
   int on_surface = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const PointWinding got = fast.at(points[i]);
+    const mesh::PointWinding got = fast.at(points[i]);
     const auto expected = test::winding_number(mesh, points[i]);
     EXPECT_EQ(got.state == PointState::on_surface, expected.on_surface) << points[i].transpose();
     EXPECT_EQ(got.winding, expected.winding) << points[i].transpose();
@@ -52,7 +52,7 @@ TEST(WindingNumber, OfABoxAtItsVerticesEdgesFacesAndBesideThem) {
 }
 
 TEST(WindingNumber, OneUnitInTheLastPlaceDecides) {
-  const WindingNumber box(test::box({-1, -1, -1}, {1, 1, 1}));
+  const mesh::WindingNumber box(test::box({-1, -1, -1}, {1, 1, 1}));
   for (int axis = 0; axis < 3; ++axis) {
     for (const double sense : {-1.0, 1.0}) {
       Vec3 p(0.25, 0.25, 0.25);
@@ -75,7 +75,7 @@ TEST(WindingNumber, NestedAndOverlappingComponentsAdd) {
   const TriMesh outer = test::box({-1, -1, -1}, {1, 1, 1}),
                 inner = test::box({-0.5, -0.5, -0.5}, {1.5, 0.5, 0.5});
   const TriMesh both = test::joined(outer, inner);
-  const WindingNumber winding(both);
+  const mesh::WindingNumber winding(both);
   EXPECT_EQ(winding.at({0.1, 0.2, 0.3}).winding, 2);
   EXPECT_EQ(winding.at({-0.7, 0.2, 0.3}).winding, 1);
   EXPECT_EQ(winding.at({1.2, 0.2, 0.3}).winding, 1);
@@ -83,13 +83,13 @@ TEST(WindingNumber, NestedAndOverlappingComponentsAdd) {
   EXPECT_GT(expect_same_as_brute_force(both, lattice(4, 0.5)), 50);
   // A cavity: the inner skin wound the other way.
   const TriMesh shell = test::joined(outer, test::flipped(test::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})));
-  EXPECT_EQ(WindingNumber(shell).at({0.1, 0.2, 0.3}).state, PointState::outside);
+  EXPECT_EQ(mesh::WindingNumber(shell).at({0.1, 0.2, 0.3}).state, PointState::outside);
   expect_same_as_brute_force(shell, lattice(4, 0.25));
 }
 
 TEST(WindingNumber, OfAMeshInsideOutIsNegativeAndNobodyIsInside) {
   const TriMesh mesh = test::flipped(test::sphere(Vec3::Zero(), 1, 1));
-  const auto at_centre = WindingNumber(mesh).at({0.1, 0.1, 0.1});
+  const auto at_centre = mesh::WindingNumber(mesh).at({0.1, 0.1, 0.1});
   EXPECT_EQ(at_centre.winding, -1);
   EXPECT_EQ(at_centre.state, PointState::outside);
   expect_same_as_brute_force(mesh, lattice(4, 0.25));
@@ -117,7 +117,7 @@ TEST(WindingNumber, OfARandomClosedTangleIsThatOfRationalArithmetic) {
       points.push_back(0.125 * Vec3(coordinate(random), coordinate(random), coordinate(random)));
     }
     on_surface += expect_same_as_brute_force(mesh, points);
-    for (const auto& w : WindingNumber(mesh).at(points)) beyond_one += std::abs(w.winding) > 1;
+    for (const auto& w : mesh::WindingNumber(mesh).at(points)) beyond_one += std::abs(w.winding) > 1;
   }
   EXPECT_GT(on_surface, 100);
   EXPECT_GT(beyond_one, 10);
@@ -140,7 +140,7 @@ TEST(WindingNumber, StaysExactTenMetresFromTheOrigin) {
 }
 
 TEST(WindingNumber, OfAMeshWithoutTrianglesOrHeightOrWidth) {
-  EXPECT_EQ(WindingNumber(TriMesh{}).at({0, 0, 0}).winding, 0);
+  EXPECT_EQ(mesh::WindingNumber(TriMesh{}).at({0, 0, 0}).winding, 0);
   // Two triangles back to back enclose nothing, but they are a surface.
   TriMesh flat;
   flat.vertices.push_back({0, 0, 0}), flat.vertices.push_back({1, 0, 0}), flat.vertices.push_back({0, 1, 0});
@@ -157,7 +157,7 @@ TEST(WindingNumber, AnOpenMeshIsRefusedNamingAnEdge) {
   TriMesh mesh = test::box({-1, -1, -1}, {1, 1, 1});
   mesh.triangles.pop_back();
   try {
-    WindingNumber refused(mesh);
+    mesh::WindingNumber refused(mesh);
     FAIL() << "an open mesh was accepted";
   } catch (const MeshError& error) {
     const std::string what = error.what();
@@ -185,7 +185,7 @@ TEST(WindingNumber, IsTheSameForAnyNumberOfThreads) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-4, 4);
   for (int i = 0; i < 5000; ++i) points.push_back({uniform(random), uniform(random), uniform(random) / 4});
-  const WindingNumber winding(mesh);
+  const mesh::WindingNumber winding(mesh);
   const auto many = winding.at(points);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(many, winding.at(points));

@@ -1,4 +1,4 @@
-#include "condyle/motion/contact_set.hpp"
+#include "motion/search/contact_set.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -15,9 +15,10 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-ArcSet contact_set_of(const TurnScene& scene) {
-  const FeatureTree resting(scene.resting), turning(scene.turning);
-  return contact_set(RotationTable(resting, scene.axis), RotationTable(turning, scene.axis));
+core::ArcSet contact_set_of(const TurnScene& scene) {
+  const motion::FeatureTree resting(scene.resting), turning(scene.turning);
+  return motion::contact_set(motion::RotationTable(resting, scene.axis),
+                             motion::RotationTable(turning, scene.axis));
 }
 
 std::vector<TurnScene> everywhere(const TurnScene& scene) {
@@ -119,12 +120,12 @@ std::mt19937 any_random() {
 RC_GTEST_PROP(ContactSet, holds_the_angles_at_which_exact_triangle_tests_find_contact_and_no_others, ()) {
   auto random = any_random();
   const TurnScene scene = random_scene(random);
-  const ArcSet touching = contact_set_of(scene);
+  const core::ArcSet touching = contact_set_of(scene);
   const auto ends = touching.arcs();
   std::uniform_real_distribution<double> any_angle(0, two_pi);
   std::vector<double> angles = {0.0};
   for (int i = 0; i < 10; ++i) angles.push_back(any_angle(random));
-  for (const Arc& arc : ends) {
+  for (const core::Arc& arc : ends) {
     for (const double beside : {-1e-8, 1e-8}) {
       angles.push_back(arc.start.radians() + beside);
       angles.push_back(arc.start.radians() + arc.width.radians() + beside);
@@ -140,7 +141,7 @@ RC_GTEST_PROP(ContactSet, begins_where_the_first_contact_is, ()) {
   for (int i = 0; i < 10; ++i) {
     const TurnScene scene = random_scene(random);
     const auto found = limits(scene);
-    const ArcSet touching = contact_set_of(scene);
+    const core::ArcSet touching = contact_set_of(scene);
     if (found.positive.reason == LimitReason::contact_at_start) {
       RC_ASSERT(touching.contains(Angle()) == found.positive.touching.has_value());
     } else if (found.positive.reason == LimitReason::end_of_range) {
@@ -157,7 +158,7 @@ RC_GTEST_PROP(ContactSet, begins_where_the_first_contact_is, ()) {
 TEST(ContactSet, is_the_same_to_the_byte_on_one_thread_and_many) {
   const TurnScene scene{sphere({3, 0, 0}, 1.2, 3),
                         joined(sphere({0, 3, 0.2}, 1, 3), sphere({-3, 0, 1}, 1, 3))};
-  const ArcSet many = contact_set_of(scene);
+  const core::ArcSet many = contact_set_of(scene);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(contact_set_of(scene), many);
   EXPECT_EQ(many.arcs().size(), 2u);

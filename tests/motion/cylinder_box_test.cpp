@@ -1,4 +1,4 @@
-#include "condyle/motion/cylinder_box.hpp"
+#include "motion/events/cylinder_box.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using Point = Triple<double>;
@@ -146,4 +146,4 @@ RC_GTEST_PROP(GapInTurn, is_the_smallest_turn_that_makes_the_arcs_meet, ()) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -1,10 +1,10 @@
-#include "condyle/motion/depth_limit.hpp"
+#include "condyle/depth_limit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/test_meshes.hpp"
 

@@ -1,4 +1,4 @@
-#include "condyle/motion/feature_tree.hpp"
+#include "motion/search/feature_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "condyle/motion/rotation_table.hpp"
+#include "motion/search/rotation_table.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
@@ -17,7 +17,7 @@ using namespace test;
 
 TEST(FeatureTree, gives_every_edge_and_vertex_to_exactly_one_of_its_triangles) {
   const TriMesh mesh = torus(3, 1, 20, 12);
-  const FeatureTree tree(mesh);
+  const motion::FeatureTree tree(mesh);
   std::set<std::array<Index, 2>> edges;
   std::vector<int> vertices(tree.vertices().size());
   for (Index t = 0; t < tree.triangles().size(); ++t) {
@@ -41,9 +41,9 @@ TEST(FeatureTree, gives_every_edge_and_vertex_to_exactly_one_of_its_triangles) {
 }
 
 TEST(FeatureTree, has_every_corner_of_a_node_in_its_ball) {
-  const FeatureTree tree(sphere({5, 6, 7}, 2, 3));
+  const motion::FeatureTree tree(sphere({5, 6, 7}, 2, 3));
   for (const auto& node : tree.nodes()) {
-    const NodeBall ball = ball_of(node);
+    const motion::NodeBall ball = motion::ball_of(node);
     for (Index t = node.first; t < node.last; ++t) {
       for (const Index v : tree.triangles()[t])
         EXPECT_LE((tree.vertices()[v] - ball.centre).norm(), ball.radius);
@@ -53,8 +53,8 @@ TEST(FeatureTree, has_every_corner_of_a_node_in_its_ball) {
 
 TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
   const TriMesh mesh = sphere({0, 0, 0}, 2, 3);
-  const FeatureTree tree(mesh);
-  TurningBody body(tree);
+  const motion::FeatureTree tree(mesh);
+  motion::TurningBody body(tree);
   for (const Vec3& axis_point : {Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.1), Vec3(40, 5, -7)}) {
     for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.5, 0.25, -1), Vec3(40, 5, -7)}) {
       Pose X_RT = Pose::Identity();
@@ -62,13 +62,13 @@ TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
       X_RT.translation() = shift;
       body.start_at(AxisFrame(axis_point, {1, -2, 0.5}), X_RT);
       for (Index i = 0; i < tree.nodes().size(); ++i) {
-        const CylinderBox node_box = body.node_box(i);
+        const motion::CylinderBox node_box = body.node_box(i);
         const auto& node = tree.nodes()[i];
         for (Index t = node.first; t < node.last; ++t) {
           for (const Index v : tree.triangles()[t]) {
             const auto p = body.placed_vertex(v);
-            const CylinderBox point = box_of_vertex(p, cylinder_point(p));
-            EXPECT_TRUE(node_box.shares_profile(point) && arcs_meet(node_box, point));
+            const motion::CylinderBox point = motion::box_of_vertex(p, motion::cylinder_point(p));
+            EXPECT_TRUE(node_box.shares_profile(point) && motion::arcs_meet(node_box, point));
           }
         }
       }
@@ -78,7 +78,7 @@ TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
 
 TEST(FeatureTree, remembers_the_numbers_of_the_mesh) {
   const TriMesh mesh = joined(box({0, 0, 0}, {1, 1, 1}), sphere({5, 0, 0}, 1, 1));
-  const FeatureTree tree(mesh);
+  const motion::FeatureTree tree(mesh);
   for (Index t = 0; t < tree.triangles().size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_EQ(tree.mesh_vertex(tree.triangles()[t][k]), mesh.triangles[tree.mesh_triangle(t)][k]);
@@ -91,7 +91,7 @@ TEST(FeatureTree, remembers_the_numbers_of_the_mesh) {
 TEST(FeatureTree, leaves_out_vertices_no_triangle_uses) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.vertices.push_back({9, 9, 9});
-  const FeatureTree tree(mesh);
+  const motion::FeatureTree tree(mesh);
   EXPECT_EQ(tree.vertices().size(), 8u);
   EXPECT_EQ(tree.pieces().size(), 1u);
   EXPECT_TRUE(tree.is_closed());
@@ -100,8 +100,8 @@ TEST(FeatureTree, leaves_out_vertices_no_triangle_uses) {
 TEST(FeatureTree, knows_an_open_mesh) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.triangles.pop_back();
-  EXPECT_FALSE(FeatureTree(mesh).is_closed());
-  EXPECT_TRUE(FeatureTree(TriMesh{}).empty());
+  EXPECT_FALSE(motion::FeatureTree(mesh).is_closed());
+  EXPECT_TRUE(motion::FeatureTree(TriMesh{}).empty());
 }
 
 /// Points in general position and in line with vertices and edges along the axis, on it, and level with
@@ -109,10 +109,10 @@ TEST(FeatureTree, knows_an_open_mesh) {
 TEST(WindingNumber, through_the_table_equals_brute_force) {
   const TriMesh mesh =
       joined(joined(torus(3, 1, 8, 6), box({-1, -1, -1}, {1, 1, 1})), box({-0.5, -2, -3}, {2, 2, 3}));
-  const FeatureTree tree(mesh);
+  const motion::FeatureTree tree(mesh);
   const AxisFrame axis(Vec3::Zero(), Vec3::UnitZ());
-  const RotationTable table(tree, axis);
-  TurningBody body(tree);
+  const motion::RotationTable table(tree, axis);
+  motion::TurningBody body(tree);
   body.start_at(axis, Pose::Identity());
   int inside = 0;
   for (double x = -4; x <= 4; x += 0.5) {
@@ -120,8 +120,8 @@ TEST(WindingNumber, through_the_table_equals_brute_force) {
       for (double z = -3.25; z <= 3.25; z += 0.5) {
         const auto truth = winding_number(mesh, Vec3(x, y, z));
         if (truth.on_surface) continue;
-        EXPECT_EQ(winding_number(table, Triple<double>{x, y, z}), truth.winding);
-        EXPECT_EQ(winding_number(body, Triple<double>{x, y, z}), truth.winding);
+        EXPECT_EQ(winding_number(table, motion::Triple<double>{x, y, z}), truth.winding);
+        EXPECT_EQ(winding_number(body, motion::Triple<double>{x, y, z}), truth.winding);
         inside += truth.winding > 0;
       }
     }

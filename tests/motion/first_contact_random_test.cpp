@@ -28,8 +28,8 @@ void expect_brute_force_agrees(const TurnScene& scene) {
     RC_ASSERT(found.negative.reason == LimitReason::contact_at_start);
     return;
   }
-  for (const auto& [limit, direction] : {std::pair{found.negative, TurnDirection::negative},
-                                         std::pair{found.positive, TurnDirection::positive}}) {
+  for (const auto& [limit, direction] : {std::pair{found.negative, motion::TurnDirection::negative},
+                                         std::pair{found.positive, motion::TurnDirection::positive}}) {
     const auto truth = brute_first_contact(scene, direction);
     RC_ASSERT(truth.has_value() == (limit.reason == LimitReason::contact));
     if (!truth) {

@@ -1,4 +1,4 @@
-#include "condyle/motion/first_contact.hpp"
+#include "motion/search/first_contact.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
@@ -55,7 +55,7 @@ TEST(Door, stops_at_the_post_where_the_arctangent_says) {
     EXPECT_LT((found.positive.touching->resting_point - scene.resting.vertices[0]).norm(), 1e-10);
     // Backwards the rear face y = -0.5 arrives at the corner, 2 sqrt 2 from the axis, from the other side...
     // of the post's farthest corners first: held against brute force, not by hand.
-    const auto truth = brute_first_contact(scene, TurnDirection::negative);
+    const auto truth = brute_first_contact(scene, motion::TurnDirection::negative);
     EXPECT_EQ(-found.negative.angle.radians(), truth->size);
   }
 }
@@ -127,12 +127,13 @@ TurnScene crossed_prisms(double ahead) {
 bool any_vertex_ever_touches(const TurnScene& scene) {
   const auto point = [&](const TriMesh& mesh, Index v) {
     const Vec3 p = scene.axis.to_axis(mesh.vertices[v]);
-    return Triple<double>{p.x(), p.y(), p.z()};
+    return motion::Triple<double>{p.x(), p.y(), p.z()};
   };
   const auto meets = [&](const TriMesh& a, const TriMesh& b) {
     for (Index v = 0; v < a.vertices.size(); ++v) {
       for (const auto& [p, q, r] : b.triangles) {
-        if (vertex_meets_face(point(a, v), {point(b, p), point(b, q), point(b, r)}).count > 0) return true;
+        if (motion::vertex_meets_face(point(a, v), {point(b, p), point(b, q), point(b, r)}).count > 0)
+          return true;
       }
     }
     return false;
@@ -236,19 +237,19 @@ std::vector<double> bytes(const TurnLimits& found) {
 }
 
 TEST(FirstContact, from_many_poses_on_many_threads_gives_the_bytes_of_one) {
-  const FeatureTree resting(torus(30, 8, 48, 24)), turning(sphere({30, 0, 14}, 5, 3));
+  const motion::FeatureTree resting(torus(30, 8, 48, 24)), turning(sphere({30, 0, 14}, 5, 3));
   const AxisFrame axis(Vec3(1, 2, 3), Vec3(1, 0.2, 0.1));
-  const RotationTable table(resting, axis);
+  const motion::RotationTable table(resting, axis);
   constexpr int poses = 200;
   const auto pose = [](int i) { return Pose(Eigen::AngleAxisd(0.03 * i, Vec3(0.3, 1, 0.2).normalized())); };
   std::vector<std::vector<double>> one(poses), many(poses);
-  TurningBody reused(turning);
+  motion::TurningBody reused(turning);
   for (int i = 0; i < poses; ++i) {
     reused.start_at(axis, pose(i));
     one[i] = bytes(first_contact(table, reused));
   }
   tbb::parallel_for(0, poses, [&](int i) {
-    TurningBody fresh(turning);
+    motion::TurningBody fresh(turning);
     fresh.start_at(axis, pose(i));
     many[i] = bytes(first_contact(table, fresh));
   });

@@ -1,11 +1,11 @@
-#include "condyle/motion/impingement_zone.hpp"
+#include "condyle/impingement_zone.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/test_meshes.hpp"
 

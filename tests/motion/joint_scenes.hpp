@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/kinematics/joint.hpp"
+#include "condyle/joint.hpp"
 
 /// Joints whose limits are known, and irregular ones that end most motions by contact.
 

@@ -1,4 +1,4 @@
-#include "condyle/motion/motion_map.hpp"
+#include "condyle/motion_map.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/test_meshes.hpp"
 

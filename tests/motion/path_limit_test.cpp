@@ -1,9 +1,9 @@
-#include "condyle/motion/path_limit.hpp"
+#include "condyle/path_limit.hpp"
 
 #include <gtest/gtest.h>
 
-#include "condyle/contact/joint_contact.hpp"
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
+#include "contact/joint_contact.hpp"
 #include "motion/joint_scenes.hpp"
 
 /// Paths in several angles: never past a contact, by exact triangle tests; along one angle the exact limit.

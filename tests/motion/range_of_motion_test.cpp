@@ -1,12 +1,12 @@
-#include "condyle/motion/range_of_motion.hpp"
+#include "condyle/range_of_motion.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include <cmath>
 
-#include "condyle/contact/joint_contact.hpp"
-#include "condyle/core/error.hpp"
+#include "condyle/error.hpp"
+#include "contact/joint_contact.hpp"
 #include "motion/joint_scenes.hpp"
 
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "condyle/contact/joint_contact.hpp"
-#include "condyle/core/error.hpp"
-#include "condyle/motion/impingement_zone.hpp"
-#include "condyle/motion/range_of_motion.hpp"
+#include "condyle/error.hpp"
+#include "condyle/impingement_zone.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "contact/joint_contact.hpp"
 #include "support/shared_data.hpp"
 
 /// Every built-in motion of real hips, against the exact sets of intersecting triangles.

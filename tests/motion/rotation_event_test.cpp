@@ -1,4 +1,4 @@
-#include "condyle/motion/rotation_event.hpp"
+#include "motion/events/rotation_event.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 using std::numbers::pi;
@@ -307,4 +307,4 @@ RC_GTEST_PROP(RotationEvents, a_window_loses_none_of_its_touches, ()) {
 }
 
 }  // namespace
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -9,7 +9,7 @@
 namespace condyle::test {
 namespace {
 
-using Point = Triple<double>;
+using Point = motion::Triple<double>;
 
 std::vector<Point> points_about_axis(const TriMesh& mesh, const AxisFrame& axis) {
   std::vector<Point> points;
@@ -44,9 +44,9 @@ Vec3 random_direction(std::mt19937& random) {
 }  // namespace
 
 TurnLimits limits(const TurnScene& scene, const TurnRange& range) {
-  const FeatureTree resting(scene.resting), turning(scene.turning);
-  const RotationTable table(resting, scene.axis);
-  TurningBody body(turning);
+  const motion::FeatureTree resting(scene.resting), turning(scene.turning);
+  const motion::RotationTable table(resting, scene.axis);
+  motion::TurningBody body(turning);
   body.start_at(scene.axis, Pose::Identity());
   return first_contact(table, body, range);
 }
@@ -70,37 +70,38 @@ TriMesh turned(const TurnScene& scene, double angle) {
   return mesh;
 }
 
-std::optional<BruteLimit> brute_first_contact(const TurnScene& scene, TurnDirection direction) {
+std::optional<BruteLimit> brute_first_contact(const TurnScene& scene, motion::TurnDirection direction) {
   const auto m = points_about_axis(scene.turning, scene.axis),
              f = points_about_axis(scene.resting, scene.axis);
   std::optional<BruteLimit> best;
-  const auto record = [&](const Touches& touches, const Feature& turning, const Feature& resting) {
-    for (const Touch& touch : touches) {
-      const double size = direction == TurnDirection::positive ? touch.angle : two_pi - touch.angle;
+  const auto record = [&](const motion::Touches& touches, const Feature& turning, const Feature& resting) {
+    for (const motion::Touch& touch : touches) {
+      const double size = direction == motion::TurnDirection::positive ? touch.angle : two_pi - touch.angle;
       const BruteLimit found{std::max(0.0, size - touch.error), {turning, resting}};
       if (!best || std::tie(found.size, found.features) < std::tie(best->size, best->features)) best = found;
     }
   };
   const auto face = [](const TriMesh& mesh, const std::vector<Point>& points, Index t) {
     const auto [a, b, c] = mesh.triangles[t];
-    return Corners{points[a], points[b], points[c]};
+    return motion::Corners{points[a], points[b], points[c]};
   };
   for (Index v = 0; v < m.size(); ++v) {
     for (Index t = 0; t < scene.resting.triangles.size(); ++t) {
-      record(vertex_meets_face(m[v], face(scene.resting, f, t)), {FeatureKind::vertex, v},
+      record(motion::vertex_meets_face(m[v], face(scene.resting, f, t)), {FeatureKind::vertex, v},
              {FeatureKind::face, t});
     }
   }
   for (Index t = 0; t < scene.turning.triangles.size(); ++t) {
     for (Index v = 0; v < f.size(); ++v) {
-      record(face_meets_vertex(face(scene.turning, m, t), f[v]), {FeatureKind::face, t},
+      record(motion::face_meets_vertex(face(scene.turning, m, t), f[v]), {FeatureKind::face, t},
              {FeatureKind::vertex, v});
     }
   }
   const auto resting_edges = edges_of(scene.resting);
   for (const auto& [a, b] : edges_of(scene.turning)) {
     for (const auto& [c, d] : resting_edges) {
-      record(edges_meet(m[a], m[b], f[c], f[d]), {FeatureKind::edge, a, b}, {FeatureKind::edge, c, d});
+      record(motion::edges_meet(m[a], m[b], f[c], f[d]), {FeatureKind::edge, a, b},
+             {FeatureKind::edge, c, d});
     }
   }
   return best;

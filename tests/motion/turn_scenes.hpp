@@ -3,7 +3,7 @@
 #include <optional>
 #include <random>
 
-#include "condyle/motion/first_contact.hpp"
+#include "motion/search/first_contact.hpp"
 
 /// Scenes for turning meshes, and the obvious first contact: every pair of features, no tree, no box, no
 /// early exit.
@@ -32,7 +32,7 @@ struct BruteLimit {
   FeaturePair features;
 };
 /// First contact of scenes that are free at the start, by every pair of features.
-std::optional<BruteLimit> brute_first_contact(const TurnScene& scene, TurnDirection direction);
+std::optional<BruteLimit> brute_first_contact(const TurnScene& scene, motion::TurnDirection direction);
 
 /// Whether the surfaces touch once the body has turned: exact, every pair of triangles, for the rounded mesh.
 bool brute_touching(const TurnScene& scene, double angle);

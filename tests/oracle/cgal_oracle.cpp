@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/core/parallel.hpp"
+#include "core/parallel.hpp"
 
 namespace condyle::test {
 namespace {
@@ -67,7 +67,7 @@ CgalOracle::CgalOracle(CgalOracle&&) noexcept = default;
 
 std::vector<PointState> CgalOracle::states(PointsView points) const {
   std::vector<PointState> states(points.size());
-  parallel_chunks(points.size(), 256, [&](std::size_t first, std::size_t last) {
+  core::parallel_chunks(points.size(), 256, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
       const CGAL::Bounded_side side = trees_->side(point(points[i]));
       states[i] = side == CGAL::ON_BOUNDED_SIDE ? PointState::inside
@@ -81,7 +81,7 @@ std::vector<PointState> CgalOracle::states(PointsView points) const {
 std::vector<TrianglePair> CgalOracle::pairs(const TriMesh& other) const {
   const Triangles others = triangles_of(other);
   tbb::enumerable_thread_specific<std::vector<TrianglePair>> found;
-  parallel_chunks(others.size(), 256, [&](std::size_t first, std::size_t last) {
+  core::parallel_chunks(others.size(), 256, [&](std::size_t first, std::size_t last) {
     std::vector<Triangles::const_iterator> hits;
     auto& mine = found.local();
     for (std::size_t i = first; i < last; ++i) {

@@ -3,9 +3,9 @@
 #include <memory>
 #include <vector>
 
-#include "condyle/contact/triangle_pairs.hpp"
-#include "condyle/core/point_state.hpp"
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
+#include "condyle/point_state.hpp"
+#include "contact/triangle_pairs.hpp"
 
 namespace condyle::test {
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "condyle/motion/contact_set.hpp"
-#include "condyle/motion/first_contact.hpp"
+#include "motion/search/contact_set.hpp"
+#include "motion/search/first_contact.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "support/shared_data.hpp"
 
@@ -50,13 +50,13 @@ class RealHip : public testing::TestWithParam<std::pair<const char*, const char*
 
 TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_microdegree_after) {
   const CgalOracle oracle(fixed);
-  const FeatureTree fixed_tree(fixed), mobile_tree(mobile);
-  TurningBody body(mobile_tree);
+  const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
+  motion::TurningBody body(mobile_tree);
   int contacts = 0;
   for (const Start& start : starts()) {
     SCOPED_TRACE(start.name);
     const AxisFrame frame(Vec3::Zero(), start.axis);
-    const RotationTable table(fixed_tree, frame);
+    const motion::RotationTable table(fixed_tree, frame);
     body.start_at(frame, start.X_FM);
     const auto found = first_contact(table, body);
     const auto touching = [&](double degrees) {
@@ -83,14 +83,14 @@ TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_micr
 
 TEST_P(RealHip, touches_through_a_full_turn_exactly_in_its_contact_set) {
   const CgalOracle oracle(fixed);
-  const FeatureTree fixed_tree(fixed), mobile_tree(mobile);
+  const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   for (const Start& start : starts()) {
     SCOPED_TRACE(start.name);
     const AxisFrame frame(Vec3::Zero(), start.axis);
-    const auto set =
-        contact_set(RotationTable(fixed_tree, frame), RotationTable(mobile_tree, frame, start.X_FM));
+    const auto set = motion::contact_set(motion::RotationTable(fixed_tree, frame),
+                                         motion::RotationTable(mobile_tree, frame, start.X_FM));
     std::vector<double> angles;
-    for (const Arc& arc : set.arcs()) {
+    for (const core::Arc& arc : set.arcs()) {
       const double from = arc.start.degrees(), to = from + arc.width.degrees();
       angles.insert(angles.end(),
                     {from - microdegree, from + microdegree, to - microdegree, to + microdegree});

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "condyle/motion/range_of_motion.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "support/shared_data.hpp"
 

@@ -4,14 +4,14 @@
 #include <memory>
 #include <optional>
 
-#include "condyle/contact/joint_contact.hpp"
-#include "condyle/contact/tangential_contact.hpp"
-#include "condyle/core/angle.hpp"
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/motion/range_of_motion.hpp"
-#include "condyle/radial/sorted_points.hpp"
+#include "condyle/angle.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
+#include "contact/joint_contact.hpp"
+#include "contact/tangential_contact.hpp"
 #include "oracle/cgal_oracle.hpp"
+#include "radial/query/sorted_points.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
 
@@ -161,7 +161,7 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
   const JointContact joint(meshes->fixed, meshes->mobile);
   const CgalOracle fixed_oracle(meshes->fixed), mobile_oracle(meshes->mobile);
   const SortedPoints fixed_points(meshes->fixed.vertices), mobile_points(meshes->mobile.vertices);
-  const std::vector<InstructionSet> sets = instruction_sets();
+  const std::vector<simd::InstructionSet> sets = simd::instruction_sets();
   std::size_t free = 0, touching = 0, deep = 0, overlapping = 0, asked = 0;
   std::vector<Pose> all = poses(GetParam().side);
   for (const Pose& X : grazing_poses(*meshes, GetParam().side)) all.push_back(X);
@@ -175,7 +175,7 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
     expect_same_states(*contact.fixed_in_mobile, mobile_oracle.states(fixed_in_M), meshes->mobile, fixed_in_M,
                        overlapping);
     EXPECT_EQ(contact.pairs, fixed_oracle.pairs(posed_mobile));
-    const InstructionSetInUse in_use(sets[asked++ % sets.size()]);
+    const simd::InstructionSetInUse in_use(sets[asked++ % sets.size()]);
     expect_same_penetrations(joint.fixed_table(), mobile_points, X, *contact.mobile_in_fixed);
     expect_same_penetrations(joint.mobile_table(), fixed_points, X.inverse(), *contact.fixed_in_mobile);
     std::optional<TrianglePair> no_hit;
@@ -246,8 +246,8 @@ TEST_P(RealJoint, DepthsAreThoseOfAnIndependentRay) {
 TEST_P(RealJoint, BothMapsGiveTheSameBytesInEveryPose) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const JointContact cube(meshes->fixed, meshes->mobile, {DirectionMapKind::cube, 64});
-  const JointContact cartesian(meshes->fixed, meshes->mobile, {DirectionMapKind::cartesian, 64});
+  const JointContact cube(meshes->fixed, meshes->mobile, {radial::DirectionMapKind::cube, 64});
+  const JointContact cartesian(meshes->fixed, meshes->mobile, {radial::DirectionMapKind::cartesian, 64});
   for (const double flexion : {0., 60., 120.}) {
     const Pose X = turned(flexion, 10, 20, GetParam().side);
     const RadialContact a = cube.radial(X), b = cartesian.radial(X);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "condyle/sample/hip.hpp"
-#include "condyle/sample/self_intersection.hpp"
+#include "sample/self_intersection.hpp"
 
 namespace condyle {
 namespace {

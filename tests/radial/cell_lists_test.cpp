@@ -1,13 +1,13 @@
-#include "condyle/radial/cell_lists.hpp"
+#include "radial/build/cell_lists.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/radial/direction_pyramid.hpp"
-#include "condyle/radial/sorted_points.hpp"
+#include "radial/build/direction_pyramid.hpp"
+#include "radial/query/sorted_points.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -48,18 +48,18 @@ Vec3 random_point(const TriMesh& mesh, Index t, std::mt19937& random) {
          r * (mesh.corner(t, 2) - mesh.corner(t, 0));
 }
 
-class CubeListsOn : public testing::TestWithParam<InstructionSet> {
+class CubeListsOn : public testing::TestWithParam<simd::InstructionSet> {
  protected:
-  InstructionSetInUse in_use_{GetParam()};
+  simd::InstructionSetInUse in_use_{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, CubeListsOn, testing::ValuesIn(instruction_sets()),
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, CubeListsOn, testing::ValuesIn(simd::instruction_sets()),
                          [](const auto& set) { return set.param.name; });
 
 /// Points of every triangle, and directions next to theirs as near as floats may bring them, find it once in
 /// their cell, in its octagon and between the cell's radii.
-void expect_points_find_their_triangles(const TriMesh& mesh, const CubeMap& map, const CellLists& lists,
-                                        int points_per_triangle) {
+void expect_points_find_their_triangles(const TriMesh& mesh, const radial::CubeMap& map,
+                                        const radial::CellLists& lists, int points_per_triangle) {
   std::mt19937 random(1);
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     for (int k = 0; k < points_per_triangle; ++k) {
@@ -72,7 +72,10 @@ void expect_points_find_their_triangles(const TriMesh& mesh, const CubeMap& map,
       for (std::uint32_t i = lists.row[cell].first; i < lists.row[cell].last; ++i) {
         if (lists.triangle[i] != t) continue;
         ++found;
-        held += holds(lists.box[i], place) && holds(lists.slant[i], slant_of_point(place)) ? 1 : 0;
+        held +=
+            radial::holds(lists.box[i], place) && radial::holds(lists.slant[i], radial::slant_of_point(place))
+                ? 1
+                : 0;
       }
       ASSERT_EQ(found, 1) << "triangle " << t << " cells " << map.cells_per_side();
       ASSERT_EQ(held, 1) << "triangle " << t << " cells " << map.cells_per_side();
@@ -87,8 +90,8 @@ TEST_P(CubeListsOn, EveryPointOfATriangleFindsItInItsCellOctagonAndRadii) {
   for (const double largest : {0.1, 1.0, 3.0}) {
     const TriMesh mesh = triangle_soup(400, largest, 2);
     for (const int cells : {1, 5, 16, 64}) {
-      const CubeMap map(cells);
-      expect_points_find_their_triangles(mesh, map, list_cells(mesh, map), 20);
+      const radial::CubeMap map(cells);
+      expect_points_find_their_triangles(mesh, map, radial::list_cells(mesh, map), 20);
     }
   }
 }
@@ -96,11 +99,11 @@ TEST_P(CubeListsOn, EveryPointOfATriangleFindsItInItsCellOctagonAndRadii) {
 TEST_P(CubeListsOn, CellsThatClippingFindsAreListed) {
   const TriMesh mesh = triangle_soup(400, 1, 7);
   for (const int cells : {5, 16, 64}) {
-    const CubeMap map(cells);
-    const CellLists lists = list_cells(mesh, map);
+    const radial::CubeMap map(cells);
+    const radial::CellLists lists = radial::list_cells(mesh, map);
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
       map.visit_cells({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
-                      [&](const CellOverlap& overlap) {
+                      [&](const radial::CellOverlap& overlap) {
                         const auto listed = lists.of(overlap.cell);
                         EXPECT_EQ(std::count(listed.begin(), listed.end(), t), 1) << "triangle " << t;
                       });
@@ -118,15 +121,15 @@ void jiggle(TriMesh& mesh, double size, std::mt19937& random) {
 TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterAllVerticesMoved) {
   std::mt19937 random(11);
   for (const int cells : {5, 16, 64}) {
-    const CubeMap map(cells);
+    const radial::CubeMap map(cells);
     TriMesh mesh = triangle_soup(300, 0.3, 8);
-    CellLists lists = list_cells(mesh, map);
+    radial::CellLists lists = radial::list_cells(mesh, map);
     // Little, so that lists stay; now and then more than a room or a cell holds.
     for (const double size : {1e-3, 1e-3, 1e-2, 1e-4, 0.2, 1e-3}) {
-      make_rooms(mesh, lists);
+      radial::make_rooms(mesh, lists);
       jiggle(mesh, size, random);
-      follow_vertices(mesh, map, lists);
-      find_radii(map, lists);
+      radial::follow_vertices(mesh, map, lists);
+      radial::find_radii(map, lists);
       expect_points_find_their_triangles(mesh, map, lists, 10);
     }
   }
@@ -135,10 +138,10 @@ TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterAllVerticesMoved) {
 TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
   std::mt19937 random(12);
   for (const int cells : {5, 16, 64}) {
-    const CubeMap map(cells);
+    const radial::CubeMap map(cells);
     TriMesh mesh = triangle_soup(300, 0.3, 9);
-    CellLists lists = list_cells(mesh, map);
-    make_rooms(mesh, lists);
+    radial::CellLists lists = radial::list_cells(mesh, map);
+    radial::make_rooms(mesh, lists);
     for (const double size : {1e-3, 1e-2, 1e-3, 0.2, 1e-4, 1e-2, 1e-3}) {
       TriMesh all = mesh;
       jiggle(all, size, random);
@@ -152,9 +155,9 @@ TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
           mesh.vertices.set(v, all.vertices[v]);
         }
       }
-      make_rooms(mesh, lists);
-      const std::vector<RadiusWord> before = lists.radii;
-      ChangedRadii changed = follow_vertices(mesh, map, moved, triangles, lists);
+      radial::make_rooms(mesh, lists);
+      const std::vector<radial::RadiusWord> before = lists.radii;
+      radial::ChangedRadii changed = radial::follow_vertices(mesh, map, moved, triangles, lists);
       expect_points_find_their_triangles(mesh, map, lists, 10);
       // Radii of the cells touched, and of what is listed there, are those found anew for all.
       if (!changed.may_be_all) {
@@ -164,10 +167,10 @@ TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
         std::sort(changed.cells.begin(), changed.cells.end());
         EXPECT_EQ(changed.cells, others);
       }
-      CellLists again = lists;
-      find_radii(map, again);
+      radial::CellLists again = lists;
+      radial::find_radii(map, again);
       EXPECT_EQ(again.radii, lists.radii);
-      for (const CellRow& row : lists.row) {
+      for (const radial::CellRow& row : lists.row) {
         for (std::uint32_t i = row.first; i < row.last; ++i) {
           ASSERT_EQ(again.entry_radii[i], lists.entry_radii[i]);
           ASSERT_EQ(again.nearest[i], lists.nearest[i]);
@@ -180,31 +183,31 @@ TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
 TEST(CubeLists, VerticesThatGoToAndFroAreListedOnce) {
   // Over edges of the cube too: a sphere about the centre.
   TriMesh mesh = test::sphere({0.1, 0, 0}, 20, 5);
-  const CubeMap map(16);
-  CellLists lists = list_cells(mesh, map);
+  const radial::CubeMap map(16);
+  radial::CellLists lists = radial::list_cells(mesh, map);
   std::mt19937 random(13);
   TriMesh there = mesh;
   jiggle(there, 0.1, random);
   for (int frame = 0; frame < 3; ++frame) {
-    make_rooms(mesh, lists);
-    follow_vertices(frame % 2 == 0 ? there : mesh, map, lists);
+    radial::make_rooms(mesh, lists);
+    radial::follow_vertices(frame % 2 == 0 ? there : mesh, map, lists);
   }
   const std::vector<Index> entries(lists.triangle.begin(), lists.triangle.end());
   for (int frame = 0; frame < 4; ++frame) {
-    follow_vertices(frame % 2 == 0 ? mesh : there, map, lists);
+    radial::follow_vertices(frame % 2 == 0 ? mesh : there, map, lists);
     EXPECT_TRUE(std::equal(entries.begin(), entries.end(), lists.triangle.begin(), lists.triangle.end()));
-    find_radii(map, lists);
+    radial::find_radii(map, lists);
     expect_points_find_their_triangles(frame % 2 == 0 ? mesh : there, map, lists, 5);
   }
 }
 
 TEST_P(CubeListsOn, FormsThatAreNumbersTellOnWhichSideOfEdgesAndPlaneAPointIs) {
   const TriMesh mesh = triangle_soup(400, 1, 3);
-  const CellLists lists = list_cells(mesh, CubeMap(16));
+  const radial::CellLists lists = radial::list_cells(mesh, radial::CubeMap(16));
   std::mt19937 random(4);
   std::size_t numbers = 0;
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
-    const ConeForms& forms = lists.forms[t];
+    const radial::ConeForms& forms = lists.forms[t];
     if (std::isnan(forms.x[0])) continue;
     ++numbers;
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
@@ -214,7 +217,7 @@ TEST_P(CubeListsOn, FormsThatAreNumbersTellOnWhichSideOfEdgesAndPlaneAPointIs) {
     for (int k = 0; k < 4; ++k) {
       // Half of coefficient_error's units and one rounding, of the sum of magnitudes; double adds 1e-9 of it
       // here.
-      const double allowed = (coefficient_error + 0x1p-24) * exact[k].cwiseAbs().sum() * (1 + 1e-6);
+      const double allowed = (radial::coefficient_error + 0x1p-24) * exact[k].cwiseAbs().sum() * (1 + 1e-6);
       EXPECT_NEAR(forms.x[k], exact[k].x(), allowed);
       EXPECT_NEAR(forms.y[k], exact[k].y(), allowed);
       EXPECT_NEAR(forms.z[k], exact[k].z(), allowed);
@@ -224,7 +227,7 @@ TEST_P(CubeListsOn, FormsThatAreNumbersTellOnWhichSideOfEdgesAndPlaneAPointIs) {
 }
 
 TEST(RadiusScale, CodesRiseWithTheRadiusAndHoldIt) {
-  const RadiusScale scale(3.0f, 5000.0f);
+  const radial::RadiusScale scale(3.0f, 5000.0f);
   int last = 0;
   for (float squared = 0.5f; squared < 2e4f; squared *= 1.0001f) {
     const int code = scale.code(squared);
@@ -232,16 +235,17 @@ TEST(RadiusScale, CodesRiseWithTheRadiusAndHoldIt) {
     EXPECT_LE(scale.least(code), squared);
     EXPECT_GE(scale.greatest(code), squared);
     EXPECT_TRUE(squared > 5000 || (code > 0) == (squared >= 3));
-    EXPECT_TRUE(squared > 5000 || code < greatest_radius_code);
+    EXPECT_TRUE(squared > 5000 || code < radial::greatest_radius_code);
     last = code;
   }
-  EXPECT_EQ(scale.code(1e20f), greatest_radius_code);
+  EXPECT_EQ(scale.code(1e20f), radial::greatest_radius_code);
 }
 
 TEST(RadiusScale, AnEmptyIntervalAddsNothingAndMeetsNothing) {
-  const RadiusWord word = radius_word(7, 9);
-  EXPECT_EQ(union_of(word, no_radii), word);
-  EXPECT_EQ(union_of(radius_word(3, 5), radius_word(4, 8)), radius_word(3, 8));
+  const radial::RadiusWord word = radial::radius_word(7, 9);
+  EXPECT_EQ(radial::union_of(word, radial::no_radii), word);
+  EXPECT_EQ(radial::union_of(radial::radius_word(3, 5), radial::radius_word(4, 8)),
+            radial::radius_word(3, 8));
 }
 
 /// Place on the face of a cube map, in [-1, 1].
@@ -259,29 +263,29 @@ TEST_P(CubeListsOn, AnEntryOfThePyramidHoldsAllDirectionsDisplacedByNoMoreThanIt
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const int cells : {1, 3, 4, 12, 24, 32}) {
-    const CubeMap map(cells);
-    std::vector<RadiusWord> radii(map.cell_count());
+    const radial::CubeMap map(cells);
+    std::vector<radial::RadiusWord> radii(map.cell_count());
     for (auto& word : radii)
-      word = radius_word(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
-    DirectionPyramid pyramid;
+      word = radial::radius_word(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
+    radial::DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
     for (int k = 0; k < 100000; ++k) {
       const int step =
-          static_cast<int>(random() % static_cast<unsigned>(DirectionPyramid::step_count(cells)));
-      const int n = cells >> DirectionPyramid::level_of(step);
+          static_cast<int>(random() % static_cast<unsigned>(radial::DirectionPyramid::step_count(cells)));
+      const int n = cells >> radial::DirectionPyramid::level_of(step);
       const Place at = place_of({uniform(random), uniform(random), uniform(random)});
       const auto index = [&](double s) { return std::clamp(static_cast<int>((s + 1) * n / 2), 0, n - 1); };
-      const std::size_t start = DirectionPyramid::start_of(step, cells);
-      const RadiusWord entry =
+      const std::size_t start = radial::DirectionPyramid::start_of(step, cells);
+      const radial::RadiusWord entry =
           pyramid.data()[start + static_cast<std::size_t>((at.face * n + index(at.w)) * n + index(at.u))];
       // A direction displaced on the plane of the face, past its edges too.
-      const double width = DirectionPyramid::border_of(step) * 2.0 / n;
+      const double width = radial::DirectionPyramid::border_of(step) * 2.0 / n;
       Vec3 displaced;
       displaced[at.face % 3] = at.face < 3 ? 1 : -1;
       displaced[(at.face + 1) % 3] = at.u + width * uniform(random);
       displaced[(at.face + 2) % 3] = at.w + width * uniform(random);
-      const RadiusWord word = radii[map.cell_of(displaced)];
-      ASSERT_EQ(union_of(entry, word), entry);
+      const radial::RadiusWord word = radii[map.cell_of(displaced)];
+      ASSERT_EQ(radial::union_of(entry, word), entry);
     }
   }
 }
@@ -327,20 +331,21 @@ bool reaches(const Piece& from, const Piece& to, int n, int border) {
 TEST_P(CubeListsOn, AnEntryOfThePyramidIsTheUnionOfThePiecesThatItsBorderReaches) {
   std::mt19937 random(8);
   for (const int cells : {1, 2, 3, 5, 8, 12, 20}) {
-    std::vector<RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
+    std::vector<radial::RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
     for (auto& word : radii)
-      word = radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
-    DirectionPyramid pyramid;
+      word = radial::radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
+    radial::DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
     for (const int step : {0, 1, 2}) {
       const std::vector<Piece> pieces = pieces_of(cells);
       for (std::size_t i = 0; i < pieces.size(); ++i) {
-        RadiusWord all = no_radii;
+        radial::RadiusWord all = radial::no_radii;
         for (std::size_t k = 0; k < pieces.size(); ++k) {
-          if (reaches(pieces[i], pieces[k], cells, DirectionPyramid::border_of(step)))
-            all = union_of(all, radii[k]);
+          if (reaches(pieces[i], pieces[k], cells, radial::DirectionPyramid::border_of(step)))
+            all = radial::union_of(all, radii[k]);
         }
-        ASSERT_EQ(pyramid.data()[DirectionPyramid::start_of(step, cells) + i], all) << cells << " " << step;
+        ASSERT_EQ(pyramid.data()[radial::DirectionPyramid::start_of(step, cells) + i], all)
+            << cells << " " << step;
       }
     }
   }
@@ -349,12 +354,12 @@ TEST_P(CubeListsOn, AnEntryOfThePyramidIsTheUnionOfThePiecesThatItsBorderReaches
 TEST_P(CubeListsOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
   std::mt19937 random(9);
   const auto any_radii = [&] {
-    return radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
+    return radial::radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
   };
   for (const int cells : {1, 3, 5, 8, 16, 24, 40}) {
-    std::vector<RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
+    std::vector<radial::RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
     for (auto& word : radii) word = any_radii();
-    DirectionPyramid followed;
+    radial::DirectionPyramid followed;
     followed.fill(cells, radii);
     for (int round = 0; round < 40; ++round) {
       std::vector<Index> changed(1 + random() % 3);
@@ -363,7 +368,7 @@ TEST_P(CubeListsOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
         radii[cell] = any_radii();
       }
       followed.refill(cells, radii, changed);
-      DirectionPyramid anew;
+      radial::DirectionPyramid anew;
       anew.fill(cells, radii);
       const std::span followed_all(followed.data(), followed.size()), all(anew.data(), anew.size());
       ASSERT_TRUE(std::equal(followed_all.begin(), followed_all.end(), all.begin(), all.end())) << cells;

@@ -2,11 +2,11 @@
 
 #include <random>
 
-#include "condyle/core/error.hpp"
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/mesh/subdivide.hpp"
-#include "condyle/radial/penetration_track.hpp"
-#include "condyle/radial/radial_table.hpp"
+#include "condyle/error.hpp"
+#include "mesh/subdivide.hpp"
+#include "radial/query/penetration_track.hpp"
+#include "radial/radial_table.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
@@ -19,12 +19,12 @@ using test::joined;
 using test::sphere;
 
 /// Every test runs on each instruction set that the machine has.
-class PenetrationsOn : public testing::TestWithParam<InstructionSet> {
+class PenetrationsOn : public testing::TestWithParam<simd::InstructionSet> {
  protected:
-  InstructionSetInUse in_use_{GetParam()};
+  simd::InstructionSetInUse in_use_{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PenetrationsOn, testing::ValuesIn(instruction_sets()),
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PenetrationsOn, testing::ValuesIn(simd::instruction_sets()),
                          [](const auto& set) { return set.param.name; });
 
 Pose pose_of(double angle, const Vec3& axis, const Vec3& translation) {
@@ -75,7 +75,7 @@ Points points_near_surface(const TriMesh& mesh, std::size_t count, double factor
 
 /// The same surface behind the paper's map, whose lists have neither octagons nor forms.
 RadialTable reference_of(const RadialTable& table) {
-  return RadialTable(table.mesh(), {DirectionMapKind::cartesian, 24});
+  return RadialTable(table.mesh(), {radial::DirectionMapKind::cartesian, 24});
 }
 
 /// What the plain query says of the posed points that are not outside, in the order of the sorted ones.
@@ -135,7 +135,7 @@ TEST_P(PenetrationsOn, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootSay
     const double radius = (mobile.vertices[out.point[k]] + shift * u).norm();
     EXPECT_GE(out.depth[k], radius - socket - 1e-11);
     EXPECT_LE(out.depth[k], radius - socket + sag);
-    EXPECT_EQ(out.direction[k], RayDirection::towards_centre);
+    EXPECT_EQ(out.direction[k], radial::RayDirection::towards_centre);
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double radius = (mobile.vertices[i] + shift * u).norm();
@@ -160,15 +160,17 @@ TEST_P(PenetrationsOn, AnswersDoNotDependOnTheNumberOfCells) {
   const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
   const Points points = random_points(300, 1.5, 3);
   for (const int cells : {1, 2, 3, 7, 12, 64, 200}) {
-    expect_plain_answers(RadialTable(mesh, {DirectionMapKind::cube, cells}), points, some_poses(7, 0.5, 4));
+    expect_plain_answers(RadialTable(mesh, {radial::DirectionMapKind::cube, cells}), points,
+                         some_poses(7, 0.5, 4));
   }
-  expect_plain_answers(RadialTable(mesh, {DirectionMapKind::cartesian, 24}), points, some_poses(4, 0.5, 4));
+  expect_plain_answers(RadialTable(mesh, {radial::DirectionMapKind::cartesian, 24}), points,
+                       some_poses(4, 0.5, 4));
 }
 
 TEST_P(PenetrationsOn, SkinsThatOverlapAreCountedByWinding) {
   TriMesh mesh = joined(box({1, -1, -1}, {2, 1, 1}), box({3, -1, -1}, {4, 1, 1}));
   mesh = joined(mesh, box({3.5, -1, -1}, {5, 1, 1}));
-  mesh = joined(mesh, subdivided(box({-4, -1, -1}, {-2, 1, 1})));
+  mesh = joined(mesh, mesh::subdivided(box({-4, -1, -1}, {-2, 1, 1})));
   const Compared compared =
       expect_plain_answers(RadialTable(mesh), random_points(900, 5, 5), some_poses(9, 2, 6));
   EXPECT_GT(compared.found, 100u);
@@ -266,7 +268,7 @@ TEST_P(PenetrationsOn, AFreeBallIsRejectedByTheBlock) {
 /// Along the track as one by one; returns how many blocks were asked for their points.
 std::uint64_t expect_track(const RadialTable& table, const SortedPoints& points,
                            const std::vector<Pose>& poses) {
-  PenetrationTrack track(table, points);
+  radial::PenetrationTrack track(table, points);
   PenetrationWork work;
   Penetrations tracked, alone;
   for (const Pose& X : poses) {
@@ -291,8 +293,8 @@ TEST_P(PenetrationsOn, AlongAMotionAnswersAreThoseOfEachPoseAlone) {
     expect_track(*of, points, steps);
     expect_track(*of, points, jumps);
   }
-  expect_track(RadialTable(test::socket(Vec3::Zero(), 1, 1.3, 2), {DirectionMapKind::cartesian, 8}), points,
-               {steps[0], steps[1]});
+  expect_track(RadialTable(test::socket(Vec3::Zero(), 1, 1.3, 2), {radial::DirectionMapKind::cartesian, 8}),
+               points, {steps[0], steps[1]});
 }
 
 TEST_P(PenetrationsOn, AlongAMotionFewBlocksAreAskedMoreThanOnce) {
@@ -353,7 +355,8 @@ Points jiggled(const Points& points, double size, unsigned seed) {
 
 TEST(RadialTableUpdate, AfterAllVerticesMovedAnswersAreThoseOfANewTable) {
   const Points points = random_points(800, 1.5, 21);
-  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+  for (const radial::DirectionMapKind map :
+       {radial::DirectionMapKind::cube, radial::DirectionMapKind::cartesian}) {
     TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
     RadialTable table(mesh, {map, 16});
     for (unsigned frame = 0; frame < 3; ++frame) {
@@ -370,7 +373,8 @@ TEST(RadialTableUpdate, AfterAllVerticesMovedAnswersAreThoseOfANewTable) {
 TEST(RadialTableUpdate, AfterSomeVerticesMovedAnswersAreThoseOfANewTable) {
   const Points points = random_points(800, 1.6, 22);
   std::mt19937 random(23);
-  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+  for (const radial::DirectionMapKind map :
+       {radial::DirectionMapKind::cube, radial::DirectionMapKind::cartesian}) {
     TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
     RadialTable table(mesh, {map, 24});
     for (unsigned frame = 0; frame < 12; ++frame) {
@@ -395,7 +399,7 @@ TEST(RadialTableUpdate, AfterSomeVerticesMovedAnswersAreThoseOfANewTable) {
 
 /// Update by update, each of another kind: all vertices or some, little or much, back to where they were.
 void expect_answers_after_updates(TriMesh mesh, int cells_per_side, double reach) {
-  RadialTable table(mesh, {DirectionMapKind::cube, cells_per_side});
+  RadialTable table(mesh, {radial::DirectionMapKind::cube, cells_per_side});
   const Points at_first = mesh.vertices, points = random_points(400, reach, 27);
   const SortedPoints sorted(points);
   const std::vector<Pose> poses = some_poses(3, 0.1 * reach, 28);
@@ -413,7 +417,7 @@ void expect_answers_after_updates(TriMesh mesh, int cells_per_side, double reach
       mesh.vertices = moved;
       table.update(moved);
     }
-    const RadialTable made_anew(mesh, {DirectionMapKind::cube, cells_per_side});
+    const RadialTable made_anew(mesh, {radial::DirectionMapKind::cube, cells_per_side});
     EXPECT_EQ(table.mesh(), mesh);
     EXPECT_EQ(table.winding_at_centre(), made_anew.winding_at_centre());
     EXPECT_EQ(table.query(points), made_anew.query(points));
@@ -460,7 +464,7 @@ TEST(RadialTableUpdate, ANumberOfVerticesThatIsNotTheMeshsIsRefused) {
 }
 
 TEST(InstructionSets, EachHasANameAndTheLastIsWhatEveryMachineHas) {
-  const auto sets = instruction_sets();
+  const auto sets = simd::instruction_sets();
   ASSERT_FALSE(sets.empty());
   for (std::size_t i = 1; i < sets.size(); ++i) EXPECT_LT(sets[i - 1].target, sets[i].target);
 }

@@ -1,4 +1,4 @@
-#include "condyle/radial/radial_table.hpp"
+#include "radial/radial_table.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include "condyle/core/error.hpp"
-#include "condyle/mesh/subdivide.hpp"
+#include "condyle/error.hpp"
+#include "mesh/subdivide.hpp"
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
@@ -22,7 +22,7 @@ using test::sphere;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class RadialTableOnMap : public testing::TestWithParam<DirectionMapKind> {
+class RadialTableOnMap : public testing::TestWithParam<radial::DirectionMapKind> {
  protected:
   RadialTable table(const TriMesh& mesh, int cells_per_side = 16) const {
     return RadialTable(mesh, {GetParam(), cells_per_side});
@@ -30,9 +30,9 @@ class RadialTableOnMap : public testing::TestWithParam<DirectionMapKind> {
 };
 
 INSTANTIATE_TEST_SUITE_P(BothMaps, RadialTableOnMap,
-                         testing::Values(DirectionMapKind::cartesian, DirectionMapKind::cube),
+                         testing::Values(radial::DirectionMapKind::cartesian, radial::DirectionMapKind::cube),
                          [](const auto& kind) {
-                           return kind.param == DirectionMapKind::cube ? "cube" : "cartesian";
+                           return kind.param == radial::DirectionMapKind::cube ? "cube" : "cartesian";
                          });
 
 Points random_points(std::size_t count, double reach, unsigned seed) {
@@ -79,7 +79,7 @@ TEST_P(RadialTableOnMap, ConcentricBallInSocketHasTheClearanceAsGapEverywhere) {
     EXPECT_EQ(hits.state[i], PointState::outside);
     EXPECT_LE(hits.radial_gap[i], socket - ball + 1e-12);
     EXPECT_GE(hits.radial_gap[i], socket - ball - sag);
-    EXPECT_EQ(hits.direction[i], RayDirection::away_from_centre);
+    EXPECT_EQ(hits.direction[i], radial::RayDirection::away_from_centre);
   }
 }
 
@@ -101,7 +101,7 @@ TEST_P(RadialTableOnMap, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootS
       EXPECT_EQ(hits.state[i], PointState::inside);
       EXPECT_LE(hits.radial_gap[i], gap + 1e-11);
       EXPECT_GE(hits.radial_gap[i], gap - sag);
-      EXPECT_EQ(hits.direction[i], RayDirection::towards_centre);
+      EXPECT_EQ(hits.direction[i], radial::RayDirection::towards_centre);
       ++inside;
     } else if (gap > sag) {
       EXPECT_EQ(hits.state[i], PointState::outside);
@@ -180,9 +180,9 @@ TEST_P(RadialTableOnMap, SeveralSkinsAlongOneRayAreToldApart) {
   const auto along = [&](std::size_t i) { return points[i].norm() / points[i].x(); };
   EXPECT_NEAR(at(0), 0.5 * stretch, 1e-14);
   EXPECT_NEAR(at(1), -0.25 * along(1), 1e-14);
-  EXPECT_EQ(hits.direction[1], RayDirection::towards_centre);
+  EXPECT_EQ(hits.direction[1], radial::RayDirection::towards_centre);
   EXPECT_NEAR(at(2), -0.25 * along(2), 1e-14);
-  EXPECT_EQ(hits.direction[2], RayDirection::away_from_centre);
+  EXPECT_EQ(hits.direction[2], radial::RayDirection::away_from_centre);
   EXPECT_NEAR(at(3), 0.5 * along(3), 1e-14);
   // Where two solids overlap, the way out passes the skin inside: the union's outer skin counts.
   EXPECT_NEAR(at(5), -0.75 * along(5), 1e-14);
@@ -202,10 +202,10 @@ TEST_P(RadialTableOnMap, ASolidThatHoldsTheCentreMeasuresGapsInwards) {
   const RadialHits hits = solid.query(points);
   EXPECT_EQ(hits.state[0], PointState::outside);
   EXPECT_NEAR(hits.radial_gap[0], 2, 1e-14);
-  EXPECT_EQ(hits.direction[0], RayDirection::towards_centre);
+  EXPECT_EQ(hits.direction[0], radial::RayDirection::towards_centre);
   EXPECT_EQ(hits.state[1], PointState::inside);
   EXPECT_NEAR(hits.radial_gap[1], -1, 1e-14);
-  EXPECT_EQ(hits.direction[1], RayDirection::away_from_centre);
+  EXPECT_EQ(hits.direction[1], radial::RayDirection::away_from_centre);
   EXPECT_EQ(hits.state[2], PointState::inside);
   EXPECT_EQ(hits.radial_gap[2], -infinity);
 }
@@ -262,7 +262,7 @@ TEST_P(RadialTableOnMap, RefiningTheMeshWithoutMovingItsSurfaceChangesNoAnswer) 
   }
   const Points points = random_points(2000, 1.3, 12);
   const RadialHits coarse = table(mesh).query(points),
-                   fine = table(subdivided(subdivided(mesh))).query(points);
+                   fine = table(mesh::subdivided(mesh::subdivided(mesh))).query(points);
   EXPECT_EQ(coarse.state, fine.state);
   EXPECT_EQ(coarse.winding, fine.winding);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -314,8 +314,8 @@ TEST_P(RadialTableOnMap, AMeshWoundInsideOutHasNegativeWindingAndNoInside) {
 TEST(RadialTable, BothMapsGiveTheSameBytes) {
   const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
   const Points points = random_points(3000, 1.5, 11);
-  EXPECT_EQ(RadialTable(mesh, {DirectionMapKind::cube, 24}).query(points),
-            RadialTable(mesh, {DirectionMapKind::cartesian, 40}).query(points));
+  EXPECT_EQ(RadialTable(mesh, {radial::DirectionMapKind::cube, 24}).query(points),
+            RadialTable(mesh, {radial::DirectionMapKind::cartesian, 40}).query(points));
 }
 
 TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething) {
@@ -330,8 +330,8 @@ TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething
 }
 
 TEST(RadialTable, CellsOutOfRangeAreRefused) {
-  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 0}), UsageError);
-  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 1 << 20}), UsageError);
+  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {radial::DirectionMapKind::cube, 0}), UsageError);
+  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {radial::DirectionMapKind::cube, 1 << 20}), UsageError);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "condyle/radial/triangle_plane.hpp"
+#include "radial/exact/triangle_plane.hpp"
 
 #include <gtest/gtest.h>
 
@@ -68,8 +68,8 @@ TEST(TrianglePlane, GapsThatItTellsAreWithin1e12OfTheExactOnes) {
   for (int i = 0; i < 20000; ++i) {
     const RandomTriangle t(random);
     const Vec3 v = t.point(random, i % 2 == 0 ? uniform(random) : 1 + 1e-7 * uniform(random));
-    const Vec3 normal = scaled_normal(t.a, t.b, t.c);
-    const double gap = gap_to_plane(v, normal);
+    const Vec3 normal = radial::scaled_normal(t.a, t.b, t.c);
+    const double gap = radial::gap_to_plane(v, normal);
     if (std::isnan(gap)) continue;
     ++told;
     oblique += normal.normalized().dot(v.normalized()) < 0.2 && normal.dot(v) > 0;
@@ -87,25 +87,26 @@ TEST(TrianglePlane, AWellShapedTriangleThatFacesTheCentreIsAlwaysTold) {
     const Vec3 a(30, 0, 0), b(30, size, 0), c(30, 0, size);
     for (const double radius : {25.0, 30.0, 55.0}) {
       const Vec3 v = radius / 30 * (a + b + c) / 3;
-      EXPECT_NEAR(gap_to_plane(v, scaled_normal(a, b, c)), (30 / radius - 1) * v.norm(), 1e-12 * v.norm());
+      EXPECT_NEAR(radial::gap_to_plane(v, radial::scaled_normal(a, b, c)), (30 / radius - 1) * v.norm(),
+                  1e-12 * v.norm());
     }
   }
 }
 
 TEST(TrianglePlane, ASliverAPlaneThroughTheCentreAndAFarPlaneAreLeftToExactArithmetic) {
   const Vec3 a(30, 0, 0);
-  EXPECT_TRUE(scaled_normal(a, {30, 1, 0}, {30, 2, 1e-3}).hasNaN());
-  EXPECT_TRUE(scaled_normal(a, {31, 0, 0}, {30, 1, 0}).hasNaN());
-  EXPECT_TRUE(scaled_normal(a, a, {30, 1, 0}).hasNaN());
-  const Vec3 facing = scaled_normal(a, {30, 1, 0}, {30, 0, 1});
-  EXPECT_TRUE(std::isnan(gap_to_plane({14.9, 0, 0}, facing)));
-  EXPECT_FALSE(std::isnan(gap_to_plane({15.1, 0, 0}, facing)));
+  EXPECT_TRUE(radial::scaled_normal(a, {30, 1, 0}, {30, 2, 1e-3}).hasNaN());
+  EXPECT_TRUE(radial::scaled_normal(a, {31, 0, 0}, {30, 1, 0}).hasNaN());
+  EXPECT_TRUE(radial::scaled_normal(a, a, {30, 1, 0}).hasNaN());
+  const Vec3 facing = radial::scaled_normal(a, {30, 1, 0}, {30, 0, 1});
+  EXPECT_TRUE(std::isnan(radial::gap_to_plane({14.9, 0, 0}, facing)));
+  EXPECT_FALSE(std::isnan(radial::gap_to_plane({15.1, 0, 0}, facing)));
 }
 
 TEST(TrianglePlane, LengthsFarBeyondMillimetresAreLeftToExactArithmetic) {
   for (const double scale : {1e-60, 1e60, 1e150}) {
     const Vec3 a(30 * scale, 0, 0), b(30 * scale, scale, 0), c(30 * scale, 0, scale);
-    EXPECT_TRUE(scaled_normal(a, b, c).hasNaN()) << scale;
+    EXPECT_TRUE(radial::scaled_normal(a, b, c).hasNaN()) << scale;
   }
 }
 

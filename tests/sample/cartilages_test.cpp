@@ -11,14 +11,14 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/contact/joint_contact.hpp"
-#include "condyle/core/error.hpp"
-#include "condyle/core/pose.hpp"
-#include "condyle/sample/cartilage_shape.hpp"
-#include "condyle/sample/femur_shape.hpp"
-#include "condyle/sample/hip_bone_shape.hpp"
-#include "condyle/sample/projection.hpp"
-#include "condyle/sample/self_intersection.hpp"
+#include "condyle/error.hpp"
+#include "condyle/pose.hpp"
+#include "contact/joint_contact.hpp"
+#include "sample/cartilage_shape.hpp"
+#include "sample/femur_shape.hpp"
+#include "sample/hip_bone_shape.hpp"
+#include "sample/projection.hpp"
+#include "sample/self_intersection.hpp"
 #include "sample/topology.hpp"
 
 namespace condyle {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "condyle/motion/range_of_motion.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "sample/made_hips.hpp"
 
 /// The sample hip behaves as clinicians find deformed hips to behave.

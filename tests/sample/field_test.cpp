@@ -1,4 +1,4 @@
-#include "condyle/sample/field.hpp"
+#include "sample/field.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "condyle/core/error.hpp"
-#include "condyle/sample/cartilage_shape.hpp"
-#include "condyle/sample/femur_shape.hpp"
-#include "condyle/sample/hip_bone_shape.hpp"
-#include "condyle/sample/projection.hpp"
-#include "condyle/sample/skeleton.hpp"
+#include "condyle/error.hpp"
+#include "sample/cartilage_shape.hpp"
+#include "sample/femur_shape.hpp"
+#include "sample/hip_bone_shape.hpp"
+#include "sample/projection.hpp"
+#include "sample/skeleton.hpp"
 
 namespace condyle::sample {
 namespace {

@@ -10,12 +10,12 @@
 #include <limits>
 #include <string>
 
-#include "condyle/core/error.hpp"
-#include "condyle/sample/femur_shape.hpp"
-#include "condyle/sample/hip_bone_shape.hpp"
-#include "condyle/sample/projection.hpp"
-#include "condyle/sample/self_intersection.hpp"
+#include "condyle/error.hpp"
+#include "sample/femur_shape.hpp"
+#include "sample/hip_bone_shape.hpp"
 #include "sample/made_hips.hpp"
+#include "sample/projection.hpp"
+#include "sample/self_intersection.hpp"
 #include "sample/topology.hpp"
 #include "support/brute_force.hpp"
 

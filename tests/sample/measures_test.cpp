@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/sample/femur_shape.hpp"
-#include "condyle/sample/hip_bone_shape.hpp"
-#include "condyle/sample/projection.hpp"
+#include "sample/femur_shape.hpp"
+#include "sample/hip_bone_shape.hpp"
 #include "sample/made_hips.hpp"
+#include "sample/projection.hpp"
 #include "sample/section.hpp"
 
 /// What a clinician measures, measured on the meshes.

@@ -1,4 +1,4 @@
-#include "condyle/sample/remesh.hpp"
+#include "sample/remesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,12 +6,12 @@
 #include <cmath>
 #include <random>
 
-#include "condyle/core/error.hpp"
-#include "condyle/sample/contour.hpp"
-#include "condyle/sample/editable_mesh.hpp"
-#include "condyle/sample/projection.hpp"
-#include "condyle/sample/self_intersection.hpp"
-#include "condyle/sample/solid_mesh.hpp"
+#include "condyle/error.hpp"
+#include "sample/contour.hpp"
+#include "sample/editable_mesh.hpp"
+#include "sample/projection.hpp"
+#include "sample/self_intersection.hpp"
+#include "sample/solid_mesh.hpp"
 #include "sample/topology.hpp"
 #include "support/test_meshes.hpp"
 

@@ -1,4 +1,4 @@
-#include "condyle/sample/self_intersection.hpp"
+#include "sample/self_intersection.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 namespace condyle::test {
 

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 /// The obvious versions: every pair, exact rational arithmetic throughout, no table, no filter, and none of
 /// the library's own predicates. Slow and plain on purpose: they are what the fast paths are held against.

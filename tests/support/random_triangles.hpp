@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 namespace condyle::test {
 

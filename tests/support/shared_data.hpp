@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 /// Real joints for the tests of the core, which has no file formats.
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 /// Small closed meshes with known geometry, all wound outwards.
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "condyle/core/angle.hpp"
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/angle.hpp"
+#include "condyle/mesh.hpp"
 
 namespace condyle::test {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "condyle/tangential/ring_table.hpp"
+#include "tangential/ring_table.hpp"
 
 /// Points that turn about the z axis, and how well their angles are known.
 
@@ -28,7 +28,7 @@ inline Vec3 on_circle(double rho, double degrees, double z) {
 /// Bound for the angle of a crossing of meshes within `scale` of the axis, not touching: ends off by 17u
 /// scale, a point given with 2u of its radius, crossing at no less than 30 degrees.
 inline double angle_error(double scale, double rho) {
-  return 2 * 19 * rounding_unit * scale / rho + 8 * rounding_unit;
+  return 2 * 19 * core::rounding_unit * scale / rho + 8 * core::rounding_unit;
 }
 
 }  // namespace condyle::test

@@ -1,4 +1,4 @@
-#include "condyle/tangential/arctangent.hpp"
+#include "tangential/query/arctangent.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "condyle/core/predicates.hpp"
+#include "core/predicates.hpp"
 
 namespace condyle {
 namespace {
@@ -15,22 +15,23 @@ namespace {
 /// Against long double, which has 11 bits more: 5u of the angle within an eighth of pi of +x, else 8u.
 void expect_within_bound(double y, double x) {
   const long double exact = std::atan2(static_cast<long double>(y), static_cast<long double>(x));
-  const double error = static_cast<double>(std::abs(static_cast<long double>(arctangent(y, x)) - exact));
-  const bool beside_x = x > 0 && std::abs(y) <= eighth_tangent * x;
+  const double error =
+      static_cast<double>(std::abs(static_cast<long double>(tangential::arctangent(y, x)) - exact));
+  const bool beside_x = x > 0 && std::abs(y) <= tangential::eighth_tangent * x;
   const double unit = beside_x ? 5 * std::abs(static_cast<double>(exact)) : 8;
-  EXPECT_LE(error, unit * rounding_unit + std::numeric_limits<double>::denorm_min()) << y << " " << x;
+  EXPECT_LE(error, unit * core::rounding_unit + std::numeric_limits<double>::denorm_min()) << y << " " << x;
 }
 
 TEST(Arctangent, IsKnownAlongTheAxesAndDiagonals) {
   constexpr double pi = std::numbers::pi;
-  EXPECT_EQ(arctangent(0, 3), 0);
-  EXPECT_EQ(arctangent(0, 0), 0);
-  EXPECT_EQ(arctangent(2, 0), pi / 2);
-  EXPECT_EQ(arctangent(-2, 0), -pi / 2);
-  EXPECT_EQ(arctangent(0, -1), pi);
-  EXPECT_EQ(arctangent(7, 7), pi / 4);
-  EXPECT_EQ(arctangent(-7, 7), -pi / 4);
-  EXPECT_EQ(arctangent(7, -7), 3 * pi / 4);
+  EXPECT_EQ(tangential::arctangent(0, 3), 0);
+  EXPECT_EQ(tangential::arctangent(0, 0), 0);
+  EXPECT_EQ(tangential::arctangent(2, 0), pi / 2);
+  EXPECT_EQ(tangential::arctangent(-2, 0), -pi / 2);
+  EXPECT_EQ(tangential::arctangent(0, -1), pi);
+  EXPECT_EQ(tangential::arctangent(7, 7), pi / 4);
+  EXPECT_EQ(tangential::arctangent(-7, 7), -pi / 4);
+  EXPECT_EQ(tangential::arctangent(7, -7), 3 * pi / 4);
 }
 
 TEST(Arctangent, ErrsByNoMoreThanItsBound) {
@@ -44,7 +45,7 @@ TEST(Arctangent, ErrsByNoMoreThanItsBound) {
 }
 
 TEST(Arctangent, KeepsItsBoundBesideTheBordersOfItsParts) {
-  for (const double tangent : {eighth_tangent, 1.0, 1 / eighth_tangent}) {
+  for (const double tangent : {tangential::eighth_tangent, 1.0, 1 / tangential::eighth_tangent}) {
     double below = tangent, above = tangent;
     for (int i = 0; i < 50; ++i) {
       for (const double y : {below, above, -below, -above})

@@ -1,4 +1,4 @@
-#include "condyle/tangential/circle_cuts.hpp"
+#include "tangential/query/circle_cuts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/mesh/triangle_intersection.hpp"
+#include "mesh/triangle_intersection.hpp"
+#include "simd/instruction_set.hpp"
 
 namespace condyle {
 namespace {
@@ -16,28 +16,28 @@ namespace {
 /// Circles about z, each with triangles of its own.
 struct Pairs {
   double scale;
-  std::vector<TurningPoint> points;
-  UninitialisedVector<AxisVertex> vertices;
+  std::vector<tangential::TurningPoint> points;
+  core::UninitialisedVector<tangential::AxisVertex> vertices;
   std::vector<Triangle> triangles;
   std::vector<Index> circle, triangle;
 
   void add_point(const Vec3& p) { points.push_back({p.x(), p.y(), p.z(), p.x() * p.x() + p.y() * p.y()}); }
   /// To the last point.
-  void add(const TriangleCorners& corners) {
+  void add(const mesh::TriangleCorners& corners) {
     const auto first = static_cast<Index>(vertices.size());
     for (const Vec3& corner : corners) vertices.push_back({corner, 0});
     triangle.push_back(static_cast<Index>(triangles.size()));
     circle.push_back(static_cast<Index>(points.size() - 1));
     triangles.push_back({first, first + 1, first + 2});
   }
-  TriangleCorners corners(std::size_t k) const {
+  mesh::TriangleCorners corners(std::size_t k) const {
     const auto& [a, b, c] = triangles[triangle[k]];
     return {vertices[a].at, vertices[b].at, vertices[c].at};
   }
 };
 
 struct Verdict {
-  CutVerdict verdict;
+  tangential::CutVerdict verdict;
   double angle;
   friend bool operator==(const Verdict&, const Verdict&) = default;
 };
@@ -45,13 +45,13 @@ struct Verdict {
 /// Of those pairs that may cross.
 std::map<std::size_t, Verdict> verdicts(const Pairs& pairs) {
   std::map<std::size_t, Verdict> all;
-  CircleCuts cuts;
-  for (std::size_t first = 0; first < pairs.circle.size(); first += CircleCuts::most) {
-    cut_circles({pairs.vertices.data(), pairs.triangles.data(), pairs.scale}, pairs.points, pairs.circle,
-                pairs.triangle, first, cuts);
+  tangential::CircleCuts cuts;
+  for (std::size_t first = 0; first < pairs.circle.size(); first += tangential::CircleCuts::most) {
+    tangential::cut_circles({pairs.vertices.data(), pairs.triangles.data(), pairs.scale}, pairs.points,
+                            pairs.circle, pairs.triangle, first, cuts);
     for (std::size_t k = 0; k < cuts.count; ++k) {
-      const auto verdict = static_cast<CutVerdict>(static_cast<signed char>(cuts.verdict[k]));
-      all[cuts.pair[k]] = {verdict, verdict == CutVerdict::undecided ? 0 : cuts.angle[k]};
+      const auto verdict = static_cast<tangential::CutVerdict>(static_cast<signed char>(cuts.verdict[k]));
+      all[cuts.pair[k]] = {verdict, verdict == tangential::CutVerdict::undecided ? 0 : cuts.angle[k]};
     }
   }
   return all;
@@ -66,18 +66,20 @@ struct Counts {
 void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
   const auto found = verdicts(pairs);
   for (std::size_t k = 0; k < pairs.circle.size(); ++k) {
-    const TurningPoint& p = pairs.points[pairs.circle[k]];
-    const TriangleCorners t = pairs.corners(k);
-    std::vector<CircleCrossing> crossings;
-    TangentialWork work;
-    add_crossings({p.at(), p.squared_radius, pairs.scale}, {&t[0], &t[1], &t[2]}, 0, crossings, work);
+    const tangential::TurningPoint& p = pairs.points[pairs.circle[k]];
+    const mesh::TriangleCorners t = pairs.corners(k);
+    std::vector<tangential::CircleCrossing> crossings;
+    tangential::TangentialWork work;
+    tangential::add_crossings({p.at(), p.squared_radius, pairs.scale}, {&t[0], &t[1], &t[2]}, 0, crossings,
+                              work);
     const auto at = found.find(k);
     ++counts.asked;
     if (at == found.end()) {
       EXPECT_TRUE(crossings.empty());
-      EXPECT_FALSE(orientation(t[0], t[1], t[2], p.at()) == Sign::zero && contains_coplanar(t, p.at()));
+      EXPECT_FALSE(core::orientation(t[0], t[1], t[2], p.at()) == core::Sign::zero &&
+                   mesh::contains_coplanar(t, p.at()));
       ++counts.left_out;
-    } else if (at->second.verdict != CutVerdict::undecided) {
+    } else if (at->second.verdict != tangential::CutVerdict::undecided) {
       ASSERT_EQ(crossings.size(), 1u);
       EXPECT_EQ(crossings[0].angle, at->second.angle);
       EXPECT_EQ(static_cast<int>(crossings[0].passage), static_cast<int>(at->second.verdict));
@@ -98,7 +100,7 @@ Pairs pairs_of_size(double scale, std::mt19937& random) {
       const double angle = 3.2 * uniform(random), size = scale * std::exp2(-55 * weight(random));
       const double c = std::cos(angle), s = std::sin(angle);
       const Vec3 at(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z());
-      TriangleCorners t;
+      mesh::TriangleCorners t;
       for (Vec3& corner : t) corner = at + size * Vec3(uniform(random), uniform(random), uniform(random));
       if (i % 3 == 0) t[0].z() = p.z();
       if (i % 6 == 0) t[0] = p;
@@ -133,7 +135,7 @@ TEST(CircleCuts, AreTheCrossingsFoundOneByOneOfTrianglesThatAreNearlyFlat) {
     for (int round = 0; round < 40; ++round) {
       pairs.add_point({50 * uniform(random), 50 * uniform(random), flat * uniform(random) / 2});
       for (int i = 0; i < 16; ++i) {
-        TriangleCorners t;
+        mesh::TriangleCorners t;
         for (Vec3& p : t) p = {100 * uniform(random), 100 * uniform(random), flat * uniform(random)};
         pairs.add(t);
       }
@@ -169,8 +171,8 @@ TEST(CircleCuts, AreTheSameBytesOnEveryInstructionSet) {
   for (const Pairs& pairs : {pairs_of_size(100, random), pairs_on_a_lattice()}) {
     const auto expected = verdicts(pairs);
     EXPECT_GT(expected.size(), 1000u);
-    for (const InstructionSet& set : instruction_sets()) {
-      const InstructionSetInUse in_use(set);
+    for (const simd::InstructionSet& set : simd::instruction_sets()) {
+      const simd::InstructionSetInUse in_use(set);
       EXPECT_EQ(verdicts(pairs), expected) << set.name;
     }
   }

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "condyle/mesh/tri_mesh.hpp"
+#include "condyle/mesh.hpp"
 
 /// The tangential method without table, order or filter: all triangles, plane by plane.
 

@@ -1,4 +1,4 @@
-#include "condyle/tangential/free_directions.hpp"
+#include "tangential/build/free_directions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <optional>
 #include <random>
 
-#include "condyle/mesh/winding_number.hpp"
-#include "condyle/tangential/ring_table.hpp"
+#include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
+#include "tangential/ring_table.hpp"
 
 namespace condyle {
 namespace {
@@ -19,12 +19,12 @@ Vec3 on_circle(double rho, double angle, double z) {
 
 TEST(FreeDirections, ATriangleIsNearTheDirectionsThatMeetIt) {
   // Across the direction at 45 degrees, across none, and around the axis.
-  EXPECT_EQ(FreeDirections::near({5, 4, 0}, {4, 5, 0}, {6, 6, 1}), 1u << 1);
-  EXPECT_EQ(FreeDirections::near({5, 1, 0}, {5, 2, 0}, {6, 2, 1}), 0u);
-  EXPECT_EQ(FreeDirections::near({5, 0, 0}, {-4, 4, 0}, {-4, -4, 1}), 0xffu);
+  EXPECT_EQ(tangential::FreeDirections::near({5, 4, 0}, {4, 5, 0}, {6, 6, 1}), 1u << 1);
+  EXPECT_EQ(tangential::FreeDirections::near({5, 1, 0}, {5, 2, 0}, {6, 2, 1}), 0u);
+  EXPECT_EQ(tangential::FreeDirections::near({5, 0, 0}, {-4, 4, 0}, {-4, -4, 1}), 0xffu);
   // With a corner on the half-plane, and in a plane through the axis.
-  EXPECT_EQ(FreeDirections::near({-5, 0, 0}, {-5, 1, 0}, {-6, 1, 1}), 1u << 4);
-  EXPECT_EQ(FreeDirections::near({0, -2, 0}, {0, -3, 0}, {0, -3, 1}), 1u << 6);
+  EXPECT_EQ(tangential::FreeDirections::near({-5, 0, 0}, {-5, 1, 0}, {-6, 1, 1}), 1u << 4);
+  EXPECT_EQ(tangential::FreeDirections::near({0, -2, 0}, {0, -3, 0}, {0, -3, 1}), 1u << 6);
 }
 
 TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
@@ -36,17 +36,17 @@ TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
     const double size = std::exp2(-8 * weight(random));
     const auto corner = [&] { return Vec3(centre + size * Vec3(uniform(random), uniform(random), 0)); };
     const Vec3 a = corner(), b = corner(), c = corner();
-    const auto near = FreeDirections::near(a, b, c);
-    for (int k = 0; k < FreeDirections::count; ++k) {
+    const auto near = tangential::FreeDirections::near(a, b, c);
+    for (int k = 0; k < tangential::FreeDirections::count; ++k) {
       if (near >> k & 1) continue;
       ++free;
       for (int j = 0; j < 20; ++j) {
         double u = weight(random), v = weight(random);
         if (u + v > 1) u = 1 - u, v = 1 - v;
         const Vec3 p = a + u * (b - a) + v * (c - a);
-        const double off =
-            std::remainder(std::atan2(p.y(), p.x()) - FreeDirections::angle_of(k).radians(), two_pi);
-        EXPECT_GT(std::abs(off), FreeDirections::clearance);
+        const double off = std::remainder(
+            std::atan2(p.y(), p.x()) - tangential::FreeDirections::angle_of(k).radians(), two_pi);
+        EXPECT_GT(std::abs(off), tangential::FreeDirections::clearance);
       }
     }
   }
@@ -54,12 +54,13 @@ TEST(FreeDirections, NoPointOfATriangleIsCloserInAngleToADirectionItIsNotNear) {
 }
 
 TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets) {
-  EXPECT_EQ(FreeDirections::between(1u << 3), FreeDirections::Directions{0});
-  EXPECT_EQ(FreeDirections::between(1u << 7 | 1u << 0), FreeDirections::Directions{1u << 0});
-  EXPECT_EQ(FreeDirections::between(1u << 2 | 1u << 5),
-            FreeDirections::Directions{1u << 3 | 1u << 4 | 1u << 5});
-  EXPECT_EQ(FreeDirections::between(1u << 1 | 1u << 5), std::nullopt);
-  EXPECT_EQ(FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
+  EXPECT_EQ(tangential::FreeDirections::between(1u << 3), tangential::FreeDirections::Directions{0});
+  EXPECT_EQ(tangential::FreeDirections::between(1u << 7 | 1u << 0),
+            tangential::FreeDirections::Directions{1u << 0});
+  EXPECT_EQ(tangential::FreeDirections::between(1u << 2 | 1u << 5),
+            tangential::FreeDirections::Directions{1u << 3 | 1u << 4 | 1u << 5});
+  EXPECT_EQ(tangential::FreeDirections::between(1u << 1 | 1u << 5), std::nullopt);
+  EXPECT_EQ(tangential::FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
   std::size_t told = 0;
@@ -67,7 +68,8 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
     const Vec3 centre = 2 * Vec3(uniform(random), uniform(random), 0);
     Points corners;
     for (int k = 0; k < 3; ++k) corners.push_back(centre + Vec3(uniform(random), uniform(random), 0));
-    const auto sectors = vertices_in_axis_frame(corners, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).sector;
+    const auto sectors =
+        tangential::vertices_in_axis_frame(corners, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).sector;
     unsigned all = 0;
     bool clear = true;
     for (int k = 0; k < 3; ++k) {
@@ -80,19 +82,20 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
       }
     }
     if (!clear) continue;
-    const auto between = FreeDirections::between(static_cast<FreeDirections::Sectors>(all));
+    const auto between =
+        tangential::FreeDirections::between(static_cast<tangential::FreeDirections::Sectors>(all));
     if (!between) continue;
     // `near` may name more, on the other side of the axis; no point of the triangle is near those.
-    const auto near = FreeDirections::near(corners[0], corners[1], corners[2]);
+    const auto near = tangential::FreeDirections::near(corners[0], corners[1], corners[2]);
     EXPECT_EQ(*between & near, *between);
-    for (int k = 0; k < FreeDirections::count; ++k) {
+    for (int k = 0; k < tangential::FreeDirections::count; ++k) {
       if (*between >> k & 1 || !(near >> k & 1)) continue;
       for (int j = 0; j < 20; ++j) {
         const Vec3 p = corners[0] + std::abs(uniform(random)) * (corners[1] - corners[0]);
         const Vec3 q = p + std::abs(uniform(random)) * (corners[2] - p);
-        const double off =
-            std::remainder(std::atan2(q.y(), q.x()) - FreeDirections::angle_of(k).radians(), two_pi);
-        EXPECT_GT(std::abs(off), FreeDirections::clearance);
+        const double off = std::remainder(
+            std::atan2(q.y(), q.x()) - tangential::FreeDirections::angle_of(k).radians(), two_pi);
+        EXPECT_GT(std::abs(off), tangential::FreeDirections::clearance);
       }
     }
     ++told;
@@ -111,16 +114,16 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
         test::joined(test::sphere({12, 0, 0}, 6, 3), test::sphere({12, 0, 0}, 3, 3)),
         test::socket({10, 4, -3}, 8, 12, 3)}) {
     const RingTable table(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()), {.cells_per_triangle = 2});
-    const WindingNumber winding(mesh);
-    const ProfileGrid& grid = table.grid();
+    const mesh::WindingNumber winding(mesh);
+    const tangential::ProfileGrid& grid = table.grid();
     std::size_t inside = 0, asked = 0;
     for (Index row = 0; row < grid.rows; ++row) {
       for (Index column = 0; column < grid.columns; ++column) {
         const auto anchor = table.free_directions().of(grid.cell(row, column));
-        if (anchor.direction == FreeDirections::none) continue;
+        if (anchor.direction == tangential::FreeDirections::none) continue;
         const double rho = grid.rho_min + (column + weight(random)) * grid.rho_cell;
         const double z = grid.z_min + (row + weight(random)) * grid.z_cell;
-        const double angle = FreeDirections::angle_of(anchor.direction).radians();
+        const double angle = tangential::FreeDirections::angle_of(anchor.direction).radians();
         EXPECT_EQ(winding.at(on_circle(rho, angle, z)).winding, anchor.winding) << rho << " " << z;
         inside += anchor.winding > 0, ++asked;
       }

@@ -1,4 +1,4 @@
-#include "condyle/tangential/profile.hpp"
+#include "tangential/exact/profile.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "condyle/core/error.hpp"
-#include "condyle/tangential/axis_frame.hpp"
+#include "condyle/axis_frame.hpp"
+#include "condyle/error.hpp"
 #include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
 
@@ -18,16 +18,16 @@ namespace {
 
 using Cells = std::set<std::size_t>;
 
-Cells cells_of(const ProfileGrid& grid, const Vec3& a, const Vec3& b, const Vec3& c) {
+Cells cells_of(const tangential::ProfileGrid& grid, const Vec3& a, const Vec3& b, const Vec3& c) {
   Cells cells;
-  for_each_profile_run(grid, a, b, c, [&](Index row, Index first, Index last) {
+  tangential::for_each_profile_run(grid, a, b, c, [&](Index row, Index first, Index last) {
     for (Index column = first; column <= last; ++column) cells.insert(grid.cell(row, column));
   });
   return cells;
 }
 
-ProfileGrid unit_cells(double rho_max, double z_min, double z_max) {
-  ProfileGrid grid;
+tangential::ProfileGrid unit_cells(double rho_max, double z_min, double z_max) {
+  tangential::ProfileGrid grid;
   grid.rho_max = rho_max, grid.z_min = z_min, grid.z_max = z_max;
   grid.columns = static_cast<Index>(rho_max), grid.rows = static_cast<Index>(z_max - z_min);
   return grid;
@@ -52,7 +52,7 @@ TEST(Profile, EachRowHoldsOnlyTheRadiiOfItsOwnStrip) {
   const Vec3 low(0.5, 0, 0.5), high(6.5, 0, 2.5);
   std::vector<std::array<Index, 3>> runs;
   const auto record = [&](Index row, Index first, Index last) { runs.push_back({row, first, last}); };
-  for_each_profile_run(grid, low, high, record);
+  tangential::for_each_profile_run(grid, low, high, record);
   // Cuts at z = 1 and 2: rho = 2 and 5, on cell boundaries; rounding lists both neighbours.
   EXPECT_EQ(runs, (std::vector<std::array<Index, 3>>{{0, 0, 2}, {1, 1, 5}, {2, 4, 6}}));
 }
@@ -82,20 +82,20 @@ TEST(Profile, EveryPointOfEveryTriangleFallsInAListedCell) {
   for (const double shift : {0.0, 3.0, 1e4}) {
     const TriMesh mesh = test::triangles_of_all_sizes(random, shift, 1);
     // No triangle reaches further in from its corners than across: 2^1.5.
-    ProfileGrid::Extent extent{1e9, 0, 1e9, -1e9};
+    tangential::ProfileGrid::Extent extent{1e9, 0, 1e9, -1e9};
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
       const Vec3 p = mesh.vertices[v];
-      const double rho = axis_radius(p.x(), p.y());
+      const double rho = tangential::axis_radius(p.x(), p.y());
       extent.rho_min = std::max(0.0, std::min(extent.rho_min, rho - 3)),
       extent.rho_max = std::max(extent.rho_max, rho);
       extent.z_min = std::min(extent.z_min, p.z()), extent.z_max = std::max(extent.z_max, p.z());
     }
-    const auto grid = ProfileGrid::over(extent, 4096);
+    const auto grid = tangential::ProfileGrid::over(extent, 4096);
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
       const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
       const Cells cells = cells_of(grid, a, b, c);
       const auto listed = [&](const Vec3& p) {
-        const auto cell = grid.cell_of(axis_radius(p.x(), p.y()), p.z());
+        const auto cell = grid.cell_of(tangential::axis_radius(p.x(), p.y()), p.z());
         return cell && cells.contains(*cell);
       };
       EXPECT_TRUE(listed(a) && listed(b) && listed(c));
@@ -117,7 +117,7 @@ TEST(Profile, AListedCellIsMetUnlessByRounding) {
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
       const Vec3 p = a + (b - a) * (double(i) / steps) + (c - a) * (double(j) / steps);
-      met.insert(*grid.cell_of(axis_radius(p.x(), p.y()), p.z()));
+      met.insert(*grid.cell_of(tangential::axis_radius(p.x(), p.y()), p.z()));
     }
   }
   EXPECT_EQ(cells_of(grid, a, b, c), met);
@@ -148,8 +148,8 @@ TEST(AxisFrame, APositiveAngleIsRightHandedAboutTheDirectionGiven) {
     const Vec3 turned = frame.to_axis(Vec3(turn * (p - point) + point));
     const Vec3 expected = Eigen::AngleAxisd(0.8, Vec3::UnitZ()) * frame.to_axis(p);
     // Rotations of a 12 mm arm: a handful of roundings of 12 * 2^-53 mm.
-    EXPECT_LT((turned - expected).norm(), 32 * 12 * rounding_unit);
-    EXPECT_LT((frame.from_axis(frame.to_axis(p)) - p).norm(), 32 * 12 * rounding_unit);
+    EXPECT_LT((turned - expected).norm(), 32 * 12 * core::rounding_unit);
+    EXPECT_LT((frame.from_axis(frame.to_axis(p)) - p).norm(), 32 * 12 * core::rounding_unit);
   }
 }
 

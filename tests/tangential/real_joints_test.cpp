@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "condyle/core/angle.hpp"
-#include "condyle/tangential/ring_table.hpp"
+#include "condyle/angle.hpp"
 #include "support/shared_data.hpp"
+#include "tangential/ring_table.hpp"
 
 namespace condyle {
 namespace {
@@ -50,7 +50,7 @@ TEST(RealJoints, EveryStateIsThatOfTheWindingNumberAtEveryPoseAboutEveryCoordina
   if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
   for (const auto& pair : pairs) {
     const TriMesh fixed = test::read_ply(*data / pair.fixed), mobile = test::read_ply(*data / pair.mobile);
-    const WindingNumber winding(fixed);
+    const mesh::WindingNumber winding(fixed);
     std::size_t inside = 0;
     for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, -1, 0)}) {
       const RingTable table(fixed, AxisFrame(Vec3::Zero(), axis));
@@ -79,7 +79,7 @@ TEST(RealJoints, AVertexOfTheMeshItselfIsOnTheSurfaceAndItsArcsAreThoseJustBesid
   const RingTable table(bone, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
   const auto hits = table.query(bone.vertices);
   const auto arcs = table.occupied_arcs(bone.vertices);
-  const WindingNumber winding(bone);
+  const mesh::WindingNumber winding(bone);
   std::size_t asked = 0;
   for (std::size_t i = 0; i < bone.vertices.size(); ++i) {
     EXPECT_EQ(hits.state[i], PointState::on_surface);
@@ -103,7 +103,7 @@ TEST(RealJoints, OneTurnOfTheFemurIsAnsweredByOnePass) {
   const TriMesh bone = test::read_ply(*data / "hip_libhip_m1_left/hip_bone.ply");
   const TriMesh femur = test::read_ply(*data / "hip_libhip_m1_left/coarse/femur_1542.ply");
   const auto arcs = RingTable(bone, AxisFrame(Vec3::Zero(), Vec3::UnitZ())).occupied_arcs(femur.vertices);
-  const WindingNumber winding(bone);
+  const mesh::WindingNumber winding(bone);
   std::size_t inside = 0;
   for (int degree = 0; degree < 360; ++degree) {
     const Angle phi = Angle::degrees(degree);

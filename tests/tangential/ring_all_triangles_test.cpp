@@ -1,4 +1,4 @@
-#include "condyle/tangential/ring_table.hpp"
+#include "tangential/ring_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/mesh/winding_number.hpp"
+#include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
@@ -25,7 +25,7 @@ void expect_same_as_oracle(const TriMesh& mesh, const Points& points) {
   const RingTable table(mesh, z_axis);
   const auto arcs = table.occupied_arcs(points);
   const auto hits = table.query(points);
-  const auto windings = WindingNumber(mesh).at(points);
+  const auto windings = mesh::WindingNumber(mesh).at(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = points[i];
     EXPECT_EQ(hits.state[i], windings[i].state) << p.transpose();
@@ -110,20 +110,20 @@ TEST(RingTable, CrossingsOfAClosedMeshSumToZeroAndComeBackToTheAnchor) {
     for (int i = 0; i < 20; ++i) {
       const Vec3 p(coordinate(random), coordinate(random), coordinate(random));
       if (p.x() == 0 && p.y() == 0) continue;
-      const Circle circle{p, p.x() * p.x() + p.y() * p.y(), 5};
-      std::vector<CircleCrossing> all;
-      TangentialWork work;
+      const tangential::Circle circle{p, p.x() * p.x() + p.y() * p.y(), 5};
+      std::vector<tangential::CircleCrossing> all;
+      tangential::TangentialWork work;
       int sum = 0, outwards = 0;
       for (Index t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-        const TriangleRef corners = {&a, &b, &c};
-        add_crossings(circle, corners, t, all, work);
-        outwards += outward_crossing(circle, corners, work);
+        const tangential::TriangleRef corners = {&a, &b, &c};
+        tangential::add_crossings(circle, corners, t, all, work);
+        outwards += tangential::outward_crossing(circle, corners, work);
       }
       for (const auto& crossing : all) sum += static_cast<int>(crossing.passage);
       EXPECT_EQ(sum, 0);
       // The ray outwards is a second, independent way to the winding number.
-      const auto winding = WindingNumber(mesh).at(p);
+      const auto winding = mesh::WindingNumber(mesh).at(p);
       if (winding.state != PointState::on_surface) {
         EXPECT_EQ(outwards, winding.winding);
       }
@@ -181,9 +181,9 @@ TEST(RingTable, RefiningAMeshWithoutMovingItsSurfaceChangesNoGap) {
         continue;
       }
       // Each errs by at most sqrt(2 e / rho), were it a touch: e = 17u * 4 mm * sqrt 2.
-      const double rho = axis_radius(points[i].x(), points[i].y());
+      const double rho = tangential::axis_radius(points[i].x(), points[i].y());
       EXPECT_NEAR(before.angular_gap[i], after.angular_gap[i],
-                  2 * std::sqrt(2 * 17 * 6 * rounding_unit / rho));
+                  2 * std::sqrt(2 * 17 * 6 * core::rounding_unit / rho));
       ++finite;
     }
   }

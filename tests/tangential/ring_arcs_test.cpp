@@ -1,4 +1,4 @@
-#include "condyle/tangential/ring_table.hpp"
+#include "tangential/ring_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "condyle/mesh/winding_number.hpp"
+#include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
@@ -37,7 +37,7 @@ TEST(RingTable, OccupiedArcsAnswerEveryAngleAsTurningThePointsDoes) {
     points.push_back({20 * uniform(random), 20 * uniform(random), 9 * uniform(random)});
   const RingTable table(mesh, z_axis);
   const auto arcs = table.occupied_arcs(points);
-  const WindingNumber winding(mesh);
+  const mesh::WindingNumber winding(mesh);
   int inside = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int degree = 0; degree < 360; ++degree) {

@@ -1,4 +1,4 @@
-#include "condyle/tangential/ring_table.hpp"
+#include "tangential/ring_table.hpp"
 
 #include <gtest/gtest.h>
 
@@ -156,7 +156,8 @@ TEST(RingTable, ACircleThatTouchesAFaceOrAnEdgeDoesNotEnter) {
   const auto hits = query_one(box, {-beyond, 0, 0.25});
   // One crossing each side of angle pi, off by at most sqrt(2 e / rho), e = 17u * 5 mm and the one step in
   // rho.
-  EXPECT_NEAR(hits.angular_gap[0], std::numbers::pi, std::sqrt(2 * (17 * 5 * rounding_unit + 0x1p-51) / 3));
+  EXPECT_NEAR(hits.angular_gap[0], std::numbers::pi,
+              std::sqrt(2 * (17 * 5 * core::rounding_unit + 0x1p-51) / 3));
   EXPECT_EQ(hits.work.crossings, 2u);
   EXPECT_GT(hits.work.exact_decisions, 0u);
   EXPECT_EQ(query_one(box, {beyond, 0, 0.25}).state[0], PointState::inside);
@@ -196,7 +197,8 @@ TEST(RingTable, APointOnAFaceButForRoundingIsAsNearToItFromEitherSide) {
   }
   const auto hits = RingTable(ball, z_axis).query(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    EXPECT_LT(std::abs(hits.angular_gap[i]), 2 * angle_error(19, axis_radius(points[i].x(), points[i].y())));
+    EXPECT_LT(std::abs(hits.angular_gap[i]),
+              2 * angle_error(19, tangential::axis_radius(points[i].x(), points[i].y())));
   }
   EXPECT_GT(std::count(hits.state.begin(), hits.state.end(), PointState::inside), 500);
   EXPECT_GT(std::count(hits.state.begin(), hits.state.end(), PointState::outside), 500);

@@ -1,4 +1,4 @@
-#include "condyle/tangential/ring_lists.hpp"
+#include "tangential/build/ring_lists.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "condyle/core/instruction_set.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
 
@@ -18,16 +18,16 @@ namespace {
 const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
 
 struct Listed {
-  AxisVertices vertices;
-  ProfileBoxes boxes;
-  RingLists lists;
+  tangential::AxisVertices vertices;
+  tangential::ProfileBoxes boxes;
+  tangential::RingLists lists;
 };
 
 Listed listed(const TriMesh& mesh, std::size_t cells) {
   Listed out;
-  out.vertices = vertices_in_axis_frame(mesh.vertices, z_axis);
-  out.boxes = profile_boxes(out.vertices.rounded, mesh.triangles);
-  out.lists = RingLists(out.vertices, mesh.triangles, out.boxes, cells);
+  out.vertices = tangential::vertices_in_axis_frame(mesh.vertices, z_axis);
+  out.boxes = tangential::profile_boxes(out.vertices.rounded, mesh.triangles);
+  out.lists = tangential::RingLists(out.vertices, mesh.triangles, out.boxes, cells);
   return out;
 }
 
@@ -38,7 +38,7 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
     for (const double shift : {0.0, 3.0, 1e4}) {
       const TriMesh mesh = test::triangles_of_all_sizes(random, shift, scale);
       for (const std::size_t cells : {1u, 64u, 4096u}) {
-        const RingLists lists = listed(mesh, cells).lists;
+        const tangential::RingLists lists = listed(mesh, cells).lists;
         Points points;
         std::vector<Index> expected;
         for (Index t = 0; t < mesh.triangles.size(); ++t) {
@@ -50,10 +50,10 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
             points.push_back(p), expected.push_back(t);
           }
         }
-        PlacedCircles circles;
-        place_circles(z_axis, lists.grid(), points, circles);
+        tangential::PlacedCircles circles;
+        tangential::place_circles(z_axis, lists.grid(), points, circles);
         ASSERT_EQ(circles.size(), points.size()) << "shift " << shift << " scale " << scale;
-        CirclePairs pairs;
+        tangential::CirclePairs pairs;
         std::set<std::pair<Index, Index>> found;
         for (std::size_t done = 0; done < circles.size();) {
           done = lists.find(circles.place, done, pairs);
@@ -72,7 +72,7 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
 TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
   const TriMesh mesh = test::sphere({60, 3, 1}, 20, 5);
   const Listed all = listed(mesh, mesh.triangles.size() / 8);
-  const ProfileGrid& grid = all.lists.grid();
+  const tangential::ProfileGrid& grid = all.lists.grid();
   std::mt19937 random(6);
   std::uniform_real_distribution<double> weight(0, 1);
   std::size_t asked = 0;
@@ -81,16 +81,16 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
     const double z = grid.z_min + weight(random) * (grid.z_max - grid.z_min);
     Points point;
     point.push_back({rho, 0, z});
-    PlacedCircles circle;
-    place_circles(z_axis, grid, point, circle);
+    tangential::PlacedCircles circle;
+    tangential::place_circles(z_axis, grid, point, circle);
     ASSERT_EQ(circle.size(), 1u);
-    CirclePairs pairs;
+    tangential::CirclePairs pairs;
     all.lists.find(circle.place, 0, pairs);
     for (const Index t : pairs.triangle) {
       double low = 1e9, high = 0, z_low = 1e9, z_high = -1e9, longest2 = 0;
       for (int k = 0; k < 3; ++k) {
         const Vec3 p = mesh.corner(t, k), q = mesh.corner(t, (k + 1) % 3);
-        const double radius = axis_radius(p.x(), p.y());
+        const double radius = tangential::axis_radius(p.x(), p.y());
         low = std::min(low, radius), high = std::max(high, radius);
         z_low = std::min(z_low, p.z()), z_high = std::max(z_high, p.z());
         longest2 = std::max(longest2, (p - q).squaredNorm());
@@ -123,8 +123,8 @@ TEST(ProfileBoxes, TrianglesNotAcrossSectorsHaveAllCornersInOneTheSameOnEveryIns
       EXPECT_TRUE(in_one || listed_across.contains(t));
       within += !listed_across.contains(t), across += !in_one;
     }
-    for (const InstructionSet& set : instruction_sets()) {
-      const InstructionSetInUse in_use(set);
+    for (const simd::InstructionSet& set : simd::instruction_sets()) {
+      const simd::InstructionSetInUse in_use(set);
       EXPECT_EQ(listed(mesh, 20).boxes.across_sectors, best.boxes.across_sectors) << set.name;
     }
   }
@@ -136,24 +136,24 @@ TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
   std::mt19937 random(8);
   const TriMesh mesh = test::triangles_of_all_sizes(random, 2, 1);
   const Listed best = listed(mesh, 200);
-  std::vector<CirclePlace> circles;
+  std::vector<tangential::CirclePlace> circles;
   for (Index cell = 0; cell < best.lists.grid().cells(); ++cell) {
     const auto list = best.lists.of(cell);
     std::set<Index> triangles_listed;
-    for (const RingEntry& entry : list) triangles_listed.insert(entry.triangle);
+    for (const tangential::RingEntry& entry : list) triangles_listed.insert(entry.triangle);
     EXPECT_EQ(triangles_listed.size(), list.size());
-    for (CellBox at = 0; at < 16; ++at) {
-      const CellBox z = 16 * at + 3, rho = 255 - 7 * at;
+    for (tangential::CellBox at = 0; at < 16; ++at) {
+      const tangential::CellBox z = 16 * at + 3, rho = 255 - 7 * at;
       circles.push_back({cell, z | (255 - z) << 8 | rho << 16 | (255 - rho) << 24});
     }
   }
-  CirclePairs expected;
+  tangential::CirclePairs expected;
   best.lists.find(circles, 0, expected);
   EXPECT_GT(expected.circle.size(), 1000u);
-  for (const InstructionSet& set : instruction_sets()) {
-    const InstructionSetInUse in_use(set);
+  for (const simd::InstructionSet& set : simd::instruction_sets()) {
+    const simd::InstructionSetInUse in_use(set);
     const Listed here = listed(mesh, 200);
-    CirclePairs pairs;
+    tangential::CirclePairs pairs;
     here.lists.find(circles, 0, pairs);
     const std::size_t both = std::min(pairs.circle.size(), expected.circle.size());
     EXPECT_GT(both, 1000u);

@@ -1,4 +1,4 @@
-#include "condyle/tangential/ring_table.hpp"
+#include "tangential/ring_table.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "condyle/core/error.hpp"
-#include "condyle/core/instruction_set.hpp"
-#include "condyle/mesh/winding_number.hpp"
+#include "condyle/error.hpp"
+#include "mesh/winding_number.hpp"
+#include "simd/instruction_set.hpp"
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 
@@ -31,7 +31,7 @@ TEST(RingTable, TenMetresFromTheOriginStatesStayExactAndAnglesKeepTheirBound) {
     points.push_back(v + (away - v) * 0.3);
     points.push_back(v - (away - v) * 0.3);
   }
-  const auto windings = WindingNumber(ball).at(points);
+  const auto windings = mesh::WindingNumber(ball).at(points);
   // About the z axis of the origin, 14 m away: no rounding at all.
   const auto hits = RingTable(ball, z_axis).query(points);
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(hits.state[i], windings[i].state);
@@ -93,9 +93,10 @@ TEST(RingTable, AMeshCheckedBeforeGivesTheSameTable) {
   const TriMesh mesh = test::torus(8, 3, 20, 10);
   Points points;
   for (double x = -12; x < 12; x += 0.7) points.push_back({x, 1.3, 0.4});
-  const ClosedMesh closed(mesh);
+  const mesh::ClosedMesh closed(mesh);
   EXPECT_EQ(RingTable(closed, z_axis).query(points), RingTable(mesh, z_axis).query(points));
-  EXPECT_EQ(RingTable(ClosedMesh::known(mesh), z_axis).query(points), RingTable(mesh, z_axis).query(points));
+  EXPECT_EQ(RingTable(mesh::ClosedMesh::known(mesh), z_axis).query(points),
+            RingTable(mesh, z_axis).query(points));
 }
 
 TEST(RingTable, NoTrianglesAndNoPointsAreNoTrouble) {
@@ -137,8 +138,8 @@ TEST(RingTable, IsTheSameOnEveryInstructionSetByteForByte) {
     const auto hits = table.query(points);
     const auto arcs = table.occupied_arcs(points);
     EXPECT_GT(std::count(hits.state.begin(), hits.state.end(), PointState::inside), 500);
-    for (const InstructionSet& set : instruction_sets()) {
-      const InstructionSetInUse in_use(set);
+    for (const simd::InstructionSet& set : simd::instruction_sets()) {
+      const simd::InstructionSetInUse in_use(set);
       EXPECT_EQ(hits, RingTable(mesh, axis).query(points)) << set.name;
       EXPECT_EQ(arcs, RingTable(mesh, axis).occupied_arcs(points)) << set.name;
       EXPECT_EQ(hits, table.query(points)) << set.name;

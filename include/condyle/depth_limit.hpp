@@ -1,0 +1,74 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "condyle/articular_centre.hpp"
+#include "condyle/range_of_motion.hpp"
+
+/// Limits of joints whose meshes overlap a little wherever they are: a motion ends where the deepest radial
+/// depth exceeds an allowed one. For such joints only; where the meshes are clean, RangeOfMotion is exact.
+
+namespace condyle {
+
+struct AllowedDepth {
+  double depth_mm = 0;
+  Angle step = Angle::degrees(1);          ///< of the search along the motion
+  Angle tolerance = Angle::degrees(1e-3);  ///< of the limit, once bracketed
+  /// The mobile body is shifted at every pose as even_joint_space() says; empty: it turns about the joint
+  /// centre.
+  std::optional<CentreRule> follow_socket = {};
+};
+
+/// The deepest place of two bodies at one pose.
+struct DeepestPlace {
+  double depth_mm = 0;  ///< 0 where no vertex is inside
+  std::optional<ContactPlace> place = {};
+  Angle ray_to_normal = {};
+  std::optional<CentreShift> shift = {};
+};
+
+struct DepthLimit {
+  MotionLimit limit = {};  ///< `shortfall` is not a bound on true contact here, but the search's tolerance
+  DeepestPlace at_limit = {};  ///< at the reported angle, where the depth is still allowed
+  double start_depth_mm = 0;
+  /// Whether every pose asked inside the last step was as deep as the allowed ones before it: where not, the
+  /// surfaces are rough at this scale and a limit a little further on would be as good.
+  bool depth_grows = true;
+};
+
+/// Depth is the radial depth (docs/mathematics.md, section 2) of the deepest vertex of either body in the
+/// other, whatever the angle between its ray and the surface. Where surfaces slide, that is the depth. Where
+/// a neck runs into a rim the ray grazes the wall and the radial depth reads many times the true one, so
+/// there a motion ends almost as soon as a vertex is inside: what is allowed is allowed to sliding surfaces.
+///
+/// Not exact, unlike RangeOfMotion: depth is asked at poses one step apart, and of vertices alone. Contact
+/// that comes and goes between two poses of the search, or of edges and faces without a vertex, is not seen.
+/// Of the first step whose end is too deep, ten parts are asked and the first too deep one is halved until
+/// the tolerance: the reported angle is allowed, and within the tolerance after it the depth is too large.
+class DepthRange {
+ public:
+  /// Throws UsageError for an allowed depth below 0, steps or tolerances that are not above 0, a tolerance
+  /// above the step; MeshError where a mesh is open, for depth needs an inside, or, following the socket,
+  /// where no articular region is given or found.
+  DepthRange(const Joint& joint, const AllowedDepth& allowed,
+             const std::optional<ArticularRegion>& articular = {});
+  ~DepthRange();
+  DepthRange(const DepthRange&) = delete;
+  DepthRange& operator=(const DepthRange&) = delete;
+
+  DeepestPlace deepest(const JointAngles& at) const;
+  /// `contact_at_start` where the depth at the start is too large already.
+  DepthLimit limit(const Motion& motion) const;
+  std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
+
+  const std::optional<ArticularRegion>& articular_region() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace condyle

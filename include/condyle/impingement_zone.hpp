@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "condyle/clock_face.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "contact/joint_contact.hpp"
+
+/// Impingement zones: which parts of both bones meet at the end of a motion and past it.
+
+namespace condyle {
+
+struct ZoneOptions {
+  Angle past = Angle::degrees(5);              ///< how far past the limit the zone is shown, 0 or more
+  std::optional<ClockFace> socket_clock = {};  ///< in F; the sagittal one where not given
+  std::optional<NeckAxis> neck = {};           ///< in M; find_neck_axis() where not given
+};
+
+/// One body's part of a zone, in that body's own frame.
+struct BodyZone {
+  /// One per vertex, 0 for those not inside the other body; empty where the other body is open and has no
+  /// inside. At rim and neck rays graze the wall: there read the tangential depth.
+  std::vector<double> radial_depth_mm;
+  std::vector<double> ray_to_normal_deg;  ///< of those inside, else 0: beyond 60 the radial depth is no depth
+  /// The arc about the motion's axis by which the vertex would have to turn back or on, whichever is shorter;
+  /// infinite where its whole circle is solid. As many, and empty likewise.
+  std::vector<double> tangential_depth_deg, tangential_depth_mm;
+  std::vector<Index> triangles;  ///< that meet the other body, ascending
+  double area_mm2 = 0;           ///< of these triangles, whole
+  std::optional<Vec3> centroid;  ///< by area of these triangles, mm; empty where there are none
+};
+
+struct ImpingementZone {
+  MotionLimit limit;
+  Angle past;  ///< the pose is this far past the limit
+  BodyZone fixed, mobile;
+
+  /// On the socket's clock: the contact at the limit, and the centroid of the fixed body's zone past it.
+  std::optional<double> contact_hour, zone_hour;
+  /// Around the neck, from superior towards anterior: the same on the mobile body. Empty without a neck.
+  std::optional<Angle> contact_neck_angle, zone_neck_angle;
+};
+
+/// Finds zones on a joint whose limits are known. At the limit itself the zone is one point, limit.contact:
+/// there surfaces touch and nothing is inside; how a zone grows shows past it.
+class ZoneFinder {
+ public:
+  /// Throws UsageError for an angle past the limit that is negative, more than a half turn or not finite.
+  explicit ZoneFinder(const Joint& joint, const ZoneOptions& options = {});
+
+  /// Empty for motions that did not end by contact on their way. Zones are of whole bodies, also where limits
+  /// were found with parts left out.
+  std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
+
+  const std::optional<NeckAxis>& neck() const noexcept { return neck_; }
+  const ClockFace& socket_clock() const noexcept { return socket_clock_; }
+
+ private:
+  Side side_;
+  Angle past_;
+  ClockFace socket_clock_;
+  std::optional<NeckAxis> neck_;
+  JointContact contact_;
+};
+
+}  // namespace condyle

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/length_unit.hpp"
+#include "condyle/mesh.hpp"
+
+namespace condyle {
+
+/// Two vertices joined by a triangle's side; `from` before `to` in the first triangle that has it.
+struct Edge {
+  Index from, to;
+
+  friend bool operator==(const Edge&, const Edge&) = default;
+};
+
+/// How many elements have a defect, and the first of them in the mesh's order.
+template <class Element>
+struct Finding {
+  std::size_t count = 0;
+  std::optional<Element> first;
+
+  void add(const Element& element) {
+    if (count++ == 0) first = element;
+  }
+};
+
+/// A connected run of edges that have one triangle only: the rim of a hole or of an open sheet. A plain ring
+/// where no vertex has more than two of these edges; rings that touch in a vertex count as one.
+struct BoundaryLoop {
+  std::size_t edges;
+  Edge first;   ///< The first of them in the mesh's order.
+  Vec3 centre;  ///< Mean of the edges' middles: where to look for it.
+};
+
+/// Triangles that hang together over edges, two triangles' or more. Solids that touch in a vertex are two
+/// components.
+struct MeshComponent {
+  Index first_triangle = 0;
+  std::size_t triangles = 0;
+  bool closed = true;        ///< No boundary, no non-manifold edge, one winding.
+  std::optional<int> genus;  ///< Number of handles, where closed; a vertex counts once for each of its fans.
+  std::optional<double>
+      signed_volume;  ///< Where closed; negative when wound inside out, as the skin of a cavity is.
+};
+
+struct BoundingBox {
+  Vec3 low, high;
+
+  double diagonal() const { return (high - low).norm(); }
+};
+
+struct EdgeLengths {
+  double shortest, median, longest;
+};
+
+struct LikelyUnit {
+  std::optional<LengthUnit> unit;  ///< Empty: the size fits neither.
+  std::string reason;              ///< One line, with the size that decided.
+};
+
+/// What is so and what is wrong with a mesh. Lengths are in the mesh's unit; elements are counted from 0.
+///
+/// A triangle that names a vertex twice has no sides of its own: it counts as degenerate and stays out of
+/// edges, boundaries and components. The bounds are those of the surface: vertices without a triangle do not
+/// widen them.
+struct MeshReport {
+  std::size_t vertices = 0, triangles = 0;
+
+  Finding<Edge> boundary_edges;  ///< One triangle.
+  Finding<BoundaryLoop> boundary_loops;
+  Finding<Edge> non_manifold_edges;  ///< Three triangles or more.
+  Finding<Index>
+      non_manifold_vertices;  ///< Its triangles, joined over the edges they share, are more than one fan.
+  Finding<Edge> inconsistent_edges;  ///< Two triangles that run along it in one direction: wound differently.
+  Finding<Index> duplicate_triangles;    ///< Has the three vertices of an earlier one, in any order.
+  Finding<Index> degenerate_triangles;   ///< A vertex twice, or an area of exactly zero.
+  Finding<Index> unreferenced_vertices;  ///< In no triangle.
+  Finding<Index> duplicate_vertices;     ///< Has the coordinates of an earlier one, -0 being +0.
+  Finding<Index> inverted_components;    ///< Closed, with negative volume; numbers in `components`.
+
+  std::vector<MeshComponent> components;  ///< By first triangle.
+
+  BoundingBox bounds{Vec3::Zero(), Vec3::Zero()};
+  double area = 0;
+  std::optional<double> signed_volume;  ///< Where closed.
+  EdgeLengths edge_lengths{0, 0, 0};
+  LikelyUnit likely_unit;
+
+  /// Fit for a winding number: the surface bounds a solid, if perhaps inside out. Neither self-intersections
+  /// nor non-manifold vertices matter to that.
+  bool is_closed() const noexcept {
+    return !components.empty() && boundary_edges.count == 0 && non_manifold_edges.count == 0 &&
+           inconsistent_edges.count == 0;
+  }
+};
+
+/// Looks at everything once, in n log n.
+MeshReport inspect(const TriMesh& mesh);
+
+/// The first boundary loop in words, for the message that refuses an open mesh: "an open boundary of 14 edges
+/// near (12.1, -3, 44.9), from vertex 812 (the first of 3)". Empty for a mesh without boundary.
+std::string describe_boundary(const MeshReport& report);
+
+}  // namespace condyle

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "condyle/length_unit.hpp"
+#include "condyle/mesh.hpp"
+
+/// Mesh files in and out. Every function here raises FileError, one line "file: element: what is wrong", and
+/// nothing else, whatever the file holds. Elements are counted from 0 as ParaView shows them; lines, and the
+/// vertex numbers of an OBJ file, from 1 as the format does.
+
+namespace condyle {
+
+/// A mesh as its file has it, in the file's own unit: a mesh file does not say which one that is.
+struct MeshFile {
+  TriMesh mesh;  ///< Every index in range, every coordinate finite, at least one triangle.
+  std::size_t welded_vertices =
+      0;  ///< STL only: corners that were merged with an earlier one, bit for bit the same.
+};
+
+enum class MeshFormat { stl, obj, ply, vtp, vtk };
+
+/// Reads .stl (text and binary), .obj, .ply, .vtp (XML PolyData) or .vtk (legacy PolyData); the extension
+/// decides, in upper or lower case. Coordinates keep every bit the file gives. A polygon that is not a
+/// triangle is refused.
+MeshFile read_mesh(const std::filesystem::path& path);
+
+/// The same from memory; `name` is what errors call the file.
+MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
+
+/// Writes .vtp or .ply, as the extension says: binary, in floats where every coordinate is one and else in
+/// doubles, so that reading gives the same bits back. The file appears whole under its name or not at all.
+void write_mesh(const std::filesystem::path& path, const TriMesh& mesh);
+
+/// A named array with one value per vertex or per triangle.
+struct MeshArray {
+  std::string name;
+  std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::uint8_t>> values;
+};
+
+/// Writes a mesh with its results as XML PolyData, for ParaView and 3D Slicer. Point arrays have one value
+/// per vertex, cell arrays one per triangle.
+void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
+               std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays);
+
+}  // namespace condyle

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/depth_limit.hpp"
+#include "condyle/impingement_zone.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/motion_map.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "io/result/plot_clock_face.hpp"
+
+/// What `condyle rom` found, as text for people and for programs. Every key, column, unit and sign is in
+/// docs/formats.md.
+
+namespace condyle {
+
+/// The limits of a joint and on which terms they were found.
+struct RomResult {
+  const Joint& joint;
+  std::span<const MotionLimit> limits;
+  /// Contacts in here are called articular; empty where no region is known and none is.
+  std::optional<ArticularRegion> articular = {};
+  /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
+  std::vector<std::string> terms = {};
+  /// One per limit where a depth was allowed, none where limits are exact.
+  std::span<const DepthLimit> depths = {};
+  /// One per limit where zones were asked for, none where not.
+  std::span<const std::optional<ImpingementZone>> zones = {};
+  /// Complete; null where none was asked for.
+  const MotionMap* map = nullptr;
+};
+
+/// The scope of every result, written into each.
+inline constexpr std::string_view scope_note =
+    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
+    "device";
+
+/// "contact", "end_of_range", "contact_at_start".
+std::string_view name_of(LimitReason reason) noexcept;
+
+/// What the limit promises, in one sentence.
+std::string certificate_text(const MotionLimit& limit);
+/// The same of a limit with a depth allowed, which is searched for and not exact.
+std::string certificate_text(const DepthLimit& limit);
+
+/// Where on the socket's clock face the motions end that end in contact: the sagittal one, 12 superior and 3
+/// anterior on either side. None for a hinge.
+std::vector<ClockContact> clock_contacts(const RomResult& result);
+
+/// The summary as JSON text, ending in a newline.
+std::string rom_json(const RomResult& result);
+
+/// A table for people, one line per motion, then what the map comes to.
+std::string rom_text(const RomResult& result);
+
+/// One line per motion, with a header line; numbers to the last bit.
+std::string rom_csv(const RomResult& result);
+
+}  // namespace condyle

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "condyle/joint_coordinates.hpp"
+#include "condyle/mesh.hpp"
+
+namespace condyle {
+
+/// One bone (or cartilage) of a joint, by the name its user gave it.
+struct Body {
+  std::string name;
+  TriMesh mesh;
+};
+
+/// Two bodies and how one turns in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
+/// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh
+/// is the one of zero angles: pose_at(side, angles) brings it to any other.
+struct Joint {
+  std::string name;
+  JointKind kind;
+  Side side;
+  Body fixed;
+  Body mobile;
+};
+
+}  // namespace condyle

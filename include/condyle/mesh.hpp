@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "condyle/points.hpp"
+#include "condyle/pose.hpp"
+
+namespace condyle {
+
+/// Three vertex numbers, counter-clockwise seen from outside the solid.
+using Triangle = std::array<Index, 3>;
+
+/// Plain arrays of a triangle mesh, anybody's to fill. Vertices in millimetres once past the file readers.
+/// Nothing is promised of them; what computes with a mesh asks for a `Mesh`, which is checked.
+struct TriMesh {
+  Points vertices;
+  std::vector<Triangle> triangles;
+
+  Vec3 corner(std::size_t triangle, int k) const noexcept { return vertices[triangles[triangle][k]]; }
+
+  friend bool operator==(const TriMesh&, const TriMesh&) = default;
+};
+
+/// The mesh with its vertices moved; same triangles.
+inline TriMesh posed(const Pose& X, const TriMesh& mesh) {
+  return {posed(X, mesh.vertices.view()), mesh.triangles};
+}
+
+/// An edge as a triangle runs along it.
+struct DirectedEdge {
+  Index from, to;
+
+  friend bool operator==(const DirectedEdge&, const DirectedEdge&) = default;
+};
+
+/// A triangle mesh that has come through the one door: every index in range, every coordinate finite, and
+/// known to be closed or not. Tables are made of nothing else. Immutable and shared: a copy costs a pointer.
+class Mesh {
+ public:
+  /// Checks the arrays, which are taken over. Raises MeshError naming the first bad element ("triangle 812
+  /// uses vertex 40991 of 40000"). Not explicit: whatever asks for a Mesh checks what it is given. Linear for a
+  /// closed mesh.
+  Mesh(TriMesh arrays);
+
+  const TriMesh& arrays() const noexcept;
+  const Points& vertices() const noexcept { return arrays().vertices; }
+  const std::vector<Triangle>& triangles() const noexcept { return arrays().triangles; }
+  Vec3 corner(std::size_t triangle, int k) const noexcept { return arrays().corner(triangle, k); }
+
+  /// Whether every edge is used as often in one direction as in the other: then the surface has an inside, in
+  /// the sense of the winding number. Neither manifoldness nor freedom from self-intersections is asked.
+  bool is_closed() const noexcept { return !unbalanced_edge().has_value(); }
+  /// The first directed edge, in the order of triangles, that is used more often than its opposite.
+  const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
+
+  operator const TriMesh&() const noexcept { return arrays(); }
+
+ private:
+  struct Checked;
+  std::shared_ptr<const Checked> checked_;
+};
+
+}  // namespace condyle

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "condyle/range_of_motion.hpp"
+
+/// The combined range of motion: both limits of one joint angle over a grid of the other two.
+/// docs/mathematics.md, section 6.
+
+namespace condyle {
+
+/// Values of one held angle: first, first + step, ... up to last. In degrees, because people write them so
+/// and every value is to be the double nearest to what they wrote.
+struct GridAxis {
+  JointAngle angle = JointAngle::flexion;
+  double first_deg = 0, last_deg = 0, step_deg = 1;
+
+  /// Values on the axis; the last one counts where it is a whole number of steps away to a millionth of one.
+  std::size_t count() const;
+  double value_deg(std::size_t i) const noexcept { return first_deg + static_cast<double>(i) * step_deg; }
+};
+
+/// Past this many points a map is refused: at a millisecond each it would run for hours, at some 250 bytes
+/// each fill gigabytes.
+inline constexpr std::size_t most_map_points = 10'000'000;
+
+/// What a map asks: for every pair of values of the two held angles, from the start value of the third, how
+/// far that one turns either way.
+///
+///     column.count()
+///     +---+---+---+
+///     | 0 | 1 | 2 |     points row by row
+///     +---+---+---+     row.count()
+///     | 3 | 4 | 5 |
+///     +---+---+---+
+struct MapGrid {
+  GridAxis row = {}, column = {};
+  JointAngle vary = JointAngle::internal_rotation;
+  Angle start = {};                                               ///< of the varied angle
+  TurnRange range = {Angle::degrees(-180), Angle::degrees(180)};  ///< from the start, either way
+
+  std::size_t size() const { return row.count() * column.count(); }
+  /// The joint's angles at the start of a point's turns.
+  JointAngles start_of(std::size_t point) const;
+};
+
+/// Throws UsageError for three angles that are not all different, steps that are not above 0, axes that end
+/// before they begin, values that are not finite, an empty range or one of more than half a turn either way,
+/// a hinge, or more than most_map_points (saying how many).
+void check_grid(const MapGrid& grid, JointKind kind);
+
+/// The limits at one point. In contact at the start, both ends say so, turned 0: the point has no free range,
+/// even if there is one elsewhere on its turn.
+struct MapPoint {
+  TurnEnd negative, positive;
+
+  bool free_at_start() const noexcept { return positive.reason != LimitReason::contact_at_start; }
+};
+
+/// A map, whole or in part: what is not computed yet is empty. Fill it, save it, fill the rest another day.
+struct MotionMap {
+  MapGrid grid;
+  std::vector<std::optional<MapPoint>> points;  ///< grid.size(), row by row
+  TurnWork work;                                ///< of the points computed since it was made or loaded
+
+  /// Empty. Throws as check_grid() for a ball.
+  explicit MotionMap(const MapGrid& of);
+
+  std::size_t done() const noexcept;
+  bool complete() const noexcept { return done() == points.size(); }
+};
+
+/// How a map's computation is followed and ended.
+struct MapControl {
+  /// Called after every point from whichever thread computed it, one call at a time, with growing counts.
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
+  /// Points begun are finished, no others are begun.
+  std::stop_token stop = {};
+};
+
+/// Computes the points that are missing, on all threads. Each point's limits are those of RangeOfMotion:
+/// the same bits whatever the threads, and whether computed in one go or in several. Throws as check_grid().
+void fill(MotionMap& map, const RangeOfMotion& joint, const MapControl& control = {});
+
+/// How much of the space of joint angles is free, by the trapezoidal rule over the grid: the error of the
+/// volume goes with the square of the step where limits change smoothly.
+///
+/// Three angles are coordinates of rotations, and equal boxes of them are not equally many rotations: near
+/// adduction = +-90 degrees flexion and internal rotation turn about nearly one line. A small change of the
+/// angles turns M by omega = e1 df + e2 da + e3 dr, and the volume that these three vectors span,
+/// |e1 . (e2 x e3)| = |e1 x e3| = cos(adduction), is what a box da df dr holds of the invariant (Haar)
+/// measure, which does not ask how rotations are written down. Weighted by it the volume is the same in any
+/// joint coordinate system; the whole of rotations, flexion and internal rotation over a full turn and
+/// adduction over a half, has 360 * 360 * 360 / pi deg^3.
+struct FreeVolume {
+  double plain_deg3 = 0;
+  double cosine_weighted_deg3 = 0;    ///< cos(adduction) integrated too, exactly where adduction is varied
+  std::vector<double> row_area_deg2;  ///< free width over the columns of each row
+};
+
+/// Empty until the map is complete. A grid with one row has no volume, with one column no areas: zeros.
+std::optional<FreeVolume> free_volume(const MotionMap& map);
+
+}  // namespace condyle

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+
+/// Repairs that lose nothing: the surface is the same set of points before and after. Each is asked for by
+/// name, changes the mesh in place and says what it did. Whatever would need a guess (filling holes, dropping
+/// triangles, moving vertices) is not here.
+
+namespace condyle {
+
+/// For every point the number of the first one with the same coordinates, -0 being +0: its own number where
+/// it is that first one. Coordinates must not be NaN. n log n.
+std::vector<Index> first_of_same_coordinates(PointsView points);
+
+/// Merges vertices whose coordinates are the same, -0 being +0, without any tolerance; the first of each
+/// stays, in its place. Triangles stay, all of them. Returns how many vertices went.
+std::size_t weld_exactly(TriMesh& mesh);
+
+/// Drops vertices no triangle uses; the order of the others stays. Returns how many went.
+std::size_t drop_unreferenced_vertices(TriMesh& mesh);
+
+/// Turns a mesh that is wholly inside out, by exchanging the last two corners of every triangle: each
+/// component closed and of negative volume. Returns the number of triangles turned: all, or none where no
+/// component is inside out. Raises MeshError where that cannot be told (open, not wound consistently) or
+/// where only some components are inside out: these may be the skins of cavities, which are wound that way.
+std::size_t flip_if_inside_out(TriMesh& mesh);
+
+}  // namespace condyle

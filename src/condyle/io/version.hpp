@@ -1,8 +1,0 @@
-#pragma once
-
-namespace condyle {
-
-/// Version of the joint file format and of the result files this build reads and writes.
-inline constexpr int format_version = 1;
-
-}  // namespace condyle

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "contact/triangle_pairs.hpp"
+#include "mesh/triangle_tree.hpp"
+
+namespace condyle::contact {
+
+/// Two bodies made ready to be asked, at any pose, whether and where they touch: a tree on each. Built once.
+///
+/// Every answer is exact for the vertices of M as `posed` rounds them into F. A pose that turns about the
+/// origin of both frames is answered fastest; any other is answered right.
+class BodyPair {
+ public:
+  BodyPair(const TriMesh& fixed, const TriMesh& mobile);
+
+  /// Whether the bodies share a point: surfaces that meet (touching counts; triangles of zero area meet
+  /// nothing), or one body inside the other's solid, where that one is closed.
+  ///
+  /// Ends at the first pair of triangles found. `last_hit` is asked first and becomes that pair: along a
+  /// motion the next pose mostly touches there too. It changes how long the answer takes, never the answer.
+  bool touch(const Pose& X_FM, std::optional<TrianglePair>& last_hit) const;
+  bool touch(const Pose& X_FM) const;
+
+  /// The exact set of intersecting triangle pairs, ascending; open meshes too. One thread.
+  std::vector<TrianglePair> pairs(const Pose& X_FM) const;
+
+ private:
+  struct Body {
+    mesh::TriangleTree tree;
+    bool is_closed;
+    std::vector<Index> place_of_triangle;  ///< By the mesh's number.
+    std::vector<Index> piece_vertices;     ///< The place of one vertex of each connected piece.
+
+    explicit Body(const TriMesh& mesh);
+  };
+  bool one_inside_other(const Pose& X_FM) const;
+
+  Body fixed_, mobile_;
+};
+
+}  // namespace condyle::contact

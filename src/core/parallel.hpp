@@ -1,0 +1,19 @@
+#pragma once
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <cstddef>
+
+namespace condyle::core {
+
+/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena. A body
+/// writes only to its own elements: results then do not depend on the number of threads. Limit threads from
+/// outside with tbb::global_control or tbb::task_arena.
+template <class Body>
+void parallel_chunks(std::size_t count, std::size_t grain, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
+                    [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+}
+
+}  // namespace condyle::core

@@ -1,0 +1,235 @@
+#include "condyle/io/joint_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/whole_file.hpp"
+#include "io/file/format_version.hpp"
+#include "io/joint/toml_table.hpp"
+
+namespace condyle {
+namespace {
+
+using io::TomlTable;
+
+constexpr std::array<std::string_view, 3> repair_names{"weld", "drop_unreferenced", "flip_inverted"};
+
+toml::table parsed(const std::filesystem::path& path) {
+  try {
+    return toml::parse(read_whole_file(path), path.string());
+  } catch (const toml::parse_error& error) {
+    std::string what(error.description());
+    std::replace_if(
+        what.begin(), what.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+    throw FileError(fmt::format("{}: line {}: not TOML: {}", path.string(), error.source().begin.line, what));
+  }
+}
+
+/// Points of the file in mm.
+class Lengths {
+ public:
+  explicit Lengths(LengthUnit unit) : scale_(unit == LengthUnit::metres ? 1000.0 : 1.0) {}
+
+  Vec3 required_point(io::TomlTable& table, std::string_view key) const {
+    return scale_ * table.required(key, table.triple(key));
+  }
+  double positive(io::TomlTable& table, std::string_view key) const {
+    const double value = table.required(key, table.number(key));
+    if (!(value > 0)) table.fail(key, "must be above 0");
+    return scale_ * value;
+  }
+
+ private:
+  double scale_;
+};
+
+BodyEntry body_entry(io::TomlTable& file, std::string_view key) {
+  io::TomlTable table = file.required(key, file.table(key));
+  BodyEntry entry;
+  entry.name = table.text("name").value_or(std::string(key));
+  const std::string mesh = table.required("mesh", table.text("mesh"));
+  if (mesh.empty()) table.fail("mesh", "must name a file");
+  entry.mesh = mesh;
+  for (const std::string& word : table.texts("repair").value_or(std::vector<std::string>{})) {
+    try {
+      entry.repairs.push_back(repair_named(word));
+    } catch (const UsageError& error) {
+      table.fail("repair", error.what());
+    }
+  }
+  table.finish();
+  return entry;
+}
+
+CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
+  CentreFit fit;
+  if (frame.has("fit_body"))
+    fit.body = frame.required_word("fit_body", {"fixed", "mobile"}) == 0 ? BodyRole::fixed : BodyRole::mobile;
+  if (auto within = frame.table("fit_within")) {
+    fit.within = Sphere{lengths.required_point(*within, "centre"), lengths.positive(*within, "radius")};
+    within->finish();
+  }
+  return fit;
+}
+
+/// The landmarks present decide which frame is meant; every set is refused unless it is complete and alone.
+void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameEntry& frame) {
+  const auto point = [&](std::string_view key) { return lengths.required_point(landmarks, key); };
+  if (landmarks.has("medial_epicondyle") || landmarks.has("lateral_epicondyle")) {
+    const Vec3 medial = point("medial_epicondyle"), lateral = point("lateral_epicondyle");
+    if (landmarks.has("hip_centre"))
+      frame.axes = TransepicondylarAxis{medial, lateral, point("hip_centre")};
+    else
+      frame.axes = FemurLandmarks{medial, lateral};
+  } else {
+    // One side's spines do not fix where the midline is: both sides are asked for by name.
+    const Vec3 right = point("right_asis"), left = point("left_asis");
+    if (landmarks.has("pubic_symphysis"))
+      frame.axes = AnteriorPelvicPlane{right, left, point("pubic_symphysis")};
+    else
+      frame.axes = PelvisLandmarks{right, left, point("right_psis"), point("left_psis")};
+  }
+  landmarks.finish();
+}
+
+void read_axes(io::TomlTable& table, const Lengths& lengths, FrameEntry& frame) {
+  if (auto landmarks = table.table("landmarks")) {
+    for (const auto key : {"anterior", "superior"})
+      if (table.has(key)) table.fail(key, "frame.landmarks gives the axes already: leave one of the two out");
+    read_landmarks(*landmarks, lengths, frame);
+    return;
+  }
+  const auto anterior = table.triple("anterior"), superior = table.triple("superior");
+  frame.axes = FrameDirections{table.required("anterior", anterior), table.required("superior", superior)};
+}
+
+void read_centre(io::TomlTable& table, const Lengths& lengths, FrameEntry& frame) {
+  if (std::holds_alternative<TransepicondylarAxis>(frame.axes)) {
+    if (table.has("centre"))
+      table.fail("centre", "with hip_centre the epicondyles give the centre: leave it out");
+    return;
+  }
+  const auto* text = "must be [x, y, z] or \"fit\"";
+  if (!table.has("centre")) table.fail("centre", "is missing");
+  if (table.is_text("centre")) {
+    if (*table.text("centre") != "fit") table.fail("centre", text);
+    frame.centre = centre_fit(table, lengths);
+  } else {
+    for (const auto key : {"fit_body", "fit_within"})
+      if (table.has(key)) table.fail(key, "only with centre = \"fit\"");
+    frame.centre = lengths.required_point(table, "centre");
+  }
+}
+
+FrameEntry frame_entry(io::TomlTable& file, const Lengths& lengths) {
+  io::TomlTable table = file.required("frame", file.table("frame"));
+  FrameEntry frame;
+  read_axes(table, lengths, frame);
+  read_centre(table, lengths, frame);
+  table.finish();
+  return frame;
+}
+
+JointAngles rest_angles(io::TomlTable& file, JointKind kind) {
+  auto table = file.table("rest");
+  if (!table) return {};
+  const auto angle = [&](JointAngle name) {
+    return Angle::degrees(table->number(name_of(name)).value_or(0));
+  };
+  const JointAngles rest{angle(JointAngle::flexion), angle(JointAngle::adduction),
+                         angle(JointAngle::internal_rotation)};
+  if (kind == JointKind::hinge)
+    for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
+      if (table->number(name_of(name)).value_or(0) != 0)
+        table->fail(name_of(name), "a hinge turns in flexion alone");
+  table->finish();
+  return rest;
+}
+
+/// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
+/// by its order which way it turns.
+Motion own_motion(io::TomlTable& table, JointKind kind) {
+  Motion motion;
+  motion.name = table.required("name", table.text("name"));
+  if (motion.name.empty()) table.fail("name", "must not be empty");
+  const auto vary = table.required("vary", table.text("vary"));
+  try {
+    motion.vary = joint_angle_named(vary);
+  } catch (const UsageError& error) {
+    table.fail("vary", error.what());
+  }
+  if (table.has(vary)) table.fail(vary, "is the angle that varies: its range says where it starts");
+  const auto [start, end] = table.required("range", table.pair("range"));
+  if (start == end) table.fail("range", "is empty");
+  motion.sense = start < end ? TurnSense::positive : TurnSense::negative;
+  motion.range = Angle::degrees(std::abs(end - start));
+  for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+    const bool varies = angle == motion.vary;
+    const double held = varies ? start : table.number(name_of(angle)).value_or(0);
+    if (kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
+      table.fail(varies ? "vary" : name_of(angle), "a hinge turns in flexion alone");
+    motion.start = turned_by(motion.start, angle, Angle::degrees(held));
+  }
+  table.finish();
+  try {
+    check_motion(motion, kind);
+  } catch (const UsageError& error) {
+    table.fail("range", error.what());
+  }
+  return motion;
+}
+
+std::vector<Motion> own_motions(io::TomlTable& file, JointKind kind) {
+  std::vector<Motion> motions;
+  for (io::TomlTable& table : file.tables("motion")) {
+    Motion motion = own_motion(table, kind);
+    for (const Motion& other : motions)
+      if (other.name == motion.name) table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+}  // namespace
+
+Repair repair_named(std::string_view name) {
+  const auto found = std::find(repair_names.begin(), repair_names.end(), name);
+  if (found == repair_names.end())
+    throw UsageError(
+        fmt::format("unknown repair \"{}\"; there are weld, drop_unreferenced and flip_inverted", name));
+  return static_cast<Repair>(found - repair_names.begin());
+}
+
+std::string_view name_of(Repair repair) noexcept {
+  return repair_names[static_cast<std::size_t>(repair)];
+}
+
+JointFile read_joint_file(const std::filesystem::path& path) {
+  const toml::table root = parsed(path);
+  io::TomlTable file(path, root, "");
+  // The version comes first: what follows may be spelt otherwise in another one.
+  if (const auto version = file.required("condyle", file.integer("condyle")); version != io::format_version)
+    file.fail("condyle",
+              fmt::format("format version {} is not known; this is version {}", version, io::format_version));
+  JointFile joint;
+  joint.path = path;
+  joint.name = file.required("name", file.text("name"));
+  joint.kind = file.required_word("kind", {"ball", "hinge"}) == 0 ? JointKind::ball : JointKind::hinge;
+  joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
+  joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
+  joint.fixed = body_entry(file, "fixed");
+  joint.mobile = body_entry(file, "mobile");
+  for (BodyEntry* body : {&joint.fixed, &joint.mobile}) body->mesh = path.parent_path() / body->mesh;
+  joint.frame = frame_entry(file, Lengths(joint.units));
+  joint.rest = rest_angles(file, joint.kind);
+  joint.motions = own_motions(file, joint.kind);
+  file.finish();
+  return joint;
+}
+
+}  // namespace condyle

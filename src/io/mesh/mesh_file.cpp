@@ -1,0 +1,89 @@
+#include "condyle/io/mesh_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "condyle/io/whole_file.hpp"
+#include "condyle/repair.hpp"
+#include "io/mesh/mesh_file_parse.hpp"
+
+namespace condyle {
+namespace {
+
+using io::mesh_file::RawMesh;
+using io::mesh_file::Source;
+
+MeshFormat format_of(const std::filesystem::path& path) {
+  const auto extension = io::mesh_file::lower_case(path.extension().string());
+  if (extension == ".stl") return MeshFormat::stl;
+  if (extension == ".obj") return MeshFormat::obj;
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".vtp") return MeshFormat::vtp;
+  if (extension == ".vtk") return MeshFormat::vtk;
+  throw FileError(fmt::format("{}: unknown extension '{}': .stl, .obj, .ply, .vtp and .vtk are read",
+                              path.string(), path.extension().string()));
+}
+
+RawMesh read_raw(const Source& source, MeshFormat format) {
+  switch (format) {
+    case MeshFormat::stl:
+      return io::mesh_file::read_stl(source);
+    case MeshFormat::obj:
+      return io::mesh_file::read_obj(source);
+    case MeshFormat::ply:
+      return io::mesh_file::read_ply(source);
+    case MeshFormat::vtp:
+      return io::mesh_file::read_vtp(source);
+    case MeshFormat::vtk:
+      break;
+  }
+  return io::mesh_file::read_legacy_vtk(source);
+}
+
+/// What TriMesh promises, held against the file; this is the one place where it is.
+TriMesh checked(RawMesh&& raw, const Source& source) {
+  const auto count = raw.vertices.size();
+  if (count == 0) source.fail("holds no vertices");
+  if (count >= no_index) source.fail(fmt::format("holds {} vertices, more than can be numbered", count));
+  if (raw.triangles.empty()) source.fail(fmt::format("holds {} vertices but no triangles", count));
+  for (std::size_t v = 0; v < count; ++v) {
+    for (const auto& [axis, value] :
+         {std::pair{'x', raw.vertices.x[v]}, {'y', raw.vertices.y[v]}, {'z', raw.vertices.z[v]}}) {
+      if (!std::isfinite(value)) source.fail(fmt::format("vertex {}: coordinate {} is {}", v, axis, value));
+    }
+  }
+  TriMesh mesh{std::move(raw.vertices), {}};
+  mesh.triangles.reserve(raw.triangles.size());
+  for (std::size_t t = 0; t < raw.triangles.size(); ++t) {
+    auto& triangle = mesh.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto v = raw.triangles[t][k];
+      if (v < 0 || std::cmp_greater_equal(v, count)) {
+        source.fail(fmt::format("triangle {} uses vertex {} of {}", t, v, count));
+      }
+      triangle[k] = static_cast<Index>(v);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name) {
+  const Source source{bytes, name};
+  if (bytes.empty()) source.fail("the file is empty");
+  MeshFile file{checked(read_raw(source, format), source), 0};
+  if (format == MeshFormat::stl) file.welded_vertices = weld_exactly(file.mesh);
+  return file;
+}
+
+MeshFile read_mesh(const std::filesystem::path& path) {
+  check_is_file(path);
+  const auto format = format_of(path);
+  return read_mesh(read_whole_file(path), format, path.string());
+}
+
+}  // namespace condyle

@@ -1,0 +1,218 @@
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+#include <utility>
+
+#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/mesh_file_vtk_array.hpp"
+
+namespace condyle::io::mesh_file {
+namespace {
+
+struct TypeName {
+  std::string_view name;
+  VtkType type;
+};
+// vtkIdType stands for int in files, whatever it is in memory. "long" has the size it had where it was
+// written: not read.
+constexpr TypeName type_names[] = {{"char", VtkType::i8},          {"unsigned_char", VtkType::u8},
+                                   {"short", VtkType::i16},        {"unsigned_short", VtkType::u16},
+                                   {"int", VtkType::i32},          {"unsigned_int", VtkType::u32},
+                                   {"vtktypeint64", VtkType::i64}, {"vtktypeuint64", VtkType::u64},
+                                   {"vtkidtype", VtkType::i32},    {"float", VtkType::f32},
+                                   {"double", VtkType::f64}};
+
+/// From this version on, cells are given by offsets and corners, before by length and corners in turn.
+constexpr double first_version_with_offsets = 5;
+
+/// Header and sections of a legacy file: lines of text, between them numbers as text or as big-endian bytes.
+class Reader {
+ public:
+  explicit Reader(const Source& source) : source_(source), text_(source) {}
+
+  RawMesh read() {
+    read_header();
+    RawMesh raw;
+    while (true) {
+      const auto word = text_.word();
+      const auto section = lower_case(word);
+      // The geometry comes first: what follows belongs to the arrays.
+      if (section.empty() || section == "cell_data" || section == "point_data") return raw;
+      if (section == "points") {
+        raw.vertices = read_points();
+      } else if (section == "polygons") {
+        raw.triangles = triangles_from(read_cells("polygons"));
+      } else if (section == "vertices" || section == "lines") {
+        read_cells(section);  // they bound nothing
+      } else if (section == "triangle_strips") {
+        if (!read_cells(section).ends.empty()) source_.fail("triangle strip 0: only triangles are read");
+      } else if (section == "field") {
+        skip_field();
+      } else if (section == "metadata") {
+        skip_metadata();
+      } else {
+        text_.fail(in_quotes(word) + " is no section of a PolyData file");
+      }
+    }
+  }
+
+ private:
+  /// Corners of all cells in one row, and where in it each cell ends.
+  struct Cells {
+    std::vector<std::int64_t> corners, ends;
+  };
+
+  void read_header() {
+    const auto first = text_.rest_of_line();
+    if (!first.starts_with("# vtk DataFile Version ")) text_.fail("should be '# vtk DataFile Version ...'");
+    double version = 0;
+    const auto number = first.substr(first.rfind(' ') + 1);
+    if (!parse_number(number, version))
+      text_.fail(in_quotes(number) + " should be the version of the format");
+    has_offsets_ = version >= first_version_with_offsets;
+    text_.rest_of_line();  // the title
+    const auto encoding = text_.word();
+    is_text_ = lower_case(encoding) == "ascii";
+    if (!is_text_ && lower_case(encoding) != "binary")
+      text_.fail(in_quotes(encoding) + " should be 'ASCII' or 'BINARY'");
+    text_.expect("DATASET");
+    const auto kind = text_.word();
+    if (lower_case(kind) != "polydata") text_.fail("holds " + in_quotes(kind) + ": only 'POLYDATA' is read");
+  }
+
+  Points read_points() {
+    const auto count = text_.number<std::uint64_t>("the number of points");
+    const VtkType type = read_type();
+    if (!is_floating(type)) text_.fail("points should be float or double");
+    if (count > largest_count / 3) source_.fail("points: announces more than any file can hold");
+    const auto xyz = numbers<double>(type, 3 * count, "points");
+    Points points;
+    points.reserve(xyz.size() / 3);
+    for (std::size_t i = 0; i < xyz.size(); i += 3) points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    return points;
+  }
+
+  Cells read_cells(std::string_view section) {
+    const auto first = text_.number<std::uint64_t>("a number of cells");
+    const auto second = text_.number<std::uint64_t>("a size of the cells");
+    return has_offsets_ ? cells_by_offsets(first, second, section) : cells_by_length(first, second, section);
+  }
+
+  Cells cells_by_offsets(std::uint64_t offsets, std::uint64_t corners, std::string_view section) {
+    Cells cells;
+    if (offsets == 0) return cells;
+    text_.expect("OFFSETS");
+    cells.ends = numbers<std::int64_t>(read_type(), offsets, section);
+    text_.expect("CONNECTIVITY");
+    cells.corners = numbers<std::int64_t>(read_type(), corners, section);
+    if (cells.ends.front() != 0) source_.fail(fmt::format("{}: the first offset should be 0", section));
+    cells.ends.erase(cells.ends.begin());
+    return cells;
+  }
+
+  Cells cells_by_length(std::uint64_t count, std::uint64_t size, std::string_view section) {
+    const auto row = numbers<std::int64_t>(VtkType::i32, size, section);
+    if (count > row.size()) source_.fail(fmt::format("{}: {} cells in {} numbers", section, count, size));
+    Cells cells;
+    std::size_t at = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (at == row.size() || row[at] < 0 || std::cmp_greater(row[at], row.size() - at - 1)) {
+        source_.fail(fmt::format("{}: cell {} goes beyond the {} numbers of all", section, i, size));
+      }
+      const auto first = row.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+      cells.corners.insert(cells.corners.end(), first, first + row[at]);
+      cells.ends.push_back(static_cast<std::int64_t>(cells.corners.size()));
+      at += 1 + static_cast<std::size_t>(row[at]);
+    }
+    return cells;
+  }
+
+  std::vector<std::array<std::int64_t, 3>> triangles_from(const Cells& cells) const {
+    check_are_triangles(cells.ends, source_);
+    if (cells.corners.size() != 3 * cells.ends.size()) {
+      source_.fail(
+          fmt::format("polygons: {} corners for {} triangles", cells.corners.size(), cells.ends.size()));
+    }
+    std::vector<std::array<std::int64_t, 3>> triangles;
+    triangles.reserve(cells.ends.size());
+    for (std::size_t i = 0; i < cells.corners.size(); i += 3) {
+      triangles.push_back({cells.corners[i], cells.corners[i + 1], cells.corners[i + 2]});
+    }
+    return triangles;
+  }
+
+  void skip_field() {
+    text_.word();  // its name
+    const auto arrays = text_.number<std::uint64_t>("a number of arrays");
+    for (std::uint64_t i = 0; i < arrays; ++i) {
+      while (lower_case(text_.word()) == "metadata") skip_metadata();
+      const auto components = text_.number<std::uint64_t>("a number of components");
+      const auto tuples = text_.number<std::uint64_t>("a number of tuples");
+      const VtkType type = read_type();
+      if (components > 0 && tuples > largest_count / components)
+        source_.fail("field: announces more than any file can hold");
+      numbers<double>(type, components * tuples, "field");
+    }
+  }
+
+  /// Up to the next empty line.
+  void skip_metadata() {
+    text_.rest_of_line();
+    while (!text_.at_end() && !text_.rest_of_line().empty()) {
+    }
+  }
+
+  VtkType read_type() {
+    const auto word = text_.word();
+    const auto name = lower_case(word);
+    for (const auto& known : type_names) {
+      if (known.name == name) return known.type;
+    }
+    text_.fail(in_quotes(word) + " is no type of numbers that is read");
+  }
+
+  /// So many numbers. No memory is asked for before the file is known to have the bytes.
+  template <class Out>
+  std::vector<Out> numbers(VtkType type, std::uint64_t count, std::string_view what) {
+    return with_type(type, [&](auto zero) { return numbers_of<decltype(zero), Out>(count, what); });
+  }
+
+  template <class T, class Out>
+  std::vector<Out> numbers_of(std::uint64_t count, std::string_view what) {
+    if constexpr (std::is_floating_point_v<T> && std::is_integral_v<Out>) {
+      text_.fail(fmt::format("{}: should be of an integer type", what));
+    } else {
+      if (!is_text_ && count > 0) text_.rest_of_line();
+      const std::size_t room = is_text_ ? (text_.remaining() + 1) / 2 : text_.remaining() / sizeof(T);
+      if (count > room)
+        source_.fail(fmt::format("{}: {} numbers announced, the file ends before", what, count));
+      std::vector<Out> values;
+      values.reserve(count);
+      if (is_text_) {
+        using Parsed =
+            std::conditional_t<sizeof(T) == 1, int, T>;  // from_chars takes a type of one byte for a letter
+        for (std::uint64_t i = 0; i < count; ++i) values.push_back(as<Out>(text_.number<Parsed>("a number")));
+      } else {
+        ByteCursor bytes({text_.take(count * sizeof(T)), source_.name});
+        for (std::uint64_t i = 0; i < count; ++i) values.push_back(as<Out>(bytes.value<T>(std::endian::big)));
+      }
+      return values;
+    }
+  }
+
+  // No count times three, and no length of a row in bytes, overflows below this.
+  static constexpr std::uint64_t largest_count = std::numeric_limits<std::uint64_t>::max() / 2;
+
+  Source source_;
+  TextCursor text_;
+  bool is_text_ = true, has_offsets_ = false;
+};
+
+}  // namespace
+
+/// Legacy PolyData, text and binary, both ways of giving cells. Arrays after the geometry are not looked at.
+RawMesh read_legacy_vtk(const Source& source) {
+  return Reader(source).read();
+}
+
+}  // namespace condyle::io::mesh_file

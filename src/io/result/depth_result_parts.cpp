@@ -1,0 +1,77 @@
+#include "io/result/depth_result_parts.hpp"
+
+#include <fmt/format.h>
+
+#include "io/file/format_version.hpp"
+
+namespace condyle::io {
+namespace {
+
+Json pose_json(const Pose& X) {
+  Json rows = Json::array();
+  for (int i = 0; i < 4; ++i) rows.push_back({X(i, 0), X(i, 1), X(i, 2), X(i, 3)});
+  return rows;
+}
+
+}  // namespace
+
+Json numbers(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+Json depth_header(const DepthQuestion& question, const char* method) {
+  const auto& [joint, angles, X_FM] = question;
+  return {{"condyle", format_version},
+          {"joint", joint.name},
+          {"fixed", joint.fixed.name},
+          {"mobile", joint.mobile.name},
+          {"side", joint.side == Side::right ? "right" : "left"},
+          {"method", method},
+          {"pose_deg",
+           {{"flexion", angles.flexion.degrees()},
+            {"adduction", angles.adduction.degrees()},
+            {"internal_rotation", angles.internal_rotation.degrees()}}},
+          {"X_FM", pose_json(X_FM)}};
+}
+
+std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
+  const auto& [joint, angles, X_FM] = question;
+  return fmt::format("{}: {} in {}, flexion {:g}, adduction {:g}, internal rotation {:g} deg\n", joint.name,
+                     joint.mobile.name, joint.fixed.name, angles.flexion.degrees(),
+                     angles.adduction.degrees(), angles.internal_rotation.degrees()) +
+         fmt::format("  {}; {} intersecting triangle pairs\n", in_contact ? "in contact" : "free", pairs);
+}
+
+std::string inside_line(const Body& body, std::size_t inside, std::size_t on_surface) {
+  std::string line =
+      fmt::format("  {}: {} of {} vertices inside", body.name, inside, body.mesh.vertices.size());
+  if (on_surface > 0) line += fmt::format(", {} exactly on the surface", on_surface);
+  return line + "\n";
+}
+
+std::string place_text(const Vec3& p) {
+  return fmt::format("at ({:.2f}, {:.2f}, {:.2f}) mm", p.x(), p.y(), p.z());
+}
+
+std::string open_line(const Body& body) {
+  return fmt::format("  {}: no answer, the other mesh is open and has no inside\n", body.name);
+}
+
+}  // namespace condyle::io
+
+namespace condyle {
+
+InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs) {
+  std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles.size()),
+      mobile(joint.mobile.mesh.triangles.size());
+  for (const auto& pair : pairs) fixed[pair.fixed] = 1, mobile[pair.mobile] = 1;
+  return {{"in_contact", std::move(fixed)}, {"in_contact", std::move(mobile)}};
+}
+
+std::string pairs_csv(const std::vector<TrianglePair>& pairs) {
+  std::string text = "fixed_triangle,mobile_triangle\n";
+  for (const auto& [fixed, mobile] : pairs) text += fmt::format("{},{}\n", fixed, mobile);
+  return text;
+}
+
+}  // namespace condyle

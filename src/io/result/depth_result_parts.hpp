@@ -1,0 +1,116 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "condyle/io/depth_result.hpp"
+#include "contact/radial_summary.hpp"
+
+/// What the results of both methods have in common.
+
+namespace condyle::io {
+
+using Json = nlohmann::ordered_json;
+
+inline constexpr const char* scope_note =
+    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
+    "device";
+
+/// An empty answer is null, never a number that could be read as one.
+template <class Value>
+Json nullable(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json numbers(const Vec3& p);
+
+/// The question and the answers that do not depend on the method.
+Json depth_header(const DepthQuestion& question, const char* method);
+
+/// "right hip: femur in hip bone, flexion 90, ...", and whether they touch; two lines.
+std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs);
+
+/// "  femur: 25 of 7349 vertices inside" and what is worth saying besides; one line.
+std::string inside_line(const Body& body, std::size_t inside, std::size_t on_surface);
+
+/// One body's vertices against the other body; without a summary where the other mesh is open.
+template <class Summary>
+struct BodyView {
+  const char* key;
+  const Body& body;
+  std::optional<Summary> summary;
+  Pose X_F;  // pose of this body in F
+
+  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices[vertex]); }
+};
+
+/// Both bodies of a result.
+template <class Summary>
+struct BodyViews {
+  BodyView<Summary> mobile, fixed;
+
+  BodyViews(const DepthQuestion& question, std::optional<Summary> of_mobile, std::optional<Summary> of_fixed)
+      : mobile{"mobile", question.joint.mobile, std::move(of_mobile), question.X_FM},
+        fixed{"fixed", question.joint.fixed, std::move(of_fixed), Pose::Identity()} {}
+  std::array<const BodyView<Summary>*, 2> both() const { return {&mobile, &fixed}; }
+
+  /// The least of one measured gap over both bodies.
+  template <class Value>
+  std::optional<Value> least(std::optional<Value> Summary::*gap) const {
+    std::optional<Value> least;
+    for (const auto* view : both()) {
+      if (!view->summary) continue;
+      const std::optional<Value>& candidate = (*view->summary).*gap;
+      if (candidate && (!least || *candidate < *least)) least = candidate;
+    }
+    return least;
+  }
+
+  /// The vertex of either body that is deepest by `measure`, of those that `candidate` offers.
+  template <class Vertex>
+  struct Deepest {
+    const BodyView<Summary>* view;
+    Vertex vertex;
+  };
+  template <class Vertex, class Measure>
+  std::optional<Deepest<Vertex>> deepest(std::optional<Vertex> Summary::*candidate,
+                                         Measure Vertex::*measure) const {
+    std::optional<Deepest<Vertex>> deepest;
+    for (const auto* view : both()) {
+      if (!view->summary) continue;
+      const std::optional<Vertex>& offered = (*view->summary).*candidate;
+      if (offered && (!deepest || (*offered).*measure > deepest->vertex.*measure)) deepest = {view, *offered};
+    }
+    return deepest;
+  }
+
+  /// The counts that both methods give, under the keys of docs/formats.md.
+  void add_counts(Json& json, bool in_contact, std::size_t pairs) const {
+    const auto inside = [](const BodyView<Summary>& view) {
+      return view.summary ? Json(view.summary->vertices_inside) : Json(nullptr);
+    };
+    json["in_contact"] = in_contact;
+    json["mobile_vertices_inside"] = inside(mobile);
+    json["fixed_vertices_inside"] = inside(fixed);
+    json["triangle_pairs"] = pairs;
+  }
+};
+
+/// Where the deepest vertex is, under the keys of docs/formats.md; nulls where there is none.
+template <class Deepest>
+void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
+  json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
+  json["deepest_vertex"] = deepest ? Json(deepest->vertex.vertex) : Json(nullptr);
+  json["deepest_point_mm"] =
+      deepest ? numbers(deepest->view->in_fixed_frame(deepest->vertex.vertex)) : Json(nullptr);
+}
+
+/// "at (17.97, 20.65, 8.54) mm".
+std::string place_text(const Vec3& p);
+
+/// Why a body has no figures; one line.
+std::string open_line(const Body& body);
+
+}  // namespace condyle::io

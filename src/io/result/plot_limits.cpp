@@ -1,0 +1,162 @@
+#include "io/result/plot_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace condyle {
+namespace {
+
+constexpr double canvas_width = 800, margin = 24, heading_height = 78, row_height = 32;
+constexpr double band_height = 22, bar_height = 9, name_size = 13, longest_name = 250;
+constexpr double value_column = 74, legend_line = 22, footer_height = 34, axis_height = 56;
+
+/// What ended a motion, as the plot tells them apart.
+enum class End { extra_articular, articular, end_of_range, contact_at_start };
+
+End end_of(const MotionLimit& limit) noexcept {
+  switch (limit.reason) {
+    case LimitReason::contact:
+      return limit.articular ? End::articular : End::extra_articular;
+    case LimitReason::end_of_range:
+      return End::end_of_range;
+    case LimitReason::contact_at_start:
+      return End::contact_at_start;
+  }
+  return End::end_of_range;
+}
+
+struct EndStyle {
+  std::string_view colour, words;
+};
+
+EndStyle style_of(End end) noexcept {
+  switch (end) {
+    case End::extra_articular:
+      return {palette::blue, "contact at rim, neck or beyond (extra-articular)"};
+    case End::articular:
+      return {palette::orange, "contact inside the joint (articular)"};
+    case End::end_of_range:
+      return {palette::grey, "end of the range asked for, no contact"};
+    case End::contact_at_start:
+      return {palette::vermilion, "in contact at the start already"};
+  }
+  return {};
+}
+
+/// Each end has a shape of its own: the plot must read without colour.
+void draw_mark(SvgCanvas& canvas, End end, ScreenPoint at) {
+  const Ink ink{.fill = style_of(end).colour, .stroke = palette::paper, .stroke_width = 1.2};
+  const auto [x, y] = at;
+  switch (end) {
+    case End::extra_articular:
+      canvas.circle(at, 6.5, ink);
+      break;
+    case End::articular:
+      canvas.polygon({{x - 7.5, y}, {x, y - 7.5}, {x + 7.5, y}, {x, y + 7.5}}, ink);
+      break;
+    case End::end_of_range:
+      canvas.polygon({{x - 4, y - 7}, {x + 8, y}, {x - 4, y + 7}}, ink);
+      break;
+    case End::contact_at_start: {
+      const Ink stroke{.stroke = style_of(end).colour, .stroke_width = 2.6};
+      canvas.line({x - 5, y - 5}, {x + 5, y + 5}, stroke);
+      canvas.line({x - 5, y + 5}, {x + 5, y - 5}, stroke);
+      break;
+    }
+  }
+}
+
+double longest_turn(std::span<const MotionLimit> limits) {
+  double longest = 10;  // degrees: an axis of some length when nothing turns at all
+  for (const MotionLimit& limit : limits) {
+    longest = std::max(longest, limit.turned.degrees());
+    if (const auto normal = normal_hip_range(limit.motion.name))
+      longest = std::max(longest, normal->degrees());
+  }
+  return longest;
+}
+
+void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const PlotScale& x, double y) {
+  const double zero = x(0), end = x(limit.turned.degrees());
+  canvas.text({x.px_low - 12, y + name_size / 3},
+              text_within(readable_name(limit.motion.name), name_size, x.px_low - 12 - margin),
+              {.size = name_size, .anchor = TextAnchor::end});
+  if (const auto normal = normal_hip_range(limit.motion.name)) {
+    const double edge = x(normal->degrees());
+    canvas.rectangle({zero, y - band_height / 2}, edge - zero, band_height, {.fill = palette::light_grey});
+    canvas.line({edge, y - band_height / 2}, {edge, y + band_height / 2},
+                {.stroke = palette::quiet_text, .stroke_width = 1.5});
+  }
+  canvas.rectangle({zero, y - bar_height / 2}, end - zero, bar_height,
+                   {.fill = style_of(end_of(limit)).colour});
+  draw_mark(canvas, end_of(limit), {end, y});
+  canvas.text({canvas_width - margin, y + name_size / 3},
+              fmt::format("{:.2f}\xC2\xB0", limit.turned.degrees()),
+              {.size = name_size, .anchor = TextAnchor::end});
+}
+
+}  // namespace
+
+std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
+  struct Range {
+    std::string_view motion;
+    double degrees;
+  };
+  static constexpr std::array ranges{Range{"flexion", 120},          Range{"extension", 30},
+                                     Range{"abduction", 45},         Range{"adduction", 30},
+                                     Range{"internal_rotation", 45}, Range{"external_rotation", 45}};
+  for (const Range& range : ranges)
+    if (range.motion == motion) return Angle::degrees(range.degrees);
+  return std::nullopt;
+}
+
+std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits) {
+  const auto shown = [&](End end) {
+    return std::any_of(limits.begin(), limits.end(), [&](const auto& l) { return end_of(l) == end; });
+  };
+  std::vector<End> legend;
+  for (const End end : {End::extra_articular, End::articular, End::end_of_range, End::contact_at_start})
+    if (shown(end)) legend.push_back(end);
+  const bool any_normal = std::any_of(limits.begin(), limits.end(),
+                                      [](const auto& l) { return normal_hip_range(l.motion.name); });
+  double names = 0;
+  for (const MotionLimit& limit : limits)
+    names = std::max(names, text_width(readable_name(limit.motion.name), name_size));
+
+  const double rows = row_height * static_cast<double>(limits.size());
+  const double legend_height = legend_line * static_cast<double>(legend.size() + (any_normal ? 1 : 0));
+  const double bottom = heading_height + rows;
+  SvgCanvas canvas(canvas_width, bottom + axis_height + legend_height + footer_height,
+                   heading.joint + ": " + heading.subject);
+  draw_heading(canvas, heading);
+
+  const double longest = longest_turn(limits), step = tick_step(longest, 8);
+  const PlotScale x{0, step * std::ceil(longest / step), margin + std::min(names, longest_name) + 12,
+                    canvas_width - margin - value_column};
+  for (const double value : ticks(0, x.high, step))
+    canvas.line({x(value), heading_height}, {x(value), bottom}, {.stroke = palette::light_grey});
+  for (std::size_t i = 0; i < limits.size(); ++i)
+    draw_row(canvas, limits[i], x, heading_height + row_height * (static_cast<double>(i) + 0.5));
+  draw_bottom_axis(canvas, x, bottom, 8, "turned from the start of the motion, degrees");
+
+  double y = bottom + axis_height + legend_line / 2;
+  const double words = margin + 34;
+  for (const End end : legend) {
+    draw_mark(canvas, end, {margin + 12, y});
+    canvas.text({words, y + 4}, style_of(end).words, {.size = 12});
+    y += legend_line;
+  }
+  if (any_normal) {
+    canvas.rectangle({margin, y - 6}, 24, 12, {.fill = palette::light_grey});
+    canvas.line({margin + 24, y - 6}, {margin + 24, y + 6},
+                {.stroke = palette::quiet_text, .stroke_width = 1.5});
+    canvas.text({words, y + 4}, fmt::format("normal range of the living hip ({})", normal_hip_range_source),
+                {.size = 12});
+  }
+  draw_footer(canvas);
+  return canvas.document();
+}
+
+}  // namespace condyle

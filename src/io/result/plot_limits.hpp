@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "condyle/range_of_motion.hpp"
+#include "io/result/plot_axes.hpp"
+
+namespace condyle {
+
+/// How far a healthy adult hip is said to turn in the motion of this name; empty where the source has no
+/// value. American Academy of Orthopaedic Surgeons, "Joint Motion: Method of Measuring and Recording",
+/// Chicago 1965: flexion 120, extension 30, abduction 45, adduction 30, internal and external rotation 45
+/// degrees. Measured on the living, where soft tissue stops most motions before bone does: a bony limit past
+/// the range is usual, one well short of it is not.
+std::optional<Angle> normal_hip_range(std::string_view motion) noexcept;
+
+/// The source as it is named on plots and in results.
+inline constexpr std::string_view normal_hip_range_source =
+    "AAOS, Joint Motion: Method of Measuring and Recording, 1965";
+
+/// The limits of all motions as a horizontal bar chart, SVG text: how far each turns from its start in
+/// degrees, with a mark for the reason and, behind the bar, the normal range where there is a source for it.
+std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits);
+
+}  // namespace condyle

@@ -1,0 +1,64 @@
+#include "condyle/io/rom_files.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <string_view>
+
+#include "condyle/io/map_result.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/output_folder.hpp"
+#include "condyle/io/whole_file.hpp"
+#include "condyle/io/zone_result.hpp"
+#include "io/result/plot_clock_face.hpp"
+#include "io/result/plot_limits.hpp"
+
+namespace condyle {
+namespace {
+
+void write_zones(OutputFolder& out, const RomResult& result) {
+  for (std::size_t i = 0; i < result.zones.size(); ++i) {
+    if (!result.zones[i]) continue;
+    const ImpingementZone& zone = *result.zones[i];
+    const auto write = [&](std::string_view role, const TriMesh& mesh, const BodyZone& body) {
+      const MeshArray in_zone = zone_cell_array(body, mesh.triangles.size());
+      const std::string motion = file_name_part(zone.limit.motion.name);
+      write_vtp(out.file(fmt::format("zone_{:02}_{}_{}.vtp", i + 1, motion, role)), mesh,
+                zone_point_arrays(body), {&in_zone, 1});
+    };
+    write("fixed", result.joint.fixed.mesh, zone.fixed);
+    write("mobile", posed(zone_pose(zone, result.joint.side), result.joint.mobile.mesh), zone.mobile);
+  }
+}
+
+void write_map(OutputFolder& out, const MotionMap& map, std::string_view joint_name) {
+  const auto draw = [&](std::string_view name, MapView view) {
+    write_whole_file(out.file(fmt::format("map_{}.svg", name)), map_plot(plot_of(map, view, joint_name)));
+  };
+  write_whole_file(out.file("map.csv"), map_csv(map));
+  draw(movement_name(map.grid.vary, TurnSense::positive), MapView::positive_limit);
+  draw(movement_name(map.grid.vary, TurnSense::negative), MapView::negative_limit);
+  draw("free_range", MapView::free_range);
+}
+
+}  // namespace
+
+void write_rom(const std::filesystem::path& folder, const RomResult& result) {
+  OutputFolder out(folder);
+  const std::string& name = result.joint.name;
+  write_whole_file(out.file("rom.json"), rom_json(result));
+  write_whole_file(out.file("limits.csv"), rom_csv(result));
+  write_whole_file(out.file("limits.svg"),
+                   limits_plot({name, "How far each motion turns from its start"}, result.limits));
+  if (result.joint.kind == JointKind::ball)
+    write_whole_file(out.file("clock_face.svg"),
+                     clock_face_plot({name,
+                                      "Where motions end, seen from the joint centre in the sagittal "
+                                      "plane: 12 superior, 3 anterior"},
+                                     clock_contacts(result)));
+  write_zones(out, result);
+  if (result.map) write_map(out, *result.map, name);
+  out.commit();
+}
+
+}  // namespace condyle

@@ -1,0 +1,370 @@
+#include "condyle/io/rom_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "condyle/io/map_result.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "io/file/format_version.hpp"
+#include "io/result/csv_field.hpp"
+#include "io/result/map_summary.hpp"
+
+namespace condyle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
+
+double degrees_of(const JointAngles& angles, JointAngle angle) noexcept {
+  switch (angle) {
+    case JointAngle::flexion:
+      return angles.flexion.degrees();
+    case JointAngle::adduction:
+      return angles.adduction.degrees();
+    case JointAngle::internal_rotation:
+      return angles.internal_rotation.degrees();
+  }
+  return 0;
+}
+
+Json angles_json(const JointAngles& angles) {
+  Json json;
+  for (const JointAngle angle : all_angles) json[name_of(angle)] = degrees_of(angles, angle);
+  return json;
+}
+
+Json held_json(const Motion& motion) {
+  Json json;
+  for (const JointAngle angle : all_angles)
+    if (angle != motion.vary) json[name_of(angle)] = degrees_of(motion.start, angle);
+  return json;
+}
+
+std::string_view name_of_kind(FeatureKind kind) noexcept {
+  switch (kind) {
+    case FeatureKind::vertex:
+      return "vertex";
+    case FeatureKind::edge:
+      return "edge";
+    case FeatureKind::face:
+      return "face";
+  }
+  return "vertex";
+}
+
+/// "vertex 12", "edge 3-7", "face 40".
+std::string text_of(const Feature& feature) {
+  return feature.kind == FeatureKind::edge ? fmt::format("edge {}-{}", feature.id, feature.other_end)
+                                           : fmt::format("{} {}", name_of_kind(feature.kind), feature.id);
+}
+
+Json json_of(const Feature& feature) {
+  Json json{{"kind", name_of_kind(feature.kind)}};
+  if (feature.kind == FeatureKind::edge)
+    json["vertices"] = {feature.id, feature.other_end};
+  else
+    json["id"] = feature.id;
+  return json;
+}
+
+Json json_of(const Vec3& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+bool ends_in_contact(const MotionLimit& limit) noexcept {
+  return limit.reason != LimitReason::end_of_range;
+}
+
+/// Direction of the contact on the socket's clock.
+std::optional<double> hour_of(const Joint& joint, const MotionLimit& limit) {
+  if (joint.kind != JointKind::ball || !limit.contact) return std::nullopt;
+  return sagittal_clock().hour_of(limit.contact->fixed_point);
+}
+
+Json nullable(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+Json nullable_degrees(const std::optional<Angle>& angle) {
+  return angle ? Json(angle->degrees()) : Json(nullptr);
+}
+
+Json json_of(const BodyZone& zone) {
+  const auto deepest = [](const std::vector<double>& depths) -> Json {
+    double most = 0;
+    for (const double depth : depths)
+      if (std::isfinite(depth)) most = std::max(most, depth);
+    return depths.empty() ? Json(nullptr) : Json(most);
+  };
+  return {{"triangles", zone.triangles.size()},
+          {"area_mm2", zone.area_mm2},
+          {"centroid_mm", zone.centroid ? json_of(*zone.centroid) : Json(nullptr)},
+          {"max_radial_depth_mm", deepest(zone.radial_depth_mm)},
+          {"max_tangential_depth_deg", deepest(zone.tangential_depth_deg)},
+          {"max_tangential_depth_mm", deepest(zone.tangential_depth_mm)}};
+}
+
+Json json_of(const std::optional<ImpingementZone>& zone) {
+  if (!zone) return nullptr;
+  Json fixed = json_of(zone->fixed), mobile = json_of(zone->mobile);
+  fixed["clock_hour"] = nullable(zone->zone_hour);
+  mobile["neck_angle_deg"] = nullable_degrees(zone->zone_neck_angle);
+  return {{"past_deg", zone->past.degrees()},
+          {"contact_neck_angle_deg", nullable_degrees(zone->contact_neck_angle)},
+          {"fixed", std::move(fixed)},
+          {"mobile", std::move(mobile)}};
+}
+
+Json json_of(const DepthLimit& depth) {
+  Json json{{"at_start_mm", depth.start_depth_mm},
+            {"at_limit_mm", depth.at_limit.depth_mm},
+            {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
+            {"grows", depth.depth_grows}};
+  const auto& shift = depth.at_limit.shift;
+  json["centre_shift_mm"] = shift ? json_of(shift->translation) : Json(nullptr);
+  return json;
+}
+
+/// Of the i-th motion.
+Json motion_json(const RomResult& result, std::size_t i) {
+  const MotionLimit& limit = result.limits[i];
+  const auto& contact = limit.contact;
+  Json json{
+      {"name", limit.motion.name},
+      {"limit_deg", limit.turned.degrees()},
+      {"reason", name_of(limit.reason)},
+      {"articular", ends_in_contact(limit) ? Json(limit.articular) : Json(nullptr)},
+      {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
+      {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
+      {"clock_hour", nullable(hour_of(result.joint, limit))},
+      {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
+                                  {"mobile", json_of(contact->mobile_feature)}}
+                           : Json(nullptr)},
+      {"shortfall_deg", limit.shortfall.degrees()},
+      {"vary", name_of(limit.motion.vary)},
+      {"sense", limit.motion.sense == TurnSense::positive ? "positive" : "negative"},
+      {"range_deg", limit.motion.range.degrees()},
+      {"start_deg", angles_json(limit.motion.start)},
+      {"held_deg", held_json(limit.motion)},
+      {"at_limit_deg", angles_json(limit.angles_at_limit())},
+      {"certificate", result.depths.empty() ? certificate_text(limit) : certificate_text(result.depths[i])}};
+  if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
+  if (!result.zones.empty()) json["zone"] = json_of(result.zones[i]);
+  return json;
+}
+
+Json json_of(const ReasonCounts& counts) {
+  Json json;
+  for (const LimitReason reason :
+       {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
+    json[name_of(reason)] = counts[reason];
+  return json;
+}
+
+Json json_of(const GridAxis& axis) {
+  return {{"angle", name_of(axis.angle)},
+          {"first_deg", axis.first_deg},
+          {"last_deg", axis.last_deg},
+          {"step_deg", axis.step_deg},
+          {"count", axis.count()}};
+}
+
+Json json_of(const MotionMap& map) {
+  const MapSummary summary = summarise(map);
+  return {{"vary", name_of(map.grid.vary)},
+          {"start_deg", map.grid.start.degrees()},
+          {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
+          {"columns", json_of(map.grid.column)},
+          {"rows", json_of(map.grid.row)},
+          {"points", map.points.size()},
+          {"negative_ends", json_of(summary.negative_ends)},
+          {"positive_ends", json_of(summary.positive_ends)},
+          {"free_volume_deg3", summary.volume.plain_deg3},
+          {"free_volume_cosine_weighted_deg3", summary.volume.cosine_weighted_deg3},
+          {"row_free_area_deg2", summary.volume.row_area_deg2}};
+}
+
+Json json_of(const std::optional<ArticularRegion>& region) {
+  if (!region) return nullptr;
+  Json json{{"radius_mm", region->radius_mm}};
+  if (region->cone)
+    json["cone"] = {{"axis", json_of(region->cone->axis)},
+                    {"half_angle_deg", region->cone->half_angle.degrees()}};
+  return json;
+}
+
+std::string text_of(const std::optional<ArticularRegion>& region) {
+  if (!region) return "no articular region is known: no contact is called articular";
+  return fmt::format("articular is contact within {:.2f} mm of the joint centre{}", region->radius_mm,
+                     region->cone ? ", in a cone" : "");
+}
+
+std::string_view words_of(const MotionLimit& limit) noexcept {
+  switch (limit.reason) {
+    case LimitReason::contact:
+      return limit.articular ? "contact, articular" : "contact, extra-articular";
+    case LimitReason::end_of_range:
+      return "end of range, no contact";
+    case LimitReason::contact_at_start:
+      return limit.articular ? "in contact at start, articular" : "in contact at start";
+  }
+  return "";
+}
+
+/// Characters of well-formed UTF-8: what a terminal shows, for the usual scripts.
+std::size_t shown_width(std::string_view text) noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; }));
+}
+
+enum class Align { left, right };
+
+struct Column {
+  Align align;
+  std::vector<std::string> cells;  ///< its heading first
+};
+
+std::string table_text(std::span<const Column> columns) {
+  std::string text;
+  for (std::size_t row = 0; row < columns.front().cells.size(); ++row) {
+    std::string line = " ";
+    for (const Column& column : columns) {
+      std::size_t widest = 0;
+      for (const std::string& cell : column.cells) widest = std::max(widest, shown_width(cell));
+      const std::string& cell = column.cells[row];
+      const std::string blanks(widest - shown_width(cell), ' ');
+      line += fmt::format(" {} ", column.align == Align::left ? cell + blanks : blanks + cell);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string_view name_of(LimitReason reason) noexcept {
+  switch (reason) {
+    case LimitReason::contact:
+      return "contact";
+    case LimitReason::end_of_range:
+      return "end_of_range";
+    case LimitReason::contact_at_start:
+      return "contact_at_start";
+  }
+  return "contact";
+}
+
+std::string certificate_text(const MotionLimit& limit) {
+  switch (limit.reason) {
+    case LimitReason::contact:
+      return fmt::format("free before the limit; in contact at it or past it by at most {:.2g} deg",
+                         limit.shortfall.degrees());
+    case LimitReason::end_of_range:
+      return fmt::format("free over the whole range of {:g} deg", limit.motion.range.degrees());
+    case LimitReason::contact_at_start:
+      return "in contact before any turn";
+  }
+  return "";
+}
+
+std::string certificate_text(const DepthLimit& depth) {
+  switch (depth.limit.reason) {
+    case LimitReason::contact:
+      return fmt::format(
+          "searched, not exact: no deeper than allowed at the poses asked before the limit, deeper within "
+          "{:.2g} deg past it{}",
+          depth.limit.shortfall.degrees(),
+          depth.depth_grows ? "" : "; depth does not grow evenly here, a little further on may be as good");
+    case LimitReason::end_of_range:
+      return fmt::format(
+          "searched, not exact: no deeper than allowed at the poses asked over the range of {:g} deg",
+          depth.limit.motion.range.degrees());
+    case LimitReason::contact_at_start:
+      return "deeper than allowed before any turn";
+  }
+  return "";
+}
+
+std::vector<ClockContact> clock_contacts(const RomResult& result) {
+  std::vector<ClockContact> contacts;
+  for (const MotionLimit& limit : result.limits)
+    if (const auto hour = hour_of(result.joint, limit))
+      contacts.push_back({limit.motion.name, *hour, limit.articular});
+  return contacts;
+}
+
+std::string rom_json(const RomResult& result) {
+  Json json{{"condyle", io::format_version},
+            {"joint", result.joint.name},
+            {"fixed", result.joint.fixed.name},
+            {"mobile", result.joint.mobile.name},
+            {"side", name_of(result.joint.side)},
+            {"articular_region", json_of(result.articular)},
+            {"terms", result.terms}};
+  json["motions"] = Json::array();
+  for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
+  if (result.map) json["map"] = json_of(*result.map);
+  json["scope"] = scope_note;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string rom_text(const RomResult& result) {
+  Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
+      reason{Align::left, {"reason"}}, point{Align::left, {"contact point (mm, fixed frame)"}},
+      clock{Align::right, {"clock"}}, features{Align::left, {"mobile on fixed"}};
+  for (const MotionLimit& limit : result.limits) {
+    name.cells.push_back(limit.motion.name);
+    turned.cells.push_back(fmt::format("{:.2f}", limit.turned.degrees()));
+    reason.cells.emplace_back(words_of(limit));
+    const auto& contact = limit.contact;
+    point.cells.push_back(contact ? fmt::format("({:.2f}, {:.2f}, {:.2f})", contact->fixed_point.x(),
+                                                contact->fixed_point.y(), contact->fixed_point.z())
+                                  : "-");
+    const auto hour = hour_of(result.joint, limit);
+    clock.cells.push_back(hour ? clock_text(*hour) : "-");
+    features.cells.push_back(
+        contact ? fmt::format("{} on {}", text_of(contact->mobile_feature), text_of(contact->fixed_feature))
+                : "-");
+  }
+  const Joint& joint = result.joint;
+  std::string text = fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name, joint.fixed.name,
+                                 name_of(joint.side));
+  text += fmt::format("  {}\n", text_of(result.articular));
+  for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
+  text += table_text(std::array{name, turned, reason, clock, point, features});
+  if (result.map) text += map_text(*result.map);
+  return text + fmt::format("  {}\n", scope_note);
+}
+
+std::string rom_csv(const RomResult& result) {
+  std::string text =
+      "motion,limit_deg,reason,articular,shortfall_deg,vary,sense,range_deg,"
+      "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
+      "limit_flexion_deg,limit_adduction_deg,limit_internal_rotation_deg,"
+      "contact_x_mm,contact_y_mm,contact_z_mm,"
+      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour\n";
+  const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
+  const auto angles = [](const JointAngles& a) {
+    return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
+  };
+  for (const MotionLimit& limit : result.limits) {
+    const auto& [motion, turned, reason, contact, articular, shortfall] = limit;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), turned.degrees(),
+                        name_of(reason), ends_in_contact(limit) ? (articular ? "1" : "0") : "",
+                        shortfall.degrees(), name_of(motion.vary),
+                        motion.sense == TurnSense::positive ? "positive" : "negative", motion.range.degrees(),
+                        angles(motion.start), angles(limit.angles_at_limit()));
+    const auto hour = hour_of(result.joint, limit);
+    text += contact ? fmt::format("{},{},{},{}", point(contact->fixed_point), point(contact->mobile_point),
+                                  text_of(contact->fixed_feature), text_of(contact->mobile_feature))
+                    : std::string(",,,,,,,");
+    text += hour ? fmt::format(",{}\n", *hour) : ",\n";
+  }
+  return text;
+}
+
+}  // namespace condyle

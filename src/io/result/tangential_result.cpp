@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "condyle/io/pose_text.hpp"
+#include "io/result/depth_result_parts.hpp"
+
+namespace condyle {
+namespace {
+
+using Views = io::BodyViews<TangentialBodySummary>;
+using Deepest = Views::Deepest<DeepestTurn>;
+
+Views views(const DepthQuestion& question, const TangentialContact& contact) {
+  const auto summary_of = [](const std::optional<TangentialHits>& hits) {
+    return hits ? std::optional(summarise(*hits)) : std::nullopt;
+  };
+  return {question, summary_of(contact.mobile_in_fixed), summary_of(contact.fixed_in_mobile)};
+}
+
+std::optional<Deepest> longest(const Views& bodies) {
+  return bodies.deepest(&TangentialBodySummary::deepest, &DeepestTurn::depth_mm);
+}
+
+std::optional<Deepest> largest(const Views& bodies) {
+  return bodies.deepest(&TangentialBodySummary::largest_angle, &DeepestTurn::depth);
+}
+
+io::Json degrees_of(const std::optional<Angle>& angle) {
+  return angle ? io::Json(angle->degrees()) : io::Json(nullptr);
+}
+
+io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
+  if (!view.summary) return nullptr;
+  const TangentialBodySummary& summary = *view.summary;
+  return {{"vertices", view.body.mesh.vertices.size()},
+          {"vertices_inside", summary.vertices_inside},
+          {"vertices_on_surface", summary.vertices_on_surface},
+          {"vertices_without_way_out", summary.without_way_out},
+          {"max_tangential_depth_deg", summary.largest_angle ? summary.largest_angle->depth.degrees() : 0.0},
+          {"max_tangential_depth_mm", summary.deepest ? summary.deepest->depth_mm : 0.0},
+          {"deepest_vertex", summary.deepest ? io::Json(summary.deepest->vertex) : io::Json(nullptr)},
+          {"min_gap_deg", degrees_of(summary.min_gap)},
+          {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
+}
+
+std::string deepest_line(const char* what, const TurnAxis& axis, const Deepest& deepest) {
+  return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
+                     deepest.vertex.depth_mm, name_of(axis.about), deepest.vertex.depth.degrees(),
+                     deepest.vertex.vertex, deepest.view->body.name,
+                     io::place_text(deepest.view->in_fixed_frame(deepest.vertex.vertex)));
+}
+
+}  // namespace
+
+std::string depth_json(const DepthQuestion& question, const TurnAxis& axis,
+                       const TangentialContact& contact) {
+  const Views bodies = views(question, contact);
+  const auto deepest = longest(bodies), furthest = largest(bodies);
+  io::Json json = io::depth_header(question, "tangential");
+  json["about"] = name_of(axis.about);
+  json["axis"] = io::numbers(axis.direction_F);
+  bodies.add_counts(json, contact.in_contact, contact.pairs.size());
+  json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
+  json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
+  io::add_deepest(json, deepest);
+  json["min_gap_deg"] = degrees_of(bodies.least(&TangentialBodySummary::min_gap));
+  json["min_gap_mm"] = io::nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
+  for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
+  json["scope"] = io::scope_note;
+  return json.dump(2) + "\n";
+}
+
+std::string depth_text(const DepthQuestion& question, const TurnAxis& axis,
+                       const TangentialContact& contact) {
+  const Views bodies = views(question, contact);
+  std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  for (const auto* view : bodies.both()) {
+    if (!view->summary) {
+      text += io::open_line(view->body);
+      continue;
+    }
+    text += io::inside_line(view->body, view->summary->vertices_inside, view->summary->vertices_on_surface);
+    if (view->summary->without_way_out > 0) {
+      text += fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_way_out,
+                          name_of(axis.about));
+    }
+  }
+  const auto deepest = longest(bodies), furthest = largest(bodies);
+  if (deepest) text += deepest_line("deepest", axis, *deepest);
+  if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
+    text += deepest_line("largest angle", axis, *furthest);
+  }
+  if (const auto gap = bodies.least(&TangentialBodySummary::min_gap)) {
+    text += fmt::format("  smallest gap by turning: {:.3f} deg\n", gap->degrees());
+  }
+  return text;
+}
+
+std::vector<MeshArray> depth_arrays(const std::optional<TangentialHits>& hits) {
+  if (!hits) return {};
+  const std::size_t count = hits->size();
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::uint8_t> inside(count);
+  std::vector<std::int32_t> winding(count), triangle(count);
+  std::vector<double> angle(count), arc(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool reached = std::isfinite(hits->angular_gap[i]);
+    inside[i] = hits->state[i] == PointState::inside;
+    winding[i] = hits->winding[i];
+    triangle[i] = hits->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(hits->triangle[i]);
+    // A depth is positive inside: the gap with its sign turned.
+    angle[i] = reached ? -Angle::radians(hits->angular_gap[i]).degrees() : none;
+    arc[i] = reached ? -hits->arc_gap[i] : none;
+  }
+  return {{"inside", std::move(inside)},
+          {"tangential_depth_deg", std::move(angle)},
+          {"tangential_depth_mm", std::move(arc)},
+          {"triangle", std::move(triangle)},
+          {"winding", std::move(winding)}};
+}
+
+}  // namespace condyle

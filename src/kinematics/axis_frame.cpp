@@ -1,0 +1,42 @@
+#include "condyle/axis_frame.hpp"
+
+#include "condyle/error.hpp"
+
+namespace condyle {
+namespace {
+
+/// The frame's x for a given z: a coordinate axis where z is one, so that the rotation is then an exact
+/// permutation.
+Vec3 frame_x(const Vec3& z) {
+  int largest = 0;
+  z.cwiseAbs().maxCoeff(&largest);
+  const Vec3 next = Vec3::Unit((largest + 1) % 3);
+  return (next - next.dot(z) * z).normalized();
+}
+
+/// Unit vector along v; the coordinate axis itself, exactly, where v lies on one. Scaled first: no overflow
+/// on the way.
+Vec3 unit(const Vec3& v) {
+  const Vec3 scaled = v / v.cwiseAbs().maxCoeff();
+  return scaled / scaled.norm();
+}
+
+}  // namespace
+
+AxisFrame::AxisFrame(const Vec3& point, const Vec3& direction) : point_(point) {
+  if (!point.allFinite() || !direction.allFinite())
+    throw UsageError("joint axis: a coordinate is not finite");
+  if (direction.isZero(0)) throw UsageError("joint axis: its direction is zero");
+  const Vec3 z = unit(direction), x = frame_x(z);
+  rotation_.row(0) = x;
+  rotation_.row(1) = z.cross(x);
+  rotation_.row(2) = z;
+}
+
+TriMesh AxisFrame::to_axis(const TriMesh& mesh) const {
+  TriMesh out{Points(mesh.vertices.size()), mesh.triangles};
+  for (std::size_t i = 0; i < out.vertices.size(); ++i) out.vertices.set(i, to_axis(mesh.vertices[i]));
+  return out;
+}
+
+}  // namespace condyle

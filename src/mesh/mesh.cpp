@@ -1,0 +1,69 @@
+#include "condyle/mesh.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "mesh/edge_balance.hpp"
+
+namespace condyle {
+namespace {
+
+/// Vertex and triangle numbers are of 32 bits, and the edge table needs one of them.
+constexpr std::size_t most_elements = std::size_t{1} << 31;
+
+void check_size(const char* what, std::size_t count) {
+  if (count >= most_elements)
+    throw MeshError(std::to_string(count) + " " + what + ", not fewer than " + std::to_string(most_elements));
+}
+
+void check_vertices(const Points& points) {
+  if (points.y.size() != points.x.size() || points.z.size() != points.x.size())
+    throw MeshError("coordinates are " + std::to_string(points.x.size()) + " x, " +
+                    std::to_string(points.y.size()) + " y and " + std::to_string(points.z.size()) +
+                    " z, not as many of each");
+  check_size("vertices", points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    // One sum of zeros, or one NaN.
+    if (!std::isfinite((points.x[v] * 0 + points.y[v] * 0) + points.z[v] * 0))
+      throw MeshError("vertex " + std::to_string(v) + " has a coordinate that is not finite");
+  }
+}
+
+void check_triangles(const TriMesh& mesh) {
+  check_size("triangles", mesh.triangles.size());
+  const std::size_t count = mesh.vertices.size();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const Index v : mesh.triangles[t]) {
+      if (v >= count)
+        throw MeshError("triangle " + std::to_string(t) + " uses vertex " + std::to_string(v) + " of " +
+                        std::to_string(count));
+    }
+  }
+}
+
+}  // namespace
+
+struct Mesh::Checked {
+  TriMesh arrays;
+  std::optional<DirectedEdge> unbalanced_edge;
+};
+
+Mesh::Mesh(TriMesh arrays) {
+  check_vertices(arrays.vertices);
+  check_triangles(arrays);
+  std::optional<DirectedEdge> unbalanced;
+  if (const auto edge = mesh::unbalanced_edge(arrays)) unbalanced = {edge->first, edge->second};
+  checked_ = std::make_shared<const Checked>(Checked{std::move(arrays), unbalanced});
+}
+
+const TriMesh& Mesh::arrays() const noexcept {
+  return checked_->arrays;
+}
+
+const std::optional<DirectedEdge>& Mesh::unbalanced_edge() const noexcept {
+  return checked_->unbalanced_edge;
+}
+
+}  // namespace condyle

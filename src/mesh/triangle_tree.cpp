@@ -1,0 +1,225 @@
+#include "mesh/triangle_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/predicates.hpp"
+
+namespace condyle::mesh {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr int bits_per_axis = 10, bits_per_digit = 10, digits = 3;
+
+/// A triangle and the cell of its centroid, in the order of a curve that fills space (Morton 1966).
+struct KeyedTriangle {
+  std::uint32_t key;
+  Index triangle;
+};
+
+/// Every third bit from the ten of a number.
+constexpr std::uint32_t spread(std::uint32_t bits) noexcept {
+  bits = (bits | bits << 16) & 0x030000ffu;
+  bits = (bits | bits << 8) & 0x0300f00fu;
+  bits = (bits | bits << 4) & 0x030c30c3u;
+  return (bits | bits << 2) & 0x09249249u;
+}
+
+struct Cube {
+  Vec3 low;
+  double steps_per_mm;
+
+  std::uint32_t key_of(const Vec3& p) const noexcept {
+    constexpr double last = (1 << bits_per_axis) - 1;
+    const auto step = [&](int axis) {
+      // Not a number, where coordinates overflow, ends at 0: any order is a right one.
+      return static_cast<std::uint32_t>(std::max(0.0, std::min(last, (p[axis] - low[axis]) * steps_per_mm)));
+    };
+    return spread(step(0)) << 2 | spread(step(1)) << 1 | spread(step(2));
+  }
+};
+
+Cube cube_around(const TriMesh& mesh) {
+  Vec3 low = Vec3::Zero();
+  double side = 0;
+  const auto& v = mesh.vertices;
+  int axis = 0;
+  for (const auto* values : {&v.x, &v.y, &v.z}) {
+    const auto [least, most] = std::minmax_element(values->begin(), values->end());
+    low[axis++] = *least;
+    side = std::max(side, *most - *least);
+  }
+  return {low, side > 0 ? (1 << bits_per_axis) / side : 0};
+}
+
+/// By digits from the lowest: linear, and equal keys keep their order.
+void sort_by_key(std::vector<KeyedTriangle>& items) {
+  std::array<std::array<Index, 1 << bits_per_digit>, digits> starts{};
+  constexpr std::uint32_t mask = (1 << bits_per_digit) - 1;
+  for (const auto& item : items) {
+    for (std::uint32_t d = 0; d < digits; ++d) ++starts[d][item.key >> d * bits_per_digit & mask];
+  }
+  std::vector<KeyedTriangle> other(items.size());
+  for (std::uint32_t d = 0; d < digits; ++d) {
+    Index sum = 0;
+    for (Index& start : starts[d]) sum += std::exchange(start, sum);
+    for (const auto& item : items) other[starts[d][item.key >> d * bits_per_digit & mask]++] = item;
+    items.swap(other);
+  }
+}
+
+std::vector<KeyedTriangle> in_order_of_the_curve(const TriMesh& mesh) {
+  const Cube cube = cube_around(mesh);
+  std::vector<KeyedTriangle> items(mesh.triangles.size());
+  for (Index t = 0; t < items.size(); ++t) {
+    items[t] = {cube.key_of((mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3), t};
+  }
+  sort_by_key(items);
+  return items;
+}
+
+/// What a node must hold, still in double.
+struct Extent {
+  Vec3 low = Vec3::Constant(infinity), high = -low;
+  double squared_nearest = infinity, squared_farthest = 0;
+
+  void extend(const Extent& other) noexcept {
+    low = low.cwiseMin(other.low), high = high.cwiseMax(other.high);
+    squared_nearest = std::min(squared_nearest, other.squared_nearest);
+    squared_farthest = std::max(squared_farthest, other.squared_farthest);
+  }
+};
+
+/// The nearest point of a triangle is at most (longest edge) / sqrt(3) from its nearest corner and a right
+/// angle off: |p|^2 >= min^2 - longest^2 / 3. The squares' roundings are below 16 u max^2.
+Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
+  const auto [min, max] = std::minmax({t[0].squaredNorm(), t[1].squaredNorm(), t[2].squaredNorm()});
+  const double longest =
+      std::max({(t[1] - t[0]).squaredNorm(), (t[2] - t[1]).squaredNorm(), (t[0] - t[2]).squaredNorm()});
+  return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2]),
+          min - longest / 3 - 16 * core::rounding_unit * max, max};
+}
+
+/// More than a rounding to single precision, relative, and more than one among the smallest numbers.
+constexpr double float_slack = 0x1p-23, least_float = std::numeric_limits<float>::min();
+
+float rounded_up(double value) noexcept {
+  return static_cast<float>(value + std::abs(value) * float_slack + least_float);
+}
+float rounded_down(double value) noexcept {
+  return static_cast<float>(value - std::abs(value) * float_slack - least_float);
+}
+
+void set_bounds(TriangleTree::Node& node, const Extent& extent) noexcept {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    node.centre[k] = static_cast<float>(extent.low[axis] / 2 + extent.high[axis] / 2);
+    const double centre = node.centre[k];
+    node.half[k] = rounded_up(std::max(extent.high[axis] - centre, centre - extent.low[axis]));
+  }
+  node.nearest = extent.squared_nearest > 0 ? rounded_down(std::sqrt(extent.squared_nearest)) : 0.0f;
+  node.farthest = rounded_up(std::sqrt(extent.squared_farthest) * (1 + 8 * core::rounding_unit));
+}
+
+/// Splits where the curve leaves one half of a cell for the other.
+class Builder {
+ public:
+  Builder(const TriangleTree& tree, const std::vector<KeyedTriangle>& items,
+          std::vector<TriangleTree::Node>& nodes)
+      : tree_(tree), items_(items), nodes_(nodes) {}
+
+  void build() {
+    nodes_.push_back({{}, {}, 0, 0, 0, static_cast<Index>(items_.size()), 0});
+    build(0);
+  }
+
+ private:
+  Extent build(Index at) {
+    const Index first = nodes_[at].first, last = nodes_[at].last;
+    Extent extent;
+    if (last - first <= TriangleTree::leaf_triangles) {
+      for (Index t = first; t < last; ++t) extent.extend(extent_of(tree_.corners(t)));
+    } else {
+      const Index middle = split(first, last), child = static_cast<Index>(nodes_.size());
+      nodes_[at].child = child;
+      nodes_.push_back({{}, {}, 0, 0, first, middle, 0});
+      nodes_.push_back({{}, {}, 0, 0, middle, last, 0});
+      extent = build(child);
+      extent.extend(build(child + 1));
+    }
+    set_bounds(nodes_[at], extent);
+    return extent;
+  }
+
+  /// The first item with the highest bit in which the keys differ; the middle one where they are all alike.
+  Index split(Index first, Index last) const noexcept {
+    const std::uint32_t differ = items_[first].key ^ items_[last - 1].key;
+    if (differ == 0) return first + (last - first) / 2;
+    const std::uint32_t high = std::bit_floor(differ), upper = items_[last - 1].key & ~(high - 1);
+    const auto begin = items_.begin();
+    return static_cast<Index>(std::partition_point(begin + first, begin + last,
+                                                   [&](const auto& item) { return item.key < upper; }) -
+                              begin);
+  }
+
+  const TriangleTree& tree_;
+  const std::vector<KeyedTriangle>& items_;
+  std::vector<TriangleTree::Node>& nodes_;
+};
+
+}  // namespace
+
+TriangleTree::TriangleTree(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return;
+  const auto items = in_order_of_the_curve(mesh);
+  mesh_triangles_.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) mesh_triangles_[i] = items[i].triangle;
+  number_anew(mesh);
+  nodes_.reserve(items.size());
+  Builder(*this, items, nodes_).build();
+}
+
+void TriangleTree::number_anew(const TriMesh& mesh) {
+  std::vector<Index> place(mesh.vertices.size(), no_index);
+  triangles_.resize(mesh_triangles_.size());
+  vertices_.reserve(mesh.vertices.size()), mesh_vertices_.reserve(mesh.vertices.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = mesh.triangles[mesh_triangles_[i]][k];
+      if (place[v] == no_index) {
+        place[v] = static_cast<Index>(vertices_.size());
+        vertices_.push_back(mesh.vertices[v]);
+        mesh_vertices_.push_back(v);
+      }
+      triangles_[i][k] = place[v];
+    }
+  }
+}
+
+/// Union by smallest number.
+std::vector<Index> TriangleTree::one_vertex_of_each_piece() const {
+  std::vector<Index> root(vertices_.size());
+  std::iota(root.begin(), root.end(), Index{0});
+  const auto find = [&](Index v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (const auto& [a, b, c] : triangles_) {
+    for (const Index other : {b, c}) {
+      const auto [low, high] = std::minmax({find(a), find(other)});
+      root[high] = low;
+    }
+  }
+  std::vector<Index> pieces;
+  for (Index v = 0; v < root.size(); ++v) {
+    if (root[v] == v) pieces.push_back(v);
+  }
+  return pieces;
+}
+
+}  // namespace condyle::mesh

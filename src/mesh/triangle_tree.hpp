@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+
+namespace condyle::mesh {
+
+/// A tree over the triangles of a mesh, of boxes and of shells about the origin of its frame. Built once per
+/// mesh; good for every pose.
+///
+///   node    0               children of a node: two neighbours, node[i].child and the next
+///          / .
+///         1   2             triangles are numbered anew ("places") so that every node owns a range of them;
+///        / .  ...           vertices too, in the order in which those triangles first use them
+///       3   4
+///
+/// A head and its socket are two shells about the joint centre, which is the origin, and stay so however the
+/// joint turns: most of two bones leaves by distance from the centre alone, near the roots.
+///
+/// Vertices no triangle uses are left out: they are on no surface. Linear in triangles but for a sort by
+/// digits.
+class TriangleTree {
+ public:
+  /// One cache line. Single precision, rounded outwards: a node never holds less than its triangles, at worst
+  /// (coordinates beyond single precision) everything.
+  struct alignas(64) Node {
+    std::array<float, 4> centre, half;  ///< Of the box; the fourth is 0.
+    float nearest, farthest;            ///< From the origin, bounds on every point of its triangles.
+    Index first, last;                  ///< Places of its triangles.
+    Index child;                        ///< 0 for a leaf.
+
+    bool is_leaf() const noexcept { return child == 0; }
+    float size() const noexcept { return half[0] + half[1] + half[2]; }
+  };
+
+  /// In a leaf, at most. On a hip of 156 000 and 99 000 triangles 4, 6 and 8 take 0.96, 0.90 and 0.87 ms for
+  /// all pairs of a pose in contact, 0.44, 0.42 and 0.40 ms for a first contact, and the same for a free
+  /// pose.
+  static constexpr Index leaf_triangles = 8;
+
+  explicit TriangleTree(const TriMesh& mesh);
+
+  bool empty() const noexcept { return triangles_.empty(); }
+  const std::vector<Node>& nodes() const noexcept { return nodes_; }
+  /// Corners are places of vertices, in the mesh's order.
+  const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  const std::vector<Vec3>& vertices() const noexcept { return vertices_; }
+  /// Numbers in the mesh the tree was built from.
+  const std::vector<Index>& mesh_triangles() const noexcept { return mesh_triangles_; }
+  const std::vector<Index>& mesh_vertices() const noexcept { return mesh_vertices_; }
+
+  /// The smallest place of each connected piece. Near linear in triangles.
+  std::vector<Index> one_vertex_of_each_piece() const;
+
+  std::array<Vec3, 3> corners(Index triangle) const noexcept {
+    const auto [a, b, c] = triangles_[triangle];
+    return {vertices_[a], vertices_[b], vertices_[c]};
+  }
+
+ private:
+  void number_anew(const TriMesh& mesh);
+
+  std::vector<Node> nodes_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vec3> vertices_;
+  std::vector<Index> mesh_triangles_, mesh_vertices_;
+};
+
+}  // namespace condyle::mesh

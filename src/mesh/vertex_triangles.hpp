@@ -1,0 +1,34 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+
+namespace condyle::mesh {
+
+/// Which triangles have each vertex as a corner.
+///
+///   first      0     3     5  ...      one entry per vertex, plus one
+///   triangle  | a b c | b d | ...      vertex i owns [first[i], first[i + 1]), in ascending order
+class VertexTriangles {
+ public:
+  VertexTriangles() = default;
+  /// Linear. Vertices and triangles of the mesh may move afterwards, not change.
+  explicit VertexTriangles(const TriMesh& mesh);
+
+  bool empty() const noexcept { return first_.empty(); }
+  std::span<const Index> of(Index vertex) const noexcept {
+    return {triangle_.data() + first_[vertex], triangle_.data() + first_[vertex + 1]};
+  }
+  /// Those of several vertices, each once, in ascending order. Linear in what it returns, and a look at a bit
+  /// for each triangle of the mesh.
+  std::vector<Index> of(std::span<const Index> vertices) const;
+
+  std::size_t bytes() const noexcept { return (first_.size() + triangle_.size()) * sizeof(Index); }
+
+ private:
+  std::vector<Index> first_, triangle_;
+};
+
+}  // namespace condyle::mesh

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "core/predicates.hpp"
+#include "mesh/triangle_intersection.hpp"
+
+/// Crossings of a vertical line, for winding numbers. A line through an edge or a vertex is decided as that
+/// through p + e x + e^2 y for an infinitely small e > 0: one shift for all triangles, so neighbours never
+/// disagree, and a vertical triangle is never crossed. Exact for the doubles given.
+
+namespace condyle::mesh {
+
+/// On which side of the edge a b, seen along z, the shifted point p + e x + e^2 y lies. Zero for a vertical
+/// edge only.
+///
+/// orientation_2d = (b_x - a_x)(p_y - a_y) - (b_y - a_y)(p_x - a_x): its derivative by p_x is a_y - b_y, by
+/// p_y b_x - a_x.
+inline core::Sign side_of_shifted(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
+  const core::Sign side = core::orientation_2d(a.x(), a.y(), b.x(), b.y(), p.x(), p.y());
+  if (side != core::Sign::zero) return side;
+  if (a.y() != b.y()) return a.y() > b.y() ? core::Sign::positive : core::Sign::negative;
+  if (a.x() != b.x()) return b.x() > a.x() ? core::Sign::positive : core::Sign::negative;
+  return core::Sign::zero;
+}
+
+/// +1 where the vertical line through the shifted point crosses the triangle and its normal points up, -1
+/// where down, 0 where they do not meet.
+inline int vertical_crossing(const TriangleCorners& t, const Vec3& p) noexcept {
+  const core::Sign first = side_of_shifted(t[0], t[1], p);
+  if (first == core::Sign::zero || side_of_shifted(t[1], t[2], p) != first ||
+      side_of_shifted(t[2], t[0], p) != first) {
+    return 0;
+  }
+  return static_cast<int>(first);
+}
+
+/// The same for the ray upwards from a point that is not on the triangle. Summed over a closed mesh: the
+/// winding number.
+inline int crossing_above(const TriangleCorners& t, const Vec3& p) noexcept {
+  const int sense = vertical_crossing(t, p);
+  // Facing up, the triangle is above p where p is on its back.
+  return sense * static_cast<int>(core::orientation(t[0], t[1], t[2], p)) < 0 ? sense : 0;
+}
+
+}  // namespace condyle::mesh

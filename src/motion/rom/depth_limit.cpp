@@ -1,0 +1,165 @@
+#include "condyle/depth_limit.hpp"
+
+#include <cmath>
+
+#include "condyle/error.hpp"
+
+namespace condyle {
+namespace {
+
+/// Parts of the first too deep step that are asked before halving.
+constexpr int parts_of_step = 10;
+
+void check(const AllowedDepth& allowed) {
+  if (!(allowed.depth_mm >= 0) || !std::isfinite(allowed.depth_mm))
+    throw UsageError("allowed depth: must be 0 mm or more");
+  if (!(allowed.tolerance.radians() > 0) || !(allowed.step >= allowed.tolerance) ||
+      !std::isfinite(allowed.step.radians()))
+    throw UsageError("allowed depth: the tolerance must be above 0 and at most the step");
+}
+
+/// A vertex of one body in the other, and the triangle that it leaves through.
+struct DeepVertex {
+  Index vertex, triangle;
+  double depth_mm;
+};
+
+/// The first in number of those that are deepest.
+std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
+  std::optional<DeepVertex> deepest;
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside.state[i] != PointState::inside) continue;
+    const DeepVertex at{inside.point[i], inside.triangle[i], inside.depth[i]};
+    if (!deepest || std::pair(-at.depth_mm, at.vertex) < std::pair(-deepest->depth_mm, deepest->vertex))
+      deepest = at;
+  }
+  return deepest;
+}
+
+Angle angle_to_ray(const Vec3& v, const TriMesh& mesh, Index triangle) {
+  return Angle::radians(triangle == no_index ? 0
+                                             : radial::angle_to_normal(v, radial::cone_of(mesh, triangle)));
+}
+
+/// How far along its way a search got: allowed at `free`, too deep at `deep`.
+struct Bracket {
+  Angle free, deep;
+};
+enum class EndOfBracket { unknown, too_deep };
+
+}  // namespace
+
+struct DepthRange::Parts {
+  JointKind kind;
+  Side side;
+  AllowedDepth allowed;
+  std::optional<ArticularRegion> articular;
+  JointContact contact;
+  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices);
+  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices);
+};
+
+DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
+                       const std::optional<ArticularRegion>& articular) {
+  check(allowed);
+  parts_ = std::make_unique<Parts>(Parts{joint.kind, joint.side, allowed,
+                                         articular ? articular : find_articular_region(joint),
+                                         JointContact(joint.fixed.mesh, joint.mobile.mesh)});
+  for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},
+                                    std::pair{&joint.mobile, &parts_->contact.mobile_table()}})
+    if (!table->is_closed()) throw MeshError(body->name + ": is open: depth needs an inside");
+  if (allowed.follow_socket && !parts_->articular)
+    throw MeshError(joint.mobile.name +
+                    ": no head was found to centre in the socket: state the articular region");
+}
+
+DepthRange::~DepthRange() = default;
+
+DeepestPlace DepthRange::deepest(const JointAngles& at) const {
+  Pose X = pose_at(parts_->side, at);
+  DeepestPlace deepest;
+  if (parts_->allowed.follow_socket) {
+    deepest.shift = even_joint_space(parts_->contact, *parts_->articular, X, *parts_->allowed.follow_socket);
+    X.pretranslate(deepest.shift->translation);
+  }
+  const Pose X_MF = X.inverse();
+  const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
+  Penetrations found;
+  parts_->contact.fixed_table().penetrations(parts_->mobile_points, X, found);
+  const auto m = deepest_vertex(found);
+  parts_->contact.mobile_table().penetrations(parts_->fixed_points, X_MF, found);
+  const auto f = deepest_vertex(found);
+  if (m && (!f || m->depth_mm >= f->depth_mm)) {
+    const Vec3 p = mobile.vertices[m->vertex], in_fixed = posed(X, p);
+    deepest.depth_mm = m->depth_mm;
+    deepest.ray_to_normal = angle_to_ray(in_fixed, fixed, m->triangle);
+    deepest.place =
+        ContactPlace{{FeatureKind::face, m->triangle}, {FeatureKind::vertex, m->vertex}, in_fixed, p};
+  } else if (f) {
+    const Vec3 p = fixed.vertices[f->vertex], in_mobile = posed(X_MF, p);
+    deepest.depth_mm = f->depth_mm;
+    deepest.ray_to_normal = angle_to_ray(in_mobile, mobile, f->triangle);
+    deepest.place =
+        ContactPlace{{FeatureKind::vertex, f->vertex}, {FeatureKind::face, f->triangle}, p, in_mobile};
+  }
+  return deepest;
+}
+
+DepthLimit DepthRange::limit(const Motion& motion) const {
+  check_motion(motion, parts_->kind);
+  const AllowedDepth& allowed = parts_->allowed;
+  const double sign = motion.sense == TurnSense::positive ? 1 : -1;
+  const auto at = [&](Angle turn) { return deepest(turned_by(motion.start, motion.vary, turn * sign)); };
+
+  DepthLimit out;
+  out.limit.motion = motion;
+  out.limit.shortfall = allowed.tolerance;
+  out.at_limit = at(Angle());
+  out.start_depth_mm = out.at_limit.depth_mm;
+  const auto finish = [&](LimitReason reason, Angle turned) {
+    out.limit.reason = reason, out.limit.turned = turned;
+    if (reason == LimitReason::end_of_range) return out;
+    out.limit.contact = out.at_limit.place;
+    out.limit.articular =
+        out.limit.contact && parts_->articular && parts_->articular->holds(out.limit.contact->fixed_point);
+    return out;
+  };
+  if (out.start_depth_mm > allowed.depth_mm) return finish(LimitReason::contact_at_start, Angle());
+
+  // Moves the bracket to the first of `count` equal parts whose end is too deep; false where none is.
+  const auto narrow = [&](Bracket& bracket, int count, EndOfBracket end) {
+    const Angle from = bracket.free, width = bracket.deep - bracket.free;
+    const int asked = end == EndOfBracket::too_deep ? count - 1 : count;
+    for (int k = 1; k <= asked; ++k) {
+      const Angle turn = k == count ? bracket.deep : from + width * (static_cast<double>(k) / count);
+      DeepestPlace place = at(turn);
+      if (end == EndOfBracket::too_deep && place.depth_mm < out.at_limit.depth_mm) out.depth_grows = false;
+      if (place.depth_mm > allowed.depth_mm) {
+        bracket.deep = turn;
+        return true;
+      }
+      bracket.free = turn;
+      out.at_limit = std::move(place);
+    }
+    return end == EndOfBracket::too_deep;
+  };
+  const int steps = static_cast<int>(std::ceil(motion.range.radians() / allowed.step.radians()));
+  Bracket bracket{Angle(), motion.range};
+  if (!narrow(bracket, steps, EndOfBracket::unknown)) return finish(LimitReason::end_of_range, motion.range);
+  narrow(bracket, parts_of_step, EndOfBracket::too_deep);
+  while (bracket.deep - bracket.free > allowed.tolerance) narrow(bracket, 2, EndOfBracket::too_deep);
+  if (!out.at_limit.place) out.at_limit.place = at(bracket.deep).place;
+  return finish(LimitReason::contact, bracket.free);
+}
+
+std::vector<DepthLimit> DepthRange::limits(std::span<const Motion> motions) const {
+  std::vector<DepthLimit> out;
+  for (const Motion& motion : motions) out.push_back(limit(motion));
+  return out;
+}
+
+const std::optional<ArticularRegion>& DepthRange::articular_region() const noexcept {
+  return parts_->articular;
+}
+
+}  // namespace condyle

@@ -1,0 +1,93 @@
+#include "condyle/impingement_zone.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "contact/tangential_contact.hpp"
+
+namespace condyle {
+namespace {
+
+void take_depths(const std::optional<RadialHits>& radial, const std::optional<TangentialHits>& tangential,
+                 BodyZone& zone) {
+  if (!radial || !tangential) return;
+  const std::size_t count = radial->size();
+  for (auto* values : {&zone.radial_depth_mm, &zone.ray_to_normal_deg, &zone.tangential_depth_deg,
+                       &zone.tangential_depth_mm})
+    values->assign(count, 0.0);
+  for (std::size_t v = 0; v < count; ++v) {
+    if (radial->state[v] == PointState::inside) {
+      zone.radial_depth_mm[v] = -radial->radial_gap[v];
+      zone.ray_to_normal_deg[v] = Angle::radians(radial->ray_to_normal[v]).degrees();
+    }
+    if (tangential->state[v] == PointState::inside) {
+      zone.tangential_depth_deg[v] = Angle::radians(-tangential->angular_gap[v]).degrees();
+      zone.tangential_depth_mm[v] = -tangential->arc_gap[v];
+    }
+  }
+}
+
+void take_triangles(const TriMesh& mesh, std::vector<Index> triangles, BodyZone& zone) {
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  zone.triangles = std::move(triangles);
+  Vec3 moment = Vec3::Zero();
+  for (const Index t : zone.triangles) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double area = (b - a).cross(c - a).norm() / 2;
+    zone.area_mm2 += area;
+    moment += area * ((a + b + c) / 3);
+  }
+  if (zone.area_mm2 > 0) zone.centroid = moment / zone.area_mm2;
+}
+
+std::optional<NeckAxis> neck_of(const Joint& joint) {
+  const auto region = find_articular_region(joint);
+  if (!region) return std::nullopt;
+  return find_neck_axis(joint.mobile.mesh, region->radius_mm / articular_radii_of_head);
+}
+
+}  // namespace
+
+ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options)
+    : side_(joint.side),
+      past_(options.past),
+      socket_clock_(options.socket_clock ? *options.socket_clock : sagittal_clock()),
+      neck_(options.neck ? options.neck : neck_of(joint)),
+      contact_(joint.fixed.mesh, joint.mobile.mesh) {
+  if (!(past_ >= Angle() && past_ <= Angle::degrees(180)))
+    throw UsageError("impingement zone: past the limit must be between 0 and 180 degrees");
+}
+
+std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
+  if (limit.reason != LimitReason::contact || !limit.contact) return std::nullopt;
+  ImpingementZone zone{limit, past_, {}, {}, {}, {}, {}, {}};
+  const Angle onwards = limit.motion.sense == TurnSense::positive ? past_ : -past_;
+  const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
+  const Pose X_FM = pose_at(side_, at);
+  const RadialContact radial = contact_.radial(X_FM);
+  const bool both_closed = radial.mobile_in_fixed && radial.fixed_in_mobile;
+  const TangentialContact tangential =
+      both_closed ? tangential_contact(contact_, X_FM, axis_of(limit.motion.vary, side_, at))
+                  : TangentialContact{};
+  take_depths(radial.mobile_in_fixed, tangential.mobile_in_fixed, zone.mobile);
+  take_depths(radial.fixed_in_mobile, tangential.fixed_in_mobile, zone.fixed);
+  std::vector<Index> of_fixed, of_mobile;
+  for (const TrianglePair& pair : radial.pairs) {
+    of_fixed.push_back(pair.fixed);
+    of_mobile.push_back(pair.mobile);
+  }
+  take_triangles(contact_.fixed(), std::move(of_fixed), zone.fixed);
+  take_triangles(contact_.mobile(), std::move(of_mobile), zone.mobile);
+
+  zone.contact_hour = socket_clock_.hour_of(limit.contact->fixed_point);
+  if (zone.fixed.centroid) zone.zone_hour = socket_clock_.hour_of(*zone.fixed.centroid);
+  if (!neck_) return zone;
+  const ClockFace around_neck = neck_clock(*neck_);
+  zone.contact_neck_angle = around_neck.angle_of(limit.contact->mobile_point);
+  if (zone.mobile.centroid) zone.zone_neck_angle = around_neck.angle_of(*zone.mobile.centroid);
+  return zone;
+}
+
+}  // namespace condyle

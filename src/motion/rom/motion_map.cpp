@@ -1,0 +1,150 @@
+#include "condyle/motion_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+
+#include "condyle/error.hpp"
+#include "core/parallel.hpp"
+
+namespace condyle {
+namespace {
+
+/// How far past the last step an axis may end and still count as ending on it, in steps: decimal steps such
+/// as 0.1 are not exact in binary.
+constexpr double step_slack = 1e-6;
+
+/// Points that one thread takes at a time: neighbours share boxes in its caches and, where adduction is
+/// varied, a table.
+constexpr std::size_t points_per_chunk = 16;
+
+void check_axis(const GridAxis& axis) {
+  if (!std::isfinite(axis.first_deg) || !std::isfinite(axis.last_deg) || !std::isfinite(axis.step_deg))
+    throw UsageError("map: grid values must be finite");
+  if (!(axis.step_deg > 0)) throw UsageError("map: the step must be above 0 degrees");
+  if (!(axis.last_deg >= axis.first_deg)) throw UsageError("map: an axis ends before it begins");
+}
+
+/// As many as the axis has values; a double, for it may be more than any integer.
+double count_of(const GridAxis& axis) noexcept {
+  return std::floor((axis.last_deg - axis.first_deg) / axis.step_deg + step_slack) + 1;
+}
+
+/// The same points with flexion changing slowest, where adduction is varied: its tables depend on flexion.
+class Order {
+ public:
+  explicit Order(const MapGrid& grid)
+      : rows_(grid.row.count()),
+        columns_(grid.column.count()),
+        by_columns_(grid.vary == JointAngle::adduction && grid.column.angle == JointAngle::flexion) {}
+  std::size_t point(std::size_t i) const noexcept {
+    return by_columns_ ? (i % rows_) * columns_ + i / rows_ : i;
+  }
+
+ private:
+  std::size_t rows_, columns_;
+  bool by_columns_;
+};
+
+/// Share of point i in the integral over the axis, in degrees.
+double trapezoid(const GridAxis& axis, std::size_t i) {
+  const std::size_t count = axis.count();
+  if (count == 1) return 0;
+  return axis.step_deg * (i == 0 || i + 1 == count ? 0.5 : 1.0);
+}
+
+}  // namespace
+
+std::size_t GridAxis::count() const {
+  return static_cast<std::size_t>(count_of(*this));
+}
+
+JointAngles MapGrid::start_of(std::size_t point) const {
+  JointAngles angles = turned_by({}, vary, start);
+  angles = turned_by(angles, row.angle, Angle::degrees(row.value_deg(point / column.count())));
+  return turned_by(angles, column.angle, Angle::degrees(column.value_deg(point % column.count())));
+}
+
+void check_grid(const MapGrid& grid, JointKind kind) {
+  if (kind != JointKind::ball) throw UsageError("map: a hinge turns in flexion alone");
+  if (grid.row.angle == grid.column.angle || grid.vary == grid.row.angle || grid.vary == grid.column.angle)
+    throw UsageError("map: two angles are held and the third is varied; one is named twice");
+  for (const GridAxis* axis : {&grid.row, &grid.column}) check_axis(*axis);
+  const double low = grid.range.negative.radians(), high = grid.range.positive.radians();
+  const double half_turn = Angle::degrees(180).radians();
+  if (!std::isfinite(grid.start.radians())) throw UsageError("map: the start must be finite");
+  if (!(low <= 0 && high >= 0 && low < high))
+    throw UsageError("map: the range of the varied angle is empty or does not hold its start");
+  if (!(low >= -half_turn && high <= half_turn))
+    throw UsageError("map: the varied angle may turn by half a turn either way");
+  const double points = count_of(grid.row) * count_of(grid.column);
+  if (!(points <= static_cast<double>(most_map_points))) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), points < 1e15 ? "%.0f" : "%.3g", points);
+    throw UsageError(std::string("map: ") + text.data() + " points are more than " +
+                     std::to_string(most_map_points));
+  }
+}
+
+MotionMap::MotionMap(const MapGrid& of) : grid(of) {
+  check_grid(grid, JointKind::ball);
+  points.resize(grid.size());
+}
+
+std::size_t MotionMap::done() const noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const auto& point) { return point.has_value(); }));
+}
+
+void fill(MotionMap& map, const RangeOfMotion& joint, const MapControl& control) {
+  check_grid(map.grid, joint.kind());
+  const Order order(map.grid);
+  std::vector<std::size_t> missing;
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    if (!map.points[order.point(i)]) missing.push_back(order.point(i));
+
+  std::size_t done = map.points.size() - missing.size();
+  std::mutex reporting;
+  const auto report = [&](const TurnWork& work) {
+    const std::scoped_lock lock(reporting);
+    map.work += work;
+    ++done;
+    if (control.progress) control.progress(done, map.points.size());
+  };
+  core::parallel_chunks(missing.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) {
+      const std::size_t point = missing[i];
+      TurnEnds ends = joint.ends(map.grid.vary, map.grid.start_of(point), map.grid.range);
+      map.points[point] = MapPoint{std::move(ends.negative), std::move(ends.positive)};
+      report(ends.work);
+    }
+  });
+}
+
+std::optional<FreeVolume> free_volume(const MotionMap& map) {
+  if (!map.complete()) return std::nullopt;
+  const MapGrid& grid = map.grid;
+  FreeVolume volume;
+  const std::size_t columns = grid.column.count();
+  volume.row_area_deg2.resize(grid.row.count());
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const MapPoint& point = *map.points[i];
+    const double width = (point.negative.turned + point.positive.turned).degrees();
+    const double column_share = trapezoid(grid.column, i % columns);
+    const double share = trapezoid(grid.row, i / columns) * column_share;
+    const JointAngles at = grid.start_of(i);
+    const double low = (at.adduction - point.negative.turned).radians();
+    const double high = (at.adduction + point.positive.turned).radians();
+    const double weighted_width = grid.vary == JointAngle::adduction
+                                      ? Angle::radians(std::sin(high) - std::sin(low)).degrees()
+                                      : std::cos(at.adduction.radians()) * width;
+    volume.row_area_deg2[i / columns] += width * column_share;
+    volume.plain_deg3 += width * share;
+    volume.cosine_weighted_deg3 += weighted_width * share;
+  }
+  return volume;
+}
+
+}  // namespace condyle

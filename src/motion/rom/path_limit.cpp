@@ -1,0 +1,117 @@
+#include "condyle/path_limit.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "motion/search/path_clearance.hpp"
+
+namespace condyle {
+namespace {
+
+/// Finer ones would run into the rounding that clearance() allows for.
+constexpr Angle finest_tolerance = Angle::degrees(1e-6);
+
+/// Clearances need not be known beyond this; a path this free takes a dozen steps per turn.
+constexpr double far_enough = 0.5;
+
+/// Rounding of a step's length, relative; steps are shortened by it.
+constexpr double step_slack = 1e-12;
+
+constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
+
+void check_path(std::span<const JointAngles> waypoints, Angle tolerance, JointKind kind) {
+  if (waypoints.size() < 2) throw UsageError("path: needs two waypoints or more");
+  if (!(tolerance >= finest_tolerance) || !std::isfinite(tolerance.radians()))
+    throw UsageError("path: the tolerance must be 1e-6 degrees or more");
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    for (const JointAngle angle : all_angles) {
+      const double value = angle_of(waypoints[i], angle).radians();
+      if (!std::isfinite(value)) throw UsageError("path: an angle is not finite");
+      if (kind == JointKind::hinge && angle != JointAngle::flexion && value != 0)
+        throw UsageError("path: a hinge turns in flexion alone");
+      if (i > 0 && std::abs(value - angle_of(waypoints[i - 1], angle).radians()) > two_pi)
+        throw UsageError("path: an angle changes by more than a full turn between two waypoints");
+    }
+  }
+}
+
+JointAngles between(const JointAngles& from, const JointAngles& to, double share) noexcept {
+  JointAngles at = from;
+  for (const JointAngle angle : all_angles)
+    at = turned_by(at, angle, (angle_of(to, angle) - angle_of(from, angle)) * share);
+  return at;
+}
+
+/// At least the length of the way that M turns.
+double most_turn(const JointAngles& from, const JointAngles& to) noexcept {
+  const auto change = [&](JointAngle angle) {
+    return std::abs((angle_of(to, angle) - angle_of(from, angle)).radians());
+  };
+  return std::hypot(change(JointAngle::adduction),
+                    change(JointAngle::flexion) + change(JointAngle::internal_rotation));
+}
+
+}  // namespace
+
+struct PathFinder::Parts {
+  RangeOfMotion range;
+  PartsOfJoint counting;
+  motion::FeatureTree fixed, mobile;
+
+  Parts(const Joint& joint, const RangeOptions& options)
+      : range(joint, options),
+        counting(parts_that_count(joint, options.overlap)),
+        fixed(counting.fixed.mesh),
+        mobile(counting.mobile.mesh) {}
+
+  ContactPlace place(const motion::Clearance& nearest, const Pose& X_FM) const {
+    const Index f = counting.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
+    const Index m = counting.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
+    return {{FeatureKind::face, f},
+            {FeatureKind::face, m},
+            nearest.fixed_point,
+            posed(X_FM.inverse(), nearest.mobile_point)};
+  }
+};
+
+PathFinder::PathFinder(const Joint& joint, const RangeOptions& options)
+    : parts_(std::make_unique<Parts>(joint, options)) {}
+
+PathFinder::~PathFinder() = default;
+
+PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolerance) const {
+  const RangeOfMotion& range = parts_->range;
+  check_path(waypoints, tolerance, range.kind());
+  PathLimit out;
+  out.at = waypoints.front();
+  const TurnEnd start = range.ends(JointAngle::flexion, out.at, {Angle(), Angle()}).positive;
+  if (start.reason == LimitReason::contact_at_start) {
+    out.reason = start.reason, out.contact = start.contact, out.articular = start.articular;
+    return out;
+  }
+  for (out.segment = 0; out.segment + 1 < waypoints.size(); ++out.segment) {
+    const JointAngles &from = waypoints[out.segment], &to = waypoints[out.segment + 1];
+    const double turn = most_turn(from, to) * (1 + step_slack);
+    for (out.share = 0; out.share < 1;) {
+      out.at = between(from, to, out.share);
+      const Pose X_FM = pose_at(range.side(), out.at);
+      const auto nearest = clearance(parts_->fixed, parts_->mobile, X_FM, far_enough);
+      ++out.poses;
+      if (nearest && nearest->turn < tolerance.radians()) {
+        out.reason = LimitReason::contact;
+        out.contact = parts_->place(*nearest, X_FM);
+        out.distance_mm = nearest->distance_mm;
+        out.articular = range.articular_region() && range.articular_region()->holds(nearest->fixed_point);
+        return out;
+      }
+      const double free = nearest ? nearest->turn : far_enough;
+      out.share = free < turn * (1 - out.share) ? out.share + free / turn * (1 - step_slack) : 1;
+    }
+  }
+  out.segment = waypoints.size() - 2;
+  out.at = waypoints.back();
+  return out;
+}
+
+}  // namespace condyle

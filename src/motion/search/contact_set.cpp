@@ -1,0 +1,170 @@
+#include "motion/search/contact_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "mesh/triangle_intersection.hpp"
+#include "motion/search/node_pairs.hpp"
+
+namespace condyle::motion {
+namespace {
+
+/// Events of a pair closer than this, in radians, are not told apart: between them the bodies could be nearer
+/// than the rounding of turned coordinates.
+constexpr double narrow_gap = 1e-9;
+
+/// Arcs collected before they are united with the rest: uniting costs as much as the set has arcs.
+constexpr std::size_t arcs_at_a_time = 64;
+
+core::Arc arc(double from, double to) {
+  return {Angle::radians(from), Angle::radians(to - from)};
+}
+
+Vec3 turned(const Triple<double>& p, double cosine, double sine) {
+  return {p.x * cosine - p.y * sine, p.x * sine + p.y * cosine, p.z};
+}
+
+bool touch_at(const Corners& turning, const Corners& resting, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  mesh::TriangleCorners a, b;
+  for (std::size_t k = 0; k < 3; ++k) a[k] = turned(turning[k], c, s), b[k] = turned(resting[k], 1, 0);
+  return mesh::triangles_intersect(a, b);
+}
+
+/// Angles at which the two may touch: those that make their arcs meet.
+core::Arc window(const CylinderBox& turning, const CylinderBox& resting) {
+  const double from = resting.theta - (turning.theta + turning.theta_width);
+  return arc(from, from + turning.theta_width + resting.theta_width);
+}
+
+/// The angles at which some triangle of one subtree touches the other body.
+class Collector {
+ public:
+  Collector(const RotationTable& resting, const RotationTable& turning)
+      : resting_(resting), turning_(turning) {}
+
+  core::ArcSet run(Index turning_root) {
+    push(turning_root, 0);
+    while (!open_.empty()) {
+      const NodePair pair = open_.back();
+      open_.pop_back();
+      const auto &m = turning_.tree().nodes()[pair.turning], &f = resting_.tree().nodes()[pair.resting];
+      if (m.is_leaf() && f.is_leaf()) {
+        compare({m.first, m.last}, {f.first, f.last});
+      } else {
+        split(turning_.tree(), resting_.tree(), pair, [&](Index a, Index b) { push(a, b); });
+      }
+    }
+    unite();
+    return std::move(found_);
+  }
+
+ private:
+  /// What lies wholly in the angles already found has nothing to add.
+  bool may_add(const CylinderBox& turning, const CylinderBox& resting) const {
+    return turning.shares_profile(resting) && !found_.contains(window(turning, resting));
+  }
+
+  void push(Index turning, Index resting) {
+    if (may_add(turning_.node_box(turning), resting_.node_box(resting)))
+      open_.push_back({turning, resting, 0});
+  }
+
+  void compare(const FeatureTree::Range& turning, const FeatureTree::Range& resting) {
+    for (Index s = turning.first; s < turning.last; ++s) {
+      const auto& box = turning_.features().triangle_boxes[s];
+      for (Index t = resting.first; t < resting.last; ++t) {
+        if (may_add(box, resting_.features().triangle_boxes[t])) compare_triangles(s, t);
+      }
+    }
+  }
+
+  void compare_triangles(Index s, Index t) {
+    const Corners a = turning_.features().corners(turning_.tree(), s);
+    const Corners b = resting_.features().corners(resting_.tree(), t);
+    find_events(a, b);
+    if (events_.empty()) {
+      // Without an event the state never changes; a pair away from the axis is apart at some angle.
+      const auto all = window(turning_.features().triangle_boxes[s], resting_.features().triangle_boxes[t]);
+      if (all.width.radians() >= two_pi && touch_at(a, b, 0)) add(arc(0, two_pi));
+      return;
+    }
+    std::sort(events_.begin(), events_.end(),
+              [](const Touch& x, const Touch& y) { return x.angle < y.angle; });
+    for (std::size_t i = 0; i < events_.size(); ++i) {
+      const bool is_last = i + 1 == events_.size();
+      const Touch here = events_[i];
+      Touch next = is_last ? events_[0] : events_[i + 1];
+      if (is_last) next.angle += two_pi;
+      const double from = here.angle - here.error, to = next.angle + next.error;
+      const bool joined =
+          next.angle - here.angle < narrow_gap || touch_at(a, b, (here.angle + next.angle) / 2);
+      add(joined ? arc(from, to) : arc(from, here.angle + here.error));
+    }
+  }
+
+  void find_events(const Corners& a, const Corners& b) {
+    events_.clear();
+    const auto keep = [&](const Touches& touches) {
+      events_.insert(events_.end(), touches.begin(), touches.end());
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      keep(vertex_meets_face(a[k], b));
+      keep(face_meets_vertex(a, b[k]));
+      for (std::size_t l = 0; l < 3; ++l) keep(edges_meet(a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]));
+    }
+  }
+
+  void add(const core::Arc& more) {
+    fresh_.push_back(more);
+    if (fresh_.size() == arcs_at_a_time) unite();
+  }
+  void unite() {
+    found_ = found_.united(core::ArcSet(fresh_));
+    fresh_.clear();
+  }
+
+  const RotationTable& resting_;
+  const RotationTable& turning_;
+  std::vector<NodePair> open_;
+  std::vector<Touch> events_;
+  std::vector<core::Arc> fresh_;
+  core::ArcSet found_;
+};
+
+/// Roots of subtrees that together make the whole tree: enough to occupy many threads.
+std::vector<Index> subtrees(const FeatureTree& tree) {
+  constexpr Index enough = 64;
+  const auto size = static_cast<Index>(tree.triangles().size());
+  std::vector<Index> out, open = {0};
+  while (!open.empty()) {
+    const Index i = open.back();
+    open.pop_back();
+    const auto& node = tree.nodes()[i];
+    if (node.is_leaf() || node.last - node.first <= size / enough) {
+      out.push_back(i);
+    } else {
+      open.push_back(node.child + 1);
+      open.push_back(node.child);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turning) {
+  if (resting.tree().empty() || turning.tree().empty()) return {};
+  const auto roots = subtrees(turning.tree());
+  std::vector<core::ArcSet> parts(roots.size());
+  core::parallel_chunks(roots.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) parts[i] = Collector(resting, turning).run(roots[i]);
+  });
+  core::ArcSet all;
+  for (const core::ArcSet& part : parts) all = all.united(part);
+  return all;
+}
+
+}  // namespace condyle::motion

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/arc_set.hpp"
+#include "motion/search/rotation_table.hpp"
+
+namespace condyle::motion {
+
+/// All angles of a full turn at which the surfaces of the two bodies touch.
+///
+///        event        event                 event  event
+///   ------(=============)---------------------(======)------    one pair of triangles: the state changes at
+///   events
+///   ------(======================)------------(======)------    only, and the set is the union over all
+///   pairs
+///
+/// Both bodies are placed in one frame; the turning one is at angle 0 there. Ends are events of
+/// docs/mathematics.md, section 5, widened by their error bound (below 1e-12 rad): the set holds every angle
+/// of contact. Between two events of a pair one exact test of the turned and rounded triangles decides. Gaps
+/// between events of a pair below 1e-9 rad count as contact.
+///
+/// Surfaces alone: a body turning inside the other's solid without touching is free here. Triangles of zero
+/// area meet nothing: their points belong to their neighbours. Edges that slide along each other without
+/// going in (mirrored rulings of one hyperboloid) may be reported by the ends of their contact only.
+///
+/// Threads share the work; the result does not depend on how many.
+core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turning);
+
+}  // namespace condyle::motion

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+#include "mesh/triangle_tree.hpp"
+#include "motion/events/turn_function.hpp"
+
+namespace condyle::motion {
+
+/// A tree over the triangles, edges and vertices of a mesh. Built once per mesh in its own frame; good for
+/// every axis and pose.
+///
+/// Each vertex and each edge belongs to the first triangle that has it, in the order of the tree's places:
+/// nodes own ranges of all three, and a pair of leaves meets every pair of features exactly once.
+///
+/// Vertices no triangle uses are left out: they are on no surface.
+class FeatureTree {
+ public:
+  using Node = mesh::TriangleTree::Node;
+
+  explicit FeatureTree(const TriMesh& mesh);
+
+  struct Range {
+    Index first = 0, last = 0;
+  };
+
+  const std::vector<Node>& nodes() const noexcept { return base_.nodes(); }
+  bool empty() const noexcept { return base_.empty(); }
+
+  /// Corners and ends are places of vertices: corners in the mesh's order, ends in ascending order of the
+  /// mesh's numbers, so that what is computed from a feature does not depend on the tree.
+  const std::vector<Triangle>& triangles() const noexcept { return base_.triangles(); }
+  const std::vector<std::array<Index, 2>>& edges() const noexcept { return edges_; }
+  const std::vector<Vec3>& vertices() const noexcept { return base_.vertices(); }
+
+  /// Features that belong to a triangle.
+  Range edges_of(Index triangle) const noexcept {
+    return {edges_before_[triangle], edges_before_[triangle + 1]};
+  }
+  Range vertices_of(Index triangle) const noexcept {
+    return {vertices_before_[triangle], vertices_before_[triangle + 1]};
+  }
+
+  /// Numbers in the mesh the tree was built from.
+  Index mesh_triangle(Index place) const noexcept { return base_.mesh_triangles()[place]; }
+  Index mesh_vertex(Index place) const noexcept { return base_.mesh_vertices()[place]; }
+
+  /// Whether the mesh bounds a solid: every edge is used as often in one direction as in the other.
+  bool is_closed() const noexcept { return is_closed_; }
+  /// The place of one vertex of each connected piece.
+  const std::vector<Index>& pieces() const noexcept { return pieces_; }
+
+ private:
+  void count_vertices();
+  void gather_edges();
+
+  mesh::TriangleTree base_;
+  std::vector<std::array<Index, 2>> edges_;
+  std::vector<Index> edges_before_, vertices_before_;  ///< One entry per triangle, plus one.
+  std::vector<Index> pieces_;
+  bool is_closed_ = false;
+};
+
+/// A ball around the node's box.
+struct NodeBall {
+  Vec3 centre;
+  double radius;
+};
+NodeBall ball_of(const mesh::TriangleTree::Node& node) noexcept;
+
+}  // namespace condyle::motion

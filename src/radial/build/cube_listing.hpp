@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+#include "core/uninitialised.hpp"
+#include "radial/build/cube_passes.hpp"
+#include "radial/exact/direction_map.hpp"
+
+namespace condyle::radial {
+
+/// The cells of a cube map that triangles meet, found and counted before they are sorted into rows.
+///
+///   entry   triangle by triangle   | a in cell 7 | a in cell 8 | b in cell 7 | ...
+///   length  of each cell's row        ...  7: 2   8: 1  ...
+///
+/// Small triangles on one face, most of all, are listed by their octagon on the face; larger ones by octagon
+/// and edges; those on several faces by what is seen of them on each. What is too near to the planes between
+/// faces for that is clipped (CubeMap::visit_cells).
+class CubeListing {
+ public:
+  /// Borrows all; `placed` are the vertices.
+  CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+              const PlacedVertices& placed);
+
+  /// Lists all triangles.
+  void list();
+
+  /// In the order of the triangles.
+  std::span<const ListedTriangle> entries() const noexcept { return {entry_.data(), count_}; }
+  std::uint32_t length(Index cell) const noexcept { return length_[cell]; }
+  /// Whether any triangle had to be clipped: then only where the vertices truly are has counted for it.
+  bool has_clipped() const noexcept { return has_clipped_; }
+
+ private:
+  void make_room(std::size_t entries);
+  void list_larger(Index triangle);
+  bool see_on_one_face(Index triangle);
+  bool see_on_faces(Index triangle);
+  /// Its corners are in their place already.
+  void add_seen(Index triangle, int face);
+  void list_clipped(Index triangle);
+  void list_seen();
+  Listing listing() noexcept {
+    return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
+  }
+
+  PointsView vertices_;
+  std::span<const Triangle> triangles_;
+  const CubeMap& map_;
+  PlacedVertices placed_;
+  int n_;
+  core::UninitialisedVector<ListedTriangle> entry_;
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> length_;
+  /// Waiting to be listed, see SeenTriangles.
+  static constexpr std::size_t most_seen = 256;
+  std::array<FaceCorners, most_seen + listing_room> seen_u_, seen_w_;
+  std::array<std::uint32_t, most_seen> seen_triangle_;
+  std::array<std::int32_t, most_seen> seen_face_;
+  std::size_t seen_count_ = 0;
+  bool has_clipped_ = false;
+};
+
+/// A mesh as the passes read it; its vertices in one place each are not given.
+MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexcept;
+
+}  // namespace condyle::radial

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "condyle/points.hpp"
+
+namespace condyle::radial {
+
+/// Corners of a triangle seen from the origin.
+struct Cone {
+  Vec3 a, b, c;
+};
+
+/// A cell of directions that a triangle is seen in, with the radius interval that the triangle takes inside
+/// the cell. All conservative: no cell the cone meets is missing, no radius lies outside the interval.
+struct CellOverlap {
+  Index cell;
+  double min_radius, max_radius;
+};
+
+/// Which of the two maps from directions to cells.
+enum class DirectionMapKind {
+  cartesian,  ///< the paper's: (x/R, y/R, sign z), N x N x 2 cells, uneven near z = 0
+  cube,       ///< the largest |component| picks one of six faces, the others divided by it are the cell
+              ///< coordinates
+};
+
+/// The paper's normalised Cartesian map: a direction d = v / |v| falls into cell (d.x, d.y) of an N x N grid
+/// over [-1, 1]^2, one grid for d.z >= 0 and one for d.z < 0.
+///
+/// Cells are descended to by halving blocks of them: a block is left where a side of the cone, or the
+/// triangle's plane at the triangle's radii, keeps off all of its directions. Cells near the rim of the disc
+/// span many directions and their lists are long: that is the map's weakness.
+class CartesianMap {
+ public:
+  explicit CartesianMap(int cells_per_side) : n_(cells_per_side) { assert(n_ > 0); }
+
+  Index cell_count() const noexcept { return static_cast<Index>(2 * n_ * n_); }
+
+  /// Cell of the direction of v, which is not zero.
+  Index cell_of(const Vec3& v) const noexcept {
+    const double squared = (v.x() * v.x() + v.y() * v.y()) + v.z() * v.z();
+    // Squares of what is tiny or huge leave the range of doubles.
+    if (!(squared > 1e-280 && squared < 1e280)) return cell_of(v / v.cwiseAbs().maxCoeff());
+    const double radius = std::sqrt(squared);
+    const int i = column(v.x() / radius), j = column(v.y() / radius);
+    return static_cast<Index>(((v.z() < 0 ? n_ : 0) + j) * n_ + i);
+  }
+
+  /// Calls visit(CellOverlap) once for each cell the cone meets.
+  void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
+
+ private:
+  int column(double s) const noexcept {
+    return std::clamp(static_cast<int>((s + 1) * (0.5 * n_)), 0, n_ - 1);
+  }
+
+  int n_;
+};
+
+/// Six faces of a cube, N x N cells each. No square root on the way to a cell, and a triangle's cone is a
+/// plane polygon on a face: filling the table is polygon clipping.
+///
+///        +---+           cell = (face * N + row) * N + column
+///        | 2 |
+///    +---+---+---+---+   faces +x +y +z -x -y -z
+///    | 3 | 0 | ...       on face k: column from v[k+1] / |v[k]|, row from v[k+2] / |v[k]|
+class CubeMap {
+ public:
+  explicit CubeMap(int cells_per_side) : n_(cells_per_side) { assert(n_ > 0); }
+
+  int cells_per_side() const noexcept { return n_; }
+  Index cell_count() const noexcept { return static_cast<Index>(6 * n_ * n_); }
+
+  /// Cell of the direction of v, which is not zero.
+  Index cell_of(const Vec3& v) const noexcept {
+    const double x = std::abs(v.x()), y = std::abs(v.y()), z = std::abs(v.z());
+    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    const double largest = std::abs(v[axis]);
+    const int face = v[axis] < 0 ? axis + 3 : axis;
+    const int i = column(v[(axis + 1) % 3] / largest), j = column(v[(axis + 2) % 3] / largest);
+    return static_cast<Index>((face * n_ + j) * n_ + i);
+  }
+
+  /// Calls visit(CellOverlap) once for each cell the cone meets.
+  void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
+
+  /// Where in its cell v, which is not zero, falls: the box of its CellOctagon.
+  std::uint32_t box_of(const Vec3& v) const noexcept;
+
+ private:
+  int column(double s) const noexcept {
+    return std::clamp(static_cast<int>((s + 1) * (0.5 * n_)), 0, n_ - 1);
+  }
+
+  int n_;
+};
+
+/// Bound on the distance from the origin to a triangle: never more than the true one, and less only by
+/// rounding.
+double min_radius(const Cone& cone) noexcept;
+
+}  // namespace condyle::radial

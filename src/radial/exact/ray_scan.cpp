@@ -1,0 +1,143 @@
+#include "radial/exact/ray_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/exact_integers.hpp"
+#include "radial/exact/ray_crossing.hpp"
+#include "radial/exact/triangle_plane.hpp"
+
+namespace condyle::radial {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double fraction_along_ray(const Vec3& v, const Cone& t) noexcept {
+  const double past = core::filtered_determinant(v - t.a, t.b - t.a, t.c - t.a).value;  // v . N - D
+  const double full = core::filtered_determinant(v, t.b - t.a, t.c - t.a).value;        // v . N
+  return full != 0 ? 1 - past / full : 1;
+}
+
+/// (D - v . N) / (v . N): the signed way from v to the triangle's plane along the ray, in units of |v|.
+double exact_relative_gap(const Vec3& v, const Cone& t) {
+  const auto n = core::exact::to_integers<12>(
+      {v.x(), v.y(), v.z(), t.a.x(), t.a.y(), t.a.z(), t.b.x(), t.b.y(), t.b.z(), t.c.x(), t.c.y(), t.c.z()});
+  std::array<core::exact::Integer, 3> ab, ac, normal;
+  for (std::size_t k = 0; k < 3; ++k) ab[k] = n[6 + k] - n[3 + k], ac[k] = n[9 + k] - n[3 + k];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    normal[k] = ab[i] * ac[j] - ab[j] * ac[i];
+  }
+  core::exact::Integer to_plane = 0, full = 0;
+  for (std::size_t k = 0; k < 3; ++k) to_plane += (n[3 + k] - n[k]) * normal[k], full += n[k] * normal[k];
+  return core::exact::quotient(to_plane, full);
+}
+
+}  // namespace
+
+/// Nearly always the triangle's plane tells. Beyond that, both determinants err by at most 12u times a
+/// product of lengths: 8u for their own operations, and u for each of the rounded differences in them. Where
+/// that could show in the quotient (a ray within a degree or so of the surface, a sliver), the quotient is
+/// taken in integers.
+double distance_along_ray(const Vec3& v, const Cone& t) {
+  if (const double gap = gap_to_plane(v, scaled_normal(t.a, t.b, t.c)); !std::isnan(gap)) return gap;
+  const Vec3 ab = t.b - t.a, ac = t.c - t.a, av = v - t.a;
+  const double past = core::filtered_determinant(av, ab, ac).value,
+               full = core::filtered_determinant(v, ab, ac).value;
+  const double radius = v.norm();
+  const double error = 12 * core::rounding_unit * ab.norm() * ac.norm() * (radius + av.norm());
+  constexpr double accepted = 3e-13;
+  const double relative = error <= accepted * std::abs(full) ? -past / full : exact_relative_gap(v, t);
+  return relative * radius;
+}
+
+double angle_to_normal(const Vec3& v, const Cone& t) noexcept {
+  const Vec3 normal = (t.b - t.a).cross(t.c - t.a);
+  return std::atan2(v.cross(normal).norm(), std::abs(v.dot(normal)));
+}
+
+RayScan::RayScan(const TriMesh& mesh, int winding_at_centre)
+    : mesh_(mesh), winding_at_centre_(winding_at_centre) {}
+
+void RayScan::collect(const Vec3& v, std::span<const Index> triangles) {
+  crossings_.clear();
+  on_triangle_ = no_index;
+  for (const Index t : triangles) {
+    const Cone cone = cone_of(mesh_, t);
+    const RayCrossing crossing = ray_crossing(v, cone.a, cone.b, cone.c);
+    if (crossing.point_on_triangle) on_triangle_ = std::min(on_triangle_, t);
+    if (crossing.outwards == core::Sign::zero) continue;
+    crossings_.push_back({fraction_along_ray(v, cone), crossing.outwards, crossing.before_point, t});
+  }
+}
+
+int RayScan::winding() const noexcept {
+  int w = winding_at_centre_;
+  for (const auto& crossing : crossings_) {
+    if (crossing.before_point) w -= static_cast<int>(crossing.outwards);
+  }
+  return w;
+}
+
+PointState RayScan::collected_state() const noexcept {
+  return on_triangle_ != no_index ? PointState::on_surface
+         : winding() > 0          ? PointState::inside
+                                  : PointState::outside;
+}
+
+RayScan::Neighbours RayScan::skins() {
+  std::sort(crossings_.begin(), crossings_.end());
+  Neighbours skins;
+  int w = winding_at_centre_;
+  for (const auto& crossing : crossings_) {
+    const bool was_inside = w > 0;
+    w -= static_cast<int>(crossing.outwards);
+    if (was_inside == (w > 0)) continue;
+    if (crossing.before_point) {
+      skins.before = crossing.triangle;
+    } else if (skins.after == no_index) {
+      skins.after = crossing.triangle;
+    }
+  }
+  return skins;
+}
+
+PointState RayScan::state(const Vec3& v, std::span<const Index> triangles) {
+  if (v == Vec3::Zero()) return winding_at_centre_ > 0 ? PointState::inside : PointState::outside;
+  collect(v, triangles);
+  return collected_state();
+}
+
+RayAnswer RayScan::answer(const Vec3& v, std::span<const Index> triangles) {
+  const bool from_inside = winding_at_centre_ > 0;
+  RayAnswer answer{PointState::outside, winding_at_centre_, infinity, no_index,
+                   from_inside ? RayDirection::towards_centre : RayDirection::away_from_centre};
+  if (v == Vec3::Zero()) {
+    if (from_inside) answer.state = PointState::inside, answer.gap = -infinity;
+    return answer;
+  }
+  collect(v, triangles);
+  answer.winding = winding();
+  answer.state = collected_state();
+  if (answer.state == PointState::on_surface) {
+    answer.triangle = on_triangle_;
+    answer.gap = 0;
+    return answer;
+  }
+  const auto [before, after] = skins();
+  const auto distance = [&](Index t) {
+    return t == no_index ? infinity : std::abs(distance_along_ray(v, cone_of(mesh_, t)));
+  };
+  const bool inside = answer.state == PointState::inside;
+  const double inwards = inside || from_inside ? distance(before) : infinity;
+  const double outwards = inside || !from_inside ? distance(after) : infinity;
+  const bool towards = inside ? inwards <= outwards : from_inside;
+  answer.triangle = towards ? before : after;
+  answer.direction = towards ? RayDirection::towards_centre : RayDirection::away_from_centre;
+  const double length = towards ? inwards : outwards;
+  answer.gap = inside ? -length : length;
+  return answer;
+}
+
+}  // namespace condyle::radial

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+#include "condyle/point_state.hpp"
+#include "core/predicates.hpp"
+#include "radial/exact/direction_map.hpp"
+
+namespace condyle::radial {
+
+/// Which way along its ray a vertex reaches the surface that its gap or depth is measured to.
+enum class RayDirection : std::uint8_t { towards_centre, away_from_centre };
+
+inline Cone cone_of(const TriMesh& mesh, Index triangle) {
+  return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
+}
+
+/// Signed distance in mm from v along its ray, outwards positive, to the plane of a triangle the ray crosses;
+/// within 1e-12 of |v|, whatever the angle at which the ray meets the surface.
+double distance_along_ray(const Vec3& v, const Cone& t);
+
+/// Between the ray through v and the triangle's normal, radians in [0, pi/2].
+double angle_to_normal(const Vec3& v, const Cone& t) noexcept;
+
+/// What the ray from the centre through one point tells: one element of RadialHits.
+struct RayAnswer {
+  PointState state;
+  int winding;
+  double gap;
+  Index triangle;
+  RayDirection direction;
+};
+
+/// The plain way to answer for one point at a time, exact: what every faster way is held against.
+///
+/// Crossings of the point's ray with the triangles that it is given are gathered in the scan's own room.
+class RayScan {
+ public:
+  RayScan(const TriMesh& mesh, int winding_at_centre);
+
+  /// All triangles that the ray through v can meet are to be among those given, each once.
+  RayAnswer answer(const Vec3& v, std::span<const Index> triangles);
+  /// Its state alone.
+  PointState state(const Vec3& v, std::span<const Index> triangles);
+
+ private:
+  struct Crossing {
+    double fraction;  // of the way from the centre to the point; good for ordering, not for depths
+    core::Sign outwards;
+    bool before_point;
+    Index triangle;
+
+    /// Before or after the point is exact; between two crossings on one side of it, double decides.
+    friend bool operator<(const Crossing& a, const Crossing& b) noexcept {
+      if (a.before_point != b.before_point) return a.before_point;
+      if (a.fraction != b.fraction) return a.fraction < b.fraction;
+      return a.triangle < b.triangle;
+    }
+  };
+  /// Where the solid's skin is crossed on each side of the point, counting several skins by winding number:
+  /// the last change between w <= 0 and w > 0 before the point and the first after it. no_index where there
+  /// is none.
+  struct Neighbours {
+    Index before = no_index, after = no_index;
+  };
+
+  void collect(const Vec3& v, std::span<const Index> triangles);
+  /// Winding number of the point (of its side towards the centre, where it is on the surface).
+  int winding() const noexcept;
+  PointState collected_state() const noexcept;
+  Neighbours skins();
+
+  const TriMesh& mesh_;
+  int winding_at_centre_;
+  std::vector<Crossing> crossings_;
+  Index on_triangle_ = no_index;
+};
+
+}  // namespace condyle::radial

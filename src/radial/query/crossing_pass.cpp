@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "radial/query/penetration_passes.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "radial/query/crossing_pass.cpp"
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "radial/query/crossing_decision-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::radial::HWY_NAMESPACE {
+namespace {
+
+using simd::HWY_NAMESPACE::store_compacted;
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DU = hn::CappedTag<std::uint32_t, 16>;
+using Words = hn::Vec<DU>;
+constexpr DU du;
+
+/// Triangles whose octagons hold a point, with the number of the point among the near ones.
+struct Pairs {
+  static constexpr std::size_t most = most_pairs, room = 3 * vector_room;
+  std::array<std::uint32_t, most + room> triangle;
+  std::array<std::uint16_t, most + room> point;
+  static_assert(points_per_batch <= std::numeric_limits<std::uint16_t>::max());
+  std::size_t count;
+};
+
+/// Which of the octagons from `first` on hold the point.
+HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first, std::size_t last, Words box,
+                                         Words slant) {
+#if HWY_TARGET == HWY_SCALAR
+  static_cast<void>(last);
+  const bool held = holds(cube.box[first], hn::GetLane(box)) && holds(cube.slant[first], hn::GetLane(slant));
+  return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
+#else
+  constexpr hn::Repartition<std::uint8_t, DU> bytes;
+  const auto excess = [&](const std::uint32_t* from, Words point) {
+    return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
+  };
+  const auto either = hn::Or(excess(cube.box, box), excess(cube.slant, slant));
+  return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
+#endif
+}
+
+std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                                  std::uint32_t* found) {
+  const CellRow row = cube.row[cell];
+  const Words of_box = hn::Set(du, box), of_slant = hn::Set(du, slant_of_point(box));
+  std::size_t count = 0;
+  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+    const auto holding = octagons_holding(cube, first, row.last, of_box, of_slant);
+    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, found + count);
+    count += hn::CountTrue(du, holding);
+  }
+  return count;
+}
+
+/// What lists and forms are asked with, of all near points at once.
+struct Asked {
+  alignas(64) BatchArray<std::uint32_t> slant;
+  alignas(64) BatchArray<float> bound;  ///< error of forms over the sum of their coefficients' magnitudes
+};
+
+HWY_INLINE void prepare(const NearPoints& points, float form_bound, Asked& out) {
+  constexpr hn::RebindToFloat<DU> d;
+  const auto byte = hn::Set(du, 255);
+  for (std::size_t i = 0; i < points.count; i += hn::Lanes(du)) {
+    // As slant_of_point().
+    const Words box = hn::Load(du, points.box.data() + i);
+    const Words u = hn::And(box, byte), w = hn::And(hn::ShiftRight<16>(box), byte);
+    const Words sum = hn::ShiftRight<1>(hn::Add(u, w));
+    const Words difference = hn::ShiftRight<1>(hn::Add(hn::Sub(u, w), byte));
+    const Words of_sum = hn::Or(sum, hn::ShiftLeft<8>(hn::Sub(byte, sum)));
+    const Words of_difference = hn::Or(difference, hn::ShiftLeft<8>(hn::Sub(byte, difference)));
+    hn::Store(hn::Or(of_sum, hn::ShiftLeft<16>(of_difference)), du, out.slant.data() + i);
+    const auto magnitude = [&](const auto& of) { return hn::Abs(hn::Load(d, of.data() + i)); };
+    const auto largest = hn::Max(hn::Max(magnitude(points.x), magnitude(points.y)), magnitude(points.z));
+    hn::Store(hn::Mul(hn::Set(d, form_bound), largest), d, out.bound.data() + i);
+  }
+}
+
+/// Pairs of one near point with triangles that may say something of it, written behind the `count` of the
+/// others. Returns how many there are then; more than fit, where there are too many.
+HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, const Asked& asked, std::size_t i,
+                            std::size_t count, Pairs& pairs) {
+  const CellRow row = cube.row[points.cell[i]].half_at(points.box[i]);
+  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, asked.slant[i]);
+  constexpr hn::Rebind<std::uint16_t, DU> du16;
+  const auto number = hn::Set(du16, static_cast<std::uint16_t>(i));
+  const Words relevant = hn::Set(du, points.relevant[i] >> 8);
+  for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
+    const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint8_t, DU>(), cube.nearest + first));
+    const auto holding =
+        hn::And(octagons_holding(cube, first, row.last, box, slant), hn::Not(hn::Gt(nearest, relevant)));
+    // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
+    if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
+    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + count);
+    hn::StoreU(number, du16, pairs.point.data() + count);
+    count += hn::CountTrue(du, holding);
+  }
+  return count;
+}
+
+/// Lane k of four vectors as vector k.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void transpose(D, [[maybe_unused]] std::array<V, 4>& v) {
+#if HWY_TARGET != HWY_SCALAR
+  const V even_low = hn::InterleaveLower(v[0], v[2]), odd_low = hn::InterleaveLower(v[1], v[3]);
+  const V even_high = hn::InterleaveUpper(D(), v[0], v[2]), odd_high = hn::InterleaveUpper(D(), v[1], v[3]);
+  v = {hn::InterleaveLower(even_low, odd_low), hn::InterleaveUpper(D(), even_low, odd_low),
+       hn::InterleaveLower(even_high, odd_high), hn::InterleaveUpper(D(), even_high, odd_high)};
+#endif
+}
+
+/// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
+HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Asked& asked, Pairs& pairs,
+                      Crossings& out) {
+  // Four pairs side by side; without vectors one, of which each form is a "vector".
+  constexpr hn::CappedTag<float, 4> d4;
+  constexpr hn::RebindToUnsigned<decltype(d4)> du4;
+  constexpr hn::Rebind<std::uint16_t, decltype(du4)> du16;
+  using V = hn::Vec<decltype(d4)>;
+  constexpr std::size_t side_by_side = hn::MaxLanes(d4), ahead = 32;
+  const std::size_t last = std::max(pairs.count, std::size_t{1}) - 1;
+  for (std::size_t k = 0; pairs.count > 0 && k < ahead + side_by_side; ++k) {
+    pairs.triangle[pairs.count + k] = pairs.triangle[last], pairs.point[pairs.count + k] = pairs.point[last];
+  }
+  const auto fetch = [&](std::size_t i) { hwy::Prefetch(cube.forms + pairs.triangle[i]); };
+  for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
+  std::size_t end = Crossings::begin;
+  for (std::size_t i = 0; i < pairs.count; i += side_by_side) {
+    std::array<V, 4> value, error;
+    for (std::size_t k = 0; k < side_by_side; ++k) fetch(i + ahead + k);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t pair = side_by_side == 4 ? i + k : i, lane = side_by_side == 4 ? 0 : k;
+      const ConeForms& forms = cube.forms[pairs.triangle[pair]];
+      const std::uint32_t point = pairs.point[pair];
+      const auto x = hn::LoadU(d4, forms.x + lane), y = hn::LoadU(d4, forms.y + lane),
+                 z = hn::LoadU(d4, forms.z + lane);
+      value[k] =
+          hn::MulAdd(hn::Set(d4, points.x[point]), x,
+                     hn::MulAdd(hn::Set(d4, points.y[point]), y, hn::Mul(hn::Set(d4, points.z[point]), z)));
+      error[k] =
+          hn::Mul(hn::Set(d4, asked.bound[point]), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
+    }
+    transpose(d4, value), transpose(d4, error);
+    const auto below =
+        hn::Or(hn::Lt(value[0], hn::Neg(error[0])),
+               hn::Or(hn::Lt(value[1], hn::Neg(error[1])), hn::Lt(value[2], hn::Neg(error[2]))));
+    const auto above =
+        hn::And(hn::Gt(value[0], error[0]), hn::And(hn::Gt(value[1], error[1]), hn::Gt(value[2], error[2])));
+    const auto s = hn::IfThenElse(above, value[3], hn::Set(d4, std::numeric_limits<float>::quiet_NaN()));
+    const auto kept = hn::AndNot(below, hn::FirstN(d4, pairs.count - i));
+    const auto kept_words = hn::RebindMask(du4, kept);
+    store_compacted(d4, s, kept, out.s.data() + end);
+    store_compacted(d4, error[3], kept, out.error.data() + end);
+    store_compacted(du4, hn::LoadU(du4, pairs.triangle.data() + i), kept_words, out.triangle.data() + end);
+    store_compacted(du4, hn::PromoteTo(du4, hn::LoadU(du16, pairs.point.data() + i)), kept_words,
+                    out.point.data() + end);
+    end += hn::CountTrue(d4, kept);
+  }
+  out.close(end);
+}
+
+std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
+                              FoundPoints& found) {
+  Pairs pairs;
+  Crossings crossings;
+  Decisions decisions;
+  Asked asked;
+  prepare(points, form_bound, asked);
+  std::size_t tried = 0;
+  found.count = 0;
+  for (std::size_t first = 0; first < points.count;) {
+    std::size_t last = first;
+    pairs.count = 0;
+    for (; last < points.count; ++last) {
+      hwy::Prefetch(cube.row + points.cell[std::min(last + 8, points.count - 1)]);
+      const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
+      hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
+      hwy::Prefetch(cube.triangle + row_ahead), hwy::Prefetch(cube.nearest + row_ahead);
+      const std::size_t count = pair(cube, points, asked, last, pairs.count, pairs);
+      if (count > Pairs::most) break;
+      pairs.count = count;
+    }
+    cross(cube, points, asked, pairs, crossings);
+    if (cube.winding_at_centre == 0) {
+      decide_from_outside(points, crossings, decisions, found);
+    } else {
+      decide(cube, points, first, last, crossings, decisions, found);
+    }
+    tried += pairs.count;
+    if (last == first) {
+      // More triangles at one point than there is room for.
+      found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
+    }
+    first = last;
+  }
+  return tried;
+}
+
+}  // namespace
+}  // namespace condyle::radial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace condyle::radial {
+
+HWY_EXPORT(triangles_holding_any);
+HWY_EXPORT(inside_points_any);
+
+std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
+                              std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(triangles_holding_any)(cube, cell, box, found);
+}
+
+std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
+                          FoundPoints& found) {
+  return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, found);
+}
+
+}  // namespace condyle::radial
+#endif

@@ -1,0 +1,356 @@
+#include "radial/query/penetration_passes.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include <hwy/cache_control.h>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "radial/query/penetration_passes.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "simd/compress_store-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::radial::HWY_NAMESPACE {
+namespace {
+
+using simd::HWY_NAMESPACE::numbers_from;
+using simd::HWY_NAMESPACE::store_compacted;
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Sixteen lanes at most: a block. Narrower vectors take several steps for one.
+using D = hn::CappedTag<float, 16>;
+using DI = hn::RebindToSigned<D>;
+using DU = hn::RebindToUnsigned<D>;
+using Floats = hn::Vec<D>;
+using Ints = hn::Vec<DI>;
+using Words = hn::Vec<DU>;
+constexpr D d;
+constexpr DI di;
+constexpr DU du;
+
+/// Where rays meet the cube: face, and u, w in [-1, 1] on it, as CubeMap has them.
+struct CubePlace {
+  Ints face;
+  Floats u, w;
+};
+
+HWY_INLINE CubePlace place_on_cube(Floats x, Floats y, Floats z) {
+  const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
+  const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
+  const auto on_y = hn::AndNot(on_x, hn::Ge(ay, az));
+  const auto largest = hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z));
+  const auto u = hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x));
+  const auto w = hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y));
+  const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Abs(largest));
+  const auto axis = hn::IfThenElse(hn::RebindMask(di, on_x), hn::Zero(di),
+                                   hn::IfThenElse(hn::RebindMask(di, on_y), hn::Set(di, 1), hn::Set(di, 2)));
+  const auto negative = hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)), hn::Set(di, 3));
+  return {hn::Add(axis, negative), hn::Mul(u, inverse), hn::Mul(w, inverse)};
+}
+
+/// Column or row of `count` equal ones over [-1, 1], count up to 2^22. Added to 2^23, a float is rounded to a
+/// whole number, which its last bits then are; half a column less, it is rounded down. Where it is on a
+/// border, either side may come out.
+HWY_INLINE Ints column(Floats u, int count) {
+  constexpr float shift = 0x1p23f;
+  const float half = 0.5f * static_cast<float>(count);
+  const auto half_less = hn::MulAdd(u, hn::Set(d, half), hn::Set(d, half - 0.5f));
+  const auto whole = hn::Sub(hn::BitCast(di, hn::Add(half_less, hn::Set(d, shift))),
+                             hn::Set(di, std::bit_cast<std::int32_t>(shift)));
+  return hn::Min(hn::Max(whole, hn::Zero(di)), hn::Set(di, count - 1));
+}
+
+HWY_INLINE Ints radius_code(const RadiusScale& scale, Floats squared) {
+  const auto steps =
+      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
+  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
+}
+
+/// radius_word(greatest, least): what an interval of radii must not exceed in either half to meet [least,
+/// greatest].
+HWY_INLINE Words reach_word(Ints least, Ints greatest) {
+  const auto complement = hn::Sub(hn::Set(di, greatest_radius_code), least);
+  return hn::BitCast(du, hn::Or(greatest, hn::ShiftLeft<16>(complement)));
+}
+
+/// Whether no half of the entry exceeds the word's: the two intervals meet.
+HWY_INLINE hn::Mask<DU> radii_meet(Words entry, Words word) {
+#if HWY_TARGET == HWY_SCALAR
+  const std::uint32_t e = hn::GetLane(entry), w = hn::GetLane(word);
+  return hn::MaskFromVec(hn::Set(du, (e & 0xffff) <= (w & 0xffff) && e >> 16 <= w >> 16 ? ~0u : 0u));
+#else
+  constexpr hn::Repartition<std::uint16_t, DU> halves;
+  const auto excess = hn::SaturatedSub(hn::BitCast(halves, entry), hn::BitCast(halves, word));
+  return hn::Eq(hn::BitCast(du, excess), hn::Zero(du));
+#endif
+}
+
+HWY_INLINE Floats dot(Floats x, Floats y, Floats z, float a, float b, float c) {
+  return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
+}
+
+/// Step of the pyramid with room for a displacement on the face, given in cells: see DirectionPyramid. With k
+/// half the octaves above one cell that are begun, counting the second half from 3/2 on: 0 where there are
+/// none, 1 up to two cells, then k itself.
+HWY_INLINE Ints step_for(Floats cells) {
+  const auto one = std::bit_cast<std::int32_t>(1.0f);
+  const auto k = hn::ShiftRight<22>(hn::Sub(hn::BitCast(di, cells), hn::Set(di, one + 1)));
+  return hn::IfThenZeroElse(hn::Lt(k, hn::Zero(di)), hn::Max(k, hn::Set(di, 1)));
+}
+
+/// Index into the pyramid, see DirectionPyramid::start_of.
+HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints step) {
+  const int finest = cube.cells_per_side;
+  const auto pair = hn::Max(hn::Sub(step, hn::Set(di, 1)), hn::Zero(di));
+  const auto shift = hn::BitCast(du, hn::ShiftRight<1>(pair));
+  const auto at_level = [&](Ints value) { return hn::BitCast(di, hn::Shr(hn::BitCast(du, value), shift)); };
+  const auto n = at_level(hn::Set(di, finest));
+  const auto row = at_level(column(place.w, finest)), col = at_level(column(place.u, finest));
+  const auto squares = hn::Set(di, finest * finest), own = hn::Mul(n, n);
+  const auto before = hn::Add(hn::Set(di, 6 * finest * finest), hn::ShiftLeft<4>(hn::Sub(squares, own)));
+  const auto start = hn::IfThenZeroElse(hn::Eq(step, hn::Zero(di)), before);
+  // The second step of a level is as the first, six faces further on.
+  const auto face = hn::Add(place.face, hn::Mul(hn::And(pair, hn::Set(di, 1)), hn::Set(di, 6)));
+  return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(face, n), row), n), col));
+}
+
+/// A block's cap about R axis + t / |p| holds the directions of R p + t, and its radii grow as this says.
+///
+///     | R p + t - (|p| / m) (m R axis + t) | <= |p| chord + |t| | |p| / m - 1 |,   1 / m the mean inverse
+///     | R p + t |^2 = |p|^2 + |t|^2 + 2 (R p) . t,   (R p) . t within |p| (R axis . t -+ chord |t|)
+///
+/// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
+/// those of the points later, and a rotation that is one to 1e-6.
+///
+/// `turn` is a chord that the block may still turn by. Blocks from `block` on, one to a lane.
+template <bool translated>
+HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                                 std::size_t block, float turn) {
+  const auto& r = pose.rotation;
+  const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
+  const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
+  const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
+  const auto z = hn::LoadU(d, blocks.axis_z + block),
+             chord = hn::Add(hn::LoadU(d, blocks.chord + block), hn::Set(d, turn));
+  auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
+  auto az = dot(x, y, z, r[6], r[7], r[8]);
+  const auto nearest = hn::LoadU(d, blocks.nearest + block), furthest = hn::LoadU(d, blocks.furthest + block);
+  auto least = hn::Mul(nearest, nearest), greatest = hn::Mul(furthest, furthest);
+  auto sine = chord;
+  auto certain = hn::Gt(nearest, hn::Zero(d));
+  if constexpr (translated) {
+    const auto inverse = hn::LoadU(d, blocks.mean_inverse + block);
+    const auto spread = hn::LoadU(d, blocks.spread + block);
+    const auto along = dot(ax, ay, az, pose.translation[0], pose.translation[1], pose.translation[2]);
+    ax = hn::MulAdd(hn::Set(d, pose.translation[0]), inverse, ax);
+    ay = hn::MulAdd(hn::Set(d, pose.translation[1]), inverse, ay);
+    az = hn::MulAdd(hn::Set(d, pose.translation[2]), inverse, az);
+    const auto shift = hn::Mul(distance, hn::Add(inverse, spread));
+    certain = hn::And(certain, hn::Lt(shift, hn::Set(d, 0.25f)));
+    sine = hn::Div(hn::MulAdd(distance, spread, chord), hn::Sub(one, shift));
+    const auto slack = hn::Mul(distance, chord), squared = hn::Mul(distance, distance);
+    const auto two = hn::Set(d, 2.0f);
+    least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
+    greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
+  }
+  const CubePlace place = place_on_cube(ax, ay, az);
+  // With L the length of (1, u, w), L <= (L^2 + c^2) / 2c for any c, and M^2 = 1 + max(u^2, w^2), L M <= (L^2
+  // + M^2) / 2: 4 and 2 percent too much at most, and no roots.
+  constexpr float c = 1.3f, rounded = 1 + 0x1p-20f;
+  const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w), sum = hn::Add(uu, ww);
+  const auto length =
+      hn::MulAdd(sum, hn::Set(d, rounded / (2 * c)), hn::Set(d, rounded * (1 + c * c) / (2 * c)));
+  const auto product = hn::MulAdd(hn::Add(sum, hn::Max(uu, ww)), hn::Set(d, 0.5f), one);
+  // A cap with that sine moves a coordinate of the face by at most this, in cells.
+  const auto opening = hn::Mul(sine, length);
+  const auto cells = hn::Div(hn::Mul(hn::Mul(sine, hn::Set(d, finest_cells * (1 + 0x1p-10f))), product),
+                             hn::Sub(one, opening));
+  const auto step = step_for(hn::Add(cells, hn::Set(d, 0.01f)));
+  const auto has_cells = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
+  const auto in_pyramid = hn::And(hn::RebindMask(di, has_cells), hn::Lt(step, hn::Set(di, cube.steps)));
+  const auto index =
+      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, step)));
+  // What is too wide for the pyramid is held against all directions.
+  const auto entry = hn::IfThenElse(hn::RebindMask(du, in_pyramid), hn::GatherIndex(du, cube.pyramid, index),
+                                    hn::Set(du, cube.all_radii));
+  const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                               radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+  return hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, certain)));
+}
+
+template <bool translated>
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
+    const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
+    const auto near = hn::And(are_near<translated>(cube, blocks, pose, block, 0),
+                              hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
+    const auto number = numbers_from(du, block);
+    store_compacted(du, number, near, found + count);
+    count += hn::CountTrue(du, near);
+  }
+  return count;
+}
+
+std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                            const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  return pose.distance > 0 ? near_blocks<true>(cube, blocks, pose, parents, parent_count, found)
+                           : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
+}
+
+/// Squared radius beyond which no way out is the nearer one, as a code. A point at radius r that is inside
+/// has crossed surface at l or beyond, l the least radius in its cell, if the centre is outside: the way back
+/// there is at most r - l, and the ways to surface beyond 2 r - l are longer. With a = r^2 and b = l^2
+///
+///     (2 r - l)^2 = 4 a + b - 4 r l <= 4 a + b - 8 a b / (a + b),
+///
+/// as r l is the geometric mean of a and b, and at least their harmonic one. 2^-12 is far above the errors of
+/// points and codes. A least radius below the scale is taken for 0.
+HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry) {
+  if (cube.winding_at_centre > 0) return hn::Set(du, greatest_radius_code);
+  const auto code = hn::BitCast(di, hn::And(entry, hn::Set(du, 0xffff)));
+  const auto bits = hn::Add(hn::Set(di, cube.scale.base), hn::ShiftLeftSame(code, cube.scale.shift));
+  const auto least = hn::IfThenZeroElse(hn::RebindMask(d, hn::Eq(code, hn::Zero(di))), hn::BitCast(d, bits));
+  const auto harmonic = hn::Div(hn::Mul(squared, least), hn::Add(squared, least));
+  const auto limit =
+      hn::Add(hn::Mul(hn::Set(d, 4.0f), squared), hn::Sub(least, hn::Mul(hn::Set(d, 8.0f), harmonic)));
+  return hn::BitCast(du, radius_code(cube.scale, hn::Mul(limit, hn::Set(d, 1 + 0x1p-12f))));
+}
+
+template <bool remembering>
+HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory* memory,
+                            NearPoints& found) {
+  const auto& r = pose.rotation;
+  const auto& t = pose.translation;
+  const int finest = cube.cells_per_side;
+  const auto part_mask = hn::Set(di, parts_per_cell - 1);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < block_count; ++i) {
+    const std::size_t first = std::size_t{16} * blocks[i];
+    if (i + 4 < block_count) {
+      const std::size_t ahead = std::size_t{16} * blocks[i + 4];
+      hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
+    }
+    [[maybe_unused]] bool stays_free = true;
+    for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
+      const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at),
+                 pz = hn::LoadU(d, points.z + at);
+      const auto x = hn::Add(dot(px, py, pz, r[0], r[1], r[2]), hn::Set(d, t[0]));
+      const auto y = hn::Add(dot(px, py, pz, r[3], r[4], r[5]), hn::Set(d, t[1]));
+      const auto z = hn::Add(dot(px, py, pz, r[6], r[7], r[8]), hn::Set(d, t[2]));
+      const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+      const auto code = radius_code(cube.scale, squared);
+      const CubePlace place = place_on_cube(x, y, z);
+      const auto u = column(place.u, finest * parts_per_cell), w = column(place.w, finest * parts_per_cell);
+      const auto n = hn::Set(di, finest);
+      const auto cell =
+          hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
+      const auto entry = hn::GatherIndex(du, cube.radii, cell);
+      auto near = radii_meet(entry, reach_word(code, code));
+      if (HWY_UNLIKELY(first + 16 > points.size)) {
+        near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
+      }
+      if constexpr (remembering) {
+        const auto index = pyramid_index(cube, place, hn::Set(di, memory->step[blocks[i]]));
+        const auto around = hn::GatherIndex(du, cube.pyramid, index);
+        stays_free &= hn::AllFalse(du, radii_meet(around, reach_word(code, code)));
+      }
+      if (hn::AllFalse(du, near)) continue;
+      const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
+      const auto box =
+          hn::Or(hn::Or(u_part, hn::ShiftLeft<8>(hn::Sub(part_mask, u_part))),
+                 hn::Or(hn::ShiftLeft<16>(w_part), hn::ShiftLeft<24>(hn::Sub(part_mask, w_part))));
+      const auto near_float = hn::RebindMask(d, near);
+      store_compacted(d, x, near_float, found.x.data() + count);
+      store_compacted(d, y, near_float, found.y.data() + count);
+      store_compacted(d, z, near_float, found.z.data() + count);
+      store_compacted(du, hn::BitCast(du, cell), near, found.cell.data() + count);
+      store_compacted(du, hn::BitCast(du, box), near, found.box.data() + count);
+      store_compacted(du, relevant_code(cube, squared, entry), near, found.relevant.data() + count);
+      store_compacted(du, numbers_from(du, at), near, found.point.data() + count);
+      count += hn::CountTrue(du, near);
+    }
+    if constexpr (remembering) {
+      // Next time a longer respite is tried after one that was granted, a shorter one otherwise.
+      std::uint8_t& step = memory->step[blocks[i]];
+      memory->free_until[blocks[i]] = stays_free ? memory->turned + memory->reach[step] : -1.0f;
+      const int next = stays_free ? std::min(step + 1, memory->steps - 1) : std::max(step - 1, 0);
+      step = static_cast<std::uint8_t>(next);
+    }
+  }
+  found.count = count;
+}
+
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  near_points<false>(cube, points, pose, blocks, block_count, nullptr, found);
+}
+
+void near_points_remembered_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                                const std::uint32_t* blocks, std::size_t block_count,
+                                const BlockMemory& memory, NearPoints& found) {
+  near_points<true>(cube, points, pose, blocks, block_count, &memory, found);
+}
+
+std::size_t blocks_to_ask_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                              const BlockMemory& memory, std::size_t first, std::size_t last,
+                              std::uint32_t* found) {
+  const auto turned = hn::Set(d, memory.turned);
+  std::size_t count = 0;
+  for (std::size_t block = first; block < last; block += hn::Lanes(d)) {
+    const auto free_until = hn::LoadU(d, memory.free_until + block);
+    const auto due = hn::And(hn::RebindMask(du, hn::Lt(free_until, turned)), hn::FirstN(du, last - block));
+    if (hn::AllFalse(du, due)) continue;
+    const auto near = are_near<false>(cube, blocks, pose, block, memory.stride);
+    const auto freed = hn::RebindMask(d, hn::AndNot(near, due));
+    hn::StoreU(hn::IfThenElse(freed, hn::Add(turned, hn::Set(d, memory.stride)), free_until), d,
+               memory.free_until + block);
+    const auto asked = hn::And(due, near);
+    store_compacted(du, numbers_from(du, block), asked, found + count);
+    count += hn::CountTrue(du, asked);
+  }
+  return count;
+}
+
+}  // namespace
+}  // namespace condyle::radial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace condyle::radial {
+
+HWY_EXPORT(near_blocks_any);
+HWY_EXPORT(near_points_any);
+HWY_EXPORT(near_points_remembered_any);
+HWY_EXPORT(blocks_to_ask_any);
+
+std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                        const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(near_blocks_any)(cube, blocks, pose, parents, parent_count, found);
+}
+
+void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                 const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
+  HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
+}
+
+std::size_t blocks_to_ask(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
+                          const BlockMemory& memory, std::size_t first, std::size_t last,
+                          std::uint32_t* found) {
+  return HWY_DYNAMIC_DISPATCH(blocks_to_ask_any)(cube, blocks, pose, memory, first, last, found);
+}
+
+void near_points_remembered(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory& memory,
+                            NearPoints& found) {
+  HWY_DYNAMIC_DISPATCH(near_points_remembered_any)(cube, points, pose, blocks, block_count, memory, found);
+}
+
+}  // namespace condyle::radial
+#endif

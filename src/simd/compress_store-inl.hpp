@@ -1,0 +1,46 @@
+// Included once for every instruction set, by sources that are compiled so.
+#if defined(CONDYLE_RADIAL_COMPACTION_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONDYLE_RADIAL_COMPACTION_INL
+#undef CONDYLE_RADIAL_COMPACTION_INL
+#else
+#define CONDYLE_RADIAL_COMPACTION_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include "simd/compress_lanes.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace condyle::simd::HWY_NAMESPACE {
+
+/// Lanes numbered first, first + 1 and so on. Iota of anything but a constant GCC 12 writes to memory lane by
+/// lane, and reads it again.
+template <class Tag>
+HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> numbers_from(Tag tag, std::size_t first) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  return hn::Add(hn::Iota(tag, 0), hn::Set(tag, static_cast<hn::TFromD<Tag>>(first)));
+}
+
+/// Stores those lanes of which the mask is set, one behind the other; may write a whole vector.
+///
+/// Eight lanes are permuted by a table of our own: of Highway 1.0.3's GCC 12 makes a copy on the stack each
+/// time.
+template <class Tag, class Vector, class T>
+HWY_INLINE void store_compacted(Tag tag, Vector values, hwy::HWY_NAMESPACE::Mask<Tag> mask, T* to) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  if constexpr (hn::MaxLanes(tag) != 8) {
+    hn::StoreU(hn::Compress(values, mask), tag, to);
+  } else {
+    constexpr hn::RebindToUnsigned<Tag> words;
+    constexpr hn::Rebind<std::uint8_t, Tag> bytes;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(tag, mask, bits);
+    const auto lanes = hn::PromoteTo(words, hn::LoadU(bytes, compaction_lanes[bits[0]].data()));
+    hn::StoreU(hn::TableLookupLanes(values, hn::IndicesFromVec(tag, lanes)), tag, to);
+  }
+}
+
+}  // namespace condyle::simd::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace condyle::simd {
+
+/// One of the instruction sets that the library's vector code is compiled for.
+struct InstructionSet {
+  std::string name;
+  std::int64_t target;
+};
+
+/// Those that this processor has, the best first: the first is what runs unless another one is asked for. The
+/// last one is what every processor of the family has.
+std::vector<InstructionSet> instruction_sets();
+
+/// As long as it lives, vector code everywhere in the program runs on the given instruction set. For tests
+/// and measurements: answers do not depend on it.
+class InstructionSetInUse {
+ public:
+  explicit InstructionSetInUse(const InstructionSet& set);
+  ~InstructionSetInUse();
+  InstructionSetInUse(const InstructionSetInUse&) = delete;
+  InstructionSetInUse& operator=(const InstructionSetInUse&) = delete;
+};
+
+}  // namespace condyle::simd
