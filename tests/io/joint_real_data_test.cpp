@@ -5,6 +5,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle {
@@ -13,8 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path data_folder() {
-  const char* named = std::getenv("CONDYLE_DATA");
-  return named ? fs::path(named) : fs::path(CONDYLE_SOURCE_DIR) / "../shared/data";
+  return test::shared_data_folder();
 }
 
 /// A sphere fitted by other means, published with the mesh. Both fits leave out what they take for the neck,

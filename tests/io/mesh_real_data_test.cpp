@@ -13,15 +13,15 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/repair.hpp"
 
+#include "support/shared_data.hpp"
+
 namespace condyle {
 namespace {
 
 using Json = nlohmann::json;
 
 std::filesystem::path data_folder() {
-  const char* set = std::getenv("CONDYLE_DATA");
-  return set != nullptr ? std::filesystem::path(set)
-                        : std::filesystem::path(CONDYLE_SOURCE_DIR) / "../shared/data";
+  return test::shared_data_folder();
 }
 
 #define SKIP_WITHOUT_DATA() \

@@ -9,10 +9,13 @@
 
 namespace condyle::test {
 
-std::optional<std::filesystem::path> shared_data() {
+std::filesystem::path shared_data_folder() {
   const char* named = std::getenv("CONDYLE_DATA");
-  const std::filesystem::path folder =
-      named ? std::filesystem::path(named) : std::filesystem::path(CONDYLE_SOURCE_DIR) / "../shared/data";
+  return named ? std::filesystem::path(named) : std::filesystem::path(CONDYLE_SOURCE_DIR) / "../shared/data";
+}
+
+std::optional<std::filesystem::path> shared_data() {
+  const std::filesystem::path folder = shared_data_folder();
   if (!std::filesystem::is_directory(folder)) return std::nullopt;
   return folder;
 }

@@ -9,8 +9,10 @@
 
 namespace condyle::test {
 
-/// Folder of real joints: $CONDYLE_DATA, or shared/data beside the repository. None where it is missing; the
-/// test then skips with a message.
+/// Where real joints are looked for: $CONDYLE_DATA, or shared/data beside the repository.
+std::filesystem::path shared_data_folder();
+
+/// That folder. None where it is missing; the test then skips with a message.
 std::optional<std::filesystem::path> shared_data();
 
 /// Binary little-endian PLY with float vertices x, y, z and faces `list uchar int` of three: what the data
