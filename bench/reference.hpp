@@ -9,7 +9,7 @@
 #include "mesh/winding_number.hpp"
 #include "method.hpp"
 #include "radial/radial_table.hpp"
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 /// What every method's answer is held against.
 

@@ -4,7 +4,7 @@
 #include "kinds.hpp"
 #include "radial/query/sorted_points.hpp"
 #include "radial/radial_table.hpp"
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 namespace bench {
 namespace {
@@ -121,7 +121,7 @@ class Tangential final : public Method {
     out.clear();
     for (std::size_t v = 0; v < hits_.size(); ++v)
       if (hits_.state[v] != PointState::outside)
-        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.arc_gap[v]});
+        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.arc_gap_mm[v]});
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
@@ -136,7 +136,7 @@ class Tangential final : public Method {
   const TriMesh *fixed_, *mobile_;
   std::shared_ptr<const condyle::RingTable> table_;
   condyle::Points posed_;
-  condyle::TangentialHits hits_;
+  condyle::TangentialResults hits_;
 };
 
 MethodKind radial_vectors() {

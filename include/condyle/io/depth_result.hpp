@@ -39,7 +39,7 @@ std::string depth_text(const DepthQuestion& question, const TurnAxis& axis, cons
 /// tangential_depth_deg and tangential_depth_mm. None where the other mesh is open and nothing can be inside
 /// it.
 std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits);
-std::vector<MeshArray> depth_arrays(const std::optional<TangentialHits>& hits);
+std::vector<MeshArray> depth_arrays(const std::optional<TangentialResults>& hits);
 
 /// Cell arrays in_contact of both bodies: 1 for a triangle that is in a pair.
 struct InContact {

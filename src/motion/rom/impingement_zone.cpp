@@ -9,7 +9,7 @@
 namespace condyle {
 namespace {
 
-void take_depths(const std::optional<RadialHits>& radial, const std::optional<TangentialHits>& tangential,
+void take_depths(const std::optional<RadialHits>& radial, const std::optional<TangentialResults>& tangential,
                  BodyZone& zone) {
   if (!radial || !tangential) return;
   const std::size_t count = radial->size();
@@ -22,8 +22,8 @@ void take_depths(const std::optional<RadialHits>& radial, const std::optional<Ta
       zone.ray_to_normal_deg[v] = Angle::radians(radial->ray_to_normal[v]).degrees();
     }
     if (tangential->state[v] == PointState::inside) {
-      zone.tangential_depth_deg[v] = Angle::radians(-tangential->angular_gap[v]).degrees();
-      zone.tangential_depth_mm[v] = -tangential->arc_gap[v];
+      zone.tangential_depth_deg[v] = (-tangential->angular_gap[v]).degrees();
+      zone.tangential_depth_mm[v] = -tangential->arc_gap_mm[v];
     }
   }
 }
