@@ -6,8 +6,9 @@
 #include <string>
 
 #include "condyle/angle.hpp"
-#include "support/shared_data.hpp"
 #include "condyle/tangential.hpp"
+#include "mesh/winding_number.hpp"
+#include "support/shared_data.hpp"
 
 namespace condyle {
 namespace {

@@ -13,6 +13,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
+#include "tangential/exact/circle_crossing.hpp"
 
 namespace condyle {
 namespace {

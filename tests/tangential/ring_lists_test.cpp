@@ -11,6 +11,7 @@
 #include "simd/instruction_set.hpp"
 #include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
+#include "tangential/query/circle_cells.hpp"
 #include "tangential/query/gather_candidates.hpp"
 
 namespace condyle {
