@@ -164,7 +164,7 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
 
 void ask_instruction_sets(const Scene& scene, int rounds, Report& report) {
   const RadialTable table(scene.joint.fixed.mesh);
-  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices);
+  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices());
   const std::vector<Pose> poses = poses_of(scene, 64);
   const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();
   condyle::Penetrations found;
@@ -205,7 +205,7 @@ std::vector<Pose> motion(const Scene& scene) {
 
 void ask_motion(const Scene& scene, int rounds, Report& report) {
   const RadialTable table(scene.joint.fixed.mesh);
-  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices);
+  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices());
   const std::vector<Pose> steps = motion(scene), unrelated = poses_of(scene, scene.poses.size());
   condyle::Penetrations found;
   const auto samples = interleaved(rounds, {

@@ -74,7 +74,7 @@ struct Count {
 
 Count verify(const Scene& scene, double decisions, unsigned seed) {
   const condyle::RadialTable table(scene.joint.fixed.mesh);
-  const condyle::PointsView vertices = scene.joint.mobile.mesh.vertices.view();
+  const condyle::PointsView vertices = scene.joint.mobile.mesh.vertices().view();
   const condyle::SortedPoints points(vertices);
   condyle::radial::PenetrationTrack track(table, points);
   const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();

@@ -29,7 +29,7 @@ struct RadialContact {
 class JointContact {
  public:
   /// Raises MeshError, naming the body, where the origin lies on a surface.
-  JointContact(TriMesh fixed, TriMesh mobile, RadialOptions options = {});
+  JointContact(const Mesh& fixed, const Mesh& mobile, RadialOptions options = {});
 
   /// Vertices of both bodies, all pairs, and whether they touch. X_FM need not be a pure rotation: the fixed
   /// body is seen from the centre of F, the mobile one from the centre of M.
@@ -38,14 +38,15 @@ class JointContact {
   /// The exact set of intersecting triangle pairs alone; open meshes too.
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
-  const TriMesh& fixed() const noexcept { return fixed_.mesh(); }
-  const TriMesh& mobile() const noexcept { return mobile_.mesh(); }
+  const Mesh& fixed() const noexcept { return fixed_mesh_; }
+  const Mesh& mobile() const noexcept { return mobile_mesh_; }
   const RadialTable& fixed_table() const noexcept { return fixed_; }
   const RadialTable& mobile_table() const noexcept { return mobile_; }
   /// The two surfaces, for "do they touch" alone.
   const contact::BodyPair& bodies() const noexcept { return bodies_; }
 
  private:
+  Mesh fixed_mesh_, mobile_mesh_;
   RadialTable fixed_, mobile_;
   contact::BodyPair bodies_;
 };

@@ -44,11 +44,11 @@ RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const Radia
   RadialSummary summary;
   if (contact.mobile_in_fixed) {
     summary.mobile =
-        summarise(*contact.mobile_in_fixed, posed(X_FM, joint.mobile().vertices.view()), joint.fixed());
+        summarise(*contact.mobile_in_fixed, posed(X_FM, joint.mobile().vertices().view()), joint.fixed());
   }
   if (contact.fixed_in_mobile) {
-    summary.fixed = summarise(*contact.fixed_in_mobile, posed(X_FM.inverse(), joint.fixed().vertices.view()),
-                              joint.mobile());
+    summary.fixed = summarise(*contact.fixed_in_mobile,
+                              posed(X_FM.inverse(), joint.fixed().vertices().view()), joint.mobile());
   }
   return summary;
 }

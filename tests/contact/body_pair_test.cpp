@@ -122,9 +122,9 @@ TEST(BodyPair, AnOpenMeshHasNoInside) {
 
 TEST(BodyPair, AnEmptyMeshTouchesNothing) {
   const TriMesh ball = sphere({0, 0, 0}, 1, 1);
-  EXPECT_FALSE(contact::BodyPair(ball, {}).touch(Pose::Identity()));
-  EXPECT_FALSE(contact::BodyPair({}, ball).touch(Pose::Identity()));
-  EXPECT_TRUE(contact::BodyPair({}, {}).pairs(Pose::Identity()).empty());
+  EXPECT_FALSE(contact::BodyPair(ball, TriMesh{}).touch(Pose::Identity()));
+  EXPECT_FALSE(contact::BodyPair(TriMesh{}, ball).touch(Pose::Identity()));
+  EXPECT_TRUE(contact::BodyPair(TriMesh{}, TriMesh{}).pairs(Pose::Identity()).empty());
 }
 
 TEST(BodyPair, TheLastHitIsAPairThatMeetsAndChangesNoAnswer) {

@@ -30,7 +30,7 @@ auto deepest_facing_of(const Views& bodies) {
 io::Json body_json(const io::BodyView<RadialBodySummary>& view) {
   if (!view.summary) return nullptr;
   const RadialBodySummary& summary = *view.summary;
-  return {{"vertices", view.body.mesh.vertices.size()},
+  return {{"vertices", view.body.mesh.vertices().size()},
           {"vertices_inside", summary.vertices_inside},
           {"vertices_on_surface", summary.vertices_on_surface},
           {"vertices_inside_oblique", summary.oblique_inside},

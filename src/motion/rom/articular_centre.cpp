@@ -107,8 +107,8 @@ Evened even(const JointSpace& space) {
 CentreShift even_joint_space(const JointContact& joint, const ArticularRegion& region, const Pose& X_FM,
                              const CentreRule& rule) {
   Points head;
-  for (std::size_t v = 0; v < joint.mobile().vertices.size(); ++v) {
-    const Vec3 p = joint.mobile().vertices[v];
+  for (std::size_t v = 0; v < joint.mobile().vertices().size(); ++v) {
+    const Vec3 p = joint.mobile().vertices()[v];
     if (p.norm() <= region.radius_mm) head.push_back(p);
   }
   CentreShift shift;

@@ -55,8 +55,8 @@ struct DepthRange::Parts {
   AllowedDepth allowed;
   std::optional<ArticularRegion> articular;
   JointContact contact;
-  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices);
-  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices);
+  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices());
+  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices());
 };
 
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
