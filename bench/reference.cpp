@@ -44,7 +44,7 @@ const std::vector<double>& Reference::depths(std::size_t pose, DepthKind kind) {
       break;
     case DepthKind::along_arc:
       if (!rings_) rings_ = std::make_unique<condyle::RingTable>(*fixed_, arc_axis());
-      for (const double gap : rings_->query(points).arc_gap) depths.push_back(-gap);
+      for (const double gap : rings_->query(points).arc_gap_mm) depths.push_back(-gap);
       break;
     case DepthKind::nearest_surface:
       if (!distance_) distance_ = std::make_unique<condyle::mesh::SurfaceDistance>(*fixed_);

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "condyle/radial.hpp"
+#include "condyle/tangential.hpp"
 #include "contact/body_pair.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
 #include "method.hpp"
-#include "tangential/ring_table.hpp"
 
 /// What every method's answer is held against.
 

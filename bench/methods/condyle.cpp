@@ -1,9 +1,9 @@
 #include <optional>
 
 #include "condyle/radial.hpp"
+#include "condyle/tangential.hpp"
 #include "contact/body_pair.hpp"
 #include "kinds.hpp"
-#include "tangential/ring_table.hpp"
 
 namespace bench {
 namespace {
@@ -124,7 +124,7 @@ class Tangential final : public Method {
     out.clear();
     for (std::size_t v = 0; v < hits_.size(); ++v)
       if (hits_.state[v] != PointState::outside)
-        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.arc_gap[v]});
+        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.arc_gap_mm[v]});
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
@@ -139,7 +139,7 @@ class Tangential final : public Method {
   const TriMesh *fixed_, *mobile_;
   std::shared_ptr<const condyle::RingTable> table_;
   condyle::Points posed_;
-  condyle::TangentialHits hits_;
+  condyle::TangentialResults hits_;
 };
 
 MethodKind radial_vectors() {

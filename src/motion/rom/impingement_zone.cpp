@@ -9,8 +9,8 @@
 namespace condyle {
 namespace {
 
-void take_depths(const std::optional<RadialResults>& radial, const std::optional<TangentialHits>& tangential,
-                 BodyZone& zone) {
+void take_depths(const std::optional<RadialResults>& radial,
+                 const std::optional<TangentialResults>& tangential, BodyZone& zone) {
   if (!radial || !tangential) return;
   const std::size_t count = radial->size();
   for (auto* values : {&zone.radial_depth_mm, &zone.ray_to_normal_deg, &zone.tangential_depth_deg,
@@ -22,8 +22,8 @@ void take_depths(const std::optional<RadialResults>& radial, const std::optional
       zone.ray_to_normal_deg[v] = radial->ray_to_normal[v].degrees();
     }
     if (tangential->state[v] == PointState::inside) {
-      zone.tangential_depth_deg[v] = Angle::radians(-tangential->angular_gap[v]).degrees();
-      zone.tangential_depth_mm[v] = -tangential->arc_gap[v];
+      zone.tangential_depth_deg[v] = (-tangential->angular_gap[v]).degrees();
+      zone.tangential_depth_mm[v] = -tangential->arc_gap_mm[v];
     }
   }
 }
