@@ -49,3 +49,5 @@ foreach(part command:condyle development:libcondyle-dev documentation:condyle-do
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
           DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CMAKE_MATCH_2} COMPONENT ${CMAKE_MATCH_1})
 endforeach()
+install(DIRECTORY ${condyle_api_folder} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/condyle-doc OPTIONAL
+        COMPONENT documentation)

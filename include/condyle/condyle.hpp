@@ -3,7 +3,8 @@
 /// The whole core, in reading order. Files (condyle/io) and the parametric hip (condyle/sample) are libraries of their
 /// own and are included one by one.
 
-// clang-format off: in reading order
+// In reading order, not in the alphabet's.
+// clang-format off
 
 // What everything is made of.
 #include "condyle/points.hpp"

@@ -14,7 +14,8 @@ condyle::TriMesh tetrahedron(const std::array<condyle::Vec3, 4>& corners) {
 int main() {
   const condyle::TriMesh wall = tetrahedron({{{5, -30, -10}, {5, 0, 30}, {5, 30, -10}, {15, 0, 0}}});
   const condyle::TriMesh needle = tetrahedron({{{1, -1, -1}, {-1, -1, 0}, {1, -1, 1}, {0, -10, 0}}});
-  const condyle::Joint joint{"door", condyle::JointKind::hinge, condyle::Side::right, {"wall", wall}, {"needle", needle}};
+  const condyle::Joint joint{
+      "door", condyle::JointKind::hinge, condyle::Side::right, {"wall", wall}, {"needle", needle}};
   const condyle::MotionLimit flexion = condyle::RangeOfMotion(joint).limit(condyle::hinge_motions().front());
   std::printf("flexion ends at %.3f degrees\n", flexion.turned.degrees());
 }
