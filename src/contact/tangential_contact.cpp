@@ -16,14 +16,14 @@ bool any_not_outside(const std::optional<TangentialResults>& hits) {
 TangentialContact tangential_contact(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                                      TangentialRule rule) {
   TangentialContact contact;
-  if (joint.fixed_table().is_closed()) {
+  if (joint.fixed().is_closed()) {
     const RingTable fixed(joint.fixed(), AxisFrame(Vec3::Zero(), axis_F));
-    contact.mobile_in_fixed = fixed.query(posed(X_FM, joint.mobile().vertices.view()), rule);
+    contact.mobile_in_fixed = fixed.query(posed(X_FM, joint.mobile().vertices()), rule);
   }
-  if (joint.mobile_table().is_closed()) {
+  if (joint.mobile().is_closed()) {
     const Pose X_MF = X_FM.inverse();
     const RingTable mobile(joint.mobile(), AxisFrame(X_MF.translation(), X_MF.linear() * axis_F));
-    contact.fixed_in_mobile = mobile.query(posed(X_MF, joint.fixed().vertices.view()), rule);
+    contact.fixed_in_mobile = mobile.query(posed(X_MF, joint.fixed().vertices()), rule);
   }
   contact.pairs = joint.pairs(X_FM);
   contact.in_contact = !contact.pairs.empty() || any_not_outside(contact.mobile_in_fixed) ||

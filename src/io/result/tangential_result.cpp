@@ -34,7 +34,7 @@ io::Json degrees_of(const std::optional<Angle>& angle) {
 io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
   if (!view.summary) return nullptr;
   const TangentialBodySummary& summary = *view.summary;
-  return {{"vertices", view.body.mesh.vertices.size()},
+  return {{"vertices", view.body.mesh.vertices().size()},
           {"vertices_inside", summary.vertices_inside},
           {"vertices_on_surface", summary.vertices_on_surface},
           {"vertices_without_way_out", summary.without_way_out},
