@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 
-#include "condyle/mesh.hpp"
+#include "condyle/points.hpp"
 
 namespace condyle {
+
+struct TriMesh;
 
 /// Coordinates in which a joint axis is +z: the axis point becomes the origin, the axis direction +z, and a
 /// positive angle about the axis is counter-clockwise seen from +z.
