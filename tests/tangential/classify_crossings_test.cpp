@@ -1,4 +1,4 @@
-#include "tangential/query/circle_cuts.hpp"
+#include "tangential/query/classify_crossings.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 /// Circles about z, each with triangles of its own.
 struct Pairs {
   double scale;
-  std::vector<tangential::TurningPoint> points;
+  std::vector<tangential::CirclePoint> points;
   core::UninitialisedVector<tangential::AxisVertex> vertices;
   std::vector<Triangle> triangles;
   std::vector<Index> circle, triangle;
@@ -37,7 +37,7 @@ struct Pairs {
 };
 
 struct Verdict {
-  tangential::CutVerdict verdict;
+  tangential::CrossingClass verdict;
   double angle;
   friend bool operator==(const Verdict&, const Verdict&) = default;
 };
@@ -45,13 +45,13 @@ struct Verdict {
 /// Of those pairs that may cross.
 std::map<std::size_t, Verdict> verdicts(const Pairs& pairs) {
   std::map<std::size_t, Verdict> all;
-  tangential::CircleCuts cuts;
-  for (std::size_t first = 0; first < pairs.circle.size(); first += tangential::CircleCuts::most) {
-    tangential::cut_circles({pairs.vertices.data(), pairs.triangles.data(), pairs.scale}, pairs.points,
+  tangential::ClassifiedPairs cuts;
+  for (std::size_t first = 0; first < pairs.circle.size(); first += tangential::ClassifiedPairs::most) {
+    tangential::classify_crossings({pairs.vertices.data(), pairs.triangles.data(), pairs.scale}, pairs.points,
                             pairs.circle, pairs.triangle, first, cuts);
     for (std::size_t k = 0; k < cuts.count; ++k) {
-      const auto verdict = static_cast<tangential::CutVerdict>(static_cast<signed char>(cuts.verdict[k]));
-      all[cuts.pair[k]] = {verdict, verdict == tangential::CutVerdict::undecided ? 0 : cuts.angle[k]};
+      const auto verdict = static_cast<tangential::CrossingClass>(static_cast<signed char>(cuts.crossing_class[k]));
+      all[cuts.pair[k]] = {verdict, verdict == tangential::CrossingClass::uncertain ? 0 : cuts.angle[k]};
     }
   }
   return all;
@@ -66,10 +66,10 @@ struct Counts {
 void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
   const auto found = verdicts(pairs);
   for (std::size_t k = 0; k < pairs.circle.size(); ++k) {
-    const tangential::TurningPoint& p = pairs.points[pairs.circle[k]];
+    const tangential::CirclePoint& p = pairs.points[pairs.circle[k]];
     const mesh::TriangleCorners t = pairs.corners(k);
     std::vector<tangential::CircleCrossing> crossings;
-    tangential::TangentialWork work;
+    TangentialWork work;
     tangential::add_crossings({p.at(), p.squared_radius, pairs.scale}, {&t[0], &t[1], &t[2]}, 0, crossings,
                               work);
     const auto at = found.find(k);
@@ -79,7 +79,7 @@ void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
       EXPECT_FALSE(core::orientation(t[0], t[1], t[2], p.at()) == core::Sign::zero &&
                    mesh::contains_coplanar(t, p.at()));
       ++counts.left_out;
-    } else if (at->second.verdict != tangential::CutVerdict::undecided) {
+    } else if (at->second.verdict != tangential::CrossingClass::uncertain) {
       ASSERT_EQ(crossings.size(), 1u);
       EXPECT_EQ(crossings[0].angle, at->second.angle);
       EXPECT_EQ(static_cast<int>(crossings[0].passage), static_cast<int>(at->second.verdict));

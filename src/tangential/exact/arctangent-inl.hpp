@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-#include "tangential/query/arctangent.hpp"
+#include "tangential/exact/arctangent.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::tangential::HWY_NAMESPACE {

@@ -1,13 +1,13 @@
-#include "radial/query/sorted_points.hpp"
+#include "radial/query/point_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace condyle {
+namespace condyle::radial {
 namespace {
 
-constexpr std::size_t fan = SortedPoints::fan;
+constexpr std::size_t fan = PointBlocks::fan;
 
 std::size_t rounded_up_to(std::size_t multiple, std::size_t count) {
   return (count + multiple - 1) / multiple * multiple;
@@ -38,7 +38,7 @@ float rounded_down(double value) {
 
 }  // namespace
 
-SortedPoints::SortedPoints(PointsView points, const Vec3& centre) : centre_(centre), point_(points.size()) {
+PointBlocks::PointBlocks(PointsView points, const Vec3& centre) : centre_(centre), point_(points.size()) {
   index_.resize(points.size());
   for (Index i = 0; i < points.size(); ++i) index_[i] = i;
   sort_into_blocks(points, index_);
@@ -60,7 +60,7 @@ SortedPoints::SortedPoints(PointsView points, const Vec3& centre) : centre_(cent
   }
 }
 
-void SortedPoints::describe_block(std::size_t level, std::size_t block) {
+void PointBlocks::describe_block(std::size_t level, std::size_t block) {
   const std::size_t points_per_block = level == 0 ? fan : fan * fan;
   const std::size_t first = block * points_per_block, last = std::min(first + points_per_block, size());
   Vec3 sum = Vec3::Zero();
@@ -90,4 +90,4 @@ void SortedPoints::describe_block(std::size_t level, std::size_t block) {
   set(spread, least > 0 ? rounded_up((1 / least - 1 / greatest) / 2 + mean * 0x1p-23) : 0.0f);
 }
 
-}  // namespace condyle
+}  // namespace condyle::radial

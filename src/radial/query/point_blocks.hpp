@@ -5,7 +5,7 @@
 #include "condyle/points.hpp"
 #include "core/uninitialised.hpp"
 
-namespace condyle {
+namespace condyle::radial {
 
 /// Points of the mobile body in blocks of neighbours, made once for a mesh and a joint centre: what
 /// RadialTable::penetrations reads. A block lies in a cap of directions about the centre and in an interval
@@ -15,7 +15,7 @@ namespace condyle {
 ///       /|  cap
 ///      / |             Point i here is point index()[i] of those given.
 ///     o--+---
-class SortedPoints {
+class PointBlocks {
  public:
   /// Points in a block, and blocks in a block of the next level.
   static constexpr std::size_t fan = 16;
@@ -23,7 +23,7 @@ class SortedPoints {
   static constexpr std::size_t levels = 2;
 
   /// Points in M's frame; `centre` is the joint centre in that frame. n log n.
-  explicit SortedPoints(PointsView points, const Vec3& centre = Vec3::Zero());
+  explicit PointBlocks(PointsView points, const Vec3& centre = Vec3::Zero());
 
   std::size_t size() const noexcept { return index_.size(); }
   std::size_t block_count(std::size_t level) const noexcept { return block_count_[level]; }
@@ -65,4 +65,4 @@ class SortedPoints {
   std::array<std::array<std::vector<float>, columns>, levels> block_;
 };
 
-}  // namespace condyle
+}  // namespace condyle::radial

@@ -1,4 +1,4 @@
-#include "tangential/exact/profile.hpp"
+#include "tangential/build/profile_grid.hpp"
 
 #include <limits>
 
