@@ -6,6 +6,8 @@
 
 namespace condyle {
 
+struct TriMesh;
+
 /// Coordinates in which a joint axis is +z: the axis point becomes the origin, the axis direction +z, and a
 /// positive angle about the axis is counter-clockwise seen from +z.
 ///

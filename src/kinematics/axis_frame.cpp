@@ -1,6 +1,7 @@
 #include "condyle/axis_frame.hpp"
 
 #include "condyle/error.hpp"
+#include "condyle/mesh.hpp"
 
 namespace condyle {
 namespace {
