@@ -6,59 +6,44 @@
 namespace condyle::motion {
 namespace {
 
-/// Every edge once, found again by its end of the smaller place.
+/// Every edge once, found again by its end in the lower slot.
 ///   offset_     0        3  ...    one entry per vertex, plus one
-///   met_       | a b . | d ...     as many entries as edges may come, those met so far first
-class EdgesMet {
+///   higher_    | a b . | d ...     as many entries as edges may come, those found so far first
+class KnownEdges {
  public:
-  EdgesMet(const std::vector<Triangle>& triangles, std::size_t vertices)
+  KnownEdges(const std::vector<Triangle>& triangles, std::size_t vertices)
       : offset_(vertices + 1, 0), count_(vertices, 0) {
     for (const auto& [a, b, c] : triangles) {
       for (const Index low : {std::min(a, b), std::min(b, c), std::min(c, a)}) ++offset_[low + 1];
     }
     for (std::size_t v = 1; v < offset_.size(); ++v) offset_[v] += offset_[v - 1];
-    met_.resize(offset_.back());
+    higher_.resize(offset_.back());
   }
 
-  /// Whether the edge is met for the first time.
-  bool meet(Index from, Index to) noexcept {
-    const Index low = std::min(from, to), high = std::max(from, to);
-    const int direction = from < to ? 1 : -1;
-    Met* const begin = met_.data() + offset_[low];
-    Met* const end = begin + count_[low];
-    Met* const at = std::find_if(begin, end, [&](const Met& met) { return met.high == high; });
-    if (at != end) {
-      at->balance += direction;
-      return false;
-    }
-    *end = {high, direction};
+  /// Whether the edge was not known yet; now it is.
+  bool insert(Index from, Index to) noexcept {
+    const auto [low, high] = std::minmax(from, to);
+    Index* const begin = higher_.data() + offset_[low];
+    Index* const end = begin + count_[low];
+    if (std::find(begin, end, high) != end) return false;
+    *end = high;
     ++count_[low];
     return true;
   }
 
-  /// Whether each edge was met as often in one direction as in the other.
-  bool balanced() const noexcept {
-    return std::all_of(met_.begin(), met_.end(), [](const Met& met) { return met.balance == 0; });
-  }
-
  private:
-  struct Met {
-    Index high = 0;
-    int balance = 0;
-  };
-  std::vector<Index> offset_, count_;
-  std::vector<Met> met_;
+  std::vector<Index> offset_, count_, higher_;
 };
 
 }  // namespace
 
-FeatureTree::FeatureTree(const TriMesh& mesh) : base_(mesh) {
+FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_closed()) {
   count_vertices();
   gather_edges();
-  pieces_ = base_.one_vertex_of_each_piece();
+  component_vertices_ = base_.one_vertex_of_each_piece();
 }
 
-/// Vertices are placed in the order in which triangles first use them.
+/// The order of vertices is that in which triangles first use them.
 void FeatureTree::count_vertices() {
   vertices_before_.reserve(triangles().size() + 1);
   vertices_before_.push_back(0);
@@ -67,20 +52,19 @@ void FeatureTree::count_vertices() {
 }
 
 void FeatureTree::gather_edges() {
-  EdgesMet met(triangles(), vertices().size());
+  KnownEdges known(triangles(), vertices().size());
   edges_.reserve(3 * triangles().size() / 2);
   edges_before_.reserve(triangles().size() + 1);
   edges_before_.push_back(0);
   for (const auto& [a, b, c] : triangles()) {
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
       // A side without length is its vertex.
-      if (from == to || !met.meet(from, to)) continue;
+      if (from == to || !known.insert(from, to)) continue;
       const bool ascending = mesh_vertex(from) < mesh_vertex(to);
       edges_.push_back({ascending ? from : to, ascending ? to : from});
     }
     edges_before_.push_back(static_cast<Index>(edges_.size()));
   }
-  is_closed_ = met.balanced();
 }
 
 NodeBall ball_of(const mesh::TriangleTree::Node& node) noexcept {
