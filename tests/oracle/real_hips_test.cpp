@@ -89,12 +89,12 @@ std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
   const Side side = side_sign > 0 ? Side::right : Side::left;
   const Joint joint{"", JointKind::ball, side, {"", meshes.fixed}, {"", meshes.mobile}};
   const RangeOfMotion range(
-      joint, {.articular = ArticularRegion{25}, .overlap = {.contact_at_rest = ContactAtRest::accept}});
+      joint, {.articular = ArticularRegion{25}, .overlap = {.reference_contact = ReferenceContact::accept}});
   std::vector<Pose> poses;
   for (const MotionLimit& limit : range.limits(hip_motions())) {
-    if (limit.reason != LimitReason::contact) continue;
+    if (limit.end.reason != LimitReason::contact) continue;
     for (const double past : {-1e-4, 1e-4}) {
-      const double sense = limit.motion.sense == TurnSense::positive ? 1 : -1;
+      const double sense = limit.motion.sense == RotationSense::positive ? 1 : -1;
       poses.push_back(
           pose_at(side, turned_by(limit.angles_at_limit(), limit.motion.vary, Angle::degrees(sense * past))));
     }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto flexion = JointAngle::flexion, adduction = JointAngle::adduction,
                rotation = JointAngle::internal_rotation;
-constexpr auto positive = TurnSense::positive, negative = TurnSense::negative;
+constexpr auto positive = RotationSense::positive, negative = RotationSense::negative;
 
 constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
   return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
@@ -79,7 +79,7 @@ void check_motion(const Motion& motion, JointKind kind) {
     const double start = angle_of(motion.start, angle).radians();
     if (!std::isfinite(start)) fail("an angle is not finite");
     if (kind == JointKind::hinge && angle != JointAngle::flexion && (start != 0 || motion.vary == angle))
-      fail("a hinge turns in flexion alone");
+      fail("a hinge turns only in flexion");
   }
 }
 
@@ -104,7 +104,7 @@ JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept {
 }
 
 JointAngles MotionLimit::angles_at_limit() const noexcept {
-  return turned_by(motion.start, motion.vary, motion.sense == TurnSense::positive ? turned : -turned);
+  return turned_by(motion.start, motion.vary, end.turned * sign_of(motion.sense));
 }
 
 }  // namespace condyle
