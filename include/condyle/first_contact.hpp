@@ -36,15 +36,6 @@ struct ContactWitness {
   bool articular = false;
 };
 
-/// Which way an angle changes. Joint angles: flexion, adduction and internal rotation are positive. About an
-/// axis: counter-clockwise seen from the tip of its direction is positive.
-enum class RotationSense : std::int8_t { positive = 1, negative = -1 };
-
-/// +1 or -1.
-constexpr double sign_of(RotationSense sense) noexcept {
-  return static_cast<double>(sense);
-}
-
 enum class LimitReason : std::uint8_t {
   contact,           ///< The surfaces meet at the angle, and not before.
   end_of_range,      ///< Nothing meets in the whole range.

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "condyle/error.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 #include "motion/joint_scenes.hpp"
 
 /// Paths in several angles: never past a contact, by exact triangle tests; along one angle the exact limit.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 #include "motion/joint_scenes.hpp"
 
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,

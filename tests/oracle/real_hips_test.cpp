@@ -7,8 +7,7 @@
 #include "condyle/angle.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
-#include "contact/joint_contact.hpp"
-#include "contact/tangential_contact.hpp"
+#include "condyle/contact.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "condyle/radial.hpp"
 #include "simd/instruction_set.hpp"
@@ -198,7 +197,7 @@ TEST_P(RealJoint, TheTangentialMethodHasTheSameVerticesInsideAndPairs) {
   for (std::size_t i = 0; i < all.size(); i += 7) {
     // About Z the axis frame of F only permutes coordinates: both methods see the same doubles, and CGAL has
     // judged those.
-    const TangentialContact tangential = tangential_contact(joint, all[i], Vec3::UnitZ());
+    const TangentialContact tangential = joint.tangential(all[i], Vec3::UnitZ());
     const RadialContact radial = joint.radial(all[i]);
     EXPECT_EQ(tangential.mobile_in_fixed->state, radial.mobile_in_fixed->state) << "pose " << i;
     EXPECT_EQ(tangential.pairs, radial.pairs) << "pose " << i;

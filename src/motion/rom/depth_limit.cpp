@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 #include "motion/rom/even_joint_space.hpp"
 #include "radial/exact/ray_scan.hpp"
 
@@ -57,8 +57,6 @@ struct DepthRange::Parts {
   AllowedDepth allowed;
   std::optional<ArticularRegion> articular;
   JointContact contact;
-  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices());
-  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices());
 };
 
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
@@ -66,7 +64,7 @@ DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
   check(allowed);
   parts_ = std::make_unique<Parts>(Parts{joint.kind, joint.side, allowed,
                                          articular ? articular : find_articular_region(joint),
-                                         JointContact(joint.fixed.mesh, joint.mobile.mesh)});
+                                         JointContact(joint)});
   for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},
                                     std::pair{&joint.mobile, &parts_->contact.mobile_table()}})
     if (!table->is_closed()) throw MeshError(body->name + ": is open: depth needs an inside");
@@ -88,9 +86,9 @@ DeepestPlace DepthRange::deepest(const JointAngles& at) const {
   const Pose X_MF = X.inverse();
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
   Penetrations found;
-  parts_->contact.fixed_table().penetrations(parts_->mobile_points, X, found);
+  parts_->contact.mobile_in_fixed(X, found);
   const auto m = deepest_vertex(found);
-  parts_->contact.mobile_table().penetrations(parts_->fixed_points, X_MF, found);
+  parts_->contact.fixed_in_mobile(X, found);
   const auto f = deepest_vertex(found);
   if (m && (!f || m->depth_mm >= f->depth_mm)) {
     const Vec3 p = mobile.vertices[m->vertex], in_fixed = posed(X, p);

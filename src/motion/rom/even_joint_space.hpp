@@ -2,7 +2,7 @@
 
 #include "condyle/articular_centre.hpp"
 #include "condyle/articular_region.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 
 namespace condyle::motion {
 

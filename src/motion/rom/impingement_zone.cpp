@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "contact/joint_contact.hpp"
-#include "contact/tangential_contact.hpp"
+#include "condyle/contact.hpp"
 
 namespace condyle {
 namespace {
@@ -88,7 +87,7 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   const RadialContact radial = contact.radial(X_FM);
   const bool both_closed = radial.mobile_in_fixed && radial.fixed_in_mobile;
   const TangentialContact tangential =
-      both_closed ? tangential_contact(contact, X_FM, axis_of(limit.motion.vary, side, at))
+      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, side, at))
                   : TangentialContact{};
   take_depths(radial.mobile_in_fixed, tangential.mobile_in_fixed, zone.mobile);
   take_depths(radial.fixed_in_mobile, tangential.fixed_in_mobile, zone.fixed);

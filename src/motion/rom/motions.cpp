@@ -73,6 +73,7 @@ const Motion& motion_named(std::span<const Motion> motions, std::string_view nam
 void check_motion(const Motion& motion, JointKind kind) {
   const auto fail = [&](const char* what) { throw UsageError("motion \"" + motion.name + "\": " + what); };
   const double range = motion.range.radians();
+  if (motion.sense == RotationSense::none) fail("it has no sense of rotation");
   if (!(range > 0)) fail("the range is empty");
   if (!(range <= two_pi)) fail("the range is more than a full turn");
   for (const JointAngle angle : all_angles) {

@@ -5,8 +5,7 @@
 #include <cstdio>
 
 #include "condyle/error.hpp"
-#include "contact/joint_contact.hpp"
-#include "contact/radial_summary.hpp"
+#include "condyle/contact.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -69,7 +68,7 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
   const Vec3 p = body.mesh.vertices()[summary.deepest->vertex];
   return body.name + " vertex " + std::to_string(summary.deepest->vertex) + " at (" + number(p.x()) + ", " +
          number(p.y()) + ", " + number(p.z()) + ") mm is " + number(summary.deepest->depth_mm) +
-         " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_way_out_mm) +
+         " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_exit_mm) +
          " mm from its surface";
 }
 
