@@ -92,9 +92,9 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
                                embree ? Cell(ratio) : Cell("-"), embree ? Cell(with_building) : Cell("-")});
   const std::string& name = scene.joint.name;
   add_goal(
-      {"ring table, a new axis of a mesh known to be closed", name, Bound::at_most, 20, "ns per triangle"},
+      {"ring table, a new axis of a mesh known to be closed", name, Bound::at_most, 30, "ns per triangle"},
       per_triangle(new_axis), report);
-  add_goal({"ring table, a mesh's first, with the check that it is closed", name, Bound::at_most, 20,
+  add_goal({"ring table, a mesh's first, with the check that it is closed", name, Bound::at_most, 30,
             "ns per triangle"},
            per_triangle(first), report);
   if (!embree) return;

@@ -43,7 +43,7 @@ HWY_INLINE Span span_of(const BoxScale::Axis& axis, const float* low, const floa
   const auto first = hn::ShiftRight<8>(from), more = hn::Sub(hn::ShiftRight<8>(to), first);
   const auto low_byte = hn::And(from, byte), high_byte = hn::ShiftLeft<8>(hn::AndNot(to, byte));
   const auto only = hn::IfThenElseZero(hn::Eq(more, hn::Zero(du)), high_byte);
-  return {first, more, hn::Or(low_byte, only), high_byte};
+  return {.first = first, .more = more, .box_in_first = hn::Or(low_byte, only), .box_in_last = high_byte};
 }
 
 void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns, const ProfileBoxes& boxes,

@@ -103,9 +103,11 @@ HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
   const auto any_above = hn::Or(hn::Or(above0, above1), above2);
   const auto lowest = hn::Min(hn::Min(p0.z, p1.z), p2.z);
   const auto touches = hn::And(all_above, hn::Eq(lowest, height));
-  return {ends_of(apex, first, apex_above, height), ends_of(apex, second, apex_above, height),
-          hn::Xor(apex_above, apex_is_1), hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)),
-          touches};
+  return {.a = ends_of(apex, first, apex_above, height),
+          .b = ends_of(apex, second, apex_above, height),
+          .a_is_p = hn::Xor(apex_above, apex_is_1),
+          .missed = hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)),
+          .touches = touches};
 }
 
 /// Chords along cuts from the end inside a circle, (x, y), to the end outside, and the class by the ends only.
@@ -124,8 +126,9 @@ struct Bounds {
 
 HWY_INLINE Bounds bounds_of(double scale) {
   const double scale2 = scale * scale;
-  return {hn::Set(d, 96 * core::rounding_unit * scale2), hn::Set(d, 128 * core::rounding_unit * scale2),
-          hn::Set(d, 1024 * core::rounding_unit * scale2 * scale2)};
+  return {.end = hn::Set(d, 96 * core::rounding_unit * scale2),
+          .dot = hn::Set(d, 128 * core::rounding_unit * scale2),
+          .discriminant = hn::Set(d, 1024 * core::rounding_unit * scale2 * scale2)};
 }
 
 /// Of cuts with both ends beyond the circle, and (dx, dy) from q to p: certainly no chord of it.
