@@ -8,6 +8,7 @@
 #include "condyle/error.hpp"
 #include "contact/joint_contact.hpp"
 #include "motion/joint_scenes.hpp"
+#include "support/parameter_names.hpp"
 
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,
 /// and the same bytes whichever way they are asked for.
@@ -45,7 +46,11 @@ class EachAngle : public testing::TestWithParam<std::tuple<JointAngle, Side>> {
 INSTANTIATE_TEST_SUITE_P(RangeOfMotion, EachAngle,
                          testing::Combine(testing::Values(JointAngle::flexion, JointAngle::adduction,
                                                           JointAngle::internal_rotation),
-                                          testing::Values(Side::right, Side::left)));
+                                          testing::Values(Side::right, Side::left)),
+                         [](const auto& at) {
+                           return std::string(name_of(std::get<0>(at.param))) + "_" +
+                                  name_of(std::get<1>(at.param));
+                         });
 
 TEST_P(EachAngle, AnArmMeetsAPostWhereTheArctangentSays) {
   const PostJoint scene = post_joint(vary(), side());

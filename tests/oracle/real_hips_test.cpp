@@ -27,6 +27,7 @@ struct JointFiles {
   const char* fixed;
   const char* mobile;
   double side;  // +1 right, -1 left
+  friend void PrintTo(const JointFiles& joint, std::ostream* out) { *out << joint.name; }
 };
 
 /// Joints with files, and the sample, which needs none.

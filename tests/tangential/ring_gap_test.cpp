@@ -104,6 +104,7 @@ TEST(RingTable, ABodyOfRevolutionMeetsNoCircleOrAWholeOne) {
   const auto hits = table.query(points);
   const auto arcs = table.occupied_arcs(points);
   EXPECT_GT(std::count(inside.begin(), inside.end(), true), 400);
+  EXPECT_GT(points.size(), 2100u);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(hits.angular_gap[i], inside[i] ? -infinity : infinity);
     EXPECT_EQ(hits.arc_gap[i], hits.angular_gap[i]);
