@@ -439,7 +439,7 @@ void run_experiment(const SceneName& name, const Scene& scene, const ExperimentF
       if (name.name == finest_scene &&
           std::find(finest_methods.begin(), finest_methods.end(), kind.name) == finest_methods.end())
         continue;
-      if (scene.joint.fixed.mesh.triangles.size() + scene.joint.mobile.mesh.triangles.size() >
+      if (scene.joint.fixed.mesh.triangles().size() + scene.joint.mobile.mesh.triangles().size() >
           kind.most_triangles) {
         skip(fmt::format("not asked above {} triangles", kind.most_triangles));
         continue;

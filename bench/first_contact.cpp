@@ -86,8 +86,8 @@ Building ask_building(const Joint& joint, const MethodKind& fcl, int rounds, Rep
                                             }});
   const Building building{median(samples[0]), median(samples[1])};
   report.table(building_head)
-      .add({joint.name, static_cast<std::int64_t>(joint.fixed.mesh.triangles.size()),
-            static_cast<std::int64_t>(joint.mobile.mesh.triangles.size()), building.condyle_seconds * 1e3,
+      .add({joint.name, static_cast<std::int64_t>(joint.fixed.mesh.triangles().size()),
+            static_cast<std::int64_t>(joint.mobile.mesh.triangles().size()), building.condyle_seconds * 1e3,
             building.fcl_seconds * 1e3});
   return building;
 }

@@ -14,6 +14,7 @@
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
+#include "condyle/version.hpp"
 #include "interrupt.hpp"
 #include "verbs.hpp"
 
@@ -67,7 +68,7 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Condyle tells where the bones of a joint run into each other, how deep, and along which direction.",
       "condyle");
-  app.set_version_flag("--version", "condyle " CONDYLE_VERSION);
+  app.set_version_flag("--version", "condyle " + std::string(condyle::version));
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(exit_codes);

@@ -10,7 +10,7 @@ namespace condyle {
 /// One bone (or cartilage) of a joint, by the name its user gave it.
 struct Body {
   std::string name;
-  TriMesh mesh;
+  Mesh mesh;
 };
 
 /// Two bodies and how one turns in the other. Both meshes are in the joint frame of joint_coordinates.hpp:

@@ -51,11 +51,11 @@ struct LeftOut {
 
 /// A mesh without some of its triangles: the same vertices, and the numbers of the triangles that stayed.
 struct PartOfMesh {
-  TriMesh mesh;
+  Mesh mesh;
   std::vector<Index> triangle_in_whole;
 
-  std::size_t left_out(const TriMesh& whole) const noexcept {
-    return whole.triangles.size() - mesh.triangles.size();
+  std::size_t left_out(const Mesh& whole) const noexcept {
+    return whole.triangles().size() - mesh.triangles().size();
   }
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "contact/placed_trees.hpp"
-#include "mesh/edge_balance.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/vertical_ray.hpp"
 
@@ -95,16 +94,16 @@ int winding_number(const mesh::TriangleTree& tree, const Vec3& p, const BoxOf& b
 
 }  // namespace
 
-BodyPair::Body::Body(const TriMesh& mesh)
+BodyPair::Body::Body(const Mesh& mesh)
     : tree(mesh),
-      is_closed(!mesh::unbalanced_edge(mesh)),
-      place_of_triangle(mesh.triangles.size()),
+      is_closed(mesh.is_closed()),
+      place_of_triangle(mesh.triangles().size()),
       piece_vertices(tree.one_vertex_of_each_piece()) {
   for (Index place = 0; place < place_of_triangle.size(); ++place)
     place_of_triangle[tree.mesh_triangles()[place]] = place;
 }
 
-BodyPair::BodyPair(const TriMesh& fixed, const TriMesh& mobile) : fixed_(fixed), mobile_(mobile) {}
+BodyPair::BodyPair(const Mesh& fixed, const Mesh& mobile) : fixed_(fixed), mobile_(mobile) {}
 
 bool BodyPair::touch(const Pose& X_FM, std::optional<TrianglePair>& last_hit) const {
   if (last_hit) {

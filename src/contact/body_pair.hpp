@@ -14,7 +14,7 @@ namespace condyle::contact {
 /// origin of both frames is answered fastest; any other is answered right.
 class BodyPair {
  public:
-  BodyPair(const TriMesh& fixed, const TriMesh& mobile);
+  BodyPair(const Mesh& fixed, const Mesh& mobile);
 
   /// Whether the bodies share a point: surfaces that meet (touching counts; triangles of zero area meet
   /// nothing), or one body inside the other's solid, where that one is closed.
@@ -34,7 +34,7 @@ class BodyPair {
     std::vector<Index> place_of_triangle;  ///< By the mesh's number.
     std::vector<Index> piece_vertices;     ///< The place of one vertex of each connected piece.
 
-    explicit Body(const TriMesh& mesh);
+    explicit Body(const Mesh& mesh);
   };
   bool one_inside_other(const Pose& X_FM) const;
 

@@ -8,25 +8,27 @@
 namespace condyle {
 namespace {
 
-RadialTable table_of(const char* body, TriMesh mesh, const RadialOptions& options) {
+RadialTable table_of(const char* body, const Mesh& mesh, const RadialOptions& options) {
   try {
-    return RadialTable(std::move(mesh), options);
+    return RadialTable(mesh, options);
   } catch (const MeshError& error) {
     throw MeshError(std::string(body) + ": " + error.what());
   }
 }
 
-bool any_not_outside(const std::optional<RadialHits>& hits) {
+bool any_not_outside(const std::optional<RadialResults>& hits) {
   return hits && std::any_of(hits->state.begin(), hits->state.end(),
                              [](PointState state) { return state != PointState::outside; });
 }
 
 }  // namespace
 
-JointContact::JointContact(TriMesh fixed, TriMesh mobile, RadialOptions options)
-    : fixed_(table_of("fixed body", std::move(fixed), options)),
-      mobile_(table_of("mobile body", std::move(mobile), options)),
-      bodies_(fixed_.mesh(), mobile_.mesh()) {}
+JointContact::JointContact(const Mesh& fixed, const Mesh& mobile, RadialOptions options)
+    : fixed_mesh_(fixed),
+      mobile_mesh_(mobile),
+      fixed_(table_of("fixed body", fixed, options)),
+      mobile_(table_of("mobile body", mobile, options)),
+      bodies_(fixed, mobile) {}
 
 std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
   return bodies_.pairs(X_FM);
@@ -34,9 +36,9 @@ std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
 
 RadialContact JointContact::radial(const Pose& X_FM) const {
   RadialContact contact;
-  if (fixed_.is_closed()) contact.mobile_in_fixed = fixed_.query(posed(X_FM, mobile().vertices.view()));
-  if (mobile_.is_closed())
-    contact.fixed_in_mobile = mobile_.query(posed(X_FM.inverse(), fixed().vertices.view()));
+  if (fixed().is_closed()) contact.mobile_in_fixed = fixed_.query(posed(X_FM, mobile().vertices()));
+  if (mobile().is_closed())
+    contact.fixed_in_mobile = mobile_.query(posed(X_FM.inverse(), fixed().vertices()));
   contact.pairs = pairs(X_FM);
   contact.in_contact = !contact.pairs.empty() || any_not_outside(contact.mobile_in_fixed) ||
                        any_not_outside(contact.fixed_in_mobile);

@@ -5,16 +5,16 @@
 
 #include "contact/body_pair.hpp"
 #include "contact/triangle_pairs.hpp"
-#include "radial/radial_table.hpp"
+#include "condyle/radial.hpp"
 
 namespace condyle {
 
 /// Everything about two bodies in one pose, by the radial method.
 struct RadialContact {
   /// Every mobile vertex against the fixed body; empty where the fixed mesh is open.
-  std::optional<RadialHits> mobile_in_fixed;
+  std::optional<RadialResults> mobile_in_fixed;
   /// Every fixed vertex against the mobile body; empty where the mobile mesh is open.
-  std::optional<RadialHits> fixed_in_mobile;
+  std::optional<RadialResults> fixed_in_mobile;
   /// The exact set of intersecting triangle pairs, ascending.
   std::vector<TrianglePair> pairs;
   /// Whether the bodies share a point: surfaces that meet, or one body wholly inside the other.
@@ -29,7 +29,7 @@ struct RadialContact {
 class JointContact {
  public:
   /// Raises MeshError, naming the body, where the origin lies on a surface.
-  JointContact(TriMesh fixed, TriMesh mobile, RadialOptions options = {});
+  JointContact(const Mesh& fixed, const Mesh& mobile, RadialOptions options = {});
 
   /// Vertices of both bodies, all pairs, and whether they touch. X_FM need not be a pure rotation: the fixed
   /// body is seen from the centre of F, the mobile one from the centre of M.
@@ -38,14 +38,15 @@ class JointContact {
   /// The exact set of intersecting triangle pairs alone; open meshes too.
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
-  const TriMesh& fixed() const noexcept { return fixed_.mesh(); }
-  const TriMesh& mobile() const noexcept { return mobile_.mesh(); }
+  const Mesh& fixed() const noexcept { return fixed_mesh_; }
+  const Mesh& mobile() const noexcept { return mobile_mesh_; }
   const RadialTable& fixed_table() const noexcept { return fixed_; }
   const RadialTable& mobile_table() const noexcept { return mobile_; }
   /// The two surfaces, for "do they touch" alone.
   const contact::BodyPair& bodies() const noexcept { return bodies_; }
 
  private:
+  Mesh fixed_mesh_, mobile_mesh_;
   RadialTable fixed_, mobile_;
   contact::BodyPair bodies_;
 };

@@ -67,8 +67,12 @@ std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
 }
 
 void refuse_unbalanced(const std::pair<Index, Index>& edge) {
+  refuse_unbalanced(DirectedEdge{edge.first, edge.second});
+}
+
+void refuse_unbalanced(const DirectedEdge& edge) {
   throw MeshError("the surface is open or wound inconsistently at the edge from vertex " +
-                  std::to_string(edge.first) + " to vertex " + std::to_string(edge.second) +
+                  std::to_string(edge.from) + " to vertex " + std::to_string(edge.to) +
                   ": it has no inside; intersecting triangle pairs can still be computed");
 }
 

@@ -18,5 +18,6 @@ std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh);
 /// Raises MeshError naming that edge: without an inside there is no winding number; what can still be
 /// computed is said.
 [[noreturn]] void refuse_unbalanced(const std::pair<Index, Index>& edge);
+[[noreturn]] void refuse_unbalanced(const DirectedEdge& edge);
 
 }  // namespace condyle::mesh

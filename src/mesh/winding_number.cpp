@@ -58,16 +58,16 @@ void WindingNumber::for_each_cell(std::size_t triangle, const Visit& visit) cons
   }
 }
 
-WindingNumber::WindingNumber(TriMesh mesh) : mesh_(std::move(mesh)) {
-  if (const auto edge = unbalanced_edge(mesh_)) refuse_unbalanced(*edge);
-  if (mesh_.triangles.empty()) {
+WindingNumber::WindingNumber(Mesh mesh) : mesh_(std::move(mesh)) {
+  if (const auto& edge = mesh_.unbalanced_edge()) refuse_unbalanced(*edge);
+  if (mesh_.triangles().empty()) {
     offset_.assign(2, 0);
     high_.setConstant(-std::numeric_limits<double>::infinity());
     return;
   }
   low_.setConstant(std::numeric_limits<double>::infinity());
   high_ = -low_;
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
     for (int k = 0; k < 3; ++k) {
       const Vec3 p = mesh_.corner(t, k);
       low_ = low_.cwiseMin(p), high_ = high_.cwiseMax(p);
@@ -76,7 +76,7 @@ WindingNumber::WindingNumber(TriMesh mesh) : mesh_(std::move(mesh)) {
   // A surface covers the grid about twice or more, so with a cell per triangle a cell is about as wide as a
   // triangle: wider cells lengthen the lists, narrower ones repeat every triangle in many.
   const double width = high_.x() - low_.x(), height = high_.y() - low_.y();
-  const double target = static_cast<double>(mesh_.triangles.size());
+  const double target = static_cast<double>(mesh_.triangles().size());
   const double side =
       std::max({std::sqrt(width) * std::sqrt(height / target), width / target, height / target});
   if (side > 0) {
@@ -89,13 +89,13 @@ WindingNumber::WindingNumber(TriMesh mesh) : mesh_(std::move(mesh)) {
   if (height > 0) cell_.y() = height / rows_;
 
   offset_.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
     for_each_cell(t, [&](std::size_t cell) { ++offset_[cell + 1]; });
   }
   for (std::size_t cell = 1; cell < offset_.size(); ++cell) offset_[cell] += offset_[cell - 1];
   triangle_.resize(offset_.back());
   std::vector<Index> next(offset_.begin(), offset_.end() - 1);
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh_.triangles().size(); ++t) {
     for_each_cell(t, [&](std::size_t cell) { triangle_[next[cell]++] = static_cast<Index>(t); });
   }
 }
@@ -144,7 +144,7 @@ std::vector<PointWinding> WindingNumber::at(PointsView points) const {
 
 std::size_t WindingNumber::bytes() const noexcept {
   return (offset_.capacity() + triangle_.capacity()) * sizeof(Index) +
-         mesh_.triangles.capacity() * sizeof(Triangle) + 3 * mesh_.vertices.size() * sizeof(double);
+         mesh_.triangles().capacity() * sizeof(Triangle) + 3 * mesh_.vertices().size() * sizeof(double);
 }
 
 }  // namespace condyle::mesh

@@ -33,7 +33,7 @@ struct PointWinding {
 class WindingNumber {
  public:
   /// MeshError where the mesh is not closed, naming an edge: without an inside there is no answer.
-  explicit WindingNumber(TriMesh mesh);
+  explicit WindingNumber(Mesh mesh);
 
   PointWinding at(const Vec3& p) const noexcept;
 
@@ -41,7 +41,7 @@ class WindingNumber {
   void at(PointsView points, std::vector<PointWinding>& out) const;
   std::vector<PointWinding> at(PointsView points) const;
 
-  const TriMesh& mesh() const noexcept { return mesh_; }
+  const Mesh& mesh() const noexcept { return mesh_; }
   std::size_t bytes() const noexcept;
 
  private:
@@ -53,7 +53,7 @@ class WindingNumber {
   template <class Visit>
   void for_each_cell(std::size_t triangle, const Visit& visit) const;
 
-  TriMesh mesh_;
+  Mesh mesh_;
   Vec3 low_ = Vec3::Zero(), high_ = Vec3::Zero();  ///< Bounds of the triangles.
   Eigen::Vector2d cell_ = Eigen::Vector2d::Ones();
   Index columns_ = 1, rows_ = 1;

@@ -68,7 +68,7 @@ TEST(Scenes, PosesAreTheSameEachTimeAndTakeTurns) {
 TEST(Scenes, ADeformedBodyMovesByAtMostAQuarterOfAMillimetre) {
   const auto scene = make_scene("ball_1mm_1");
   ASSERT_TRUE(scene);
-  const condyle::Points& at_rest = scene->joint.fixed.mesh.vertices;
+  const condyle::Points& at_rest = scene->joint.fixed.mesh.vertices();
   double largest = 0;
   for (const int frame : {0, 1, 5}) {
     const condyle::Points moved = deformed(at_rest, frame);

@@ -90,7 +90,7 @@ TEST_F(JointFileTest, StandardPlacementKeepsEveryBit) {
   EXPECT_EQ(joint.mobile.mesh, mobile);
   // Equal doubles may still differ in the sign of 0.
   for (std::size_t v = 0; v < mobile.vertices.size(); ++v)
-    EXPECT_EQ(std::signbit(joint.mobile.mesh.vertices.y[v]), std::signbit(mobile.vertices.y[v]));
+    EXPECT_EQ(std::signbit(joint.mobile.mesh.vertices().y[v]), std::signbit(mobile.vertices.y[v]));
   EXPECT_EQ(joint.name, "right hip");
   EXPECT_EQ(joint.kind, JointKind::ball);
   EXPECT_EQ(joint.side, Side::right);
@@ -109,7 +109,7 @@ TEST_F(JointFileTest, MetresBecomeMillimetres) {
   const TriMesh expected = femur_like();
   for (std::size_t v = 0; v < expected.vertices.size(); ++v)
     // The test's own scaling, that of the file and the centre's: u each, of at most 400 mm.
-    EXPECT_LE((joint.mobile.mesh.vertices[v] - (expected.vertices[v] - centre)).cwiseAbs().maxCoeff(),
+    EXPECT_LE((joint.mobile.mesh.vertices()[v] - (expected.vertices[v] - centre)).cwiseAbs().maxCoeff(),
               4 * core::rounding_unit * 400);
   EXPECT_EQ(report.notes.size(), 1u);
 }
@@ -118,9 +118,9 @@ TEST_F(JointFileTest, ACentreIsSubtractedWithOneRounding) {
   const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "[0.1, -0.2, 0.3]"));
   const TriMesh expected = femur_like();
   for (std::size_t v = 0; v < expected.vertices.size(); ++v) {
-    EXPECT_EQ(joint.mobile.mesh.vertices.x[v], expected.vertices.x[v] - 0.1);
-    EXPECT_EQ(joint.mobile.mesh.vertices.y[v], expected.vertices.y[v] + 0.2);
-    EXPECT_EQ(joint.mobile.mesh.vertices.z[v], expected.vertices.z[v] - 0.3);
+    EXPECT_EQ(joint.mobile.mesh.vertices().x[v], expected.vertices.x[v] - 0.1);
+    EXPECT_EQ(joint.mobile.mesh.vertices().y[v], expected.vertices.y[v] + 0.2);
+    EXPECT_EQ(joint.mobile.mesh.vertices().z[v], expected.vertices.z[v] - 0.3);
   }
 }
 
@@ -131,7 +131,7 @@ TEST_F(JointFileTest, AScannersFrameIsTurnedToTheJointsWithoutRounding) {
   const TriMesh given = femur_like();
   for (std::size_t v = 0; v < given.vertices.size(); ++v) {
     const Vec3 p = given.vertices[v];
-    EXPECT_EQ(joint.mobile.mesh.vertices[v], Vec3(-p.y(), p.z(), -p.x()));
+    EXPECT_EQ(joint.mobile.mesh.vertices()[v], Vec3(-p.y(), p.z(), -p.x()));
   }
 }
 
@@ -219,7 +219,7 @@ TEST_F(JointFileTest, RepairsAreMadeInOrderAndReported) {
   const auto [joint, report] =
       read(replaced(plain, "mesh = \"femur.ply\"",
                     "mesh = \"femur.ply\"\nrepair = [\"drop_unreferenced\", \"flip_inverted\"]"));
-  EXPECT_EQ(joint.mobile.mesh.vertices, femur_like().vertices);
+  EXPECT_EQ(joint.mobile.mesh.vertices(), femur_like().vertices);
   ASSERT_EQ(report.mobile.repairs.size(), 2u);
   EXPECT_EQ(report.mobile.repairs[0].count, 1u);
   EXPECT_EQ(report.mobile.repairs[1].count, dirty.triangles.size());

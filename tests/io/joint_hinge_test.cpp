@@ -44,7 +44,7 @@ TEST_F(HingeTest, AFittedAxisTurnsTheFrameToItAndSaysByHowMuch) {
   EXPECT_LE((report.X_WF.linear() - X.linear()).cwiseAbs().maxCoeff(), 1e-12);
   // In the joint frame the tube turns about Z: every vertex of its wall is 12 mm from it.
   for (const Index v : report.cylinder->vertices) {
-    const Vec3 p = joint.mobile.mesh.vertices[v];
+    const Vec3 p = joint.mobile.mesh.vertices()[v];
     EXPECT_NEAR(std::hypot(p.x(), p.y()), 12, 1e-11);
   }
   ASSERT_FALSE(report.notes.empty());

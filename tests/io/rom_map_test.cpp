@@ -155,8 +155,10 @@ TEST_F(Checkpoint, OfAnotherQuestionIsLeftAlone) {
     others.push_back(map_key(j, o, g));
   };
   Joint moved = joint, retriangulated = joint, left = joint;
-  moved.mobile.mesh.vertices.x[3] = std::nextafter(moved.mobile.mesh.vertices.x[3], 0);
-  std::swap(retriangulated.fixed.mesh.triangles[0], retriangulated.fixed.mesh.triangles[1]);
+  TriMesh one_moved = joint.mobile.mesh, two_exchanged = joint.fixed.mesh;
+  one_moved.vertices.x[3] = std::nextafter(one_moved.vertices.x[3], 0);
+  std::swap(two_exchanged.triangles[0], two_exchanged.triangles[1]);
+  moved.mobile.mesh = one_moved, retriangulated.fixed.mesh = two_exchanged;
   left.side = Side::left;
   other(moved, {}, grid), other(retriangulated, {}, grid), other(left, {}, grid);
   MapGrid shifted = grid, turned = grid, started = grid, ranged = grid;

@@ -86,7 +86,9 @@ TEST(DepthLimit, RefusesWhatItCannotAnswer) {
   EXPECT_THROW(DepthRange(joint, {.step = Angle()}), UsageError);
   EXPECT_THROW(DepthRange(joint, {.tolerance = Angle::degrees(2)}), UsageError);
   Joint open = joint;
-  open.fixed.mesh.triangles.pop_back();
+  TriMesh without_one = open.fixed.mesh;
+  without_one.triangles.pop_back();
+  open.fixed.mesh = without_one;
   EXPECT_THROW(DepthRange(open, {.depth_mm = 1}), MeshError);
   EXPECT_THROW(DepthRange(joint, {.follow_socket = CentreRule{}}), MeshError) << "no head";
 }

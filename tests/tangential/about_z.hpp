@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
+#include "core/predicates.hpp"
+#include "tangential/build/profile_grid.hpp"
 
 /// Points that turn about the z axis, and how well their angles are known.
 
@@ -13,7 +15,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
 
-inline TangentialHits query_one(const TriMesh& mesh, const Vec3& p,
+inline TangentialResults query_one(const TriMesh& mesh, const Vec3& p,
                                 TangentialRule rule = TangentialRule::alternating) {
   Points points;
   points.push_back(p);

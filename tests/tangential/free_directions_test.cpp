@@ -8,7 +8,7 @@
 
 #include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
-#include "tangential/ring_table.hpp"
+#include "tangential/build/rings.hpp"
 
 namespace condyle {
 namespace {
@@ -115,13 +115,14 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
        {test::sphere({12, 3, 1}, 7, 3), test::torus(8, 3, 31, 17), test::box({-5, -5, -5}, {5, 5, 5}),
         test::joined(test::sphere({12, 0, 0}, 6, 3), test::sphere({12, 0, 0}, 3, 3)),
         test::socket({10, 4, -3}, 8, 12, 3)}) {
-    const RingTable table(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()), {.cells_per_triangle = 2});
+    const tangential::Rings rings = tangential::build_rings(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()),
+                                                            2 * mesh.triangles.size());
     const mesh::WindingNumber winding(mesh);
-    const tangential::ProfileGrid& grid = table.grid();
+    const tangential::ProfileGrid& grid = rings.grid();
     std::size_t inside = 0, asked = 0;
     for (Index row = 0; row < grid.rows; ++row) {
       for (Index column = 0; column < grid.columns; ++column) {
-        const auto anchor = table.free_directions().of(grid.cell(row, column));
+        const auto anchor = rings.free_directions.of(grid.cell(row, column));
         if (anchor.direction == tangential::FreeDirections::none) continue;
         const double rho = grid.rho_min + (column + weight(random)) * grid.rho_cell;
         const double z = grid.z_min + (row + weight(random)) * grid.z_cell;

@@ -6,8 +6,9 @@
 #include <string>
 
 #include "condyle/angle.hpp"
+#include "condyle/tangential.hpp"
+#include "mesh/winding_number.hpp"
 #include "support/shared_data.hpp"
-#include "tangential/ring_table.hpp"
 
 namespace condyle {
 namespace {
@@ -63,7 +64,7 @@ TEST(RealJoints, EveryStateIsThatOfTheWindingNumberAtEveryPoseAboutEveryCoordina
           different += hits.state[i] != expected[i].state || hits.winding[i] != expected[i].winding;
           inside += hits.state[i] == PointState::inside;
           // A gap is negative exactly inside.
-          different += (hits.angular_gap[i] < 0) != (hits.state[i] == PointState::inside);
+          different += (hits.angular_gap[i].radians() < 0) != (hits.state[i] == PointState::inside);
         }
         EXPECT_EQ(different, 0u) << pair.fixed << " about " << axis.transpose() << ", flexed by " << pose.z;
       }
@@ -83,14 +84,14 @@ TEST(RealJoints, AVertexOfTheMeshItselfIsOnTheSurfaceAndItsArcsAreThoseJustBesid
   std::size_t asked = 0;
   for (std::size_t i = 0; i < bone.vertices.size(); ++i) {
     EXPECT_EQ(hits.state[i], PointState::on_surface);
-    EXPECT_EQ(hits.angular_gap[i], 0);
+    EXPECT_EQ(hits.angular_gap[i].radians(), 0);
     for (int degree = 0; degree < 360; degree += 10) {
       const Angle phi = Angle::degrees(degree + 3.7);
       const Vec3 p = Eigen::AngleAxisd(phi.radians(), Vec3::UnitZ()) * bone.vertices[i];
       const auto gap = arcs.gap_at(i, phi);
       // A circle through a vertex runs along no face; a point turned in double is off by less than 1e-12 mm.
-      if (std::abs(gap.angle) * std::hypot(p.x(), p.y()) < 1e-9) continue;
-      EXPECT_EQ(gap.angle < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
+      if (std::abs(gap.angle.radians()) * std::hypot(p.x(), p.y()) < 1e-9) continue;
+      EXPECT_EQ(gap.angle.radians() < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
       ++asked;
     }
   }
@@ -111,9 +112,9 @@ TEST(RealJoints, OneTurnOfTheFemurIsAnsweredByOnePass) {
     for (std::size_t i = 0; i < femur.vertices.size(); ++i) {
       const auto gap = arcs.gap_at(i, phi);
       const Vec3 p = turn * femur.vertices[i];
-      if (std::abs(gap.angle) * std::hypot(p.x(), p.y()) < 1e-9) continue;
-      EXPECT_EQ(gap.angle < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
-      inside += gap.angle < 0;
+      if (std::abs(gap.angle.radians()) * std::hypot(p.x(), p.y()) < 1e-9) continue;
+      EXPECT_EQ(gap.angle.radians() < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
+      inside += gap.angle.radians() < 0;
       ++compared;
     }
   }

@@ -1,4 +1,4 @@
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
+#include "tangential/exact/circle_crossing.hpp"
 
 namespace condyle {
 namespace {
@@ -43,7 +44,7 @@ void expect_same_as_oracle(const TriMesh& mesh, const Points& points) {
           << "point " << p.transpose() << " turned by " << middle;
     }
     for (const auto& arc : arcs.of(i)) {
-      for (const double end : {arc.begin, arc.end}) {
+      for (const double end : {arc.begin.radians(), arc.end.radians()}) {
         if (arc.enters == no_index) continue;
         double nearest = infinity;
         for (const auto& piece : pieces) {
@@ -115,7 +116,7 @@ TEST(RingTable, CrossingsOfAClosedMeshSumToZeroAndComeBackToTheAnchor) {
       if (p.x() == 0 && p.y() == 0) continue;
       const tangential::Circle circle{p, p.x() * p.x() + p.y() * p.y(), 5};
       std::vector<tangential::CircleCrossing> all;
-      tangential::TangentialWork work;
+      TangentialWork work;
       int sum = 0, outwards = 0;
       for (Index t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
@@ -179,13 +180,13 @@ TEST(RingTable, RefiningAMeshWithoutMovingItsSurfaceChangesNoGap) {
     EXPECT_EQ(before.state, after.state);
     EXPECT_EQ(before.winding, after.winding);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (std::isinf(before.angular_gap[i])) {
-        EXPECT_EQ(before.angular_gap[i], after.angular_gap[i]);
+      if (std::isinf(before.angular_gap[i].radians())) {
+        EXPECT_EQ(before.angular_gap[i].radians(), after.angular_gap[i].radians());
         continue;
       }
       // Each errs by at most sqrt(2 e / rho), were it a touch: e = 17u * 4 mm * sqrt 2.
       const double rho = tangential::axis_radius(points[i].x(), points[i].y());
-      EXPECT_NEAR(before.angular_gap[i], after.angular_gap[i],
+      EXPECT_NEAR(before.angular_gap[i].radians(), after.angular_gap[i].radians(),
                   2 * std::sqrt(2 * 17 * 6 * core::rounding_unit / rho));
       ++finite;
     }

@@ -1,4 +1,4 @@
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,8 +24,8 @@ TEST(RingTable, TouchingBodiesShareOneArc) {
   // at x = 0.
   const auto arcs = RingTable(both, z_axis).occupied_arcs(points);
   ASSERT_EQ(arcs.of(0).size(), 1u);
-  EXPECT_NEAR(arcs.of(0)[0].begin, two_pi / 8 + std::atan2(1, std::sqrt(7)), angle_error(5, std::sqrt(8)));
-  EXPECT_NEAR(arcs.of(0)[0].end, two_pi / 8 + two_pi / 4, angle_error(5, std::sqrt(8)));
+  EXPECT_NEAR(arcs.of(0)[0].begin.radians(), two_pi / 8 + std::atan2(1, std::sqrt(7)), angle_error(5, std::sqrt(8)));
+  EXPECT_NEAR(arcs.of(0)[0].end.radians(), two_pi / 8 + two_pi / 4, angle_error(5, std::sqrt(8)));
 }
 
 TEST(RingTable, OccupiedArcsAnswerEveryAngleAsTurningThePointsDoes) {
@@ -46,9 +46,9 @@ TEST(RingTable, OccupiedArcsAnswerEveryAngleAsTurningThePointsDoes) {
       const auto gap = arcs.gap_at(i, phi);
       // A point turned in double is off by 4u of 30 mm; only nearer than that to a crossing may the two
       // differ.
-      if (std::abs(gap.angle) * std::hypot(p.x(), p.y()) < 1e-9) continue;
-      EXPECT_EQ(gap.angle < 0, winding.at(p).state == PointState::inside);
-      inside += gap.angle < 0;
+      if (std::abs(gap.angle.radians()) * std::hypot(p.x(), p.y()) < 1e-9) continue;
+      EXPECT_EQ(gap.angle.radians() < 0, winding.at(p).state == PointState::inside);
+      inside += gap.angle.radians() < 0;
       ++compared;
       // The table itself, asked about the turned point, gives the same gap: ends move by the rounding of the
       // turn, at a graze by its root.
@@ -56,10 +56,10 @@ TEST(RingTable, OccupiedArcsAnswerEveryAngleAsTurningThePointsDoes) {
       turned_point.push_back(p);
       if (degree % 40 == 0) {
         const auto hits = table.query(turned_point);
-        if (std::isinf(gap.angle)) {
-          EXPECT_EQ(hits.angular_gap[0], gap.angle);
+        if (std::isinf(gap.angle.radians())) {
+          EXPECT_EQ(hits.angular_gap[0].radians(), gap.angle.radians());
         } else {
-          EXPECT_NEAR(hits.angular_gap[0], gap.angle, 1e-6);
+          EXPECT_NEAR(hits.angular_gap[0].radians(), gap.angle.radians(), 1e-6);
         }
       }
     }
@@ -79,7 +79,7 @@ TEST(RingTable, NestedBodiesAndCavitiesHaveTheArcsOfTheirUnion) {
   EXPECT_EQ(shell.occupied_arcs(points).of(0).size(), 2u);
   EXPECT_EQ(nested.query(points).winding, (std::vector<int>{0, 2}));
   EXPECT_EQ(shell.query(points).winding, (std::vector<int>{0, 0}));
-  EXPECT_GT(shell.query(points).angular_gap[1], 0);
+  EXPECT_GT(shell.query(points).angular_gap[1].radians(), 0);
   // Wound inside out there is nobody inside, whatever the angle.
   const RingTable inverted(test::flipped(outer), z_axis);
   EXPECT_EQ(inverted.query(points).winding, (std::vector<int>{0, -1}));

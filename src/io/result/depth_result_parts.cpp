@@ -44,7 +44,7 @@ std::string depth_headline(const DepthQuestion& question, bool in_contact, std::
 
 std::string inside_line(const Body& body, std::size_t inside, std::size_t on_surface) {
   std::string line =
-      fmt::format("  {}: {} of {} vertices inside", body.name, inside, body.mesh.vertices.size());
+      fmt::format("  {}: {} of {} vertices inside", body.name, inside, body.mesh.vertices().size());
   if (on_surface > 0) line += fmt::format(", {} exactly on the surface", on_surface);
   return line + "\n";
 }
@@ -62,8 +62,8 @@ std::string open_line(const Body& body) {
 namespace condyle {
 
 InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs) {
-  std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles.size()),
-      mobile(joint.mobile.mesh.triangles.size());
+  std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles().size()),
+      mobile(joint.mobile.mesh.triangles().size());
   for (const auto& pair : pairs) fixed[pair.fixed] = 1, mobile[pair.mobile] = 1;
   return {{"in_contact", std::move(fixed)}, {"in_contact", std::move(mobile)}};
 }

@@ -43,7 +43,7 @@ struct BodyView {
   std::optional<Summary> summary;
   Pose X_F;  // pose of this body in F
 
-  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices[vertex]); }
+  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices()[vertex]); }
 };
 
 /// Both bodies of a result.

@@ -42,12 +42,12 @@ double median(std::vector<double> values) {
 
 JointSpace joint_space(const RadialTable& socket, const Points& head, const Pose& X_FM, double largest_gap) {
   const Points placed = posed(X_FM, head.view());
-  const RadialHits hits = socket.query(placed);
+  const RadialResults hits = socket.query(placed);
   JointSpace space;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (!(std::abs(hits.radial_gap[i]) <= largest_gap)) continue;
+    if (!(std::abs(hits.radial_gap_mm[i]) <= largest_gap)) continue;
     space.rays.push_back(placed[i].normalized());
-    space.gaps.push_back(hits.radial_gap[i]);
+    space.gaps.push_back(hits.radial_gap_mm[i]);
   }
   if (space.gaps.size() < fewest_vertices)
     throw MeshError("joint space: fewer than " + std::to_string(fewest_vertices) +
@@ -107,8 +107,8 @@ Evened even(const JointSpace& space) {
 CentreShift even_joint_space(const JointContact& joint, const ArticularRegion& region, const Pose& X_FM,
                              const CentreRule& rule) {
   Points head;
-  for (std::size_t v = 0; v < joint.mobile().vertices.size(); ++v) {
-    const Vec3 p = joint.mobile().vertices[v];
+  for (std::size_t v = 0; v < joint.mobile().vertices().size(); ++v) {
+    const Vec3 p = joint.mobile().vertices()[v];
     if (p.norm() <= region.radius_mm) head.push_back(p);
   }
   CentreShift shift;

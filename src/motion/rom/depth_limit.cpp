@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "radial/exact/ray_scan.hpp"
 
 namespace condyle {
 namespace {
@@ -29,7 +30,7 @@ std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
   std::optional<DeepVertex> deepest;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (inside.state[i] != PointState::inside) continue;
-    const DeepVertex at{inside.point[i], inside.triangle[i], inside.depth[i]};
+    const DeepVertex at{inside.point[i], inside.triangle[i], inside.depth_mm[i]};
     if (!deepest || std::pair(-at.depth_mm, at.vertex) < std::pair(-deepest->depth_mm, deepest->vertex))
       deepest = at;
   }
@@ -37,8 +38,7 @@ std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
 }
 
 Angle angle_to_ray(const Vec3& v, const TriMesh& mesh, Index triangle) {
-  return Angle::radians(triangle == no_index ? 0
-                                             : radial::angle_to_normal(v, radial::cone_of(mesh, triangle)));
+  return triangle == no_index ? Angle() : radial::angle_to_normal(v, radial::cone_of(mesh, triangle));
 }
 
 /// How far along its way a search got: allowed at `free`, too deep at `deep`.
@@ -55,8 +55,8 @@ struct DepthRange::Parts {
   AllowedDepth allowed;
   std::optional<ArticularRegion> articular;
   JointContact contact;
-  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices);
-  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices);
+  SortedPoints fixed_points = SortedPoints(contact.fixed().vertices());
+  SortedPoints mobile_points = SortedPoints(contact.mobile().vertices());
 };
 
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,

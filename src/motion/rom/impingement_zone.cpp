@@ -9,8 +9,8 @@
 namespace condyle {
 namespace {
 
-void take_depths(const std::optional<RadialHits>& radial, const std::optional<TangentialHits>& tangential,
-                 BodyZone& zone) {
+void take_depths(const std::optional<RadialResults>& radial,
+                 const std::optional<TangentialResults>& tangential, BodyZone& zone) {
   if (!radial || !tangential) return;
   const std::size_t count = radial->size();
   for (auto* values : {&zone.radial_depth_mm, &zone.ray_to_normal_deg, &zone.tangential_depth_deg,
@@ -18,12 +18,12 @@ void take_depths(const std::optional<RadialHits>& radial, const std::optional<Ta
     values->assign(count, 0.0);
   for (std::size_t v = 0; v < count; ++v) {
     if (radial->state[v] == PointState::inside) {
-      zone.radial_depth_mm[v] = -radial->radial_gap[v];
-      zone.ray_to_normal_deg[v] = Angle::radians(radial->ray_to_normal[v]).degrees();
+      zone.radial_depth_mm[v] = -radial->radial_gap_mm[v];
+      zone.ray_to_normal_deg[v] = radial->ray_to_normal[v].degrees();
     }
     if (tangential->state[v] == PointState::inside) {
-      zone.tangential_depth_deg[v] = Angle::radians(-tangential->angular_gap[v]).degrees();
-      zone.tangential_depth_mm[v] = -tangential->arc_gap[v];
+      zone.tangential_depth_deg[v] = (-tangential->angular_gap[v]).degrees();
+      zone.tangential_depth_mm[v] = -tangential->arc_gap_mm[v];
     }
   }
 }

@@ -14,18 +14,20 @@ namespace {
 /// One entry per triangle; bytes, because threads never share them and vector<bool> is slow to scan.
 using Marks = std::vector<unsigned char>;
 
-PartOfMesh without(const TriMesh& whole, const Marks& left_out, const std::string& body) {
-  PartOfMesh part;
-  part.mesh.vertices = whole.vertices;
-  part.mesh.triangles.reserve(whole.triangles.size()), part.triangle_in_whole.reserve(whole.triangles.size());
+PartOfMesh without(const Mesh& mesh, const Marks& left_out, const std::string& body) {
+  const TriMesh& whole = mesh;
+  TriMesh part{whole.vertices, {}};
+  std::vector<Index> triangle_in_whole;
+  part.triangles.reserve(whole.triangles.size()), triangle_in_whole.reserve(whole.triangles.size());
   for (Index t = 0; t < whole.triangles.size(); ++t) {
     if (left_out[t]) continue;
-    part.mesh.triangles.push_back(whole.triangles[t]);
-    part.triangle_in_whole.push_back(t);
+    part.triangles.push_back(whole.triangles[t]);
+    triangle_in_whole.push_back(t);
   }
-  if (part.mesh.triangles.empty() && !whole.triangles.empty())
+  if (part.triangles.empty() && !whole.triangles.empty())
     throw MeshError(body + ": every triangle is left out: nothing remains that could touch");
-  return part;
+  if (part.triangles.size() == whole.triangles.size()) return {mesh, std::move(triangle_in_whole)};
+  return {std::move(part), std::move(triangle_in_whole)};
 }
 
 void mark_inside(const TriMesh& mesh, const ArticularRegion& region, Marks& marks) {
@@ -64,7 +66,7 @@ std::string number(double value) {
 
 /// Where one body's vertices are deepest in the other.
 std::string deepest(const Body& body, const Body& other, const RadialBodySummary& summary) {
-  const Vec3 p = body.mesh.vertices[summary.deepest->vertex];
+  const Vec3 p = body.mesh.vertices()[summary.deepest->vertex];
   return body.name + " vertex " + std::to_string(summary.deepest->vertex) + " at (" + number(p.x()) + ", " +
          number(p.y()) + ", " + number(p.z()) + ") mm is " + number(summary.deepest->depth_mm) +
          " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_way_out_mm) +
@@ -74,8 +76,8 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
 }  // namespace
 
 PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options) {
-  const TriMesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
-  Marks of_fixed(fixed.triangles.size()), of_mobile(mobile.triangles.size());
+  const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
+  Marks of_fixed(fixed.triangles().size()), of_mobile(mobile.triangles().size());
   if (options.leave_out_rest_contacts) {
     const int rings = options.leave_out_rest_contacts->rings;
     if (rings < 0) throw UsageError("contacts at rest to leave out: rings must not be below 0");

@@ -23,36 +23,21 @@ class EdgesMet {
   /// Whether the edge is met for the first time.
   bool meet(Index from, Index to) noexcept {
     const Index low = std::min(from, to), high = std::max(from, to);
-    const int direction = from < to ? 1 : -1;
-    Met* const begin = met_.data() + offset_[low];
-    Met* const end = begin + count_[low];
-    Met* const at = std::find_if(begin, end, [&](const Met& met) { return met.high == high; });
-    if (at != end) {
-      at->balance += direction;
-      return false;
-    }
-    *end = {high, direction};
+    Index* const begin = met_.data() + offset_[low];
+    Index* const end = begin + count_[low];
+    if (std::find(begin, end, high) != end) return false;
+    *end = high;
     ++count_[low];
     return true;
   }
 
-  /// Whether each edge was met as often in one direction as in the other.
-  bool balanced() const noexcept {
-    return std::all_of(met_.begin(), met_.end(), [](const Met& met) { return met.balance == 0; });
-  }
-
  private:
-  struct Met {
-    Index high = 0;
-    int balance = 0;
-  };
-  std::vector<Index> offset_, count_;
-  std::vector<Met> met_;
+  std::vector<Index> offset_, count_, met_;
 };
 
 }  // namespace
 
-FeatureTree::FeatureTree(const TriMesh& mesh) : base_(mesh) {
+FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_closed()) {
   count_vertices();
   gather_edges();
   pieces_ = base_.one_vertex_of_each_piece();
@@ -80,7 +65,6 @@ void FeatureTree::gather_edges() {
     }
     edges_before_.push_back(static_cast<Index>(edges_.size()));
   }
-  is_closed_ = met.balanced();
 }
 
 NodeBall ball_of(const mesh::TriangleTree::Node& node) noexcept {

@@ -20,7 +20,7 @@ class FeatureTree {
  public:
   using Node = mesh::TriangleTree::Node;
 
-  explicit FeatureTree(const TriMesh& mesh);
+  explicit FeatureTree(const Mesh& mesh);
 
   struct Range {
     Index first = 0, last = 0;
@@ -60,7 +60,7 @@ class FeatureTree {
   std::vector<std::array<Index, 2>> edges_;
   std::vector<Index> edges_before_, vertices_before_;  ///< One entry per triangle, plus one.
   std::vector<Index> pieces_;
-  bool is_closed_ = false;
+  bool is_closed_;
 };
 
 /// A ball around the node's box.

@@ -1,0 +1,109 @@
+#include "condyle/mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+#include <type_traits>
+
+#include "condyle/error.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TriMesh box() {
+  return test::box({0, 0, 0}, {1, 1, 1});
+}
+
+/// What the door says of arrays that it refuses; empty where it lets them in.
+std::string refusal_of(TriMesh arrays) {
+  try {
+    const Mesh mesh(std::move(arrays));
+    return {};
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+}
+
+TEST(Mesh, TakesArraysAsTheyAre) {
+  const TriMesh arrays = box();
+  const Mesh mesh = arrays;
+  EXPECT_EQ(mesh.arrays(), arrays);
+  EXPECT_EQ(mesh.corner(3, 2), arrays.corner(3, 2));
+  EXPECT_EQ(refusal_of({}), "");
+}
+
+TEST(Mesh, ACopySharesTheArrays) {
+  const Mesh mesh = box(), copy = mesh;
+  EXPECT_EQ(&copy.vertices(), &mesh.vertices());
+}
+
+TEST(Mesh, AVertexNumberOutOfRangeIsRefusedNamingTheFirstTriangle) {
+  for (const Index number : {Index{8}, Index{1000}, no_index}) {
+    TriMesh arrays = box();
+    arrays.triangles[7][1] = arrays.triangles[9][0] = number;
+    EXPECT_EQ(refusal_of(arrays), "triangle 7 uses vertex " + std::to_string(number) + " of 8");
+  }
+  EXPECT_EQ(refusal_of({Points(), {{0, 0, 0}}}), "triangle 0 uses vertex 0 of 0");
+}
+
+TEST(Mesh, ACoordinateThatIsNotFiniteIsRefusedNamingTheFirstVertex) {
+  for (const double value : {nan, -nan, infinity, -infinity}) {
+    for (const auto coordinate : {&Points::x, &Points::y, &Points::z}) {
+      TriMesh arrays = box();
+      (arrays.vertices.*coordinate)[5] = (arrays.vertices.*coordinate)[6] = value;
+      EXPECT_EQ(refusal_of(arrays), "vertex 5 has a coordinate that is not finite");
+    }
+  }
+  TriMesh arrays = box();
+  arrays.vertices.x[2] = infinity, arrays.vertices.y[2] = -infinity;
+  EXPECT_EQ(refusal_of(arrays), "vertex 2 has a coordinate that is not finite");
+}
+
+TEST(Mesh, TheLargestNumbersAreFinite) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  TriMesh arrays = box();
+  arrays.vertices.set(0, {largest, largest, largest}), arrays.vertices.set(1, {-largest, largest, 0});
+  EXPECT_EQ(refusal_of(arrays), "");
+}
+
+TEST(Mesh, CoordinatesOfDifferentNumberAreRefused) {
+  for (const auto coordinate : {&Points::x, &Points::y, &Points::z}) {
+    TriMesh more = box(), fewer = box();
+    (more.vertices.*coordinate).push_back(0), (fewer.vertices.*coordinate).pop_back();
+    EXPECT_NE(refusal_of(more).find("not as many of each"), std::string::npos);
+    EXPECT_NE(refusal_of(fewer).find("not as many of each"), std::string::npos);
+  }
+  TriMesh arrays = box();
+  arrays.vertices.y.pop_back();
+  EXPECT_EQ(refusal_of(arrays), "coordinates are 8 x, 7 y and 8 z, not as many of each");
+}
+
+TEST(Mesh, KnowsWhetherItIsClosed) {
+  const Mesh closed = box();
+  EXPECT_TRUE(closed.is_closed());
+  EXPECT_FALSE(closed.unbalanced_edge());
+  TriMesh arrays = box();
+  const Triangle dropped = arrays.triangles[4];
+  arrays.triangles.erase(arrays.triangles.begin() + 4);
+  const Mesh open = arrays;
+  EXPECT_FALSE(open.is_closed());
+  ASSERT_TRUE(open.unbalanced_edge());
+  const auto [from, to] = *open.unbalanced_edge();
+  const auto is_of_the_hole = [&](std::size_t k) { return dropped[k] == to && dropped[(k + 1) % 3] == from; };
+  EXPECT_TRUE(is_of_the_hole(0) || is_of_the_hole(1) || is_of_the_hole(2)) << from << " to " << to;
+}
+
+// A Mesh is made from arrays by checking them, from nothing else, and its arrays are never written to again.
+static_assert(!std::is_default_constructible_v<Mesh>);
+static_assert(std::is_same_v<decltype(std::declval<Mesh&>().arrays()), const TriMesh&>);
+static_assert(std::is_same_v<decltype(std::declval<Mesh&>().vertices()), const Points&>);
+static_assert(std::is_same_v<decltype(std::declval<Mesh&>().triangles()), const std::vector<Triangle>&>);
+static_assert(!std::is_convertible_v<Mesh&, TriMesh&>);
+
+}  // namespace
+}  // namespace condyle
