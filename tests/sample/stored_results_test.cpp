@@ -9,10 +9,10 @@
 
 #include "condyle/axis_frame.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "condyle/tangential.hpp"
 #include "contact/joint_contact.hpp"
 #include "contact/tangential_contact.hpp"
 #include "sample/made_hips.hpp"
-#include "tangential/ring_table.hpp"
 
 /// Answers on the sample hip as they have always been: a change of the code that is not meant to change them
 /// shows here at the first bit. A change that is meant to: store the new hashes, and say in the commit why.
@@ -35,13 +35,15 @@ class Hash {
   void add_rounded(double number, double unit) noexcept {
     add(static_cast<std::uint64_t>(std::llround(number / unit)));
   }
-  /// Integers and enumerations, negative ones as their two's complement.
+  /// Integers and enumerations, negative ones as their two's complement; angles as radians.
   template <class T>
   void add_all(const std::vector<T>& numbers) noexcept {
     add(std::uint64_t{numbers.size()});
     for (const T& number : numbers) {
       if constexpr (std::is_same_v<T, double>) {
         add(number);
+      } else if constexpr (std::is_same_v<T, Angle>) {
+        add(number.radians());
       } else {
         add(static_cast<std::uint64_t>(static_cast<std::int64_t>(number)));
       }
@@ -133,7 +135,7 @@ std::uint64_t radial_hash(const JointContact& joint, Seen& seen) {
     for (const auto* hits : {&*contact.mobile_in_fixed, &*contact.fixed_in_mobile}) {
       add_common(*hits, hash);
       hash.add_all(hits->direction);
-      hash.add_all(hits->radial_gap);
+      hash.add_all(hits->radial_gap_mm);
       for (const PointState state : hits->state) seen.inside += state == PointState::inside;
     }
     add(contact.pairs, hash);
@@ -150,9 +152,9 @@ std::uint64_t tangential_hash(const JointContact& joint) {
       const TangentialContact contact = tangential_contact(joint, X_FM, axis);
       for (const auto* hits : {&*contact.mobile_in_fixed, &*contact.fixed_in_mobile}) {
         add_common(*hits, hash);
-        hash.add_all(hits->turn);
+        hash.add_all(hits->rotation_sense);
         hash.add_all(hits->angular_gap);
-        hash.add_all(hits->arc_gap);
+        hash.add_all(hits->arc_gap_mm);
       }
       add(contact.pairs, hash);
     }
@@ -168,7 +170,7 @@ std::uint64_t arcs_hash(const JointContact& joint, Seen& seen) {
     for (std::size_t point = 0; point < arcs.size(); ++point) {
       hash.add(std::uint64_t{arcs.of(point).size()});
       for (const OccupiedArc& arc : arcs.of(point)) {
-        hash.add(arc.begin), hash.add(arc.end);
+        hash.add(arc.begin.radians()), hash.add(arc.end.radians());
         hash.add(std::uint64_t{arc.enters}), hash.add(std::uint64_t{arc.leaves});
       }
       seen.arcs += arcs.of(point).size();

@@ -3,7 +3,7 @@
 #include <ostream>
 
 #include "condyle/joint_coordinates.hpp"
-#include "radial/exact/direction_map.hpp"
+#include "condyle/radial.hpp"
 #include "simd/instruction_set.hpp"
 
 /// Parameters of tests as GoogleTest prints them: by name, not as the bytes of the object.
@@ -31,6 +31,10 @@ inline void PrintTo(Side side, std::ostream* out) {
   *out << name_of(side);
 }
 
+inline void PrintTo(DirectionMapKind kind, std::ostream* out) {
+  *out << (kind == DirectionMapKind::cube ? "cube" : "cartesian");
+}
+
 }  // namespace condyle
 
 namespace condyle::simd {
@@ -40,11 +44,3 @@ inline void PrintTo(const InstructionSet& set, std::ostream* out) {
 }
 
 }  // namespace condyle::simd
-
-namespace condyle::radial {
-
-inline void PrintTo(DirectionMapKind kind, std::ostream* out) {
-  *out << (kind == DirectionMapKind::cube ? "cube" : "cartesian");
-}
-
-}  // namespace condyle::radial
