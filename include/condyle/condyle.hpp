@@ -24,10 +24,12 @@
 #include "condyle/joint.hpp"
 #include "condyle/fit_sphere.hpp"
 #include "condyle/fit_cylinder.hpp"
-#include "condyle/axis_frame.hpp"
 
 // One pose.
 #include "condyle/point_state.hpp"
+#include "condyle/radial.hpp"
+#include "condyle/axis_frame.hpp"
+#include "condyle/tangential.hpp"
 
 // Motions.
 #include "condyle/first_contact.hpp"

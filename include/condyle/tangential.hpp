@@ -22,7 +22,7 @@ struct Rings;
 /// Sense of rotation about an axis: positive is counter-clockwise seen from the axis' tip.
 enum class RotationSense : signed char { negative = -1, none = 0, positive = 1 };
 
-/// How a point's circle tells inside from outside.
+/// How the state of a point follows from its circle.
 enum class TangentialRule {
   /// All crossings in their order, anchored by the exact winding number at the point. Always right.
   alternating,

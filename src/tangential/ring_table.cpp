@@ -91,7 +91,8 @@ OccupiedArcs RingTable::occupied_arcs(PointsView points) const {
   core::parallel_chunks(batches, 1, [&](std::size_t first, std::size_t last) {
     CircleBatch batch(*rings_);
     for (std::size_t b = first; b < last; ++b) {
-      const std::size_t begin = b * CircleBatch::most, end = std::min(points.size(), begin + CircleBatch::most);
+      const std::size_t begin = b * CircleBatch::most,
+                        end = std::min(points.size(), begin + CircleBatch::most);
       batch.find_crossings(points.subspan(begin, end - begin));
       append_arcs(batch, offset.data() + 1 + begin, arcs[b]);
     }

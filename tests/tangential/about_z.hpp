@@ -7,7 +7,7 @@
 #include "core/predicates.hpp"
 #include "tangential/build/profile_grid.hpp"
 
-/// Points that turn about the z axis, and how well their angles are known.
+/// Points that rotate about the z axis, and how well their angles are known.
 
 namespace condyle::test {
 
@@ -16,7 +16,7 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
 
 inline TangentialResults query_one(const TriMesh& mesh, const Vec3& p,
-                                TangentialRule rule = TangentialRule::alternating) {
+                                   TangentialRule rule = TangentialRule::alternating) {
   Points points;
   points.push_back(p);
   return RingTable(mesh, z_axis).query(points, rule);

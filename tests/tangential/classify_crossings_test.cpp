@@ -36,35 +36,37 @@ struct Pairs {
   }
 };
 
-struct Verdict {
-  tangential::CrossingClass verdict;
+struct Outcome {
+  tangential::CrossingClass crossing_class;
   double angle;
-  friend bool operator==(const Verdict&, const Verdict&) = default;
+  friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
 /// Of those pairs that may cross.
-std::map<std::size_t, Verdict> verdicts(const Pairs& pairs) {
-  std::map<std::size_t, Verdict> all;
-  tangential::ClassifiedPairs cuts;
+std::map<std::size_t, Outcome> classified(const Pairs& pairs) {
+  std::map<std::size_t, Outcome> all;
+  tangential::ClassifiedPairs found;
   for (std::size_t first = 0; first < pairs.circle.size(); first += tangential::ClassifiedPairs::most) {
     tangential::classify_crossings({pairs.vertices.data(), pairs.triangles.data(), pairs.scale}, pairs.points,
-                            pairs.circle, pairs.triangle, first, cuts);
-    for (std::size_t k = 0; k < cuts.count; ++k) {
-      const auto verdict = static_cast<tangential::CrossingClass>(static_cast<signed char>(cuts.crossing_class[k]));
-      all[cuts.pair[k]] = {verdict, verdict == tangential::CrossingClass::uncertain ? 0 : cuts.angle[k]};
+                                   pairs.circle, pairs.triangle, first, found);
+    for (std::size_t k = 0; k < found.count; ++k) {
+      const auto crossing_class =
+          static_cast<tangential::CrossingClass>(static_cast<signed char>(found.crossing_class[k]));
+      all[found.pair[k]] = {crossing_class,
+                            crossing_class == tangential::CrossingClass::uncertain ? 0 : found.angle[k]};
     }
   }
   return all;
 }
 
 struct Counts {
-  std::size_t asked = 0, left_out = 0, decided = 0;
+  std::size_t compared = 0, left_out = 0, decided = 0;
 };
 
 /// Against what is decided exactly, one pair at a time: none is left out that crosses or holds its point, and
 /// what is decided has the same bits.
 void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
-  const auto found = verdicts(pairs);
+  const auto found = classified(pairs);
   for (std::size_t k = 0; k < pairs.circle.size(); ++k) {
     const tangential::CirclePoint& p = pairs.points[pairs.circle[k]];
     const mesh::TriangleCorners t = pairs.corners(k);
@@ -73,22 +75,22 @@ void expect_as_one_by_one(const Pairs& pairs, Counts& counts) {
     tangential::add_crossings({p.at(), p.squared_radius, pairs.scale}, {&t[0], &t[1], &t[2]}, 0, crossings,
                               work);
     const auto at = found.find(k);
-    ++counts.asked;
+    ++counts.compared;
     if (at == found.end()) {
       EXPECT_TRUE(crossings.empty());
       EXPECT_FALSE(core::orientation(t[0], t[1], t[2], p.at()) == core::Sign::zero &&
                    mesh::contains_coplanar(t, p.at()));
       ++counts.left_out;
-    } else if (at->second.verdict != tangential::CrossingClass::uncertain) {
+    } else if (at->second.crossing_class != tangential::CrossingClass::uncertain) {
       ASSERT_EQ(crossings.size(), 1u);
       EXPECT_EQ(crossings[0].angle, at->second.angle);
-      EXPECT_EQ(static_cast<int>(crossings[0].passage), static_cast<int>(at->second.verdict));
+      EXPECT_EQ(static_cast<int>(crossings[0].passage), static_cast<int>(at->second.crossing_class));
       ++counts.decided;
     }
   }
 }
 
-/// About places of circles, from large to so small that rounding tells no more; a third of the triangles with
+/// About places on circles, from large to so small that rounding decides; a third of the triangles with
 /// a corner at the circle's height, or in the point itself.
 Pairs pairs_of_size(double scale, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1), weight(0, 1);
@@ -110,23 +112,23 @@ Pairs pairs_of_size(double scale, std::mt19937& random) {
   return pairs;
 }
 
-TEST(CircleCuts, AreTheCrossingsFoundOneByOneAtAnySize) {
+TEST(ClassifyCrossings, AreTheCrossingsFoundOneByOneAtAnySize) {
   std::mt19937 random(3);
   for (const double scale : {1.0, 300.0, 1e-5, 1e-30, 1e-100, 1e17, 1e60, 1e100}) {
     Counts counts;
     expect_as_one_by_one(pairs_of_size(scale, random), counts);
     // Where fourth powers overflow or underflow nothing is decided, and nothing left out but by height.
     const bool usual = scale > 1e-60 && scale < 1e70;
-    EXPECT_GT(counts.left_out, counts.asked / (usual ? 4 : 20)) << scale;
+    EXPECT_GT(counts.left_out, counts.compared / (usual ? 4 : 20)) << scale;
     if (usual) {
-      EXPECT_GT(counts.decided, counts.asked / 10) << scale;
+      EXPECT_GT(counts.decided, counts.compared / 10) << scale;
     } else {
       EXPECT_EQ(counts.decided, 0u) << scale;
     }
   }
 }
 
-TEST(CircleCuts, AreTheCrossingsFoundOneByOneOfTrianglesThatAreNearlyFlat) {
+TEST(ClassifyCrossings, AreTheCrossingsFoundOneByOneOfTrianglesThatAreNearlyFlat) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   Counts counts;
@@ -142,7 +144,7 @@ TEST(CircleCuts, AreTheCrossingsFoundOneByOneOfTrianglesThatAreNearlyFlat) {
     }
   }
   expect_as_one_by_one(pairs, counts);
-  EXPECT_GT(counts.decided, counts.asked / 6);
+  EXPECT_GT(counts.decided, counts.compared / 6);
 }
 
 Pairs pairs_on_a_lattice() {
@@ -159,21 +161,21 @@ Pairs pairs_on_a_lattice() {
   return pairs;
 }
 
-TEST(CircleCuts, AreTheCrossingsFoundOneByOneOnALattice) {
+TEST(ClassifyCrossings, AreTheCrossingsFoundOneByOneOnALattice) {
   Counts counts;
   expect_as_one_by_one(pairs_on_a_lattice(), counts);
   EXPECT_GT(counts.decided, 500u);
   EXPECT_GT(counts.left_out, 1000u);
 }
 
-TEST(CircleCuts, AreTheSameBytesOnEveryInstructionSet) {
+TEST(ClassifyCrossings, AreTheSameBytesOnEveryInstructionSet) {
   std::mt19937 random(7);
   for (const Pairs& pairs : {pairs_of_size(100, random), pairs_on_a_lattice()}) {
-    const auto expected = verdicts(pairs);
+    const auto expected = classified(pairs);
     EXPECT_GT(expected.size(), 1000u);
     for (const simd::InstructionSet& set : simd::instruction_sets()) {
       const simd::InstructionSetInUse in_use(set);
-      EXPECT_EQ(verdicts(pairs), expected) << set.name;
+      EXPECT_EQ(classified(pairs), expected) << set.name;
     }
   }
 }

@@ -25,14 +25,14 @@ using test::infinity, test::z_axis;
 void expect_same_as_oracle(const TriMesh& mesh, const Points& points) {
   const RingTable table(mesh, z_axis);
   const auto arcs = table.occupied_arcs(points);
-  const auto hits = table.query(points);
+  const auto results = table.query(points);
   const auto windings = mesh::WindingNumber(mesh).at(points);
   std::size_t compared = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = points[i];
-    EXPECT_EQ(hits.state[i], windings[i].state) << p.transpose();
+    EXPECT_EQ(results.state[i], windings[i].state) << p.transpose();
     if (windings[i].state != PointState::on_surface) {
-      EXPECT_EQ(hits.winding[i], windings[i].winding);
+      EXPECT_EQ(results.winding[i], windings[i].winding);
     }
     if (p.x() == 0 && p.y() == 0) continue;
     const auto pieces = test::circle_pieces(mesh, p);
@@ -41,7 +41,7 @@ void expect_same_as_oracle(const TriMesh& mesh, const Points& points) {
       ++compared;
       const double middle = (piece.begin + piece.end) / 2;
       EXPECT_EQ(arcs.inside_at(i, Angle::radians(middle)), piece.winding > 0)
-          << "point " << p.transpose() << " turned by " << middle;
+          << "point " << p.transpose() << " rotated by " << middle;
     }
     for (const auto& arc : arcs.of(i)) {
       for (const double end : {arc.begin.radians(), arc.end.radians()}) {
@@ -170,7 +170,7 @@ TEST(RingTable, RefiningAMeshWithoutMovingItsSurfaceChangesNoGap) {
     Points points;
     for (int i = 0; i < 40; ++i) points.push_back(point());
     // At the heights of the finer mesh's vertices, but not through them: a circle that touches the solid in
-    // one point only has an arc of no length there, and rounding tells whether it shows.
+    // one point only has an arc of no length there, and rounding decides whether it appears.
     for (std::size_t v = 0; v < finer.vertices.size(); v += 3) {
       const Vec3 p = finer.vertices[v];
       points.push_back({p.x(), 1, p.z()});

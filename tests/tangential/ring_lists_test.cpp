@@ -77,7 +77,7 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
   const tangential::ProfileGrid& grid = all.lists.grid();
   std::mt19937 random(6);
   std::uniform_real_distribution<double> weight(0, 1);
-  std::size_t asked = 0;
+  std::size_t compared = 0;
   for (int i = 0; i < 2000; ++i) {
     const double rho = grid.rho_min + weight(random) * (grid.rho_max - grid.rho_min);
     const double z = grid.z_min + weight(random) * (grid.z_max - grid.z_min);
@@ -104,10 +104,10 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
       EXPECT_LE(rho, high + parts * grid.rho_cell);
       EXPECT_GE(z, z_low - parts * grid.z_cell);
       EXPECT_LE(z, z_high + parts * grid.z_cell);
-      ++asked;
+      ++compared;
     }
   }
-  EXPECT_GT(asked, 2000u);
+  EXPECT_GT(compared, 2000u);
 }
 
 TEST(ProfileBoxes, TrianglesNotAcrossSectorsHaveAllCornersInOneTheSameOnEveryInstructionSet) {

@@ -7,7 +7,7 @@
 
 #include "tangential/build/cell_box.hpp"
 #include "tangential/build/profile_boxes.hpp"
-#include "tangential/build/profile_grid.hpp"
+#include "tangential/build/profile_raster.hpp"
 
 namespace condyle::tangential {
 

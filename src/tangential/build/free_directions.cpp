@@ -196,8 +196,7 @@ FreeDirections find_free_directions(const AxisVertices& vertices, std::span<cons
     ++count;
     const bool clear = sector[a] != 0 && sector[b] != 0 && sector[c] != 0;
     const auto between = clear ? FreeDirections::between(sector[a] | sector[b] | sector[c]) : std::nullopt;
-    const Directions directions =
-        between ? *between : FreeDirections::near(corner(a), corner(b), corner(c));
+    const Directions directions = between ? *between : FreeDirections::near(corner(a), corner(b), corner(c));
     if (directions == 0) continue;
     for_each_cell(grid, box_scale.sides(boxes, t), corner(a), corner(b), corner(c),
                   [&](Index row, Index column) { taken[grid.cell(row, column)] |= directions; });

@@ -87,7 +87,8 @@ double largest_magnitude_any(std::span<const double> values) {
 void transform_any(const PointsView& vertices, const AxisFrame& frame, AxisVertices& out) {
   constexpr hn::CappedTag<double, 8> d8;
   std::size_t i = 0;
-  for (; i + hn::Lanes(d8) <= vertices.size(); i += hn::Lanes(d8)) transform_some(d8, vertices, frame, i, out);
+  for (; i + hn::Lanes(d8) <= vertices.size(); i += hn::Lanes(d8))
+    transform_some(d8, vertices, frame, i, out);
   for (; i < vertices.size(); ++i) transform_some(hn::CappedTag<double, 1>(), vertices, frame, i, out);
 }
 
@@ -170,8 +171,7 @@ void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle
     };
     scale = hn::Max(scale, hn::Max(reach(e.x_low, e.x_high), reach(e.y_low, e.y_high)));
     const auto across = hn::AndNot(within_sector(e), hn::FirstN(d, count));
-    across_count +=
-        simd::store_lane_numbers(d, across, first, out.across_sectors.data() + across_count);
+    across_count += simd::store_lane_numbers(d, across, first, out.across_sectors.data() + across_count);
   }
   out.across_sectors.resize(across_count);
   out.rho_min = hn::GetLane(hn::MinOfLanes(d, rho_min)),

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "condyle/angle.hpp"
-#include "tangential/exact/circle_predicates.hpp"
 #include "tangential/exact/arctangent.hpp"
+#include "tangential/exact/circle_predicates.hpp"
 
 namespace condyle::tangential {
 namespace {

@@ -57,8 +57,8 @@ Circle circle_through(const Vec3& point, double scale) noexcept;
 /// A triangle whose corners are stored elsewhere.
 using TriangleRef = std::array<const Vec3*, 3>;
 
-/// The segment in which a triangle meets the plane at the circle's height, from p to q with the solid on its left (seen
-/// from +z).
+/// The segment in which a triangle meets the plane at the circle's height, from p to q with the solid on its
+/// left (seen from +z).
 ///
 ///          upper         upper
 ///            |             |          solid: beyond the page

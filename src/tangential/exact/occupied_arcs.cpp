@@ -58,8 +58,8 @@ void append_arcs(int winding, std::span<const CircleCrossing> crossings, std::ve
     std::size_t i = static_cast<std::size_t>(winding);
     for (; i + 1 < crossings.size(); i += 2) {
       const CircleCrossing &enters = crossings[i], &leaves = crossings[i + 1];
-      arcs.push_back({Angle::radians(enters.ahead()), Angle::radians(leaves.ahead()), enters.triangle,
-                      leaves.triangle});
+      arcs.push_back(
+          {Angle::radians(enters.ahead()), Angle::radians(leaves.ahead()), enters.triangle, leaves.triangle});
     }
     if (i < crossings.size())
       arcs.push_back({Angle::radians(crossings[i].ahead()), Angle::radians(crossings[0].ahead() + two_pi),

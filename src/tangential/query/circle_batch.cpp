@@ -34,8 +34,7 @@ int winding_from(FreeDirections::Anchor anchor, const CirclePoint& point,
                  std::span<const CircleCrossing> crossings) noexcept {
   int winding = anchor.winding;
   if (crossings.empty()) return winding;
-  const double between =
-      FreeDirections::angle_of(anchor.direction).radians() - rough_angle(point.x, point.y);
+  const double between = FreeDirections::angle_of(anchor.direction).radians() - rough_angle(point.x, point.y);
   const double ahead = core::wrapped(between);
   for (const CircleCrossing& crossing : crossings)
     winding -= crossing.ahead() < ahead ? static_cast<int>(crossing.passage) : 0;

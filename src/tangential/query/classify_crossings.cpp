@@ -104,7 +104,8 @@ HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
   const auto lowest = hn::Min(hn::Min(p0.z, p1.z), p2.z);
   const auto touches = hn::And(all_above, hn::Eq(lowest, height));
   return {ends_of(apex, first, apex_above, height), ends_of(apex, second, apex_above, height),
-          hn::Xor(apex_above, apex_is_1), hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)), touches};
+          hn::Xor(apex_above, apex_is_1), hn::Or(hn::Not(any_above), hn::AndNot(touches, all_above)),
+          touches};
 }
 
 /// Chords along cuts from the end inside a circle, (x, y), to the end outside, and the class by the ends only.
@@ -162,11 +163,13 @@ HWY_INLINE std::size_t classify_ends(const Staged& staged, double scale, std::si
     const auto none = hn::Or(missed, hn::AndNot(touches, hn::Or(hn::And(p_inside, q_inside), beyond)));
 
     const auto one = hn::Or(hn::And(p_inside, q_outside), hn::And(q_inside, p_outside));
-    const auto passage =
-        hn::IfThenElse(hn::Xor(p_inside, in_order), value(CrossingClass::leaves), value(CrossingClass::enters));
-    const auto crossing_class = hn::IfThenElse(hn::AndNot(touches, one), passage, value(CrossingClass::uncertain));
+    const auto passage = hn::IfThenElse(hn::Xor(p_inside, in_order), value(CrossingClass::leaves),
+                                        value(CrossingClass::enters));
+    const auto crossing_class =
+        hn::IfThenElse(hn::AndNot(touches, one), passage, value(CrossingClass::uncertain));
     const auto store = [&](Doubles values, Column& column) { hn::Store(values, d, column.data() + i); };
-    store(x, chords.x), store(y, chords.y), store(dx, chords.dx), store(dy, chords.dy), store(crossing_class, chords.crossing_class);
+    store(x, chords.x), store(y, chords.y), store(dx, chords.dx), store(dy, chords.dy),
+        store(crossing_class, chords.crossing_class);
     store(hn::IfThenElse(p_inside, p.squared_radius, q.squared_radius), chords.end_squared_radius);
     const auto may_cross = hn::AndNot(none, hn::FirstN(d, count - i));
     open_count += simd::store_lane_numbers(d, may_cross, i, open + open_count);
@@ -202,14 +205,15 @@ HWY_INLINE void intersect_chords(double scale, const Chords& chords, ClassifiedP
     const auto angle = arctangent(d, hn::Sub(hn::Mul(px, at_y), hn::Mul(py, at_x)),
                                   hn::Add(hn::Mul(px, at_x), hn::Mul(py, at_y)));
     const auto certain = hn::And(hn::Gt(hn::Abs(angle), least_angle), hn::Ge(squared_radius, least_radius2));
-    const auto crossing_class = hn::IfThenElse(certain, of(chords.crossing_class), value(CrossingClass::uncertain));
+    const auto crossing_class =
+        hn::IfThenElse(certain, of(chords.crossing_class), value(CrossingClass::uncertain));
     hn::Store(angle, d, out.angle.data() + k), hn::Store(crossing_class, d, out.crossing_class.data() + k);
   }
 }
 
 void classify_any(const CircleTriangles& source, std::span<const CirclePoint> points,
-                     std::span<const Index> circle, std::span<const Index> triangle, std::size_t first,
-                     double scale, ClassifiedPairs& out) {
+                  std::span<const Index> circle, std::span<const Index> triangle, std::size_t first,
+                  double scale, ClassifiedPairs& out) {
   const std::size_t count = std::min(triangle.size() - first, ClassifiedPairs::most);
   Staged staged;
   stage(source, points.data(), circle.data() + first, triangle.data() + first, count, staged);
@@ -220,7 +224,8 @@ void classify_any(const CircleTriangles& source, std::span<const CirclePoint> po
   // Compacted in place: none moves to where a later one is.
   for (std::size_t k = 0; k < out.count; ++k) {
     const std::size_t from = open[k], pair = first + from;
-    for (Column* column : {&chords.x, &chords.y, &chords.end_squared_radius, &chords.dx, &chords.dy, &chords.crossing_class})
+    for (Column* column :
+         {&chords.x, &chords.y, &chords.end_squared_radius, &chords.dx, &chords.dy, &chords.crossing_class})
       (*column)[k] = (*column)[from];
     const CirclePoint& point = points[circle[pair]];
     chords.point_x[k] = point.x, chords.point_y[k] = point.y, chords.squared_radius[k] = point.squared_radius;
