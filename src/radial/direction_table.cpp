@@ -170,7 +170,7 @@ std::span<const Index> DirectionTable::candidates(const Vec3& v, std::vector<Ind
 }
 
 void DirectionTable::require_closed() const {
-  if (boundary_edge_) mesh::refuse_unbalanced({boundary_edge_->from, boundary_edge_->to});
+  if (boundary_edge_) mesh::refuse_unbalanced(*boundary_edge_);
 }
 
 void DirectionTable::query(PointsView points, RadialResults& out) const {

@@ -20,7 +20,7 @@ namespace {
 using tangential::CircleBatch;
 
 void require_closed(const Mesh& mesh) {
-  if (const auto& edge = mesh.unbalanced_edge()) mesh::refuse_unbalanced({edge->from, edge->to});
+  if (const auto& edge = mesh.unbalanced_edge()) mesh::refuse_unbalanced(*edge);
 }
 
 std::size_t cell_count(const Mesh& mesh, const RingTableOptions& options) {

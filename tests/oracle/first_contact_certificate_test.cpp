@@ -44,7 +44,7 @@ struct HipFiles {
 };
 
 /// Skips where the data is missing.
-class RealHip : public testing::TestWithParam<HipFiles> {
+class FirstContactOfRealHips : public testing::TestWithParam<HipFiles> {
  protected:
   void SetUp() override {
     const auto data = test::shared_data();
@@ -55,7 +55,7 @@ class RealHip : public testing::TestWithParam<HipFiles> {
   TriMesh fixed, mobile;
 };
 
-TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_microdegree_after) {
+TEST_P(FirstContactOfRealHips, StopsAtTheLimitFreeAMicrodegreeBeforeAndTouchingAMicrodegreeAfter) {
   const CgalOracle oracle(fixed);
   const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   motion::TurningBody body(mobile_tree);
@@ -88,7 +88,7 @@ TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_micr
   EXPECT_GE(contacts, 4) << "too few contacts to mean anything";
 }
 
-TEST_P(RealHip, touches_through_a_full_turn_exactly_in_its_contact_set) {
+TEST_P(FirstContactOfRealHips, TouchesThroughAFullTurnExactlyInItsContactSet) {
   const CgalOracle oracle(fixed);
   const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   for (const Start& start : starts()) {
@@ -118,7 +118,7 @@ const HipFiles hips[] = {
      "hip_libhip_m1_left/coarse/femur_1542.ply"},
 };
 
-INSTANTIATE_TEST_SUITE_P(FirstContact, RealHip, testing::ValuesIn(hips),
+INSTANTIATE_TEST_SUITE_P(SharedData, FirstContactOfRealHips, testing::ValuesIn(hips),
                          [](const auto& hip) { return hip.param.name; });
 
 }  // namespace
