@@ -14,7 +14,7 @@
 #include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
-#include "contact/triangle_pairs.hpp"
+#include "condyle/contact.hpp"
 
 /// One way of finding collisions: Condyle's, a library's, or a published one in plain code of our own.
 

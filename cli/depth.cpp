@@ -11,7 +11,7 @@
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/whole_file.hpp"
-#include "contact/tangential_contact.hpp"
+#include "condyle/contact.hpp"
 #include "mesh/require_solid.hpp"
 #include "verbs.hpp"
 
@@ -45,7 +45,7 @@ Answer by_radial(const DepthQuestion& question, const JointContact& contact) {
 
 Answer by_tangential(const DepthQuestion& question, const JointContact& contact, JointAngle about) {
   const TurnAxis axis{about, axis_of(about, question.joint.side, question.angles)};
-  TangentialContact found = tangential_contact(contact, question.X_FM, axis.direction_F);
+  TangentialContact found = contact.tangential(question.X_FM, axis.direction_F);
   return {depth_text(question, axis, found), depth_json(question, axis, found),
           depth_arrays(found.fixed_in_mobile), depth_arrays(found.mobile_in_fixed), std::move(found.pairs)};
 }
@@ -76,7 +76,7 @@ void run(const Options& options) {
   const JointAngles angles = parse_pose(options.pose, joint.kind);
   if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
   const DepthQuestion question{joint, angles, pose_at(joint.side, angles)};
-  const JointContact contact(joint.fixed.mesh, joint.mobile.mesh);
+  const JointContact contact(joint);
   const Answer answer = options.method == Method::radial
                             ? by_radial(question, contact)
                             : by_tangential(question, contact, joint_angle_named(options.about));

@@ -1,21 +1,17 @@
-// Where and how deep a ball penetrates its socket, with the core library alone.
+// Where and how deep the femur of the sample hip penetrates the hip bone: `condyle sample hip --out sample` first.
+#include <algorithm>
+#include <condyle/condyle.hpp>
+#include <condyle/io/joint_file.hpp>
 #include <cstdio>
 
-#include "contact/joint_contact.hpp"
-#include "shapes.hpp"
-
 int main() {
-  // Any two closed triangle meshes, in millimetres, with the joint centre as origin.
-  const condyle::TriMesh socket = examples::socket(25.0), ball = examples::ball(24.8);
-
-  // Tables are built once; every pose reuses them.
-  const condyle::JointContact joint(socket, ball);
-  condyle::Pose X_FM = condyle::Pose::Identity();  // p_fixed = X_FM * p_mobile
-  X_FM.translation() = condyle::Vec3(0, 0.5, 0);   // the ball rides up by half a millimetre
-  const condyle::RadialContact contact = joint.radial(X_FM);
-
-  double deepest = 0;
-  for (const double gap : contact.mobile_in_fixed->radial_gap) deepest = std::min(deepest, gap);
-  std::printf("in contact: %s, %zu triangle pairs, deepest %.3f mm\n", contact.in_contact ? "yes" : "no",
-              contact.pairs.size(), -deepest);
+  const condyle::Joint hip = condyle::read_joint("sample/hip.toml").joint;
+  const condyle::JointContact contact(hip);  // tables and trees, built once and asked at any pose
+  const auto X_FM =
+      condyle::pose_at(hip.side, {condyle::Angle::degrees(130), {}, {}});  // p_fixed = X_FM * p_mobile
+  const condyle::Contact at = contact.at(X_FM);
+  const condyle::Penetrations& femur = *at.mobile_in_fixed;  // its vertices inside the hip bone
+  const double deepest_mm = *std::max_element(femur.depth_mm.begin(), femur.depth_mm.end());
+  std::printf("%zu vertices inside, radial depth up to %.2f mm; %zu triangle pairs\n", femur.size(),
+              deepest_mm, at.pairs.size());
 }

@@ -29,4 +29,13 @@ class Angle {
 /// A full turn in radians.
 inline constexpr double two_pi = 2 * std::numbers::pi;
 
+/// Which way an angle changes. Joint angles: flexion, adduction and internal rotation are positive. About an
+/// axis: counter-clockwise seen from the tip of its direction is positive.
+enum class RotationSense : signed char { negative = -1, none = 0, positive = 1 };
+
+/// -1, 0 or +1.
+constexpr double sign_of(RotationSense sense) noexcept {
+  return static_cast<double>(sense);
+}
+
 }  // namespace condyle

@@ -30,6 +30,7 @@
 #include "condyle/radial.hpp"
 #include "condyle/axis_frame.hpp"
 #include "condyle/tangential.hpp"
+#include "condyle/contact.hpp"
 
 // Motions.
 #include "condyle/first_contact.hpp"

@@ -19,9 +19,6 @@ namespace tangential {
 struct Rings;
 }
 
-/// Sense of rotation about an axis: positive is counter-clockwise seen from the axis' tip.
-enum class RotationSense : signed char { negative = -1, none = 0, positive = 1 };
-
 /// How the state of a point follows from its circle.
 enum class TangentialRule {
   /// All crossings in their order, anchored by the exact winding number at the point. Always right.

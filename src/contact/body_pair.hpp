@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact/triangle_pairs.hpp"
+#include "condyle/contact.hpp"
 #include "mesh/triangle_tree.hpp"
 
 namespace condyle::contact {

@@ -1,48 +1,177 @@
-#include "contact/joint_contact.hpp"
-
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <utility>
 
+#include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "contact/body_pair.hpp"
+#include "core/lazy.hpp"
 
 namespace condyle {
 namespace {
 
-RadialTable table_of(const char* body, const Mesh& mesh, const RadialOptions& options) {
-  try {
-    return RadialTable(mesh, options);
-  } catch (const MeshError& error) {
-    throw MeshError(std::string(body) + ": " + error.what());
-  }
+bool any_not_outside(const std::vector<PointState>& states) {
+  return std::any_of(states.begin(), states.end(),
+                     [](PointState state) { return state != PointState::outside; });
 }
 
-bool any_not_outside(const std::optional<RadialResults>& hits) {
-  return hits && std::any_of(hits->state.begin(), hits->state.end(),
-                             [](PointState state) { return state != PointState::outside; });
+template <class VertexResults>
+bool any_contact(const ContactResults<VertexResults>& contact) {
+  const auto& [mobile, fixed, pairs, in_contact] = contact;
+  return !pairs.empty() || (mobile && any_not_outside(mobile->state)) ||
+         (fixed && any_not_outside(fixed->state));
 }
+
+/// Ring tables of one body about the axes that were asked last.
+class RingTables {
+ public:
+  std::shared_ptr<const RingTable> about(const Mesh& mesh, const Vec3& point, const Vec3& direction) {
+    const std::scoped_lock lock(mutex_);
+    const auto known = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+      return kept.table && kept.point == point && kept.direction == direction;
+    });
+    if (known != kept_.end()) {
+      std::rotate(kept_.begin(), known, known + 1);
+    } else {
+      std::rotate(kept_.begin(), kept_.end() - 1, kept_.end());
+      kept_.front() = {point, direction, nullptr};
+      kept_.front().table = std::make_shared<const RingTable>(mesh, AxisFrame(point, direction));
+    }
+    return kept_.front().table;
+  }
+
+ private:
+  struct Kept {
+    Vec3 point = Vec3::Zero(), direction = Vec3::Zero();
+    std::shared_ptr<const RingTable> table;
+  };
+  /// The three axes of a joint coordinate system and one more; a table has some 50 bytes for each triangle.
+  static constexpr std::size_t most_axes = 4;
+
+  std::mutex mutex_;
+  std::array<Kept, most_axes> kept_;  ///< The latest first.
+};
+
+/// One of the two bodies, and what is made of it when it is first needed.
+class ContactBody {
+ public:
+  ContactBody(std::string role, Mesh mesh, const RadialOptions& options)
+      : role_(std::move(role)), mesh_(std::move(mesh)), options_(options) {}
+
+  const Mesh& mesh() const noexcept { return mesh_; }
+  const RadialTable& table() const {
+    return table_.get([&] {
+      try {
+        return RadialTable(mesh_, options_);
+      } catch (const MeshError& error) {
+        throw MeshError(role_ + ": " + error.what());
+      }
+    });
+  }
+  const SortedPoints& sorted_vertices() const {
+    return sorted_vertices_.get([&] { return SortedPoints(mesh_.vertices()); });
+  }
+  std::shared_ptr<const RingTable> ring_table(const Vec3& point, const Vec3& direction) const {
+    return ring_tables_.about(mesh_, point, direction);
+  }
+
+ private:
+  std::string role_;
+  Mesh mesh_;
+  RadialOptions options_;
+  core::Lazy<RadialTable> table_;
+  core::Lazy<SortedPoints> sorted_vertices_;
+  mutable RingTables ring_tables_;
+};
 
 }  // namespace
 
-JointContact::JointContact(const Mesh& fixed, const Mesh& mobile, RadialOptions options)
-    : fixed_mesh_(fixed),
-      mobile_mesh_(mobile),
-      fixed_(table_of("fixed body", fixed, options)),
-      mobile_(table_of("mobile body", mobile, options)),
-      bodies_(fixed, mobile) {}
+struct JointContact::Parts {
+  ContactBody fixed, mobile;
+  core::Lazy<contact::BodyPair> trees;
 
-std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
-  return bodies_.pairs(X_FM);
+  Parts(Mesh fixed_mesh, Mesh mobile_mesh, const RadialOptions& options)
+      : fixed("fixed body", std::move(fixed_mesh), options),
+        mobile("mobile body", std::move(mobile_mesh), options) {}
+
+  const contact::BodyPair& bodies() const {
+    return trees.get([&] { return contact::BodyPair(fixed.mesh(), mobile.mesh()); });
+  }
+};
+
+JointContact::JointContact(const Joint& joint, RadialOptions options)
+    : JointContact(joint.fixed.mesh, joint.mobile.mesh, options) {}
+JointContact::JointContact(Mesh fixed, Mesh mobile, RadialOptions options)
+    : parts_(std::make_unique<Parts>(std::move(fixed), std::move(mobile), options)) {}
+JointContact::~JointContact() = default;
+JointContact::JointContact(JointContact&&) noexcept = default;
+JointContact& JointContact::operator=(JointContact&&) noexcept = default;
+
+const Mesh& JointContact::fixed() const noexcept {
+  return parts_->fixed.mesh();
+}
+const Mesh& JointContact::mobile() const noexcept {
+  return parts_->mobile.mesh();
+}
+const RadialTable& JointContact::fixed_table() const {
+  return parts_->fixed.table();
+}
+const RadialTable& JointContact::mobile_table() const {
+  return parts_->mobile.table();
+}
+
+Contact JointContact::at(const Pose& X_FM) const {
+  Contact contact;
+  if (fixed().is_closed()) mobile_in_fixed(X_FM, contact.mobile_in_fixed.emplace());
+  if (mobile().is_closed()) fixed_in_mobile(X_FM, contact.fixed_in_mobile.emplace());
+  contact.pairs = pairs(X_FM);
+  contact.in_contact = any_contact(contact);
+  return contact;
+}
+
+void JointContact::mobile_in_fixed(const Pose& X_FM, Penetrations& out) const {
+  parts_->fixed.table().penetrations(parts_->mobile.sorted_vertices(), X_FM, out);
+}
+
+void JointContact::fixed_in_mobile(const Pose& X_FM, Penetrations& out) const {
+  parts_->mobile.table().penetrations(parts_->fixed.sorted_vertices(), X_FM.inverse(), out);
 }
 
 RadialContact JointContact::radial(const Pose& X_FM) const {
   RadialContact contact;
-  if (fixed().is_closed()) contact.mobile_in_fixed = fixed_.query(posed(X_FM, mobile().vertices()));
+  if (fixed().is_closed()) contact.mobile_in_fixed = fixed_table().query(posed(X_FM, mobile().vertices()));
   if (mobile().is_closed())
-    contact.fixed_in_mobile = mobile_.query(posed(X_FM.inverse(), fixed().vertices()));
+    contact.fixed_in_mobile = mobile_table().query(posed(X_FM.inverse(), fixed().vertices()));
   contact.pairs = pairs(X_FM);
-  contact.in_contact = !contact.pairs.empty() || any_not_outside(contact.mobile_in_fixed) ||
-                       any_not_outside(contact.fixed_in_mobile);
+  contact.in_contact = any_contact(contact);
   return contact;
+}
+
+TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F, TangentialRule rule) const {
+  TangentialContact contact;
+  if (fixed().is_closed()) {
+    const auto table = parts_->fixed.ring_table(Vec3::Zero(), axis_F);
+    contact.mobile_in_fixed = table->query(posed(X_FM, mobile().vertices()), rule);
+  }
+  if (mobile().is_closed()) {
+    const Pose X_MF = X_FM.inverse();
+    const auto table = parts_->mobile.ring_table(X_MF.translation(), X_MF.linear() * axis_F);
+    contact.fixed_in_mobile = table->query(posed(X_MF, fixed().vertices()), rule);
+  }
+  contact.pairs = pairs(X_FM);
+  contact.in_contact = any_contact(contact);
+  return contact;
+}
+
+std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
+  return parts_->bodies().pairs(X_FM);
+}
+
+bool JointContact::in_contact(const Pose& X_FM) const {
+  return parts_->bodies().touch(X_FM);
 }
 
 }  // namespace condyle

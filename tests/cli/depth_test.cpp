@@ -6,7 +6,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

@@ -17,5 +17,5 @@ int main() {
   const condyle::Joint joint{
       "door", condyle::JointKind::hinge, condyle::Side::right, {"wall", wall}, {"needle", needle}};
   const condyle::MotionLimit flexion = condyle::RangeOfMotion(joint).limit(condyle::hinge_motions().front());
-  std::printf("flexion ends at %.3f degrees\n", flexion.turned.degrees());
+  std::printf("flexion ends at %.3f degrees\n", flexion.end.turned.degrees());
 }

@@ -1,4 +1,4 @@
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -142,7 +142,7 @@ TEST(JointContact, OneThreadAndManyGiveTheSamePairs) {
 
 TEST(JointContact, ACentreOnASurfaceIsRefusedByNameOfTheBody) {
   try {
-    const JointContact joint(sphere({5, 0, 0}, 1, 1), box({0, -1, -1}, {2, 1, 1}));
+    JointContact(sphere({5, 0, 0}, 1, 1), box({0, -1, -1}, {2, 1, 1})).radial(Pose::Identity());
     FAIL() << "the centre lies on the mobile body";
   } catch (const MeshError& error) {
     EXPECT_EQ(

@@ -5,7 +5,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/joint.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 #include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
 

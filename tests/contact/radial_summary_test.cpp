@@ -1,4 +1,4 @@
-#include "contact/radial_summary.hpp"
+#include "condyle/contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ TEST(RadialSummary, CountsStatesAndFindsTheDeepestVertexAndTheSmallestGap) {
   // What RadialTable promises: 1e-12 of the radius.
   EXPECT_NEAR(summary.deepest->depth_mm, 0.5, 5.5e-12);
   EXPECT_EQ(summary.deepest->applies(), DepthKind::radial);
-  EXPECT_NEAR(summary.deepest->shortest_way_out_mm, 0.5, 1e-15);
+  EXPECT_NEAR(summary.deepest->shortest_exit_mm, 0.5, 1e-15);
   EXPECT_EQ(summary.min_gap_mm, 0);
   EXPECT_EQ(summary.oblique_inside, 0u);
 }
@@ -56,7 +56,7 @@ TEST(RadialSummary, ADepthThroughTheFarEndOfANeckIsNotADepth) {
   const auto summary = summarise(neck.query(query), query, neck.mesh());
   ASSERT_TRUE(summary.deepest);
   EXPECT_GT(summary.deepest->depth_mm, 0.6);
-  EXPECT_NEAR(summary.deepest->shortest_way_out_mm, 0.1, 1e-14);
+  EXPECT_NEAR(summary.deepest->shortest_exit_mm, 0.1, 1e-14);
   EXPECT_EQ(summary.deepest->applies(), DepthKind::tangential);
   EXPECT_FALSE(summary.deepest_facing);
 }

@@ -1,4 +1,4 @@
-#include "contact/tangential_contact.hpp"
+#include "condyle/contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ TEST(TangentialContact, ADoorTurnedIntoAPostMustTurnBackByWhatItIsTooFar) {
   // edge that is met first stands at (8, 4).
   const TriMesh post = box({6, 4, -3}, {8, 6, 3}), leaf = box({1, -0.5, -1}, {10, 0.5, 1});
   const JointContact joint(post, leaf);
-  const TangentialContact contact = tangential_contact(joint, about_z(26), Vec3::UnitZ());
+  const TangentialContact contact = joint.tangential(about_z(26), Vec3::UnitZ());
   EXPECT_TRUE(contact.in_contact);
   // The post is taller than the leaf, the leaf longer than the post is far: only edges and faces meet.
   EXPECT_EQ(summarise(*contact.fixed_in_mobile).vertices_inside, 0u);
@@ -32,7 +32,7 @@ TEST(TangentialContact, ADoorTurnedIntoAPostMustTurnBackByWhatItIsTooFar) {
   const TriMesh low_post = box({6, 4, -0.5}, {8, 6, 0.5});
   const double radius = std::sqrt(80.0);
   const double first_touch = std::atan2(4, 8) - std::asin(0.5 / radius);
-  const TangentialContact low = tangential_contact(JointContact(low_post, leaf), about_z(26), Vec3::UnitZ());
+  const TangentialContact low = JointContact(low_post, leaf).tangential(about_z(26), Vec3::UnitZ());
   const TangentialBodySummary post_summary = summarise(*low.fixed_in_mobile);
   EXPECT_EQ(post_summary.vertices_inside, 2u);
   ASSERT_TRUE(post_summary.deepest);
@@ -48,7 +48,7 @@ TEST(TangentialContact, StatesAndPairsAreThoseOfTheRadialMethod) {
   const JointContact joint(fixed, mobile);
   for (const double degrees : {0., 13., 90.}) {
     // About z the axis frames permute coordinates: both methods see the same doubles.
-    const TangentialContact tangential = tangential_contact(joint, about_z(degrees), Vec3::UnitZ());
+    const TangentialContact tangential = joint.tangential(about_z(degrees), Vec3::UnitZ());
     const RadialContact radial = joint.radial(about_z(degrees));
     EXPECT_EQ(tangential.mobile_in_fixed->state, radial.mobile_in_fixed->state);
     EXPECT_EQ(tangential.fixed_in_mobile->state, radial.fixed_in_mobile->state);
@@ -61,17 +61,17 @@ TEST(TangentialContact, VerticesThatNoTurnSetsFreeAreCountedApart) {
   // A pin through a ring about the axis: the pin's vertices at the ring's radius are solid all the way round.
   const TriMesh ring = test::torus(5, 1, 64, 16), pin = box({4.8, -0.1, -0.1}, {5.2, 0.1, 0.1});
   const TangentialBodySummary summary = summarise(
-      *tangential_contact(JointContact(ring, pin), Pose::Identity(), Vec3::UnitZ()).mobile_in_fixed);
+      *JointContact(ring, pin).tangential(Pose::Identity(), Vec3::UnitZ()).mobile_in_fixed);
   EXPECT_EQ(summary.vertices_inside, 8u);
-  EXPECT_EQ(summary.without_way_out, 8u);
+  EXPECT_EQ(summary.without_exit, 8u);
   EXPECT_FALSE(summary.deepest);
 }
 
 TEST(TangentialContact, AnOpenBodyHasNoInsideButPairs) {
   TriMesh open = test::sphere({2, 0, 0}, 1, 2);
   open.triangles.pop_back();
-  const TangentialContact contact = tangential_contact(JointContact(open, test::sphere({0.5, 0, 0}, 1, 2)),
-                                                       Pose::Identity(), Vec3::UnitZ());
+  const JointContact joint(open, test::sphere({0.5, 0, 0}, 1, 2));
+  const TangentialContact contact = joint.tangential(Pose::Identity(), Vec3::UnitZ());
   EXPECT_FALSE(contact.mobile_in_fixed);
   EXPECT_TRUE(contact.fixed_in_mobile);
   EXPECT_FALSE(contact.pairs.empty());

@@ -5,7 +5,7 @@
 
 #include "condyle/mesh.hpp"
 #include "condyle/point_state.hpp"
-#include "contact/triangle_pairs.hpp"
+#include "condyle/contact.hpp"
 
 namespace condyle::test {
 

@@ -7,8 +7,7 @@
 #include "condyle/angle.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
-#include "contact/joint_contact.hpp"
-#include "contact/tangential_contact.hpp"
+#include "condyle/contact.hpp"
 #include "oracle/cgal_oracle.hpp"
 #include "condyle/radial.hpp"
 #include "simd/instruction_set.hpp"
@@ -90,12 +89,12 @@ std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
   const Side side = side_sign > 0 ? Side::right : Side::left;
   const Joint joint{"", JointKind::ball, side, {"", meshes.fixed}, {"", meshes.mobile}};
   const RangeOfMotion range(
-      joint, {.articular = ArticularRegion{25}, .overlap = {.contact_at_rest = ContactAtRest::accept}});
+      joint, {.articular = ArticularRegion{25}, .overlap = {.reference_contact = ReferenceContact::accept}});
   std::vector<Pose> poses;
   for (const MotionLimit& limit : range.limits(hip_motions())) {
-    if (limit.reason != LimitReason::contact) continue;
+    if (limit.end.reason != LimitReason::contact) continue;
     for (const double past : {-1e-4, 1e-4}) {
-      const double sense = limit.motion.sense == TurnSense::positive ? 1 : -1;
+      const double sense = limit.motion.sense == RotationSense::positive ? 1 : -1;
       poses.push_back(
           pose_at(side, turned_by(limit.angles_at_limit(), limit.motion.vary, Angle::degrees(sense * past))));
     }
@@ -199,7 +198,7 @@ TEST_P(ContactOfRealJoints, TheTangentialMethodHasTheSameVerticesInsideAndPairs)
   for (std::size_t i = 0; i < all.size(); i += 7) {
     // About Z the axis frame of F only permutes coordinates: both methods see the same doubles, and CGAL has
     // judged those.
-    const TangentialContact tangential = tangential_contact(joint, all[i], Vec3::UnitZ());
+    const TangentialContact tangential = joint.tangential(all[i], Vec3::UnitZ());
     const RadialContact radial = joint.radial(all[i]);
     EXPECT_EQ(tangential.mobile_in_fixed->state, radial.mobile_in_fixed->state) << "pose " << i;
     EXPECT_EQ(tangential.pairs, radial.pairs) << "pose " << i;

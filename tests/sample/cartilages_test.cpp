@@ -13,7 +13,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/pose.hpp"
-#include "contact/joint_contact.hpp"
+#include "condyle/contact.hpp"
 #include "sample/cartilage_shape.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"

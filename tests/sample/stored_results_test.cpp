@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "condyle/axis_frame.hpp"
+#include "condyle/contact.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/tangential.hpp"
-#include "contact/joint_contact.hpp"
-#include "contact/tangential_contact.hpp"
 #include "sample/made_hips.hpp"
 
 /// Answers on the sample hip as they have always been: a change of the code that is not meant to change them
@@ -149,7 +148,7 @@ std::uint64_t tangential_hash(const JointContact& joint) {
   Hash hash;
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 3)}) {
     for (const Pose& X_FM : poses()) {
-      const TangentialContact contact = tangential_contact(joint, X_FM, axis);
+      const TangentialContact contact = joint.tangential(X_FM, axis);
       for (const auto* hits : {&*contact.mobile_in_fixed, &*contact.fixed_in_mobile}) {
         add_common(*hits, hash);
         hash.add_all(hits->rotation_sense);
@@ -188,11 +187,12 @@ std::uint64_t motions_hash(const JointContact& joint, Seen& seen) {
     hash.add(static_cast<std::uint64_t>(feature.kind));
     hash.add(std::uint64_t{feature.id}), hash.add(std::uint64_t{feature.other_end});
   };
-  for (const MotionLimit& limit : range.limits(hip_motions())) {
+  for (const MotionLimit& motion : range.limits(hip_motions())) {
+    const Limit& limit = motion.end;
     hash.add_rounded(limit.turned.degrees(), 1e-8);
     hash.add(static_cast<std::uint64_t>(limit.reason));
     hash.add(std::uint64_t{limit.contact.has_value()});
-    hash.add(std::uint64_t{limit.articular});
+    hash.add(std::uint64_t{limit.is_articular()});
     if (!limit.contact) continue;
     ++seen.contacts;
     add_feature(limit.contact->fixed_feature), add_feature(limit.contact->mobile_feature);

@@ -5,8 +5,7 @@
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint.hpp"
-#include "contact/radial_summary.hpp"
-#include "contact/tangential_contact.hpp"
+#include "condyle/contact.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "condyle/io/depth_result.hpp"
-#include "contact/radial_summary.hpp"
+#include "condyle/contact.hpp"
 
 /// What the results of both methods have in common.
 

@@ -54,7 +54,7 @@ std::string depth_json(const DepthQuestion& question, const RadialContact& conta
   json["deepest_ray_to_normal_deg"] =
       deepest ? io::Json(deepest->vertex.ray_to_normal.degrees()) : io::Json(nullptr);
   json["deepest_shortest_way_out_mm"] =
-      deepest ? io::Json(deepest->vertex.shortest_way_out_mm) : io::Json(nullptr);
+      deepest ? io::Json(deepest->vertex.shortest_exit_mm) : io::Json(nullptr);
   json["depth_to_read"] = deepest ? io::Json(name_of(deepest->vertex.applies())) : io::Json(nullptr);
   json["min_gap_mm"] = io::nullable(bodies.least(&RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
@@ -80,7 +80,7 @@ std::string depth_text(const DepthQuestion& question, const RadialContact& conta
           "  there it is a length along the bone, not a depth: the nearest surface is {:.3f} mm away; read "
           "the "
           "tangential depth (--method tangential)\n",
-          deepest->vertex.shortest_way_out_mm);
+          deepest->vertex.shortest_exit_mm);
       if (const auto facing = deepest_facing_of(bodies)) {
         text += fmt::format("  deepest where the surface faces the ray: {:.3f} mm, vertex {} of {}\n",
                             facing->vertex.depth_mm, facing->vertex.vertex, facing->view->body.name);

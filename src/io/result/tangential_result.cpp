@@ -10,7 +10,7 @@ namespace condyle {
 namespace {
 
 using Views = io::BodyViews<TangentialBodySummary>;
-using Deepest = Views::Deepest<DeepestTurn>;
+using Deepest = Views::Deepest<DeepestRotation>;
 
 Views views(const DepthQuestion& question, const TangentialContact& contact) {
   const auto summary_of = [](const std::optional<TangentialResults>& hits) {
@@ -20,11 +20,11 @@ Views views(const DepthQuestion& question, const TangentialContact& contact) {
 }
 
 std::optional<Deepest> longest(const Views& bodies) {
-  return bodies.deepest(&TangentialBodySummary::deepest, &DeepestTurn::depth_mm);
+  return bodies.deepest(&TangentialBodySummary::deepest, &DeepestRotation::depth_mm);
 }
 
 std::optional<Deepest> largest(const Views& bodies) {
-  return bodies.deepest(&TangentialBodySummary::largest_angle, &DeepestTurn::depth);
+  return bodies.deepest(&TangentialBodySummary::largest_angle, &DeepestRotation::depth);
 }
 
 io::Json degrees_of(const std::optional<Angle>& angle) {
@@ -37,7 +37,7 @@ io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
   return {{"vertices", view.body.mesh.vertices().size()},
           {"vertices_inside", summary.vertices_inside},
           {"vertices_on_surface", summary.vertices_on_surface},
-          {"vertices_without_way_out", summary.without_way_out},
+          {"vertices_without_way_out", summary.without_exit},
           {"max_tangential_depth_deg", summary.largest_angle ? summary.largest_angle->depth.degrees() : 0.0},
           {"max_tangential_depth_mm", summary.deepest ? summary.deepest->depth_mm : 0.0},
           {"deepest_vertex", summary.deepest ? io::Json(summary.deepest->vertex) : io::Json(nullptr)},
@@ -82,8 +82,8 @@ std::string depth_text(const DepthQuestion& question, const TurnAxis& axis,
       continue;
     }
     text += io::inside_line(view->body, view->summary->vertices_inside, view->summary->vertices_on_surface);
-    if (view->summary->without_way_out > 0) {
-      text += fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_way_out,
+    if (view->summary->without_exit > 0) {
+      text += fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_exit,
                           name_of(axis.about));
     }
   }

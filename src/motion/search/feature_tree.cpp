@@ -6,24 +6,24 @@
 namespace condyle::motion {
 namespace {
 
-/// Every edge once, found again by its end of the smaller place.
+/// Every edge once, found again by its end in the lower slot.
 ///   offset_     0        3  ...    one entry per vertex, plus one
-///   met_       | a b . | d ...     as many entries as edges may come, those met so far first
-class EdgesMet {
+///   higher_    | a b . | d ...     as many entries as edges may come, those found so far first
+class KnownEdges {
  public:
-  EdgesMet(const std::vector<Triangle>& triangles, std::size_t vertices)
+  KnownEdges(const std::vector<Triangle>& triangles, std::size_t vertices)
       : offset_(vertices + 1, 0), count_(vertices, 0) {
     for (const auto& [a, b, c] : triangles) {
       for (const Index low : {std::min(a, b), std::min(b, c), std::min(c, a)}) ++offset_[low + 1];
     }
     for (std::size_t v = 1; v < offset_.size(); ++v) offset_[v] += offset_[v - 1];
-    met_.resize(offset_.back());
+    higher_.resize(offset_.back());
   }
 
-  /// Whether the edge is met for the first time.
-  bool meet(Index from, Index to) noexcept {
-    const Index low = std::min(from, to), high = std::max(from, to);
-    Index* const begin = met_.data() + offset_[low];
+  /// Whether the edge was not known yet; now it is.
+  bool insert(Index from, Index to) noexcept {
+    const auto [low, high] = std::minmax(from, to);
+    Index* const begin = higher_.data() + offset_[low];
     Index* const end = begin + count_[low];
     if (std::find(begin, end, high) != end) return false;
     *end = high;
@@ -32,7 +32,7 @@ class EdgesMet {
   }
 
  private:
-  std::vector<Index> offset_, count_, met_;
+  std::vector<Index> offset_, count_, higher_;
 };
 
 }  // namespace
@@ -40,10 +40,10 @@ class EdgesMet {
 FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_closed()) {
   count_vertices();
   gather_edges();
-  pieces_ = base_.one_vertex_of_each_piece();
+  component_vertices_ = base_.one_vertex_of_each_piece();
 }
 
-/// Vertices are placed in the order in which triangles first use them.
+/// The order of vertices is that in which triangles first use them.
 void FeatureTree::count_vertices() {
   vertices_before_.reserve(triangles().size() + 1);
   vertices_before_.push_back(0);
@@ -52,14 +52,14 @@ void FeatureTree::count_vertices() {
 }
 
 void FeatureTree::gather_edges() {
-  EdgesMet met(triangles(), vertices().size());
+  KnownEdges known(triangles(), vertices().size());
   edges_.reserve(3 * triangles().size() / 2);
   edges_before_.reserve(triangles().size() + 1);
   edges_before_.push_back(0);
   for (const auto& [a, b, c] : triangles()) {
     for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
       // A side without length is its vertex.
-      if (from == to || !met.meet(from, to)) continue;
+      if (from == to || !known.insert(from, to)) continue;
       const bool ascending = mesh_vertex(from) < mesh_vertex(to);
       edges_.push_back({ascending ? from : to, ascending ? to : from});
     }

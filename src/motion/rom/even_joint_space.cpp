@@ -1,4 +1,4 @@
-#include "condyle/articular_centre.hpp"
+#include "motion/rom/even_joint_space.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -8,7 +8,7 @@
 #include "condyle/error.hpp"
 #include "kinematics/surface_points.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// Four unknowns; three times as many vertices are the least that average anything.
@@ -94,7 +94,7 @@ Evened even(const JointSpace& space) {
     const Vec3 mean = normal.block<3, 1>(0, 3) / normal(3, 3);
     const Eigen::Matrix3d spread = normal.topLeftCorner<3, 3>() / normal(3, 3) - mean * mean.transpose();
     if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvalues()[0] < smallest_spread)
-      throw MeshError("joint space: the socket covers too little of the head to tell a centre");
+      throw MeshError("joint space: the socket covers too little of the head to determine a centre");
     const Eigen::Vector4d solution = normal.ldlt().solve(right);
     best.step = solution.head<3>(), best.gap = solution[3];
   }
@@ -114,18 +114,18 @@ CentreShift even_joint_space(const JointContact& joint, const ArticularRegion& r
   CentreShift shift;
   const auto space_now = [&] {
     Pose X = X_FM;
-    X.pretranslate(shift.translation);
+    X.pretranslate(shift.translation_mm);
     return joint_space(joint.fixed_table(), head, X, rule.largest_gap_mm);
   };
   JointSpace space = space_now();
   shift.spread_before_mm = as_it_is(space).spread;
   for (int round = 0; round < most_rounds; ++round) {
     const Evened evened = even(space);
-    shift.translation += evened.step;
+    shift.translation_mm += evened.step;
     shift.gap_mm = evened.gap, shift.spread_after_mm = evened.spread;
-    const double length = shift.translation.norm();
+    const double length = shift.translation_mm.norm();
     shift.cut_back = length > rule.largest_shift_mm;
-    if (shift.cut_back) shift.translation *= rule.largest_shift_mm / length;
+    if (shift.cut_back) shift.translation_mm *= rule.largest_shift_mm / length;
     space = space_now();
     if (shift.cut_back || evened.step.norm() < settled) break;
   }
@@ -133,4 +133,4 @@ CentreShift even_joint_space(const JointContact& joint, const ArticularRegion& r
   return shift;
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

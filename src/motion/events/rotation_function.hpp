@@ -21,28 +21,38 @@ Number dot(const Triple<Number>& a, const Triple<Number>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
-/// T(t) = A cos t + B sin t + C: what any quantity linear in the coordinates of a turning point does.
+/// T(t) = A cos t + B sin t + C: any quantity linear in the coordinates of a turning point. Its roots are
+///
+///     t = atan2(B, A) +- atan2(S, -C),     S = sqrt(r^2 - C^2) = |T'|,     r = hypot(A, B)
+///
+/// none where |C| > r, one (grazing) where |C| = r; r = C = 0 is zero throughout and counts as no root.
 template <class Number>
-struct TurnFunction {
+struct RotationFunction {
   Number A, B, C;
 };
 
-/// The same quantity when the turn goes the other way: T(-t).
+/// The same quantity when the rotation goes the other way: T(-t).
 template <class Number>
-TurnFunction<Number> reversed(const TurnFunction<Number>& T) {
+RotationFunction<Number> reversed(const RotationFunction<Number>& T) {
   return {T.A, -T.B, T.C};
 }
 
 /// Height of the turning point p over the plane through a with normal n, times |n|:
 ///
-///     T(t) = n . (R(t) p - a),      R(t) turns about z by t.
+///            x(t)
+///         . - o ~ ~ ~ ~ ~   plane  n . (x - a) = 0
+///       .    /    .
+///      .    / t    .        x(t) = R(t) p,  R(t) the rotation about z by t
+///      .   +---p---.
+///
+///     T(t) = n . (R(t) p - a)
 ///
 /// With R p = (p_x cos t - p_y sin t, p_x sin t + p_y cos t, p_z) the coefficients read off. C is formed from
 /// p_z - a_z, so that a long way along the axis costs no digits. For a turning plane and a resting point take
 /// `reversed`.
 template <class Number>
-TurnFunction<Number> height_over_plane(const Triple<Number>& n, const Triple<Number>& a,
-                                       const Triple<Number>& p) {
+RotationFunction<Number> height_over_plane(const Triple<Number>& n, const Triple<Number>& a,
+                                           const Triple<Number>& p) {
   return {n.x * p.x + n.y * p.y, n.y * p.x - n.x * p.y, n.z * (p.z - a.z) - (n.x * a.x + n.y * a.y)};
 }
 
@@ -54,8 +64,8 @@ TurnFunction<Number> height_over_plane(const Triple<Number>& n, const Triple<Num
 /// Both moments are taken about the axis point at a's height: turning about z commutes with shifting along z,
 /// and the coefficients then carry no product with the distance along the axis.
 template <class Number>
-TurnFunction<Number> volume_of_edges(const Triple<Number>& a, const Triple<Number>& u,
-                                     const Triple<Number>& c, const Triple<Number>& w) {
+RotationFunction<Number> volume_of_edges(const Triple<Number>& a, const Triple<Number>& u,
+                                         const Triple<Number>& c, const Triple<Number>& w) {
   const Number h = c.z - a.z;
   const Number m_x = a.y * u.z, m_y = -(a.x * u.z), m_z = a.x * u.y - a.y * u.x;
   const Number n_x = c.y * w.z - h * w.y, n_y = h * w.x - c.x * w.z, n_z = c.x * w.y - c.y * w.x;

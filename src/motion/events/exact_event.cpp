@@ -1,10 +1,11 @@
-#include "motion/events/exact_touch.hpp"
+#include "motion/events/exact_event.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
 
 #include "core/exact_integers.hpp"
+#include "motion/events/wrapped_angle.hpp"
 
 namespace condyle::motion::exact {
 namespace {
@@ -14,7 +15,7 @@ using core::exact::sign_of;
 using core::exact::to_integers;
 
 using Point = Triple<Integer>;
-using Function = TurnFunction<Integer>;
+using Function = RotationFunction<Integer>;
 
 /// The points as integers with one common scale; every function below is homogeneous in them.
 template <std::size_t N>
@@ -42,14 +43,15 @@ constexpr int safe_bits = 900;
 
 /// Two roundings in each arctangent's arguments, its own, and those of the sum and of the full turn, each at
 /// most half a unit in the last place of 2 pi.
-constexpr double exact_touch_error = 4e-15;
+constexpr double exact_event_error = 4e-15;
 
 /// One root of T, with r^2 = A^2 + B^2 and D = r^2 - C^2 = S^2:
 ///
 ///     cos t = (-A C -+ B S) / r^2,   sin t = (-B C +- A S) / r^2
 ///
-/// so that any other T'(t), times r^2, is P +- Q S with integers P = C' r^2 - C (A A' + B B') and Q = A B' -
-/// B A'.
+/// so that any other T'(t), times r^2, is P +- Q S with the integers
+///
+///     P = C' r^2 - C (A A' + B B'),   Q = A B' - B A'.
 class Root {
  public:
   Root(const Function& T, Branch branch)
@@ -68,23 +70,21 @@ class Root {
     return larger == 0 ? core::Sign::zero : larger > 0 ? p : q;
   }
 
-  Touch touch() const {
+  ContactEvent event() const {
     const int r_shift = std::max(0, std::max(bits(T_.A), bits(T_.B)) - safe_bits);
     const int s_shift = std::max(0, std::max(bits(T_.C), bits(D_) / 2) - safe_bits / 2);
     const double S = std::sqrt(shifted(D_, 2 * s_shift));
     const double middle = std::atan2(shifted(T_.B, r_shift), shifted(T_.A, r_shift));
-    double angle = middle + branch_ * std::atan2(S, -shifted(T_.C, s_shift));
-    if (angle < 0) angle += two_pi;
-    if (angle >= two_pi) angle -= two_pi;
+    double angle = wrapped(middle + branch_ * std::atan2(S, -shifted(T_.C, s_shift)));
     // On which side of the start a root next to it lies must not depend on rounding.
     const double from_start = std::min(angle, two_pi - angle);
-    if (from_start < worst_touch_error) {
+    if (from_start < worst_event_error) {
       const core::Sign side = sign_of_other({0, 1, 0});
       const bool agrees = (angle < 1) == (side == core::Sign::positive);
       const double size = agrees ? from_start : 0;
       angle = side == core::Sign::negative ? two_pi - size : side == core::Sign::zero ? 0 : size;
     }
-    return {angle, exact_touch_error};
+    return {angle, exact_event_error};
   }
 
  private:
@@ -127,74 +127,76 @@ Point integer_direction(const Triple<double>& d) {
   return {static_cast<long long>(s.x), static_cast<long long>(s.y), static_cast<long long>(s.z)};
 }
 
+enum class Turning { end, edge };
+
 /// End p passing the edge from c to d, all in one plane across the axis.
-void add_passes(const Point& p, const Point& c, const Point& d, Touches& touches, bool edge_turns) {
+void add_passes(const Point& p, const Point& c, const Point& d, Turning turning, ContactEvents& events) {
   const Point w = d - c, across{-w.y, w.x, 0};
   for (const Branch branch : {Branch::plus, Branch::minus}) {
     const Root root(height_over_plane(across, c, p), branch);
     if (!root.exists()) continue;
-    ++touches.exact_decisions;
+    ++events.exact_decisions;
     const core::Sign after_c = root.sign_of_other(height_over_plane(w, c, p));
     const core::Sign after_d = root.sign_of_other(height_over_plane(w, d, p));
     if (after_c == core::Sign::negative || after_d == core::Sign::positive) continue;
-    Touch touch = root.touch();
-    if (edge_turns && touch.angle != 0) touch.angle = two_pi - touch.angle;
-    touches.add(touch);
+    ContactEvent event = root.event();
+    if (turning == Turning::edge && event.angle != 0) event.angle = two_pi - event.angle;
+    events.add(event);
   }
 }
 
 }  // namespace
 
-Touches vertex_meets_face(const Triple<double>& vertex, const Corners& face, Branch branch) {
+ContactEvents vertex_meets_face(const Triple<double>& vertex, const Corners& face, Branch branch) {
   const auto points = integers<4>({vertex, face[0], face[1], face[2]});
   const Point& p = points[0];
   const Point normal = cross(points[2] - points[1], points[3] - points[1]);
-  Touches touches;
-  touches.exact_decisions = 1;
+  ContactEvents events;
+  events.exact_decisions = 1;
   const Root root(height_over_plane(normal, points[1], p), branch);
-  if (!root.exists()) return touches;
+  if (!root.exists()) return events;
   for (std::size_t k = 1; k <= 3; ++k) {
     const Point& from = points[k];
     const Point inwards = cross(normal, points[k % 3 + 1] - from);
-    if (root.sign_of_other(height_over_plane(inwards, from, p)) == core::Sign::negative) return touches;
+    if (root.sign_of_other(height_over_plane(inwards, from, p)) == core::Sign::negative) return events;
   }
-  touches.add(root.touch());
-  return touches;
+  events.add(root.event());
+  return events;
 }
 
-Touches edges_meet(const std::array<Triple<double>, 4>& ends, const Triple<double>& across,
-                   const Triple<double>& across_turning, Branch branch) {
+ContactEvents edges_meet(const std::array<Triple<double>, 4>& ends, const Triple<double>& across,
+                         const Triple<double>& across_turning, Branch branch) {
   const auto points = integers<4>(ends);
   const Point &a = points[0], &b = points[1], &c = points[2], &d = points[3];
   const Point u = b - a, w = d - c;
-  Touches touches;
-  touches.exact_decisions = 1;
+  ContactEvents events;
+  events.exact_decisions = 1;
   const Root root(volume_of_edges(a, u, c, w), branch);
-  if (!root.exists()) return touches;
+  if (!root.exists()) return events;
   const Sides turning_ends = sides_of_line(root, integer_direction(across), [&](const Point& direction) {
     const Point normal = cross(w, direction);
     return std::pair{height_over_plane(normal, c, a), height_over_plane(normal, c, b)};
   });
-  if (turning_ends != Sides::apart) return touches;
+  if (turning_ends != Sides::apart) return events;
   const Sides resting_ends =
       sides_of_line(root, integer_direction(across_turning), [&](const Point& direction) {
         const Point normal = cross(u, direction);
         return std::pair{reversed(height_over_plane(normal, a, c)),
                          reversed(height_over_plane(normal, a, d))};
       });
-  if (resting_ends == Sides::apart) touches.add(root.touch());
-  return touches;
+  if (resting_ends == Sides::apart) events.add(root.event());
+  return events;
 }
 
-Touches edges_meet_in_plane(const std::array<Triple<double>, 4>& ends) {
+ContactEvents edges_meet_in_plane(const std::array<Triple<double>, 4>& ends) {
   const auto points = integers<4>(ends);
   const Point &a = points[0], &b = points[1], &c = points[2], &d = points[3];
-  Touches touches;
-  add_passes(a, c, d, touches, false);
-  add_passes(b, c, d, touches, false);
-  add_passes(c, a, b, touches, true);
-  add_passes(d, a, b, touches, true);
-  return touches;
+  ContactEvents events;
+  add_passes(a, c, d, Turning::end, events);
+  add_passes(b, c, d, Turning::end, events);
+  add_passes(c, a, b, Turning::edge, events);
+  add_passes(d, a, b, Turning::edge, events);
+  return events;
 }
 
 }  // namespace condyle::motion::exact

@@ -1,4 +1,4 @@
-#include "motion/turn_scenes.hpp"
+#include "motion/rotation_scenes.hpp"
 
 #include <map>
 #include <numbers>
@@ -43,24 +43,20 @@ Vec3 random_direction(std::mt19937& random) {
 
 }  // namespace
 
-TurnLimits limits(const TurnScene& scene, const TurnRange& range) {
-  const motion::FeatureTree resting(scene.resting), turning(scene.turning);
-  const motion::RotationTable table(resting, scene.axis);
-  motion::TurningBody body(turning);
-  body.start_at(scene.axis, Pose::Identity());
-  return first_contact(table, body, range);
+RotationLimits limits(const RotationScene& scene, const RotationRange& range) {
+  return FirstContact(scene.resting, scene.turning, scene.axis).limits(Pose::Identity(), range);
 }
 
-TurnScene moved(const Pose& X, const TurnScene& scene) {
+RotationScene moved(const Pose& X, const RotationScene& scene) {
   return {posed(X, scene.turning), posed(X, scene.resting),
           AxisFrame(X * scene.axis.point(), X.linear() * scene.axis.direction())};
 }
 
-TurnScene exchanged(const TurnScene& scene) {
+RotationScene exchanged(const RotationScene& scene) {
   return {scene.resting, scene.turning, scene.axis};
 }
 
-TriMesh turned(const TurnScene& scene, double angle) {
+TriMesh turned(const RotationScene& scene, double angle) {
   TriMesh mesh = scene.axis.to_axis(scene.turning);
   const double c = std::cos(angle), s = std::sin(angle);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
@@ -70,14 +66,15 @@ TriMesh turned(const TurnScene& scene, double angle) {
   return mesh;
 }
 
-std::optional<BruteLimit> brute_first_contact(const TurnScene& scene, motion::TurnDirection direction) {
+std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, RotationSense sense) {
   const auto m = points_about_axis(scene.turning, scene.axis),
              f = points_about_axis(scene.resting, scene.axis);
   std::optional<BruteLimit> best;
-  const auto record = [&](const motion::Touches& touches, const Feature& turning, const Feature& resting) {
-    for (const motion::Touch& touch : touches) {
-      const double size = direction == motion::TurnDirection::positive ? touch.angle : two_pi - touch.angle;
-      const BruteLimit found{std::max(0.0, size - touch.error), {turning, resting}};
+  const auto record = [&](const motion::ContactEvents& events, const Feature& turning,
+                          const Feature& resting) {
+    for (const motion::ContactEvent& event : events) {
+      const double size = sense == RotationSense::positive ? event.angle : two_pi - event.angle;
+      const BruteLimit found{std::max(0.0, size - event.error), {turning, resting}};
       if (!best || std::tie(found.size, found.features) < std::tie(best->size, best->features)) best = found;
     }
   };
@@ -107,7 +104,7 @@ std::optional<BruteLimit> brute_first_contact(const TurnScene& scene, motion::Tu
   return best;
 }
 
-bool brute_touching(const TurnScene& scene, double angle) {
+bool brute_contact_at(const RotationScene& scene, double angle) {
   const TriMesh m = turned(scene, angle), f = scene.axis.to_axis(scene.resting);
   const auto box_of = [](const TriMesh& mesh, std::size_t t) {
     Eigen::AlignedBox3d box;
@@ -143,7 +140,7 @@ TriMesh random_solid(std::mt19937& random, const Vec3& centre, double size) {
   return mesh;
 }
 
-TurnScene random_scene(std::mt19937& random) {
+RotationScene random_scene(std::mt19937& random) {
   const auto solid = [&](double from, double to) {
     const double theta = uniform(random, from, to), rho = uniform(random, 0.5, 3);
     const Vec3 centre(rho * std::cos(theta), rho * std::sin(theta), uniform(random, -1, 1));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr auto flexion = JointAngle::flexion, adduction = JointAngle::adduction,
                rotation = JointAngle::internal_rotation;
-constexpr auto positive = TurnSense::positive, negative = TurnSense::negative;
+constexpr auto positive = RotationSense::positive, negative = RotationSense::negative;
 
 constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
   return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
@@ -73,13 +73,14 @@ const Motion& motion_named(std::span<const Motion> motions, std::string_view nam
 void check_motion(const Motion& motion, JointKind kind) {
   const auto fail = [&](const char* what) { throw UsageError("motion \"" + motion.name + "\": " + what); };
   const double range = motion.range.radians();
+  if (motion.sense == RotationSense::none) fail("it has no sense of rotation");
   if (!(range > 0)) fail("the range is empty");
   if (!(range <= two_pi)) fail("the range is more than a full turn");
   for (const JointAngle angle : all_angles) {
     const double start = angle_of(motion.start, angle).radians();
     if (!std::isfinite(start)) fail("an angle is not finite");
     if (kind == JointKind::hinge && angle != JointAngle::flexion && (start != 0 || motion.vary == angle))
-      fail("a hinge turns in flexion alone");
+      fail("a hinge turns only in flexion");
   }
 }
 
@@ -104,7 +105,7 @@ JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept {
 }
 
 JointAngles MotionLimit::angles_at_limit() const noexcept {
-  return turned_by(motion.start, motion.vary, motion.sense == TurnSense::positive ? turned : -turned);
+  return turned_by(motion.start, motion.vary, end.turned * sign_of(motion.sense));
 }
 
 }  // namespace condyle

@@ -1,14 +1,13 @@
-#include "condyle/overlap_options.hpp"
+#include "motion/rom/overlap.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "condyle/error.hpp"
-#include "contact/joint_contact.hpp"
-#include "contact/radial_summary.hpp"
+#include "condyle/contact.hpp"
 
-namespace condyle {
+namespace condyle::motion {
 namespace {
 
 /// One entry per triangle; bytes, because threads never share them and vector<bool> is slow to scan.
@@ -25,7 +24,7 @@ PartOfMesh without(const Mesh& mesh, const Marks& left_out, const std::string& b
     triangle_in_whole.push_back(t);
   }
   if (part.triangles.empty() && !whole.triangles.empty())
-    throw MeshError(body + ": every triangle is left out: nothing remains that could touch");
+    throw MeshError(body + ": every triangle is left out: nothing remains that could meet the other body");
   if (part.triangles.size() == whole.triangles.size()) return {mesh, std::move(triangle_in_whole)};
   return {std::move(part), std::move(triangle_in_whole)};
 }
@@ -69,7 +68,7 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
   const Vec3 p = body.mesh.vertices()[summary.deepest->vertex];
   return body.name + " vertex " + std::to_string(summary.deepest->vertex) + " at (" + number(p.x()) + ", " +
          number(p.y()) + ", " + number(p.z()) + ") mm is " + number(summary.deepest->depth_mm) +
-         " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_way_out_mm) +
+         " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_exit_mm) +
          " mm from its surface";
 }
 
@@ -78,10 +77,10 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
 PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options) {
   const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
   Marks of_fixed(fixed.triangles().size()), of_mobile(mobile.triangles().size());
-  if (options.leave_out_rest_contacts) {
-    const int rings = options.leave_out_rest_contacts->rings;
-    if (rings < 0) throw UsageError("contacts at rest to leave out: rings must not be below 0");
-    const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.side, options.rest));
+  if (options.leave_out_reference_contacts) {
+    const int rings = options.leave_out_reference_contacts->rings;
+    if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
+    const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.side, options.reference_pose));
     for (const TrianglePair& pair : pairs) of_fixed[pair.fixed] = of_mobile[pair.mobile] = 1;
     mark_neighbours(fixed, rings, of_fixed);
     mark_neighbours(mobile, rings, of_mobile);
@@ -100,7 +99,7 @@ std::string explain_overlap(const Joint& joint, const JointAngles& at) {
   const RadialContact contact = bodies.radial(X_FM);
   const RadialSummary summary = summarise(bodies, X_FM, contact);
   std::string text = joint.mobile.name + " and " + joint.fixed.name +
-                     " are in contact at rest: " + std::to_string(contact.pairs.size()) +
+                     " are in contact in the reference pose: " + std::to_string(contact.pairs.size()) +
                      " pairs of triangles meet";
   const RadialBodySummary mobile = summary.mobile.value_or(RadialBodySummary{});
   const RadialBodySummary fixed = summary.fixed.value_or(RadialBodySummary{});
@@ -118,8 +117,8 @@ std::string explain_overlap(const Joint& joint, const JointAngles& at) {
             number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") mm";
   }
   return text +
-         ". Allow a radial depth, leave out the articular region, leave out the contacts at rest, start from "
-         "another rest pose, or accept contact at the start";
+         ". Allow a radial depth, leave out the articular region, leave out the contacts in the reference "
+         "pose, state another reference pose, or accept contact at the start";
 }
 
-}  // namespace condyle
+}  // namespace condyle::motion

@@ -1,0 +1,173 @@
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "condyle/angle.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
+#include "condyle/radial.hpp"
+#include "condyle/tangential.hpp"
+
+/// Two bodies in one pose: which vertices of each are inside the other, how deep and of which kind, and which
+/// triangles meet.
+
+namespace condyle {
+
+/// A triangle of the fixed and one of the mobile body that share a point.
+struct TrianglePair {
+  Index fixed, mobile;
+  friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
+};
+
+/// What one pose shows, vertex by vertex of each body against the other one, and pair by pair.
+template <class VertexResults>
+struct ContactResults {
+  /// Vertices of the mobile body against the fixed one; empty where the fixed mesh is open and has no inside.
+  std::optional<VertexResults> mobile_in_fixed;
+  /// Vertices of the fixed body against the mobile one; empty where the mobile mesh is open.
+  std::optional<VertexResults> fixed_in_mobile;
+  /// The exact set of intersecting triangle pairs, ascending; touching counts.
+  std::vector<TrianglePair> pairs;
+  /// Whether the bodies share a point: surfaces that meet, or one body wholly inside the other.
+  bool in_contact = false;
+};
+
+/// The vertices that are not outside, with their radial depths in mm, >= 0.
+using Contact = ContactResults<Penetrations>;
+/// Every vertex, with its radial gap in mm: > 0 apart, < 0 penetrating.
+using RadialContact = ContactResults<RadialResults>;
+/// Every vertex, with its gap along its circle about an axis: > 0 apart, < 0 penetrating. A positive rotation
+/// of a mobile vertex is one of the mobile body about the axis; of a fixed vertex, one of the fixed body about
+/// it, which is the opposite movement.
+using TangentialContact = ContactResults<TangentialResults>;
+
+/// A fixed and a mobile body, each in its own frame with the joint centre as origin, asked at any pose.
+///
+/// A pose rounds coordinates: mobile vertices into F, fixed vertices into M. Every answer is the exact one for
+/// the vertices so rounded, each into the frame of the body it is held against. Open meshes have no inside:
+/// their pairs are found all the same, and vertices are held against a body that is closed.
+///
+/// Tables are built when the first question needs them and kept: direction tables for depths and gaps along
+/// rays, ring tables for those about an axis (of the latest axes asked), trees for pairs. Any number of threads
+/// may ask; results do not depend on how many.
+class JointContact {
+ public:
+  /// The meshes of a joint, which are in the joint frame.
+  explicit JointContact(const Joint& joint, RadialOptions options = {});
+  JointContact(Mesh fixed, Mesh mobile, RadialOptions options = {});
+  ~JointContact();
+  JointContact(JointContact&&) noexcept;
+  JointContact& operator=(JointContact&&) noexcept;
+
+  /// Vertices inside either body, or on its surface, with radial depths, and intersecting pairs. The fast
+  /// path: vertices that are certainly outside cost next to nothing. Raises MeshError where the joint centre
+  /// lies on a surface.
+  Contact at(const Pose& X_FM) const;
+  /// The penetrating vertices alone, into results that keep their capacity: nothing is allocated once they are
+  /// large enough. Raises MeshError where the other body's mesh is open, too.
+  void mobile_in_fixed(const Pose& X_FM, Penetrations& out) const;
+  void fixed_in_mobile(const Pose& X_FM, Penetrations& out) const;
+
+  /// The same and the gap of every vertex outside: the joint space along rays. Raises as at() does.
+  RadialContact radial(const Pose& X_FM) const;
+  /// Gaps and depths about an axis through the joint centre, given in F, of any length but zero. A ring table
+  /// costs much more than to ask it; those of both bodies are kept for the next pose with the same axis in the
+  /// body's own frame.
+  TangentialContact tangential(const Pose& X_FM, const Vec3& axis_F,
+                               TangentialRule rule = TangentialRule::alternating) const;
+
+  /// The exact set of intersecting triangle pairs, ascending.
+  std::vector<TrianglePair> pairs(const Pose& X_FM) const;
+  /// Whether the bodies share a point; ends at the first witness found.
+  bool in_contact(const Pose& X_FM) const;
+
+  const Mesh& fixed() const noexcept;
+  const Mesh& mobile() const noexcept;
+  /// The direction tables, for questions of one's own.
+  const RadialTable& fixed_table() const;
+  const RadialTable& mobile_table() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Depths are only comparable within their kind: along the ray, or along the arc about an axis.
+enum class DepthKind { radial, tangential };
+
+/// A radial depth is a depth where the surface faces the ray: then the exit along the ray is about the
+/// shortest exit. Through a flat wall at 60 degrees from the ray it is twice as long; beyond that, or where the
+/// ray leaves through the far end of a neck, the radial depth is a length along the bone and the tangential
+/// depth is the one to read. docs/mathematics.md, section 2, has the angle; the ratio of lengths says the same
+/// of curved walls too.
+inline constexpr double longest_meaningful_ratio = 2;
+
+/// A penetrating vertex and its radial depth.
+struct DeepestVertex {
+  Index vertex;
+  double depth_mm;          ///< along its ray, > 0
+  double shortest_exit_mm;  ///< to the nearest point of the other body's surface
+  Angle ray_to_normal;      ///< between the ray and the normal of the surface that it leaves through
+
+  /// The kind of depth that means something here.
+  DepthKind applies() const noexcept {
+    return ray_to_normal > oblique_ray || depth_mm > longest_meaningful_ratio * shortest_exit_mm
+               ? DepthKind::tangential
+               : DepthKind::radial;
+  }
+};
+
+/// The few numbers that a person reads of one body's vertices against the other body.
+struct RadialBodySummary {
+  std::size_t vertices_inside = 0;
+  std::size_t vertices_on_surface = 0;
+  /// Of those inside, how many have a radial depth that is no depth.
+  std::size_t oblique_inside = 0;
+  std::optional<DeepestVertex> deepest;
+  /// The deepest of those whose radial depth is a depth.
+  std::optional<DeepestVertex> deepest_facing;
+  /// Smallest gap of a vertex outside, mm; empty where no ray meets the other body.
+  std::optional<double> min_gap_mm;
+};
+
+/// `points` are those that were asked of `other`, which gave `results`.
+RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other);
+
+/// Both bodies; empty where the other mesh is open.
+struct RadialSummary {
+  std::optional<RadialBodySummary> mobile, fixed;
+};
+
+/// `contact` is what joint.radial(X_FM) gave.
+RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact);
+
+/// A vertex and how far it must rotate to be free.
+struct DeepestRotation {
+  Index vertex;
+  Angle depth;
+  double depth_mm;  ///< arc length at the vertex's own radius
+};
+
+/// One body's vertices against the other body.
+struct TangentialBodySummary {
+  std::size_t vertices_inside = 0;
+  std::size_t vertices_on_surface = 0;
+  /// Of those inside, how many no rotation about the axis sets free: their whole circle is solid.
+  std::size_t without_exit = 0;
+  /// Of the others, the one whose exit is longest in mm, and the one whose exit is the largest angle: a vertex
+  /// near the axis rotates far without moving much.
+  std::optional<DeepestRotation> deepest, largest_angle;
+  /// Smallest angle and smallest arc between a vertex outside and the other body, not always of one vertex;
+  /// empty where no circle meets it.
+  std::optional<Angle> min_gap;
+  std::optional<double> min_gap_mm;
+};
+
+TangentialBodySummary summarise(const TangentialResults& results);
+
+}  // namespace condyle
