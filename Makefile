@@ -24,14 +24,19 @@ build: dependencies build/release/build.ninja
 demo: build
 	@scripts/demo.sh
 
+# Runs the tests of a preset on two cores and says last, in one line, how many of them were skipped and why.
+run_tests = rm -rf build/$(1)/test_results; status=0; \
+  ctest --preset $(1) --parallel 2 --output-junit test_results/ctest.junit || status=$$?; \
+  scripts/count_skipped.sh build/$(1)/test_results; exit $$status
+
 test: dependencies build/release/build.ninja
 	@cmake --build --preset release
-	@ctest --preset release --parallel 2
+	@$(call run_tests,release)
 
 sanitize clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON >/dev/null
 	@cmake --build --preset $@
-	@ctest --preset $@ --parallel 2
+	@$(call run_tests,$@)
 
 # A minute of coverage-guided fuzzing of the mesh readers; FUZZ_SECONDS=3600 for longer.
 FUZZ_SECONDS ?= 60

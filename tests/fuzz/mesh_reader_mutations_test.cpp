@@ -80,15 +80,22 @@ std::string mutated(std::string bytes, const std::string& other, Random& random)
   return bytes;
 }
 
-class MutatedFiles : public testing::TestWithParam<std::vector<test::MeshBytes> (*)(const TriMesh&)> {};
+/// A format, and what writes files of it in every way.
+struct Writer {
+  const char* name;
+  std::vector<test::MeshBytes> (*files_of)(const TriMesh&);
+  friend void PrintTo(const Writer& writer, std::ostream* out) { *out << writer.name; }
+};
 
-TEST_P(MutatedFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
+class MutatedMeshFiles : public testing::TestWithParam<Writer> {};
+
+TEST_P(MutatedMeshFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
   constexpr int mutations = 20000;
   // Bytes of memory asked for at once, per byte of the file: a number of two characters becomes eight bytes,
   // a vector grows by doubling, and deflate shortens up to 1032 times, for a number of a byte that becomes
   // eight. Beside it what libraries take for themselves.
   constexpr std::size_t largest_growth = 8 * 1032, slack = 1 << 20;
-  const auto files = GetParam()(test::box({0, 0, 0}, {30, 20.5, 10.25}));
+  const auto files = GetParam().files_of(test::box({0, 0, 0}, {30, 20.5, 10.25}));
   Random random(20240229);
   for (int i = 0; i < mutations; ++i) {
     const auto& file = files[below(random, files.size())];
@@ -101,11 +108,11 @@ TEST_P(MutatedFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Stl, MutatedFiles, testing::Values(test::stl_files));
-INSTANTIATE_TEST_SUITE_P(Obj, MutatedFiles, testing::Values(test::obj_files));
-INSTANTIATE_TEST_SUITE_P(Ply, MutatedFiles, testing::Values(test::ply_files));
-INSTANTIATE_TEST_SUITE_P(Vtp, MutatedFiles, testing::Values(test::vtp_files));
-INSTANTIATE_TEST_SUITE_P(LegacyVtk, MutatedFiles, testing::Values(test::legacy_vtk_files));
+INSTANTIATE_TEST_SUITE_P(EveryFormat, MutatedMeshFiles,
+                         testing::Values(Writer{"stl", test::stl_files}, Writer{"obj", test::obj_files},
+                                         Writer{"ply", test::ply_files}, Writer{"vtp", test::vtp_files},
+                                         Writer{"legacy_vtk", test::legacy_vtk_files}),
+                         [](const auto& writer) { return writer.param.name; });
 
 }  // namespace
 }  // namespace condyle

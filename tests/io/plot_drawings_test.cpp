@@ -49,6 +49,7 @@ void expect_sober(const std::string& document) {
   EXPECT_EQ(elements[0].attributes.at("viewBox").substr(0, 8), "0 0 800 ");
   EXPECT_TRUE(has_text(document, "Left hip <7> & co"));
   EXPECT_TRUE(has_text(document, footer));
+  int inside = 0;
   for (const SvgElement& text : elements_named(document, "text")) {
     if (text.attributes.contains("transform")) continue;
     const double width = text_width(text.text, text.number("font-size"));
@@ -57,7 +58,9 @@ void expect_sober(const std::string& document) {
     EXPECT_GE(left, 0) << text.text;
     EXPECT_LE(left + width, 800) << text.text;
     EXPECT_LE(text.number("y"), elements[0].number("height")) << text.text;
+    ++inside;
   }
+  EXPECT_GE(inside, 3);
 }
 
 TEST(NormalHipRange, Is_given_where_the_source_has_a_value) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "simd/instruction_set.hpp"
+#include "support/parameter_names.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {

@@ -160,5 +160,18 @@ RC_GTEST_PROP(FirstContactRandom, TouchesAtOnePointOfBothBodies, ()) {
   }
 }
 
+/// What the properties above compare: scenes that end in contact, that start in it, and that are free.
+TEST(FirstContactRandom, RandomScenesEndInContactStartInItAndStayFreeOften) {
+  std::mt19937 random(1);
+  int contact = 0, at_start = 0, free = 0;
+  for (int i = 0; i < 500; ++i) {
+    const LimitReason reason = limits(random_scene(random)).positive.reason;
+    ++(reason == LimitReason::contact ? contact : reason == LimitReason::contact_at_start ? at_start : free);
+  }
+  EXPECT_GT(contact, 50);
+  EXPECT_GT(at_start, 10);
+  EXPECT_GT(free, 50);
+}
+
 }  // namespace
 }  // namespace condyle

@@ -18,6 +18,7 @@ struct HipFiles {
   const char* fixed;
   const char* mobile;
   Side side;
+  friend void PrintTo(const HipFiles& hip, std::ostream* out) { *out << hip.name; }
 };
 const HipFiles hips[] = {
     {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply", Side::right},

@@ -36,19 +36,26 @@ std::vector<Start> starts() {
           {"skew axis", Vec3(1, 2, 3).normalized(), apart}};
 }
 
-/// Fixed and mobile mesh by name; skips where the data is missing.
-class RealHip : public testing::TestWithParam<std::pair<const char*, const char*>> {
+struct HipFiles {
+  const char* name;
+  const char* fixed;
+  const char* mobile;
+  friend void PrintTo(const HipFiles& hip, std::ostream* out) { *out << hip.name; }
+};
+
+/// Skips where the data is missing.
+class FirstContactOfRealHips : public testing::TestWithParam<HipFiles> {
  protected:
   void SetUp() override {
     const auto data = test::shared_data();
     if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA to the folder of real joints";
-    fixed = test::read_ply(*data / GetParam().first);
-    mobile = test::read_ply(*data / GetParam().second);
+    fixed = test::read_ply(*data / GetParam().fixed);
+    mobile = test::read_ply(*data / GetParam().mobile);
   }
   TriMesh fixed, mobile;
 };
 
-TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_microdegree_after) {
+TEST_P(FirstContactOfRealHips, StopsAtTheLimitFreeAMicrodegreeBeforeAndTouchingAMicrodegreeAfter) {
   const CgalOracle oracle(fixed);
   const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   motion::TurningBody body(mobile_tree);
@@ -82,7 +89,7 @@ TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_micr
   EXPECT_GE(contacts, 4) << "too few contacts to mean anything";
 }
 
-TEST_P(RealHip, touches_through_a_full_turn_exactly_in_its_contact_set) {
+TEST_P(FirstContactOfRealHips, TouchesThroughAFullTurnExactlyInItsContactSet) {
   const CgalOracle oracle(fixed);
   const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   for (const Start& start : starts()) {
@@ -105,17 +112,15 @@ TEST_P(RealHip, touches_through_a_full_turn_exactly_in_its_contact_set) {
   }
 }
 
-using HipFiles = std::pair<const char*, const char*>;
-
 const HipFiles hips[] = {
-    {"hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply"},
-    {"hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply"},
-    {"hip_libhip_m1_left/coarse/hip_bone_2442.ply", "hip_libhip_m1_left/coarse/femur_1542.ply"},
+    {"vhf", "hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply"},
+    {"libhip", "hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply"},
+    {"libhip_coarse", "hip_libhip_m1_left/coarse/hip_bone_2442.ply",
+     "hip_libhip_m1_left/coarse/femur_1542.ply"},
 };
-const char* const hip_names[] = {"vhf", "libhip", "libhip_coarse"};
 
-INSTANTIATE_TEST_SUITE_P(FirstContact, RealHip, testing::ValuesIn(hips),
-                         [](const auto& hip) { return std::string(hip_names[hip.index]); });
+INSTANTIATE_TEST_SUITE_P(SharedData, FirstContactOfRealHips, testing::ValuesIn(hips),
+                         [](const auto& hip) { return hip.param.name; });
 
 }  // namespace
 }  // namespace condyle

@@ -26,6 +26,7 @@ struct JointFiles {
   const char* fixed;
   const char* mobile;
   double side;  // +1 right, -1 left
+  friend void PrintTo(const JointFiles& joint, std::ostream* out) { *out << joint.name; }
 };
 
 /// Joints with files, and the sample, which needs none.
@@ -150,11 +151,11 @@ void expect_same_penetrations(const RadialTable& table, const SortedPoints& poin
   }
 }
 
-class RealJoint : public testing::TestWithParam<JointFiles> {};
-INSTANTIATE_TEST_SUITE_P(SharedData, RealJoint, testing::ValuesIn(joints),
+class ContactOfRealJoints : public testing::TestWithParam<JointFiles> {};
+INSTANTIATE_TEST_SUITE_P(SharedData, ContactOfRealJoints, testing::ValuesIn(joints),
                          [](const auto& joint) { return joint.param.name; });
 
-TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
+TEST_P(ContactOfRealJoints, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const JointContact joint(meshes->fixed, meshes->mobile);
@@ -189,7 +190,7 @@ TEST_P(RealJoint, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryPose) {
   EXPECT_GT(deep, 5u);
 }
 
-TEST_P(RealJoint, TheTangentialMethodHasTheSameVerticesInsideAndPairs) {
+TEST_P(ContactOfRealJoints, TheTangentialMethodHasTheSameVerticesInsideAndPairs) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const JointContact joint(meshes->fixed, meshes->mobile);
@@ -223,7 +224,7 @@ double depth_by_all_triangles(const TriMesh& mesh, const Vec3& v) {
   return static_cast<double>(std::min(1 - before, after - 1) * ray.norm());
 }
 
-TEST_P(RealJoint, DepthsAreThoseOfAnIndependentRay) {
+TEST_P(ContactOfRealJoints, DepthsAreThoseOfAnIndependentRay) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const RadialTable fixed(meshes->fixed);
@@ -242,7 +243,7 @@ TEST_P(RealJoint, DepthsAreThoseOfAnIndependentRay) {
   EXPECT_GT(compared, 0u);
 }
 
-TEST_P(RealJoint, BothMapsGiveTheSameBytesInEveryPose) {
+TEST_P(ContactOfRealJoints, BothMapsGiveTheSameBytesInEveryPose) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const JointContact cube(meshes->fixed, meshes->mobile, {DirectionMapKind::cube, 64});
@@ -282,7 +283,7 @@ const NeutralRow neutral_rows[] = {
      0, 0, 0.1037},
 };
 
-TEST(RealHips, NeutralPosesGiveThePublishedTables) {
+TEST(ContactOfRealHips, IsInTheNeutralPoseThatOfThePublishedTables) {
   const auto data = test::shared_data();
   if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   for (const auto& row : neutral_rows) {

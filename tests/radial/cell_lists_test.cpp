@@ -8,6 +8,7 @@
 #include "radial/build/direction_pyramid.hpp"
 #include "radial/query/point_blocks.hpp"
 #include "simd/instruction_set.hpp"
+#include "support/parameter_names.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {

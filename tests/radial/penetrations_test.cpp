@@ -7,6 +7,7 @@
 #include "mesh/subdivide.hpp"
 #include "radial/query/point_blocks.hpp"
 #include "simd/instruction_set.hpp"
+#include "support/parameter_names.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
@@ -137,11 +138,14 @@ TEST_P(PenetrationsOn, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootSay
     EXPECT_LE(out.depth_mm[k], radius - socket + sag);
     EXPECT_EQ(out.direction[k], RayDirection::towards_centre);
   }
+  std::size_t decided = 0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double radius = (mobile.vertices[i] + shift * u).norm();
     if (radius > socket - sag && radius <= socket) continue;
     EXPECT_EQ(found[i], radius > socket);
+    ++decided;
   }
+  EXPECT_GT(decided, found.size() * 9 / 10);
 }
 
 TEST_P(PenetrationsOn, AnswersAreThoseOfThePlainQueryByteForByte) {

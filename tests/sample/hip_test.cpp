@@ -126,6 +126,7 @@ TEST(SampleHip, AnyEvenCountAndAnyEdgeLengthCanBeAskedFor) {
     if (femur.corner(t, 0).norm() < 50) continue;  // finer near the joint
     sum += length, ++count;
   }
+  EXPECT_GT(count, 300);
   EXPECT_NEAR(sum / count, 4, 0.4);
 }
 

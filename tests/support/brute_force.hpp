@@ -5,12 +5,12 @@
 
 #include "condyle/mesh.hpp"
 
-/// The obvious versions: every pair, exact rational arithmetic throughout, no table, no filter, and none of
-/// the library's own predicates. Slow and plain on purpose: they are what the fast paths are held against.
+/// The obvious versions: every pair, exact arithmetic throughout (integers of any size, which scaled doubles
+/// are), no table, no filter, and none of the library's own predicates. Slow and plain on purpose: they are what the fast paths are held against.
 
 namespace condyle::test {
 
-/// Winding number of a closed mesh about p: signed crossings of a ray from p, in rational arithmetic. The
+/// Winding number of a closed mesh about p: signed crossings of a ray from p. The
 /// ray's direction is tried until it meets no edge or vertex. Empty where p lies exactly on the surface.
 struct BruteWinding {
   bool on_surface;

@@ -63,7 +63,7 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
   EXPECT_EQ(tangential::FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  std::size_t decided = 0;
+  std::size_t decided = 0, beyond = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3 centre = 2 * Vec3(uniform(random), uniform(random), 0);
     Points corners;
@@ -90,6 +90,7 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
     EXPECT_EQ(*between & near, *between);
     for (int k = 0; k < tangential::FreeDirections::count; ++k) {
       if (*between >> k & 1 || !(near >> k & 1)) continue;
+      ++beyond;
       for (int j = 0; j < 20; ++j) {
         const Vec3 p = corners[0] + std::abs(uniform(random)) * (corners[1] - corners[0]);
         const Vec3 q = p + std::abs(uniform(random)) * (corners[2] - p);
@@ -101,6 +102,7 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
     ++decided;
   }
   EXPECT_GT(decided, 15000u);
+  EXPECT_GT(beyond, 100u);
 }
 
 /// Bodies beside the axis, around it, pierced by it, nested, hollow: wherever a cell has a free direction,

@@ -107,6 +107,7 @@ TEST(RingTable, ABodyOfRevolutionMeetsNoCircleOrAWholeOne) {
   const auto results = table.query(points);
   const auto arcs = table.occupied_arcs(points);
   EXPECT_GT(std::count(inside.begin(), inside.end(), true), 400);
+  EXPECT_GT(points.size(), 2100u);
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_EQ(results.angular_gap[i].radians(), inside[i] ? -infinity : infinity);
     EXPECT_EQ(results.arc_gap_mm[i], results.angular_gap[i].radians());

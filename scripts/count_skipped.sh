@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# How many tests were skipped, and why, in one line: count_skipped.sh RESULTS, the folder of the files that GoogleTest
+# (*.xml) and ctest (ctest.junit) wrote. Tests skip where something is not there (real joints, another library, rights).
+set -euo pipefail
+results=$1
+tests=$(cat "$results"/*.xml 2>/dev/null | grep -c '<testcase ' || true)
+
+# GoogleTest: message="FILE:LINE&#x0A;REASON", of tests that a run leaves passed. ctest: whole runs without a reason.
+reasons() {
+  sed -nE 's/.*<skipped message="([^"]*)".*/\1/p' "$results"/*.xml | sed -E 's/^[^&]*&#x0A;//; s/&#x0A;/ /g'
+  sed -nE '/<testcase name="[^"]*".*status="notrun"/ s/.*<testcase name="([^"]*)".*/\1 did not run/p' \
+    "$results/ctest.junit"
+}
+lines=$(reasons | sed -E 's/&quot;/"/g; s/&apos;/'"'"'/g; s/&lt;/</g; s/&gt;/>/g; s/&amp;/\&/g' | sort | uniq -c | sort -rn)
+if [ -z "$lines" ]; then
+  echo "no test was skipped ($tests tests)"
+  exit 0
+fi
+count=$(awk '{ n += $1 } END { print n }' <<<"$lines")
+why=$(awk '{ n = $1; $1 = ""; printf "%s%d x%s", (NR > 1 ? "; " : ""), n, $0 }' <<<"$lines")
+echo "******** $count of $tests tests were SKIPPED: $why ********"
