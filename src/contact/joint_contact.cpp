@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -63,16 +64,17 @@ class ContactBody {
 
   const Mesh& mesh() const noexcept { return mesh_; }
   const RadialTable& table() const {
-    return table_.get([&] {
+    return *table_.get([&](std::optional<RadialTable>& table) {
       try {
-        return RadialTable(mesh_, options_);
+        table.emplace(mesh_, options_);
       } catch (const MeshError& error) {
         throw MeshError(role_ + ": " + error.what());
       }
     });
   }
   const SortedPoints& sorted_vertices() const {
-    return sorted_vertices_.get([&] { return SortedPoints(mesh_.vertices()); });
+    return *sorted_vertices_.get(
+        [&](std::optional<SortedPoints>& points) { points.emplace(mesh_.vertices()); });
   }
   std::shared_ptr<const RingTable> ring_table(const Vec3& point, const Vec3& direction) const {
     return ring_tables_.about(mesh_, point, direction);
@@ -82,8 +84,8 @@ class ContactBody {
   std::string role_;
   Mesh mesh_;
   RadialOptions options_;
-  core::Lazy<RadialTable> table_;
-  core::Lazy<SortedPoints> sorted_vertices_;
+  core::Lazy<std::optional<RadialTable>> table_;
+  core::Lazy<std::optional<SortedPoints>> sorted_vertices_;
   mutable RingTables ring_tables_;
 };
 
@@ -91,14 +93,15 @@ class ContactBody {
 
 struct JointContact::Parts {
   ContactBody fixed, mobile;
-  core::Lazy<contact::BodyPair> trees;
+  core::Lazy<std::optional<contact::BodyPair>> trees;
 
   Parts(Mesh fixed_mesh, Mesh mobile_mesh, const RadialOptions& options)
       : fixed("fixed body", std::move(fixed_mesh), options),
         mobile("mobile body", std::move(mobile_mesh), options) {}
 
   const contact::BodyPair& bodies() const {
-    return trees.get([&] { return contact::BodyPair(fixed.mesh(), mobile.mesh()); });
+    return *trees.get(
+        [&](std::optional<contact::BodyPair>& pair) { pair.emplace(fixed.mesh(), mobile.mesh()); });
   }
 };
 

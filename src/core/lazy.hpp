@@ -1,24 +1,46 @@
 #pragma once
 
+#include <atomic>
 #include <mutex>
-#include <optional>
 
 namespace condyle::core {
 
-/// A value that is made when it is first needed, by whichever thread comes first; others wait for it. Where
-/// making it raises, the next one to ask tries again.
+/// A part of a value that is made when it is first read, by whichever thread comes first, and may be made
+/// out of date. What it is made from belongs to its owner: copies of both go together.
 template <class T>
 class Lazy {
  public:
+  Lazy() = default;
+  Lazy(const Lazy& other) : Lazy(other, std::lock_guard(other.mutex_)) {}
+  Lazy& operator=(const Lazy&) = delete;
+
+  /// make(T&) where it is not current, once for all threads; the rest wait. Where it throws, the part stays as
+  /// out of date as it was.
   template <class Make>
   const T& get(const Make& make) const {
-    std::call_once(once_, [&] { value_.emplace(make()); });
-    return *value_;
+    if (is_current_.load(std::memory_order_acquire)) return value_;
+    const std::lock_guard lock(mutex_);
+    if (!is_current_.load(std::memory_order_relaxed)) {
+      make(value_);
+      is_current_.store(true, std::memory_order_release);
+    }
+    return value_;
   }
 
+  /// To be kept current by hand while nothing else reads it; null where it is out of date.
+  T* current() noexcept { return is_current_.load(std::memory_order_relaxed) ? &value_ : nullptr; }
+  /// Its memory is kept for when it is made again.
+  void make_out_of_date() noexcept { is_current_.store(false, std::memory_order_relaxed); }
+  /// As it was last made, current or not.
+  const T& last() const noexcept { return value_; }
+
  private:
-  mutable std::once_flag once_;
-  mutable std::optional<T> value_;
+  Lazy(const Lazy& other, const std::lock_guard<std::mutex>&)
+      : value_(other.value_), is_current_(other.is_current_.load(std::memory_order_relaxed)) {}
+
+  mutable T value_{};
+  mutable std::mutex mutex_;
+  mutable std::atomic<bool> is_current_ = false;
 };
 
 }  // namespace condyle::core

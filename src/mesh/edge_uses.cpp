@@ -48,7 +48,7 @@ unsigned first_slots_log2(std::size_t triangles) noexcept {
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/edge_uses.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::mesh::HWY_NAMESPACE {
@@ -104,7 +104,7 @@ std::size_t write_uses(std::span<const EdgeUse> uses, EdgeUse* to) {
     for (; i + 8 <= uses.size(); i += 8) {
       const auto halves = hn::LoadU(d, reinterpret_cast<const std::uint32_t*>(uses.data() + i));
       const auto is_use = hn::Ne(hn::Or(halves, hn::Reverse2(d, halves)), hn::Zero(d));
-      hn::StoreU(hn::Compress(halves, is_use), d, reinterpret_cast<std::uint32_t*>(to + count));
+      simd::HWY_NAMESPACE::store_compacted(d, halves, is_use, reinterpret_cast<std::uint32_t*>(to + count));
       count += hn::CountTrue(d, is_use) / 2;
     }
   }

@@ -1,6 +1,5 @@
 #include "radial/direction_table.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -8,13 +7,11 @@
 #include "core/parallel.hpp"
 #include "mesh/edge_balance.hpp"
 #include "radial/exact/ray_crossing.hpp"
-#include "radial/query/penetration_passes.hpp"
+#include "radial/exact/ray_scan.hpp"
+#include "radial/update/slack_updates.hpp"
 
 namespace condyle::radial {
 namespace {
-
-/// Points per task: enough to outweigh starting one.
-constexpr std::size_t points_per_chunk = 256;
 
 /// Cells along a side for a mesh of so many triangles.
 int cells_per_side(const RadialOptions& options, std::size_t triangles) {
@@ -25,179 +22,247 @@ int cells_per_side(const RadialOptions& options, std::size_t triangles) {
   }
   if (options.cells_per_side) return *options.cells_per_side;
   if (options.map == DirectionMapKind::cartesian) return 64;
-  // A few triangles to a cell: with finer ones each is listed more often, which costs time to build and
+  // A few triangles to a cell: with finer ones each has more entries, which costs time to build and
   // memory, and a query gains little. Sides that can be halved have deep pyramids.
   if (triangles < 6000) return triangles < 3000 ? 16 : 24;
   if (triangles < 12000) return 32;
   return triangles < 60000 ? 48 : triangles < 600000 ? 64 : 128;
 }
 
-std::variant<CartesianMap, CubeMap> make_map(const RadialOptions& options, std::size_t triangles) {
+DirectionMap make_map(const RadialOptions& options, std::size_t triangles) {
   const int side = cells_per_side(options, triangles);
   if (options.map == DirectionMapKind::cartesian) return CartesianMap(side);
   return CubeMap(side);
 }
 
-CellLists list_triangles(const TriMesh& mesh, const std::variant<CartesianMap, CubeMap>& map) {
-  const auto* cube = std::get_if<CubeMap>(&map);
-  if (!cube) return list_cells(mesh, std::get<CartesianMap>(map));
-  CellLists lists;
-  list_cells(mesh, *cube, lists);
-  return lists;
+void require_finite(PointsView positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!positions[i].allFinite())
+      throw MeshError("position " + std::to_string(i) + " of an update is not a finite number");
+  }
 }
 
 }  // namespace
 
+// ---- Build
+
 DirectionTable::DirectionTable(Mesh mesh, const RadialOptions& options)
-    : mesh_(mesh.arrays()),
-      map_(make_map(options, mesh_.triangles.size())),
-      lists_(list_triangles(mesh_, map_)),
-      boundary_edge_(mesh.unbalanced_edge()) {
-  finish_lists();
+    : given_(std::move(mesh)), map_(make_map(options, given_.triangles().size())) {
+  build_parts();
 }
 
-void DirectionTable::update(PointsView vertices) {
-  if (vertices.size() != mesh_.vertices.size()) {
-    throw UsageError("an update of " + std::to_string(mesh_.vertices.size()) + " vertices gives " +
-                     std::to_string(vertices.size()));
-  }
-  const auto* cube = std::get_if<CubeMap>(&map_);
-  if (cube) make_rooms(mesh_, lists_);
-  mesh_.vertices.x.assign(vertices.x.begin(), vertices.x.end());
-  mesh_.vertices.y.assign(vertices.y.begin(), vertices.y.end());
-  mesh_.vertices.z.assign(vertices.z.begin(), vertices.z.end());
-  if (cube) {
-    follow_vertices(mesh_, *cube, lists_);
+DirectionTable::DirectionTable(const DirectionTable& other)
+    : given_(other.given_),
+      deformed_(other.deformed_ ? std::make_unique<TriMesh>(*other.deformed_) : nullptr),
+      map_(other.map_),
+      table_(other.table_),
+      winding_at_centre_(other.winding_at_centre_),
+      triangles_at_(other.triangles_at_),
+      rejection_(other.rejection_) {}
+
+void DirectionTable::build_parts() {
+  if (cube()) {
+    build(mesh(), *cube(), table_);
   } else {
-    lists_ = list_triangles(mesh_, map_);
+    table_.entries = bin_triangles(mesh(), std::get<CartesianMap>(map_));
   }
-  finish_lists();
-}
-
-void DirectionTable::update(std::span<const Index> moved, PointsView positions) {
-  const auto* cube = std::get_if<CubeMap>(&map_);
-  if (cube) make_rooms(mesh_, lists_);
-  for (std::size_t i = 0; i < moved.size(); ++i) mesh_.vertices.set(moved[i], positions[i]);
-  if (!cube) {
-    lists_ = list_triangles(mesh_, map_);
-    return finish_lists();
-  }
-  if (triangles_at_.empty()) triangles_at_ = mesh::VertexTriangles(mesh_);
-  const std::vector<Index> triangles = triangles_at_.of(moved);
-  const ChangedRadii changed = follow_vertices(mesh_, *cube, moved, triangles, lists_);
-  for (const Index t : triangles) require_centre_off_triangle(t);
-  if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
-  if ((winding_at_centre_.value_or(0) > 0) != lists_.starts_at_centre) {
-    find_all_radii();
-  } else if (changed.may_be_all) {
-    pyramid_.fill(cube->cells_per_side(), lists_.radii);
-  } else {
-    pyramid_.refill(cube->cells_per_side(), lists_.radii, changed.cells);
-  }
-}
-
-/// What follows from lists, forms and vertices.
-void DirectionTable::finish_lists() {
   require_centre_off_surface();
-  if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
-  find_all_radii();
+  find_winding_at_centre();
+  rejection_.make_out_of_date();
 }
 
-void DirectionTable::find_all_radii() {
-  // Points nearer to the centre than the surface are inside and to be found where the centre is.
-  lists_.starts_at_centre = winding_at_centre_.value_or(0) > 0;
-  if (const auto* cube = std::get_if<CubeMap>(&map_)) {
-    find_radii(*cube, lists_);
-    pyramid_.fill(cube->cells_per_side(), lists_.radii);
-  } else if (lists_.starts_at_centre) {
-    for (RadiusWord& word : lists_.radii) word = union_of(word, radius_word(0, 0));
+/// Far out the winding number is zero; every boundary crossed on the way in adds its sense.
+void DirectionTable::find_winding_at_centre() {
+  if (!is_closed()) return;
+  const Vec3 any_direction(0, 0, 1);
+  const Index cell = std::visit([&](const auto& map) { return map.cell_of(any_direction); }, map_);
+  int winding = 0;
+  for (const Index t : table_.entries.of(cell)) {
+    const Cone cone = cone_of(mesh(), t);
+    winding += static_cast<int>(ray_crossing(any_direction, cone.a, cone.b, cone.c).outwards);
   }
+  winding_at_centre_ = winding;
 }
 
+/// Edge functions that are numbers have a plane that is certainly off the centre.
 void DirectionTable::require_centre_off_surface() const {
-  // A form that is a number has a plane that is certainly off the centre.
-  if (std::holds_alternative<CubeMap>(map_)) {
-    for (const Index t : lists_.unknown) require_centre_off_triangle(t);
+  if (cube()) {
+    for (const Index t : table_.forms.uncertain) require_centre_off_triangle(t);
   } else {
-    for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
+    for (Index t = 0; t < mesh().triangles.size(); ++t) require_centre_off_triangle(t);
   }
 }
 
 void DirectionTable::require_centre_off_triangle(Index t) const {
-  if (!lists_.forms.empty() && !std::isnan(lists_.forms[t].x[3])) return;
-  const Cone cone = cone_of(mesh_, t);
+  const auto& functions = table_.forms.edge_functions;
+  if (!functions.empty() && !std::isnan(functions[t].x[3])) return;
+  const Cone cone = cone_of(mesh(), t);
   if (core::orientation(cone.a, cone.b, cone.c) == core::Sign::zero &&
       mesh::contains_coplanar({cone.a, cone.b, cone.c}, Vec3::Zero())) {
     throw MeshError("the joint centre lies on the surface, in triangle " + std::to_string(t));
   }
 }
 
-int DirectionTable::find_winding_at_centre() const {
-  // Far out the winding number is zero; every skin crossed on the way in adds what it is wound.
-  const Vec3 any_direction(0, 0, 1);
-  int winding = 0;
-  for (const Index t : lists_.of(cell_of(any_direction))) {
-    const Cone cone = cone_of(mesh_, t);
-    winding += static_cast<int>(ray_crossing(any_direction, cone.a, cone.b, cone.c).outwards);
-  }
-  return winding;
-}
-
-CubeView DirectionTable::view_of(const CubeMap& map) const {
-  return {map.cells_per_side(),
-          DirectionPyramid::step_count(map.cells_per_side()),
-          lists_.radii.data(),
-          pyramid_.data(),
-          pyramid_.all(),
-          lists_.row.data(),
-          lists_.triangle.data(),
-          lists_.box.data(),
-          lists_.slant.data(),
-          lists_.nearest.data(),
-          lists_.forms.data(),
-          lists_.scale,
-          winding_at_centre_.value_or(0),
-          lists_.least_squared};
-}
-
-std::span<const Index> DirectionTable::candidates(const Vec3& v, std::vector<Index>& room) const {
-  if (v == Vec3::Zero()) return {};
-  const Index cell = cell_of(v);
-  const auto* map = std::get_if<CubeMap>(&map_);
-  if (!map) return lists_.of(cell);
-  room.resize(std::max(room.size(), lists_.of(cell).size() + vector_room));
-  return {room.data(), triangles_holding(view_of(*map), cell, map->box_of(v), room.data())};
-}
+// ---- Query
 
 void DirectionTable::require_closed() const {
-  if (boundary_edge_) mesh::refuse_unbalanced(*boundary_edge_);
+  if (const auto& edge = given_.unbalanced_edge()) mesh::refuse_unbalanced(*edge);
 }
 
 void DirectionTable::query(PointsView points, RadialResults& out) const {
   require_closed();
-  out.resize(points.size());
-  core::parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
-    RayScan scan(mesh_, *winding_at_centre_);
-    std::vector<Index> room;
-    for (std::size_t i = first; i < last; ++i) {
-      const Vec3 v = points[i];
-      const RayAnswer answer = scan.answer(v, candidates(v, room));
-      out.state[i] = answer.state;
-      out.winding[i] = answer.winding;
-      out.radial_gap_mm[i] = answer.gap;
-      out.triangle[i] = answer.triangle;
-      out.direction[i] = answer.direction;
-      out.ray_to_normal[i] =
-          answer.triangle == no_index ? Angle() : angle_to_normal(v, cone_of(mesh_, answer.triangle));
-    }
+  radial::query(exact_view(), points, out);
+}
+
+void DirectionTable::penetrations(const PointBlocks& points, const Pose& X_FM, Penetrations& out,
+                                  PenetrationWork* work) const {
+  require_closed();
+  const auto scratch = std::make_unique_for_overwrite<PenetrationScratch>();
+  radial::penetrations(exact_view(), cube_view(), points, X_FM, *scratch, out, work);
+}
+
+void DirectionTable::penetrations(const PointBlocks& points, std::span<const Pose> X_FM,
+                                  std::span<Penetrations> out) const {
+  assert(out.size() == X_FM.size());
+  require_closed();
+  const ExactView exact = exact_view();
+  const std::optional<CubeView> cube = cube_view();
+  // A pose may take no more than a microsecond: some together are worth a task.
+  constexpr std::size_t poses_per_task = 8;
+  core::parallel_chunks(X_FM.size(), poses_per_task, [&](std::size_t first, std::size_t last) {
+    const auto scratch = std::make_unique_for_overwrite<PenetrationScratch>();
+    for (std::size_t i = first; i < last; ++i)
+      radial::penetrations(exact, cube, points, X_FM[i], *scratch, out[i], nullptr);
   });
+}
+
+void DirectionTable::add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const {
+  out.ray_to_normal.resize(out.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Index t = out.triangle[i];
+    out.ray_to_normal[i] =
+        t == no_index ? Angle() : angle_to_normal(posed(X_FM, points[out.point[i]]), cone_of(mesh(), t));
+  }
+}
+
+void DirectionTable::prepare_penetrations() const {
+  if (cube()) rejection_parts();
+}
+
+const DirectionTable::RejectionParts& DirectionTable::rejection_parts() const {
+  return rejection_.get([this](RejectionParts& parts) { find_rejection_parts(parts); });
+}
+
+void DirectionTable::find_rejection_parts(RejectionParts& parts) const {
+  // Points nearer to the centre than the surface are inside and to be found where the centre is.
+  parts.radii.starts_at_centre = winding_at_centre_.value_or(0) > 0;
+  find_radii(*cube(), table_, parts.radii);
+  parts.pyramid.fill(cube()->cells_per_side(), parts.radii.of_cell);
+}
+
+std::optional<CubeView> DirectionTable::cube_view() const {
+  if (!cube()) return {};
+  const auto& [radii, pyramid] = rejection_parts();
+  return CubeView{cube()->cells_per_side(),
+                  DirectionPyramid::level_count(cube()->cells_per_side()),
+                  radii.of_cell.data(),
+                  pyramid.data(),
+                  pyramid.all(),
+                  table_.entries.view(),
+                  radii.nearest.data(),
+                  table_.forms.edge_functions.data(),
+                  table_.forms.scale,
+                  winding_at_centre_.value_or(0),
+                  radii.least_squared,
+                  radii.greatest_squared};
 }
 
 RadialTableSize DirectionTable::table_size() const noexcept {
   Index longest = 0;
-  for (const CellRow& row : lists_.row) longest = std::max(longest, row.last - row.first);
-  return {lists_.row.size(), lists_.entry_count(),
-          lists_.bytes() + pyramid_.size() * sizeof(RadiusWord) + triangles_at_.bytes(), longest};
+  for (const CellRow& row : table_.entries.row) longest = std::max(longest, row.last - row.first);
+  const auto& [radii, pyramid] = rejection_.last();
+  return {table_.entries.row.size(), table_.entries.count(),
+          table_.entries.bytes() + table_.forms.bytes() + table_.slack.bytes() + radii.bytes() +
+              pyramid.size() * sizeof(PackedInterval) + triangles_at_.bytes(),
+          longest};
+}
+
+// ---- Update
+
+TriMesh& DirectionTable::deforming_mesh() {
+  if (!deformed_) deformed_ = std::make_unique<TriMesh>(given_.arrays());
+  return *deformed_;
+}
+
+void DirectionTable::update(PointsView vertices) {
+  if (vertices.size() != mesh().vertices.size()) {
+    throw UsageError("an update of " + std::to_string(mesh().vertices.size()) + " vertices gives " +
+                     std::to_string(vertices.size()));
+  }
+  require_finite(vertices);
+  TriMesh& deforming = deforming_mesh();
+  if (cube()) init_slack(deforming, table_);
+  Points before;
+  before.x.assign(vertices.x.begin(), vertices.x.end());
+  before.y.assign(vertices.y.begin(), vertices.y.end());
+  before.z.assign(vertices.z.begin(), vertices.z.end());
+  std::swap(before, deforming.vertices);
+  try {
+    follow_all();
+  } catch (...) {
+    deforming.vertices = std::move(before);
+    build_parts();
+    throw;
+  }
+}
+
+void DirectionTable::follow_all() {
+  rejection_.make_out_of_date();
+  if (!cube()) return build_parts();
+  follow_vertices(mesh(), *cube(), table_);
+  require_centre_off_surface();
+  find_winding_at_centre();
+}
+
+void DirectionTable::update(std::span<const Index> moved, PointsView positions) {
+  assert(moved.size() == positions.size());
+  for (const Index v : moved) {
+    if (v >= mesh().vertices.size())
+      throw UsageError("an update moves vertex " + std::to_string(v) + " of " +
+                       std::to_string(mesh().vertices.size()));
+  }
+  require_finite(positions);
+  TriMesh& deforming = deforming_mesh();
+  if (cube()) init_slack(deforming, table_);
+  Points before;
+  for (const Index v : moved) before.push_back(deforming.vertices[v]);
+  for (std::size_t i = 0; i < moved.size(); ++i) deforming.vertices.set(moved[i], positions[i]);
+  try {
+    follow_some(moved);
+  } catch (...) {
+    for (std::size_t i = 0; i < moved.size(); ++i) deforming.vertices.set(moved[i], before[i]);
+    build_parts();
+    throw;
+  }
+}
+
+void DirectionTable::follow_some(std::span<const Index> moved) {
+  if (!cube()) return build_parts();
+  if (triangles_at_.empty()) triangles_at_ = mesh::VertexTriangles(mesh());
+  const std::vector<Index> triangles = triangles_at_.of(moved);
+  RejectionParts* parts = rejection_.current();
+  const ChangedRadii changed =
+      follow_vertices(mesh(), *cube(), moved, triangles, table_, parts ? &parts->radii : nullptr);
+  for (const Index t : triangles) require_centre_off_triangle(t);
+  find_winding_at_centre();
+  if (!parts) return;
+  if ((winding_at_centre_.value_or(0) > 0) != parts->radii.starts_at_centre) {
+    rejection_.make_out_of_date();
+  } else if (changed.may_be_all) {
+    parts->pyramid.fill(cube()->cells_per_side(), parts->radii.of_cell);
+  } else {
+    parts->pyramid.refill(cube()->cells_per_side(), parts->radii.of_cell, changed.cells);
+  }
 }
 
 }  // namespace condyle::radial

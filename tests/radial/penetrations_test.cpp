@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
+#include <thread>
 
 #include "condyle/error.hpp"
 #include "condyle/radial.hpp"
@@ -74,7 +76,7 @@ Points points_near_surface(const TriMesh& mesh, std::size_t count, double factor
   return points;
 }
 
-/// The same surface behind the paper's map, whose lists have neither octagons nor forms.
+/// The same surface behind the paper's map, whose rows have neither 8-DOPs nor edge functions.
 RadialTable reference_of(const RadialTable& table) {
   return RadialTable(table.mesh(), {DirectionMapKind::cartesian, 24});
 }
@@ -169,7 +171,7 @@ TEST_P(PenetrationsOn, AnswersDoNotDependOnTheNumberOfCells) {
   expect_plain_answers(RadialTable(mesh, {DirectionMapKind::cartesian, 24}), points, some_poses(4, 0.5, 4));
 }
 
-TEST_P(PenetrationsOn, SkinsThatOverlapAreCountedByWinding) {
+TEST_P(PenetrationsOn, SolidsThatOverlapAreCountedByWinding) {
   TriMesh mesh = joined(box({1, -1, -1}, {2, 1, 1}), box({3, -1, -1}, {4, 1, 1}));
   mesh = joined(mesh, box({3.5, -1, -1}, {5, 1, 1}));
   mesh = joined(mesh, mesh::subdivided(box({-4, -1, -1}, {-2, 1, 1})));
@@ -300,9 +302,9 @@ TEST(Penetrations, ManyPosesOnAllThreadsAreThoseOneByOne) {
   std::vector<Penetrations> together(poses.size());
   table.penetrations(points, poses, together);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    Penetrations alone;
-    table.penetrations(points, poses[i], alone);
-    EXPECT_EQ(together[i], alone);
+    Penetrations single;
+    table.penetrations(points, poses[i], single);
+    EXPECT_EQ(together[i], single);
   }
 }
 
@@ -394,7 +396,7 @@ void expect_answers_after_updates(TriMesh mesh, int cells_per_side, double reach
 TEST_P(PenetrationsOn, AfterUpdatesOfAllKindsAnswersAreThoseOfANewTable) {
   expect_answers_after_updates(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3), 16, 1.5);
   // About the centre; triangles larger than cells; the centre close to a box's faces, whose triangles are
-  // seen on most faces of the cube.
+  // projected on most faces of the cube.
   expect_answers_after_updates(sphere({0.1, 0.2, -0.1}, 1, 3), 24, 1.2);
   expect_answers_after_updates(test::torus(2, 0.7, 12, 8), 32, 3);
   expect_answers_after_updates(box({-0.05, -1, -1}, {1, 1.2, 1.1}), 8, 1.5);
@@ -417,12 +419,90 @@ TEST(RadialTableUpdate, ASurfaceThatPassesTheCentreChangesWhatIsInside) {
   }
 }
 
+/// The first triangle moved so that it holds the origin.
+Points with_the_centre_on_the_surface(const TriMesh& mesh) {
+  Points moved = mesh.vertices;
+  const auto& [a, b, c] = mesh.triangles[0];
+  moved.set(a, {1, 0, 0}), moved.set(b, {-1, 1, 0}), moved.set(c, {-1, -1, 0});
+  return moved;
+}
+
+TEST(RadialTableUpdate, AfterARefusedUpdateTheTableIsWhatItWasBefore) {
+  const Points points = random_points(500, 1.5, 29);
+  const SortedPoints sorted(points);
+  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
+    const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
+    const RadialTable before(mesh, {map, 16});
+    RadialTable table = before;
+    const Points refused = with_the_centre_on_the_surface(mesh);
+    std::vector<Index> moved(mesh.triangles[0].begin(), mesh.triangles[0].end());
+    Points positions;
+    for (const Index v : moved) positions.push_back(refused[v]);
+    const auto expect_as_before = [&] {
+      EXPECT_EQ(table.mesh(), mesh);
+      EXPECT_EQ(table.winding_at_centre(), before.winding_at_centre());
+      EXPECT_EQ(table.query(points), before.query(points));
+      Penetrations out, expected;
+      table.penetrations(sorted, Pose::Identity(), out);
+      before.penetrations(sorted, Pose::Identity(), expected);
+      EXPECT_EQ(out, expected);
+    };
+    EXPECT_THROW(table.update(refused), MeshError);
+    expect_as_before();
+    EXPECT_THROW(table.update(moved, positions), MeshError);
+    expect_as_before();
+    // What follows after that counts again.
+    table.update(jiggled(mesh.vertices, 0.01, 1));
+    EXPECT_THROW(table.update(moved, positions), MeshError);
+    table.update(mesh.vertices);
+    expect_as_before();
+  }
+}
+
+TEST(RadialTableUpdate, PositionsThatAreNotFiniteAndVerticesThatAreNotThereAreRefused) {
+  const TriMesh mesh = sphere({0, 0, 3}, 1, 1);
+  RadialTable table(mesh);
+  Points nowhere = mesh.vertices;
+  nowhere.set(2, {0, std::numeric_limits<double>::quiet_NaN(), 0});
+  EXPECT_THROW(table.update(nowhere), MeshError);
+  const std::vector<Index> one = {2}, absent = {static_cast<Index>(mesh.vertices.size())};
+  Points position;
+  position.push_back(nowhere[2]);
+  EXPECT_THROW(table.update(one, position), MeshError);
+  position.set(0, {0, 0, 0});
+  EXPECT_THROW(table.update(absent, position), UsageError);
+  EXPECT_EQ(table.mesh(), mesh);
+}
+
+TEST(RadialTable, ManyThreadsThatAskFirstGetTheSameAnswers) {
+  const RadialTable table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4));
+  const SortedPoints points(random_points(500, 1.5, 30));
+  std::vector<Penetrations> found(16);
+  {
+    std::vector<std::jthread> threads;
+    for (Penetrations& out : found)
+      threads.emplace_back([&] { table.penetrations(points, Pose::Identity(), out); });
+  }
+  EXPECT_GT(found[0].size(), 10u);
+  for (const Penetrations& out : found) EXPECT_EQ(out, found[0]);
+}
+
+TEST(RadialTable, ATableThatOnlyAnswersQueriesBuildsNoRadii) {
+  const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
+  const RadialTable table(mesh);
+  const std::size_t built = table.table_size().bytes;
+  table.query(mesh.vertices);
+  EXPECT_EQ(table.table_size().bytes, built);
+  table.prepare_penetrations();
+  EXPECT_GT(table.table_size().bytes, built);
+}
+
 TEST(RadialTableUpdate, ANumberOfVerticesThatIsNotTheMeshsIsRefused) {
   RadialTable table(sphere({0, 0, 3}, 1, 1));
   EXPECT_THROW(table.update(Points(3)), UsageError);
 }
 
-TEST(InstructionSets, EachHasANameAndTheLastIsWhatEveryMachineHas) {
+TEST(InstructionSets, TheBestComesFirst) {
   const auto sets = simd::instruction_sets();
   ASSERT_FALSE(sets.empty());
   for (std::size_t i = 1; i < sets.size(); ++i) EXPECT_LT(sets[i - 1].target, sets[i].target);

@@ -168,7 +168,7 @@ TEST_P(RadialTableOnMap, PointsOnTheSilhouetteAreOnTheSurface) {
   expect_states_of_brute_force(table(mesh), random_points(300, 3.5, 4));
 }
 
-TEST_P(RadialTableOnMap, SeveralSkinsAlongOneRayAreToldApart) {
+TEST_P(RadialTableOnMap, SeveralSolidsAlongOneRayAreToldApart) {
   TriMesh mesh = box({1, -1, -1}, {2, 1, 1});
   mesh = joined(mesh, box({3, -1, -1}, {4, 1, 1}));
   mesh = joined(mesh, box({3.5, -1, -1}, {5, 1, 1}));
@@ -185,7 +185,7 @@ TEST_P(RadialTableOnMap, SeveralSkinsAlongOneRayAreToldApart) {
   EXPECT_NEAR(at(2), -0.25 * along(2), 1e-14);
   EXPECT_EQ(hits.direction[2], RayDirection::away_from_centre);
   EXPECT_NEAR(at(3), 0.5 * along(3), 1e-14);
-  // Where two solids overlap, the way out passes the skin inside: the union's outer skin counts.
+  // Where two solids overlap, the exit passes the boundary inside: that of their union counts.
   EXPECT_NEAR(at(5), -0.75 * along(5), 1e-14);
   EXPECT_NEAR(at(6), -0.25 * along(6), 1e-14);
   EXPECT_EQ(at(7), infinity);
@@ -310,7 +310,7 @@ TEST_P(RadialTableOnMap, ACentreOnTheSurfaceIsRefusedByNameOfItsTriangle) {
   EXPECT_NO_THROW(table(box({0, 0.5, 0}, {2, 1, 1})));          // in the plane of faces, not on them
 }
 
-TEST_P(RadialTableOnMap, AMeshWoundInsideOutHasNegativeWindingAndNoInside) {
+TEST_P(RadialTableOnMap, AMeshOfInvertedOrientationHasNegativeWindingAndNoInside) {
   const RadialResults hits = table(flipped(sphere({0.1, 0.2, 0.3}, 1, 2))).query(random_points(200, 0.3, 10));
   for (const int winding : hits.winding) EXPECT_EQ(winding, -1);
 }

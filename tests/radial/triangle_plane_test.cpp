@@ -64,20 +64,20 @@ struct RandomTriangle {
 TEST(TrianglePlane, GapsThatItTellsAreWithin1e12OfTheExactOnes) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.3, 4);
-  int told = 0, oblique = 0, slender = 0;
+  int known = 0, oblique = 0, slender = 0;
   for (int i = 0; i < 20000; ++i) {
     const RandomTriangle t(random);
     const Vec3 v = t.point(random, i % 2 == 0 ? uniform(random) : 1 + 1e-7 * uniform(random));
     const Vec3 normal = radial::scaled_normal(t.a, t.b, t.c);
     const double gap = radial::gap_to_plane(v, normal);
     if (std::isnan(gap)) continue;
-    ++told;
+    ++known;
     oblique += normal.normalized().dot(v.normalized()) < 0.2 && normal.dot(v) > 0;
     slender += (t.b - t.a).norm() * (t.c - t.a).norm() > 5 * (t.b - t.a).cross(t.c - t.a).norm();
     ASSERT_NEAR(gap / v.norm(), exact_relative_gap(v, t.a, t.b, t.c), 1e-12);
   }
   // The conditions let enough through near their limits for that to mean something.
-  EXPECT_GT(told, 6000);
+  EXPECT_GT(known, 6000);
   EXPECT_GT(oblique, 200);
   EXPECT_GT(slender, 200);
 }

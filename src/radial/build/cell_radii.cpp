@@ -1,10 +1,9 @@
+#include "radial/build/cell_radii.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include <hwy/cache_control.h>
-
-#include "radial/build/cell_lists.hpp"
-#include "radial/build/cube_lists.hpp"
 
 namespace condyle::radial {
 namespace {
@@ -29,50 +28,53 @@ float cosine_to_corners(int n) {
   return static_cast<float>(std::max(0.0, 1 - half_diagonal * half_diagonal / 2));
 }
 
-ListedRadii listed_radii(const CubeMap& map, CellLists& lists) {
+RadiiView view_of(const CubeMap& map, const CubeTable& table, std::span<const TrianglePlane> planes,
+                  CellRadii& radii) {
   const int n = map.cells_per_side();
   return {n,
-          lists.triangle.data(),
-          lists.plane.data(),
-          lists.scale,
-          lists.inverse_length.data(),
+          table.entries.triangle.data(),
+          planes.data(),
+          table.forms.scale,
+          radii.inverse_length.data(),
           cosine_to_corners(n),
-          lists.starts_at_centre ? radius_word(0, 0) : no_radii,
-          lists.nearest.data(),
-          lists.entry_radii.empty() ? nullptr : lists.entry_radii.data()};
+          radii.starts_at_centre ? packed_interval(0, 0) : no_radii,
+          radii.nearest.data(),
+          radii.of_entry.empty() ? nullptr : radii.of_entry.data()};
 }
 
 }  // namespace
 
-void find_radii(const CubeMap& map, CellLists& lists) {
-  if (lists.inverse_length.empty()) lists.inverse_length = inverse_lengths(map.cells_per_side());
-  if (lists.plane.empty()) {
-    lists.plane.resize(lists.forms.size());
-    std::transform(lists.forms.begin(), lists.forms.end(), lists.plane.begin(), plane_of);
-  }
-  if (!lists.entry_radii.empty()) lists.entry_radii.resize(lists.triangle.size());
-  lists.radii.resize(map.cell_count());
-  const SurfaceRadii all = measure_rows(listed_radii(map, lists), lists.row, lists.radii.data());
-  lists.least_squared = all.least, lists.greatest_squared = all.greatest;
-  lists.plane = {};
+void find_radii(const CubeMap& map, const CubeTable& table, CellRadii& radii) {
+  if (radii.inverse_length.empty()) radii.inverse_length = inverse_lengths(map.cells_per_side());
+  const auto& forms = table.forms.edge_functions;
+  core::UninitialisedVector<TrianglePlane> planes(forms.size());
+  std::transform(forms.begin(), forms.end(), planes.begin(), plane_of);
+  radii.nearest.resize(table.entries.triangle.size());
+  if (!radii.of_entry.empty()) radii.of_entry.resize(table.entries.triangle.size());
+  radii.of_cell.resize(map.cell_count());
+  const SurfaceRadii all =
+      measure_rows(view_of(map, table, planes, radii), table.entries.row, radii.of_cell.data());
+  radii.least_squared = all.least, radii.greatest_squared = all.greatest;
 }
 
-ChangedRadii find_radii_in(const CubeMap& map, const TouchedTriangles& touched, CellLists& lists) {
-  if (lists.entry_radii.empty()) {
-    lists.entry_radii.resize(lists.triangle.size());
-    find_radii(map, lists);
+ChangedRadii find_radii_in(const CubeMap& map, const CubeTable& table, const ChangedTriangles& changed,
+                           CellRadii& radii) {
+  if (radii.of_entry.empty()) {
+    radii.of_entry.resize(table.entries.triangle.size());
+    find_radii(map, table, radii);
     return {.may_be_all = true};
   }
-  SurfaceRadii all{lists.least_squared, lists.greatest_squared};
+  SurfaceRadii all{radii.least_squared, radii.greatest_squared};
   // Rows lie anywhere.
-  for (const Index cell : touched.cells) hwy::Prefetch(&lists.row[cell]), hwy::Prefetch(&lists.radii[cell]);
-  core::UninitialisedVector<ChangedEntry> room(touched.listed.size());
-  ChangedRadii changed;
-  changed.cells.resize(touched.cells.size());
-  changed.cells.resize(measure_touched(listed_radii(map, lists), lists.row.data(), touched, room.data(),
-                                       lists.radii.data(), all, changed.cells.data()));
-  lists.least_squared = all.least, lists.greatest_squared = all.greatest;
-  return changed;
+  for (const Index cell : changed.cells)
+    hwy::Prefetch(&table.entries.row[cell]), hwy::Prefetch(&radii.of_cell[cell]);
+  core::UninitialisedVector<ChangedEntry> scratch(changed.entry.size());
+  ChangedRadii out;
+  out.cells.resize(changed.cells.size());
+  out.cells.resize(measure_changed(view_of(map, table, {}, radii), table.entries.row.data(), changed,
+                                   scratch.data(), radii.of_cell.data(), all, out.cells.data()));
+  radii.least_squared = all.least, radii.greatest_squared = all.greatest;
+  return out;
 }
 
 }  // namespace condyle::radial

@@ -1,22 +1,19 @@
 #include <algorithm>
 #include <limits>
 
-#include <hwy/cache_control.h>
-
 #include "radial/build/cube_passes.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/build/cell_radii_pass.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "radial/build/radius_words-inl.hpp"
+#include "simd/packed_intervals-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using simd::HWY_NAMESPACE::hull_of_lanes;
 
 /// As many triangles at a time as most rows have, or half of them.
 using D = hn::CappedTag<float, 16>;
@@ -39,14 +36,14 @@ struct CellCorners {
   int axis, axis_u, axis_w;
   float sign, u, w, inverse[4];
 
-  CellCorners(const ListedRadii& lists, int cell) {
-    const int n = lists.cells_per_side, row_of_all = cell / n, face = row_of_all / n;
+  CellCorners(const RadiiView& view, int cell) {
+    const int n = view.cells_per_side, row_of_all = cell / n, face = row_of_all / n;
     const int row = row_of_all - face * n, column = cell - row_of_all * n;
     axis = face % 3, axis_u = (face + 1) % 3, axis_w = (face + 2) % 3;
     sign = face < 3 ? 1.0f : -1.0f;
     const float width = 2.0f / static_cast<float>(n);
     u = static_cast<float>(column) * width - 1, w = static_cast<float>(row) * width - 1;
-    const float* at = lists.inverse_length + row * (n + 1) + column;
+    const float* at = view.inverse_length + row * (n + 1) + column;
     inverse[0] = at[0], inverse[1] = at[1], inverse[2] = at[n + 1], inverse[3] = at[n + 2];
   }
   CornersInLanes in_lanes() const {
@@ -61,8 +58,8 @@ struct Bounds {
 
 /// Of planes n . p = 1, within cells of the given width; least <= 0, or greatest < 0, where there is none. n
 /// is along the face's normal.
-HWY_INLINE Bounds radii_of_planes(const CornersInLanes& cell, float width, float cosine, Floats n, Floats n_u,
-                                  Floats n_w) {
+HWY_INLINE Bounds view_planes(const CornersInLanes& cell, float width, float cosine, Floats n, Floats n_u,
+                              Floats n_w) {
   const auto set = [](float value) { return hn::Set(d, value); };
   const auto margin = hn::Mul(set(0x1p-14f), hn::Add(hn::Abs(n), hn::Add(hn::Abs(n_u), hn::Abs(n_w))));
   const auto corner = hn::Add(n, hn::Add(hn::Mul(n_u, cell.u), hn::Mul(n_w, cell.w)));
@@ -117,8 +114,8 @@ HWY_INLINE Planes load_planes(const TrianglePlane* planes, const std::uint32_t* 
   return out;
 }
 
-/// Squared radii of a RadiusWord.
-HWY_INLINE Bounds radii_of_words(const RadiusScale& scale, Ints words) {
+/// Squared radii of packed intervals.
+HWY_INLINE Bounds view_words(const IntervalScale& scale, Ints words) {
   const auto most = hn::Set(di, greatest_radius_code);
   const auto least = hn::And(words, most);
   const auto greatest = hn::Sub(most, hn::And(hn::ShiftRight<16>(words), most));
@@ -134,53 +131,50 @@ HWY_INLINE Bounds radii_of_words(const RadiusScale& scale, Ints words) {
   return {hn::IfThenElseZero(has_least, first), hn::IfThenElse(has_greatest, last, hn::Set(d, infinity))};
 }
 
-/// RadiusWords of squared radii.
-HWY_INLINE Ints words_of_radii(const RadiusScale& scale, const Bounds& squared) {
-  const auto most = hn::Set(di, greatest_radius_code);
-  const auto code = [&](Floats at) {
-    const auto steps = hn::ShiftRightSame(hn::Sub(hn::BitCast(di, at), hn::Set(di, scale.base)), scale.shift);
-    return hn::Min(hn::Max(steps, hn::Zero(di)), most);
-  };
-  return hn::Or(code(squared.least), hn::ShiftLeft<16>(hn::Sub(most, code(squared.greatest))));
+/// Packed intervals of squared radii.
+HWY_INLINE Ints intervals_of_radii(const IntervalScale& scale, const Bounds& squared) {
+  using simd::HWY_NAMESPACE::interval_codes;
+  return simd::HWY_NAMESPACE::packed_intervals(di, interval_codes(d, scale, squared.least),
+                                               interval_codes(d, scale, squared.greatest));
 }
 
-/// What is found of entries: their radii, all together, and in words.
+/// What is found of entries: their radii, all together, and packed.
 struct Found {
   Floats least = hn::Set(d, std::numeric_limits<float>::infinity()), greatest = hn::Zero(d);
   Ints words;
 
-  explicit Found(RadiusWord start) : words(hn::Set(di, static_cast<std::int32_t>(start))) {}
+  explicit Found(PackedInterval start) : words(hn::Set(di, static_cast<std::int32_t>(start))) {}
 
   void add(const Bounds& squared) {
     least = hn::Min(least, squared.least), greatest = hn::Max(greatest, squared.greatest);
   }
-  void add(Ints more) { words = union_of_words(di, words, more); }
+  void add(Ints more) { words = hull_of_lanes(di, words, more); }
   SurfaceRadii radii() const {
     return {hn::GetLane(hn::MinOfLanes(d, least)), hn::GetLane(hn::MaxOfLanes(d, greatest))};
   }
-  RadiusWord word() const { return union_of_lanes(di, words); }
+  PackedInterval interval() const { return hull_of_all_lanes(di, words); }
 
  private:
   template <class Tag>
-  static HWY_INLINE RadiusWord union_of_lanes([[maybe_unused]] Tag tag, hn::Vec<Tag> all) {
+  static HWY_INLINE PackedInterval hull_of_all_lanes([[maybe_unused]] Tag tag, hn::Vec<Tag> all) {
 #if HWY_TARGET != HWY_SCALAR
     if constexpr (hn::MaxLanes(tag) > 1) {
       constexpr hn::Half<Tag> half;
-      return union_of_lanes(half, union_of_words(half, hn::LowerHalf(half, all), hn::UpperHalf(half, all)));
+      return hull_of_all_lanes(half, hull_of_lanes(half, hn::LowerHalf(half, all), hn::UpperHalf(half, all)));
     }
 #endif
-    return static_cast<RadiusWord>(hn::GetLane(all));
+    return static_cast<PackedInterval>(hn::GetLane(all));
   }
 };
 
 /// Squared radii of triangles in cells, whose planes are as the cells' faces have them; infinity and 0
-/// for those that are not there, or not asked for.
-HWY_INLINE Bounds radii_in_cells(const ListedRadii& lists, const CornersInLanes& cell, const Planes& planes,
-                                 hn::Mask<D> is_asked) {
+/// for those that are not there, or not wanted.
+HWY_INLINE Bounds radii_in_cells(const RadiiView& view, const CornersInLanes& cell, const Planes& planes,
+                                 hn::Mask<D> is_wanted) {
   const auto infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-  const float width = 2.0f / static_cast<float>(lists.cells_per_side);
-  const Bounds of_planes = radii_of_planes(cell, width, lists.cosine, planes.n[0], planes.n[1], planes.n[2]);
-  const Bounds of_triangles = radii_of_words(lists.scale, planes.radii);
+  const float width = 2.0f / static_cast<float>(view.cells_per_side);
+  const Bounds of_planes = view_planes(cell, width, view.cosine, planes.n[0], planes.n[1], planes.n[2]);
+  const Bounds of_triangles = view_words(view.scale, planes.radii);
   const auto square = [](Floats radius, float widened) {
     return hn::Mul(hn::Mul(radius, radius), hn::Set(d, widened));
   };
@@ -191,7 +185,7 @@ HWY_INLINE Bounds radii_in_cells(const ListedRadii& lists, const CornersInLanes&
   const auto furthest = hn::IfThenElse(is_furthest, square(of_planes.greatest, 1 + 0x1p-16f), infinity);
   const auto least = hn::Max(of_triangles.least, nearest),
              greatest = hn::Min(of_triangles.greatest, furthest);
-  const auto is_there = hn::And(is_asked, hn::Le(least, greatest));
+  const auto is_there = hn::And(is_wanted, hn::Le(least, greatest));
   return {hn::IfThenElse(is_there, least, infinity), hn::IfThenElseZero(is_there, greatest)};
 }
 
@@ -210,31 +204,31 @@ HWY_INLINE Planes on_face(const Planes& planes, const CellCorners& cell) {
           planes.radii};
 }
 
-SurfaceRadii measure_rows_any(const ListedRadii& lists, std::span<const CellRow> rows, RadiusWord* out) {
+SurfaceRadii measure_rows_any(const RadiiView& view, std::span<const CellRow> rows, PackedInterval* out) {
   constexpr hn::Rebind<std::uint8_t, DI> d8;
   Found all(no_radii);
   for (std::size_t cell = 0; cell < rows.size(); ++cell) {
-    const CellCorners at(lists, static_cast<int>(cell));
+    const CellCorners at(view, static_cast<int>(cell));
     const CornersInLanes corners = at.in_lanes();
     const CellRow row = rows[cell];
-    Found here(lists.of_every_cell);
+    Found here(view.of_every_cell);
     for (std::uint32_t i = row.first; i < row.last; i += lanes) {
-      const std::uint32_t* triangle = lists.triangle + i;
-      for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(lists.plane + triangle[k + prefetch_ahead]);
-      const Planes planes = load_planes(lists.plane, triangle);
-      // What follows the row is written too: entries of the next one, rightly, or room.
-      hn::StoreU(hn::DemoteTo(d8, nearest_of(planes)), d8, lists.nearest + i);
-      const auto is_listed = first_lanes(row.last - i);
-      const Bounds squared = radii_in_cells(lists, corners, on_face(planes, at), is_listed);
-      const Ints words = words_of_radii(lists.scale, squared);
-      if (lists.entry_radii != nullptr) {
-        auto* const to = reinterpret_cast<std::int32_t*>(lists.entry_radii + i);
-        hn::BlendedStore(words, hn::RebindMask(di, is_listed), di, to);
+      const std::uint32_t* triangle = view.triangle + i;
+      for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(view.plane + triangle[k + prefetch_ahead]);
+      const Planes planes = load_planes(view.plane, triangle);
+      // What follows the row is written too: entries of the next one, rightly, or padding.
+      hn::StoreU(hn::DemoteTo(d8, nearest_of(planes)), d8, view.nearest + i);
+      const auto is_entry = first_lanes(row.last - i);
+      const Bounds squared = radii_in_cells(view, corners, on_face(planes, at), is_entry);
+      const Ints words = intervals_of_radii(view.scale, squared);
+      if (view.entry_radii != nullptr) {
+        auto* const to = reinterpret_cast<std::int32_t*>(view.entry_radii + i);
+        hn::BlendedStore(words, hn::RebindMask(di, is_entry), di, to);
       }
       all.add(squared);
       here.add(words);
     }
-    out[cell] = here.word();
+    out[cell] = here.interval();
   }
   return all.radii();
 }
@@ -265,7 +259,7 @@ struct EntryBatch {
 /// Entries on their way to their rows, as many at a time as there are lanes.
 class ChangedEntries {
  public:
-  ChangedEntries(const ListedRadii& lists, ChangedEntry* out) : lists_(lists), out_(out) {}
+  ChangedEntries(const RadiiView& view, ChangedEntry* out) : lists_(view), out_(out) {}
 
   HWY_INLINE void add(const CellCorners& cell, std::uint32_t triangle, const TrianglePlane& plane) {
     out_[lane_].triangle = triangle;
@@ -284,16 +278,16 @@ class ChangedEntries {
         radii_in_cells(lists_, batch_.corners(), planes, first_lanes(static_cast<std::uint32_t>(lane_)));
     all_.add(squared);
     alignas(64) std::int32_t word[lanes], nearest[lanes];
-    hn::Store(words_of_radii(lists_.scale, squared), di, word);
+    hn::Store(intervals_of_radii(lists_.scale, squared), di, word);
     hn::Store(nearest_of(planes), di, nearest);
     for (std::size_t k = 0; k < lane_; ++k) {
-      out_[k].radii = static_cast<RadiusWord>(word[k]), out_[k].nearest = nearest[k];
+      out_[k].radii = static_cast<PackedInterval>(word[k]), out_[k].nearest = nearest[k];
     }
     out_ += lane_;
     lane_ = 0;
   }
 
-  const ListedRadii& lists_;
+  const RadiiView& lists_;
   ChangedEntry* out_;
   std::size_t lane_ = 0;
   EntryBatch batch_{};
@@ -301,56 +295,56 @@ class ChangedEntries {
 };
 
 /// Writes entries into their row. Each is held against all entries, a vector of them at a time: where it is
-/// cannot be foretold. What its entries are together.
-HWY_INLINE RadiusWord write_entries(const ListedRadii& lists, CellRow row,
-                                    std::span<const ChangedEntry> entries) {
+/// cannot be predicted. What its entries are together.
+HWY_INLINE PackedInterval write_entries(const RadiiView& view, CellRow row,
+                                        std::span<const ChangedEntry> entries) {
   constexpr hn::Rebind<std::uint8_t, DI> d8;
-  Found found(lists.of_every_cell);
+  Found found(view.of_every_cell);
   for (std::uint32_t i = row.first; i < row.last; i += lanes) {
-    const auto triangle = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(lists.triangle + i));
-    auto* const at = reinterpret_cast<std::int32_t*>(lists.entry_radii + i);
-    auto words = hn::LoadU(di, at), nearest = hn::PromoteTo(di, hn::LoadU(d8, lists.nearest + i));
+    const auto triangle = hn::LoadU(di, reinterpret_cast<const std::int32_t*>(view.triangle + i));
+    auto* const at = reinterpret_cast<std::int32_t*>(view.entry_radii + i);
+    auto words = hn::LoadU(di, at), nearest = hn::PromoteTo(di, hn::LoadU(d8, view.nearest + i));
     for (const ChangedEntry& entry : entries) {
       const auto is_it = hn::Eq(triangle, hn::Set(di, static_cast<std::int32_t>(entry.triangle)));
       words = hn::IfThenElse(is_it, hn::Set(di, static_cast<std::int32_t>(entry.radii)), words);
       nearest = hn::IfThenElse(is_it, hn::Set(di, entry.nearest), nearest);
     }
-    const auto is_listed = hn::RebindMask(di, first_lanes(row.last - i));
-    hn::BlendedStore(words, is_listed, di, at);
+    const auto is_entry = hn::RebindMask(di, first_lanes(row.last - i));
+    hn::BlendedStore(words, is_entry, di, at);
     // The nearest one of a triangle is the same in all its cells.
-    hn::StoreU(hn::DemoteTo(d8, nearest), d8, lists.nearest + i);
-    found.add(hn::IfThenElse(is_listed, words, hn::Set(di, -1)));
+    hn::StoreU(hn::DemoteTo(d8, nearest), d8, view.nearest + i);
+    found.add(hn::IfThenElse(is_entry, words, hn::Set(di, -1)));
   }
-  return found.word();
+  return found.interval();
 }
 
-/// How many cells before its turn what is listed in a cell is fetched.
+/// How many cells before its turn the entries of a cell are fetched.
 constexpr std::size_t cells_ahead = 8;
 
-void prefetch_entries(const ListedRadii& lists, CellRow row) {
+void prefetch_entries(const RadiiView& view, CellRow row) {
   constexpr std::uint32_t words_per_line = 16, bytes_per_line = 64;
   for (std::uint32_t i = row.first; i < row.last; i += words_per_line)
-    hwy::Prefetch(lists.triangle + i), hwy::Prefetch(lists.entry_radii + i);
-  for (std::uint32_t i = row.first; i < row.last; i += bytes_per_line) hwy::Prefetch(lists.nearest + i);
+    hwy::Prefetch(view.triangle + i), hwy::Prefetch(view.entry_radii + i);
+  for (std::uint32_t i = row.first; i < row.last; i += bytes_per_line) hwy::Prefetch(view.nearest + i);
 }
 
-std::size_t measure_touched_any(const ListedRadii& lists, const CellRow* rows,
-                                const TouchedTriangles& touched, ChangedEntry* room, RadiusWord* radii,
-                                SurfaceRadii& surface, Index* changed) {
-  ChangedEntries entries(lists, room);
-  for (std::size_t i = 0; i < touched.cells.size(); ++i) {
-    const CellCorners corners(lists, static_cast<int>(touched.cells[i]));
-    for (const std::uint32_t place : touched.listed_in(i))
-      entries.add(corners, touched.number[place], touched.plane[place]);
+std::size_t measure_changed_any(const RadiiView& view, const CellRow* rows, const ChangedTriangles& triangles,
+                                ChangedEntry* scratch, PackedInterval* radii, SurfaceRadii& surface,
+                                Index* changed) {
+  ChangedEntries entries(view, scratch);
+  for (std::size_t i = 0; i < triangles.cells.size(); ++i) {
+    const CellCorners corners(view, static_cast<int>(triangles.cells[i]));
+    for (const std::uint32_t place : triangles.in_cell(i))
+      entries.add(corners, triangles.number[place], triangles.plane[place]);
   }
   const SurfaceRadii found = entries.finish();
   surface = {std::min(surface.least, found.least), std::max(surface.greatest, found.greatest)};
   std::size_t count = 0;
-  for (std::size_t i = 0; i < touched.cells.size(); ++i) {
-    const std::uint32_t cell = touched.cells[i];
-    prefetch_entries(lists, rows[touched.cells[std::min(i + cells_ahead, touched.cells.size() - 1)]]);
-    const RadiusWord word =
-        write_entries(lists, rows[cell], {room + touched.first[i], room + touched.first[i + 1]});
+  for (std::size_t i = 0; i < triangles.cells.size(); ++i) {
+    const std::uint32_t cell = triangles.cells[i];
+    prefetch_entries(view, rows[triangles.cells[std::min(i + cells_ahead, triangles.cells.size() - 1)]]);
+    const PackedInterval word =
+        write_entries(view, rows[cell], {scratch + triangles.first[i], scratch + triangles.first[i + 1]});
     changed[count] = cell;
     count += word != radii[cell];
     radii[cell] = word;
@@ -366,15 +360,16 @@ HWY_AFTER_NAMESPACE();
 namespace condyle::radial {
 
 HWY_EXPORT(measure_rows_any);
-HWY_EXPORT(measure_touched_any);
+HWY_EXPORT(measure_changed_any);
 
-SurfaceRadii measure_rows(const ListedRadii& lists, std::span<const CellRow> rows, RadiusWord* out) {
-  return HWY_DYNAMIC_DISPATCH(measure_rows_any)(lists, rows, out);
+SurfaceRadii measure_rows(const RadiiView& view, std::span<const CellRow> rows, PackedInterval* out) {
+  return HWY_DYNAMIC_DISPATCH(measure_rows_any)(view, rows, out);
 }
 
-std::size_t measure_touched(const ListedRadii& lists, const CellRow* rows, const TouchedTriangles& touched,
-                            ChangedEntry* room, RadiusWord* radii, SurfaceRadii& surface, Index* changed) {
-  return HWY_DYNAMIC_DISPATCH(measure_touched_any)(lists, rows, touched, room, radii, surface, changed);
+std::size_t measure_changed(const RadiiView& view, const CellRow* rows, const ChangedTriangles& triangles,
+                            ChangedEntry* scratch, PackedInterval* radii, SurfaceRadii& surface,
+                            Index* changed) {
+  return HWY_DYNAMIC_DISPATCH(measure_changed_any)(view, rows, triangles, scratch, radii, surface, changed);
 }
 
 }  // namespace condyle::radial

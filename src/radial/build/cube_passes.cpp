@@ -7,14 +7,12 @@
 #include <cstring>
 #include <limits>
 
-#include <hwy/cache_control.h>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/build/cube_passes.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include "radial/query/double_vectors-inl.hpp"
+#include "simd/cube_projection-inl.hpp"
+#include "simd/packed_intervals-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
@@ -46,20 +44,9 @@ void place_vertices_any(const MeshView& mesh, std::uint8_t* face, FacePoint* out
   for (std::size_t i = 0; i < mesh.vertices; i += lanes) {
     const auto x = load_coordinates(mesh.x, i, mesh.vertices), y = load_coordinates(mesh.y, i, mesh.vertices),
                z = load_coordinates(mesh.z, i, mesh.vertices);
-    const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
-    const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
-    const auto on_y = hn::AndNot(on_x, hn::Ge(ay, az));
-    const auto largest = hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z));
-    const auto u = hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x));
-    const auto w = hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y));
-    const auto inverse = hn::Div(hn::Set(df, 1.0f), hn::Abs(largest));
-    const auto zero = hn::Zero(di), one = hn::Set(di, 1);
-    const auto axis = hn::IfThenElse(hn::RebindMask(di, on_x), zero,
-                                     hn::IfThenElse(hn::RebindMask(di, on_y), one, hn::Set(di, 2)));
-    const auto negative = hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)), hn::Set(di, 3));
-    hn::Store(hn::Add(axis, negative), di, faces);
-    const auto on_u = hn::Mul(u, inverse), on_w = hn::Mul(w, inverse);
-    hn::StoreInterleaved4(on_u, on_w, hn::Add(on_u, on_w), hn::Sub(on_u, on_w), df, packed);
+    const simd::HWY_NAMESPACE::CubeProjection<DF> at(df, x, y, z);
+    hn::Store(at.face, di, faces);
+    hn::StoreInterleaved4(at.u, at.w, hn::Add(at.u, at.w), hn::Sub(at.u, at.w), df, packed);
     const std::size_t count = std::min(lanes, mesh.vertices - i);
     for (std::size_t k = 0; k < count; ++k) {
       face[i + k] = static_cast<std::uint8_t>(faces[k]);
@@ -68,13 +55,13 @@ void place_vertices_any(const MeshView& mesh, std::uint8_t* face, FacePoint* out
   }
 }
 
-std::size_t find_strayed_any(const MeshView& mesh, const std::uint8_t* faces, const FaceRoom* rooms,
-                             std::uint32_t* out) {
+std::size_t find_left_slack_any(const MeshView& mesh, const std::uint8_t* faces, const SlackRectangle* slack,
+                                std::uint32_t* out) {
   constexpr hn::RebindToSigned<DF> di;
   const auto one = hn::Set(df, 1.0f);
   alignas(64) std::int32_t axes[lanes];
   alignas(64) float signs[lanes];
-  std::size_t strayed = 0;
+  std::size_t left = 0;
   for (std::size_t i = 0; i < mesh.vertices; i += lanes) {
     const std::size_t count = std::min(lanes, mesh.vertices - i);
     for (std::size_t k = 0; k < lanes; ++k) {
@@ -84,18 +71,18 @@ std::size_t find_strayed_any(const MeshView& mesh, const std::uint8_t* faces, co
     const auto x = load_coordinates(mesh.x, i, mesh.vertices), y = load_coordinates(mesh.y, i, mesh.vertices),
                z = load_coordinates(mesh.z, i, mesh.vertices);
     const auto axis = hn::Load(di, axes);
-    const auto on_x = hn::RebindMask(df, hn::Eq(axis, hn::Zero(di)));
-    const auto on_y = hn::RebindMask(df, hn::Eq(axis, hn::Set(di, 1)));
-    const auto depth = hn::Mul(hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z)), hn::Load(df, signs));
+    const simd::HWY_NAMESPACE::OnFaceAxes<DF> at(
+        {hn::RebindMask(df, hn::Eq(axis, hn::Zero(di))), hn::RebindMask(df, hn::Eq(axis, hn::Set(di, 1)))}, x,
+        y, z);
+    const auto depth = hn::Mul(at.depth, hn::Load(df, signs));
     const auto inverse = hn::Div(one, depth);
-    const auto u = hn::Mul(hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x)), inverse);
-    const auto w = hn::Mul(hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y)), inverse);
+    const auto u = hn::Mul(at.u, inverse), w = hn::Mul(at.w, inverse);
     Singles low_u, low_w, high_u, high_w;
     if (count == lanes) {
-      hn::LoadInterleaved4(df, &rooms[i].low_u, low_u, low_w, high_u, high_w);
+      hn::LoadInterleaved4(df, &slack[i].low_u, low_u, low_w, high_u, high_w);
     } else {
-      alignas(64) FaceRoom last[lanes] = {};
-      std::copy_n(rooms + i, count, last);
+      alignas(64) SlackRectangle last[lanes] = {};
+      std::copy_n(slack + i, count, last);
       hn::LoadInterleaved4(df, &last[0].low_u, low_u, low_w, high_u, high_w);
     }
     auto within = hn::And(hn::Gt(depth, hn::Zero(df)), hn::And(hn::Ge(u, low_u), hn::Le(u, high_u)));
@@ -104,10 +91,10 @@ std::size_t find_strayed_any(const MeshView& mesh, const std::uint8_t* faces, co
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(df, within, bits);
     for (std::size_t k = 0; k < count; ++k) {
-      if ((bits[0] >> k & 1) == 0) out[strayed++] = static_cast<std::uint32_t>(i + k);
+      if ((bits[0] >> k & 1) == 0) out[left++] = static_cast<std::uint32_t>(i + k);
     }
   }
-  return strayed;
+  return left;
 }
 
 HWY_INLINE Vectors operator-(const Vectors& a, const Vectors& b) {
@@ -135,17 +122,9 @@ HWY_INLINE hn::Mask<DD> well_known(const Vectors& normal, const Vectors& p, cons
   return hn::Ge(sum_of_magnitudes(normal), floor);
 }
 
-/// Coefficients that neither overflow nor vanish as floats, with room for products with points.
+/// Coefficients that neither overflow nor vanish as floats, with slack for products with points.
 HWY_INLINE hn::Mask<DD> fits_floats(Doubles largest, Doubles smallest) {
   return hn::And(hn::Lt(largest, hn::Set(dd, 0x1p60)), hn::Gt(smallest, hn::Set(dd, 0x1p-60)));
-}
-
-/// Codes of squared radii, within the scale.
-HWY_INLINE hn::Vec<hn::RebindToSigned<DF>> radius_codes(const RadiusScale& scale, Singles squared) {
-  constexpr hn::RebindToSigned<DF> di;
-  const auto steps =
-      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
-  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
 }
 
 #if HWY_TARGET != HWY_SCALAR
@@ -176,11 +155,11 @@ HWY_INLINE Vectors load_vertices(const double* xyz, const std::size_t* at) {
 }
 
 void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t last,
-                           const RadiusScale& radius_scale, ConeForms* forms, TrianglePlane* planes,
-                           std::vector<std::uint32_t>& unknown) {
+                           const IntervalScale& radius_scale, EdgeFunctions* forms,
+                           std::vector<std::uint32_t>& uncertain) {
   const auto nan = hn::Set(dd, std::numeric_limits<double>::quiet_NaN());
   std::size_t corner[3][lanes];
-  alignas(64) float packed[5][4 * lanes];
+  alignas(64) float packed[4][4 * lanes];
   constexpr hn::RebindToSigned<DF> di;
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
@@ -234,7 +213,7 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     store(n_ab.x, n_bc.x, n_ca.x, n_x, packed[0]);
     store(n_ab.y, n_bc.y, n_ca.y, n_y, packed[1]);
     store(n_ab.z, n_bc.z, n_ca.z, n_z, packed[2]);
-    const auto rest = [&](Doubles component) {
+    const auto low = [&](Doubles component) {
       const auto value = hn::Mul(component, plane);
       const auto left = hn::Sub(value, hn::PromoteTo(dd, hn::DemoteTo(df, value)));
       return hn::DemoteTo(df, hn::IfThenElse(plane_known, left, nan));
@@ -243,25 +222,24 @@ void measure_triangles_any(const MeshView& mesh, std::size_t first, std::size_t 
     const auto dip = hn::Mul(edge, hn::Set(dd, 1.0 / 3));
     const auto least = hn::Max(hn::Zero(dd), hn::Sub(hn::Min(aa, hn::Min(bb, cc)), dip));
     const auto widened = [&](Doubles squared, double by) {
-      return radius_codes(radius_scale, hn::DemoteTo(df, hn::Mul(squared, hn::Set(dd, by))));
+      return simd::HWY_NAMESPACE::interval_codes(df, radius_scale,
+                                                 hn::DemoteTo(df, hn::Mul(squared, hn::Set(dd, by))));
     };
-    const auto to_greatest = hn::Sub(hn::Set(di, greatest_radius_code), widened(furthest, 1 + 0x1p-16));
-    const auto radii = hn::BitCast(df, hn::Or(widened(least, 1 - 0x1p-16), hn::ShiftLeft<16>(to_greatest)));
-    hn::StoreInterleaved4(rest(n.x), rest(n.y), rest(n.z), radii, df, packed[3]);
-    hn::StoreInterleaved4(n_x, n_y, n_z, radii, df, packed[4]);
-    static_assert(offsetof(ConeForms, radii) == offsetof(ConeForms, rest) + sizeof ConeForms::rest);
+    const auto radii = hn::BitCast(df, simd::HWY_NAMESPACE::packed_intervals(di, widened(least, 1 - 0x1p-16),
+                                                                             widened(furthest, 1 + 0x1p-16)));
+    hn::StoreInterleaved4(low(n.x), low(n.y), low(n.z), radii, df, packed[3]);
+    static_assert(offsetof(EdgeFunctions, radii) == offsetof(EdgeFunctions, low) + sizeof EdgeFunctions::low);
     for (std::size_t k = 0; k < count; ++k) {
-      ConeForms& out = forms[t + k];
+      EdgeFunctions& out = forms[t + k];
       std::memcpy(out.x, packed[0] + 4 * k, sizeof out.x);
       std::memcpy(out.y, packed[1] + 4 * k, sizeof out.y);
       std::memcpy(out.z, packed[2] + 4 * k, sizeof out.z);
-      std::memcpy(reinterpret_cast<char*>(&out) + offsetof(ConeForms, rest), packed[3] + 4 * k,
-                  sizeof out.rest + sizeof out.radii);
+      std::memcpy(reinterpret_cast<char*>(&out) + offsetof(EdgeFunctions, low), packed[3] + 4 * k,
+                  sizeof out.low + sizeof out.radii);
     }
-    std::memcpy(planes + t, packed[4], count * sizeof *planes);
     if (hn::AllTrue(dd, known)) continue;
     for (std::size_t k = 0; k < count; ++k) {
-      if (std::isnan(packed[0][4 * k])) unknown.push_back(static_cast<std::uint32_t>(t + k));
+      if (std::isnan(packed[0][4 * k])) uncertain.push_back(static_cast<std::uint32_t>(t + k));
     }
   }
 }
@@ -274,21 +252,21 @@ HWY_AFTER_NAMESPACE();
 namespace condyle::radial {
 
 HWY_EXPORT(place_vertices_any);
-HWY_EXPORT(find_strayed_any);
+HWY_EXPORT(find_left_slack_any);
 HWY_EXPORT(measure_triangles_any);
 
 void place_vertices(const MeshView& mesh, std::uint8_t* face, FacePoint* out) {
   HWY_DYNAMIC_DISPATCH(place_vertices_any)(mesh, face, out);
 }
 
-std::size_t find_strayed(const MeshView& mesh, const std::uint8_t* face, const FaceRoom* room,
-                         std::uint32_t* out) {
-  return HWY_DYNAMIC_DISPATCH(find_strayed_any)(mesh, face, room, out);
+std::size_t find_left_slack(const MeshView& mesh, const std::uint8_t* face, const SlackRectangle* slack,
+                            std::uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(find_left_slack_any)(mesh, face, slack, out);
 }
 
-void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const RadiusScale& scale,
-                       ConeForms* forms, TrianglePlane* planes, std::vector<std::uint32_t>& unknown) {
-  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, scale, forms, planes, unknown);
+void measure_triangles(const MeshView& mesh, std::size_t first, std::size_t last, const IntervalScale& scale,
+                       EdgeFunctions* forms, std::vector<std::uint32_t>& uncertain) {
+  HWY_DYNAMIC_DISPATCH(measure_triangles_any)(mesh, first, last, scale, forms, uncertain);
 }
 
 }  // namespace condyle::radial

@@ -13,7 +13,7 @@ namespace {
 /// Widening of cells, in units of a cell map's coordinate (which spans [-1, 1]). It covers the rounding of
 /// cell_of (a few units of 2^-53) and of clipping: a clipped corner errs by about 10 * 2^-53 of the
 /// triangle's largest coordinate, and triangles nearer to the origin than `close_ratio` of that are not
-/// clipped but listed everywhere, so that the error seen from the origin stays below 2e-10.
+/// clipped but put everywhere, so that the error seen from the origin stays below 2e-10.
 constexpr double cell_margin = 1e-9;
 constexpr double close_ratio = 1e-5;
 
@@ -32,7 +32,7 @@ double squared_distance_to_segment(const Vec3& p, const Vec3& q) noexcept {
 }
 
 /// A convex plane polygon in space: a triangle cut by at most eight planes has at most eleven corners. The
-/// room beyond that is for corners that rounding splits when they lie on a cutting plane.
+/// capacity beyond that is for corners that rounding splits when they lie on a cutting plane.
 struct Polygon {
   std::array<Vec3, 32> corner;
   int size = 0;
@@ -219,11 +219,11 @@ struct ConeBounds {
   /// The radius interval over the box, or an empty one (low > high) where the cone does not meet it.
   ///
   /// In direction d the plane lies at radius distance / (normal . d). A cone seen edge-on has side normals
-  /// whose turn is rounding: they then bound nothing, and the plane and the radii alone decide.
+  /// whose sense is rounding: they then bound nothing, and only the plane and the radii decide.
   Interval over(const DirectionBox& box) const noexcept {
     constexpr Interval empty{1, 0};
     // A cap holds the cone of three directions in it only where it is no more than a hemisphere. Without this
-    // test, a cone seen edge-on would be listed along its sides' whole great circle.
+    // test, a cone seen edge-on would be put along its sides' whole great circle.
     if (cap_cosine > 0 && box.times(cap_axis, core::rounding_unit).high < cap_cosine) return empty;
     const bool faces_origin = distance.low > 0;
     const Interval along = box.times(normal, normal_error);
@@ -303,7 +303,7 @@ std::uint32_t CubeMap::box_of(const Vec3& v) const noexcept {
     return std::clamp(static_cast<int>((at - cell) * parts_per_cell), 0, parts_per_cell - 1);
   };
   const int column_part = part(axis + 1), row_part = part(axis + 2);
-  return range_word(column_part, column_part, row_part, row_part);
+  return packed_range(column_part, column_part, row_part, row_part);
 }
 
 void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const {

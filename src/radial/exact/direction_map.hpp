@@ -80,7 +80,7 @@ class CubeMap {
   /// Calls visit(CellOverlap) once for each cell the cone meets.
   void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
 
-  /// Where in its cell v, which is not zero, falls: the box of its CellOctagon.
+  /// Where in its cell v, which is not zero, falls: the box of its CellDop.
   std::uint32_t box_of(const Vec3& v) const noexcept;
 
  private:

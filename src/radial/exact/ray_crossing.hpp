@@ -22,7 +22,7 @@ struct RayCrossing {
 
 /// Side of the plane through the origin, a and b on which v lies, never zero but where a, b and the origin
 /// are on a line: a zero is broken by moving v by eps x + eps^2 y + eps^3 z, the same infinitesimal shift for
-/// every edge. The neighbour across the edge asks for (b, a) and gets the negative, always. `touched` is set
+/// every edge. The neighbour across the edge has (b, a) and gets the negative, always. `touched` is set
 /// where the sign was exactly zero.
 inline core::Sign ray_side(const Vec3& v, const Vec3& a, const Vec3& b, bool& touched) noexcept {
   const auto filtered = core::filtered_determinant(v, a, b);

@@ -36,7 +36,7 @@ double exact_relative_gap(const Vec3& v, const Cone& t) {
 
 }  // namespace
 
-/// Nearly always the triangle's plane tells. Beyond that, both determinants err by at most 12u times a
+/// Nearly always the triangle's plane decides. Beyond that, both determinants err by at most 12u times a
 /// product of lengths: 8u for their own operations, and u for each of the rounded differences in them. Where
 /// that could show in the quotient (a ray within a degree or so of the surface, a sliver), the quotient is
 /// taken in integers.

@@ -20,7 +20,7 @@ double distance_along_ray(const Vec3& v, const Cone& t);
 /// Between the ray through v and the triangle's normal, 0 to a right angle.
 Angle angle_to_normal(const Vec3& v, const Cone& t) noexcept;
 
-/// What the ray from the centre through one point tells: one element of RadialResults.
+/// What the ray from the centre through one point says: one element of RadialResults.
 struct RayAnswer {
   PointState state;
   int winding;
@@ -31,7 +31,7 @@ struct RayAnswer {
 
 /// The plain way to answer for one point at a time, exact: what every faster way is held against.
 ///
-/// Crossings of the point's ray with the triangles that it is given are gathered in the scan's own room.
+/// Crossings of the point's ray with the triangles that it is given are gathered in the scan's own scratch.
 class RayScan {
  public:
   RayScan(const TriMesh& mesh, int winding_at_centre);

@@ -6,9 +6,7 @@
 #define CONDYLE_RADIAL_CROSSING_DECISION_INL
 #endif
 
-#include <hwy/highway.h>
-
-#include "simd/compress_store-inl.hpp"
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
@@ -16,31 +14,6 @@ namespace {
 
 using simd::HWY_NAMESPACE::numbers_from;
 using simd::HWY_NAMESPACE::store_compacted;
-
-/// Most pairs of a near point and a triangle that are tried together.
-constexpr std::size_t most_pairs = 4096;
-
-/// Crossings of near points' rays, those of a point side by side. `s` is |v| over the crossing's radius,
-/// positive where the ray leaves the solid and negative where it enters; NaN where floats do not say whether
-/// there is one.
-struct Crossings {
-  /// Of the first: a vector of crossings can be read before it too, as behind the last, of no point.
-  static constexpr std::size_t begin = vector_room;
-  template <class T>
-  using Array = std::array<T, begin + most_pairs + vector_room>;
-  alignas(64) Array<float> s, error;
-  alignas(64) Array<std::uint32_t> triangle, point;
-  std::size_t end;
-
-  Crossings() {
-    std::fill_n(s.begin(), begin, 0.0f), std::fill_n(error.begin(), begin, 0.0f);
-    std::fill_n(point.begin(), begin, no_index);
-  }
-  void close(std::size_t last_end) {
-    end = last_end;
-    point[end] = no_index;
-  }
-};
 
 /// More crossings of one ray are left to double precision.
 constexpr std::size_t most_of_a_ray = 24;
@@ -65,7 +38,7 @@ struct Ray {
   }
 };
 
-struct WayOut {
+struct NearestExit {
   std::uint32_t triangle;
   bool away_from_centre;
 };
@@ -73,7 +46,7 @@ struct WayOut {
 /// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
 ///
 /// The gaps 1 - 1/s before and 1/s' - 1 behind compare as 2 s s' does with s + s'.
-HWY_INLINE bool leave(const Ray& ray, int winding_at_centre, WayOut& way) {
+HWY_INLINE bool nearest_exit(const Ray& ray, int winding_at_centre, NearestExit& way) {
   using Crossing = Ray::Crossing;
   for (std::size_t i = 1; i < ray.count; ++i) {
     const Crossing &nearer = ray.crossing[i - 1], &further = ray.crossing[i];
@@ -106,82 +79,68 @@ HWY_INLINE bool leave(const Ray& ray, int winding_at_centre, WayOut& way) {
   return true;
 }
 
-/// What the crossings of a near point say of it.
-struct Tally {
-  std::int16_t winding;
-  std::uint16_t crossings;
-  std::uint32_t end;  ///< behind the last of them
-  std::uint8_t doubtful;
-};
-
-/// Room for decide() and decide_from_outside().
-struct Decisions {
-  std::array<Tally, points_per_batch> tally;
-  std::array<std::uint32_t, points_per_batch + vector_room> kept;
-};
-
 /// Decides near points [first, last), whose crossings these are, wherever the centre is.
 HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size_t first, std::size_t last,
-                       const Crossings& crossings, Decisions& room, FoundPoints& found) {
+                       const Crossings& crossings, Decisions& scratch, FoundPoints& found) {
   const bool from_inside = cube.winding_at_centre > 0;
   for (std::size_t i = first; i < last; ++i) {
     // Nearer to the centre than any surface, floats may have lost the direction.
     const float x = points.x[i], y = points.y[i], z = points.z[i];
     const bool too_near = from_inside && x * x + y * y + z * z < cube.nearest_squared;
-    room.tally[i] = {static_cast<std::int16_t>(cube.winding_at_centre), 0, 0, too_near};
+    scratch.sum[i] = {static_cast<std::int16_t>(cube.winding_at_centre), 0, 0, too_near};
   }
   for (std::size_t i = Crossings::begin; i < crossings.end; ++i) {
-    Tally& tally = room.tally[crossings.point[i]];
+    CrossingSum& sum = scratch.sum[crossings.point[i]];
     const float beyond = std::abs(crossings.s[i]) - 1;
     const int outwards = crossings.s[i] > 0 ? 1 : -1;
-    tally.winding = static_cast<std::int16_t>(tally.winding - (beyond > 0 ? outwards : 0));
-    tally.doubtful |= static_cast<std::uint8_t>(!(std::abs(beyond) > crossings.error[i]));
-    ++tally.crossings;
-    tally.end = static_cast<std::uint32_t>(i + 1);
+    sum.winding = static_cast<std::int16_t>(sum.winding - (beyond > 0 ? outwards : 0));
+    sum.uncertain |= static_cast<std::uint8_t>(!(std::abs(beyond) > crossings.error[i]));
+    ++sum.crossings;
+    sum.end = static_cast<std::uint32_t>(i + 1);
   }
   std::size_t count = 0;
   for (std::size_t i = first; i < last; ++i) {
-    Tally& tally = room.tally[i];
-    tally.doubtful |= static_cast<std::uint8_t>(tally.crossings > most_of_a_ray);
-    room.kept[count] = static_cast<std::uint32_t>(i);
-    count += static_cast<std::size_t>((tally.doubtful != 0) | (tally.winding > 0));
+    CrossingSum& sum = scratch.sum[i];
+    sum.uncertain |= static_cast<std::uint8_t>(sum.crossings > most_of_a_ray);
+    scratch.kept[count] = static_cast<std::uint32_t>(i);
+    count += static_cast<std::size_t>((sum.uncertain != 0) | (sum.winding > 0));
   }
   for (std::size_t k = 0; k < count; ++k) {
-    const Tally& tally = room.tally[room.kept[k]];
-    WayOut way{no_index, false};
-    const bool doubtful = tally.doubtful || !leave(Ray(crossings, tally.end - tally.crossings, tally.end),
-                                                   cube.winding_at_centre, way);
-    found.point[found.count++] = {points.point[room.kept[k]], way.triangle, tally.winding,
-                                  way.away_from_centre, doubtful};
+    const CrossingSum& sum = scratch.sum[scratch.kept[k]];
+    NearestExit way{no_index, false};
+    const bool uncertain = sum.uncertain || !nearest_exit(Ray(crossings, sum.end - sum.crossings, sum.end),
+                                                          cube.winding_at_centre, way);
+    found.point[found.count++] = {points.point[scratch.kept[k]], way.triangle, sum.winding,
+                                  way.away_from_centre, uncertain};
   }
 }
 
 /// What the crossings of a ray, the last of which is at `last`, say of its point, the centre outside.
 struct PointCrossings {
   int winding;
-  bool doubtful;
-  bool has_way;  ///< `way` is the nearer way out of a point that is inside
-  WayOut way;
+  bool uncertain;
+  bool has_exit;  ///< `way` is the nearer way out of a point that is inside
+  NearestExit way;
 };
 
-HWY_INLINE PointCrossings weigh_many(const Crossings& all, std::size_t last) {
+HWY_INLINE PointCrossings classify_scalar(const Crossings& all, std::size_t last) {
   PointCrossings out{0, false, false, {no_index, false}};
   std::size_t begin = last + 1;
   for (; all.point[begin - 1] == all.point[last]; --begin) {
     const float beyond = std::abs(all.s[begin - 1]) - 1;
     if (beyond > 0) out.winding += all.s[begin - 1] > 0 ? -1 : 1;
-    out.doubtful |= !(std::abs(beyond) > all.error[begin - 1]);
+    out.uncertain |= !(std::abs(beyond) > all.error[begin - 1]);
   }
-  out.doubtful |= last + 1 - begin > most_of_a_ray;
-  out.has_way = !out.doubtful && out.winding > 0 && leave(Ray(all, begin, last + 1), 0, out.way);
+  out.uncertain |= last + 1 - begin > most_of_a_ray;
+  out.has_exit = !out.uncertain && out.winding > 0 && nearest_exit(Ray(all, begin, last + 1), 0, out.way);
   return out;
 }
 
-/// As weigh_many(), for no more crossings than a vector of four has lanes: nearly all. Where the crossing
+/// As classify_scalar(), for no more crossings than a vector of four has lanes: nearly all. Where the crossing
 /// nearest before the point certainly is that and enters the solid, and the one nearest behind it certainly
-/// is that and leaves it, these are the ways out, if the winding number is 1. No branch asks which is the
+/// is that and leaves it, these are the exits, if the winding number is 1. No branch asks which is the
 /// shorter, nor whether the point is inside: there is no telling beforehand.
-HWY_INLINE PointCrossings weigh_few(const Crossings& all, std::size_t last) {
+HWY_INLINE PointCrossings classify_vector(const Crossings& all, std::size_t last) {
   namespace hn = hwy::HWY_NAMESPACE;
   constexpr hn::CappedTag<float, 4> d;
   constexpr hn::RebindToUnsigned<decltype(d)> du;
@@ -192,7 +151,7 @@ HWY_INLINE PointCrossings weigh_few(const Crossings& all, std::size_t last) {
   const auto s = hn::Abs(with_sign), beyond = hn::Sub(s, hn::Set(d, 1.0f));
   const auto is_before = hn::And(valid, hn::Gt(beyond, hn::Zero(d))), is_after = hn::AndNot(is_before, valid);
   const auto leaving = hn::And(is_before, hn::Gt(with_sign, hn::Zero(d)));
-  const auto doubtful = hn::AndNot(hn::Gt(hn::Abs(beyond), error), valid);
+  const auto uncertain = hn::AndNot(hn::Gt(hn::Abs(beyond), error), valid);
   const int winding =
       static_cast<int>(hn::CountTrue(d, is_before)) - 2 * static_cast<int>(hn::CountTrue(d, leaving));
   const auto before =
@@ -211,23 +170,23 @@ HWY_INLINE PointCrossings weigh_few(const Crossings& all, std::size_t last) {
       hn::And(is_before, hn::Not(hn::Gt(hn::Sub(s, before), hn::Add(error, hn::Set(d, error_before)))));
   const auto near_after =
       hn::And(is_after, hn::Not(hn::Gt(hn::Sub(after, s), hn::Add(error, hn::Set(d, error_after)))));
-  // Bits, for a branch on each could not be foretold.
+  // Bits, for a branch on each could not be predicted.
   const auto bit = [](bool value) { return static_cast<unsigned>(value); };
   const unsigned in_order = bit(hn::CountTrue(d, near_before) == 1) & bit(hn::CountTrue(d, near_after) <= 1);
   const unsigned passes = bit(all.s[at_before] < 0) & (bit(!has_after) | bit(all.s[at_after] > 0));
   const float difference = a + b - 2 * a * b;
-  const float doubt = 1.01f * (error_before * (1 + 2 * a) + error_after * (1 + 2 * b));
+  const float error_sum = 1.01f * (error_before * (1 + 2 * a) + error_after * (1 + 2 * b));
   const bool away_from_centre = difference < 0;
-  const unsigned is_clear = in_order & passes & bit(winding == 1) & bit(std::abs(difference) > doubt);
+  const unsigned is_clear = in_order & passes & bit(winding == 1) & bit(std::abs(difference) > error_sum);
   return {winding,
-          !hn::AllFalse(d, doubtful),
+          !hn::AllFalse(d, uncertain),
           is_clear != 0,
           {all.triangle[away_from_centre ? at_after : at_before], away_from_centre}};
 }
 
 /// Decides the near points that have crossings, the centre outside: the others are outside too. Most points
 /// have one, and are inside exactly where that lies before them and enters the solid.
-HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& crossings, Decisions& room,
+HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& crossings, Decisions& scratch,
                                     FoundPoints& found) {
   namespace hn = hwy::HWY_NAMESPACE;
   constexpr hn::CappedTag<float, 16> d;
@@ -243,11 +202,11 @@ HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& c
     const auto certain = hn::Gt(hn::Abs(hn::Sub(hn::Abs(s), one)), hn::LoadU(d, crossings.error.data() + i));
     const auto outside = hn::RebindMask(du, hn::And(certain, hn::Gt(s, hn::Neg(one))));
     const auto kept = hn::AndNot(hn::And(is_first, outside), is_last);
-    store_compacted(du, numbers_from(du, i), kept, room.kept.data() + count);
+    store_compacted(du, numbers_from(du, i), kept, scratch.kept.data() + count);
     count += hn::CountTrue(du, kept);
   }
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t last = room.kept[k];
+    const std::size_t last = scratch.kept[k];
     const std::uint32_t point = crossings.point[last];
     FoundPoint& at = found.point[found.count];
     if (crossings.point[last - 1] != point) {
@@ -257,14 +216,14 @@ HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& c
       continue;
     }
     constexpr std::size_t few = hn::MaxLanes(hn::CappedTag<float, 4>());
-    PointCrossings all = weigh_few(crossings, last);
+    PointCrossings all = classify_vector(crossings, last);
     const bool are_few = crossings.point[last - few] != point;
-    if (HWY_UNLIKELY(!are_few || (all.winding > 0 && !all.doubtful && !all.has_way))) {
-      all = weigh_many(crossings, last);
+    if (HWY_UNLIKELY(!are_few || (all.winding > 0 && !all.uncertain && !all.has_exit))) {
+      all = classify_scalar(crossings, last);
     }
     at = {points.point[point], all.way.triangle, static_cast<std::int16_t>(all.winding),
-          all.way.away_from_centre, all.doubtful || !all.has_way};
-    found.count += static_cast<std::size_t>(all.doubtful) | static_cast<std::size_t>(all.winding > 0);
+          all.way.away_from_centre, all.uncertain || !all.has_exit};
+    found.count += static_cast<std::size_t>(all.uncertain) | static_cast<std::size_t>(all.winding > 0);
   }
 }
 

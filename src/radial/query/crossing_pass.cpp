@@ -7,10 +7,7 @@
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/query/crossing_pass.cpp"
-#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include "radial/query/crossing_decision-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,63 +22,52 @@ using DU = hn::CappedTag<std::uint32_t, 16>;
 using Words = hn::Vec<DU>;
 constexpr DU du;
 
-/// Triangles whose octagons hold a point, with the number of the point among the near ones.
-struct Pairs {
-  static constexpr std::size_t most = most_pairs, room = 3 * vector_room;
-  std::array<std::uint32_t, most + room> triangle;
-  std::array<std::uint16_t, most + room> point;
-  static_assert(points_per_batch <= std::numeric_limits<std::uint16_t>::max());
-  std::size_t count;
-};
-
 /// Which of the octagons from `first` on hold the point.
-HWY_INLINE hn::Mask<DU> octagons_holding(const CubeView& cube, std::size_t first, std::size_t last, Words box,
-                                         Words slant) {
+HWY_INLINE hn::Mask<DU> dops_holding(const EntryView& entries, std::size_t first, std::size_t last, Words box,
+                                     Words diagonal) {
 #if HWY_TARGET == HWY_SCALAR
   static_cast<void>(last);
-  const bool held = holds(cube.box[first], hn::GetLane(box)) && holds(cube.slant[first], hn::GetLane(slant));
+  const bool held =
+      holds(entries.axis[first], hn::GetLane(box)) && holds(entries.diagonal[first], hn::GetLane(diagonal));
   return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
 #else
   constexpr hn::Repartition<std::uint8_t, DU> bytes;
   const auto excess = [&](const std::uint32_t* from, Words point) {
     return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
   };
-  const auto either = hn::Or(excess(cube.box, box), excess(cube.slant, slant));
+  const auto either = hn::Or(excess(entries.axis, box), excess(entries.diagonal, diagonal));
   return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
 #endif
 }
 
-std::size_t triangles_holding_any(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
-                                  std::uint32_t* found) {
-  const CellRow row = cube.row[cell];
-  const Words of_box = hn::Set(du, box), of_slant = hn::Set(du, slant_of_point(box));
-  std::size_t count = 0;
-  for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
-    const auto holding = octagons_holding(cube, first, row.last, of_box, of_slant);
-    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, found + count);
-    count += hn::CountTrue(du, holding);
+void find_candidates_any(const EntryView& entries, std::span<const CellPlace> places, std::uint32_t* end,
+                         std::uint32_t* found) {
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const CellRow row = entries.row[places[i].cell];
+    const Words axis = hn::Set(du, places[i].axis), diagonal = hn::Set(du, diagonal_of_point(places[i].axis));
+    for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+      const auto holding = dops_holding(entries, first, row.last, axis, diagonal);
+      store_compacted(du, hn::LoadU(du, entries.triangle + first), holding, found + count);
+      count += static_cast<std::uint32_t>(hn::CountTrue(du, holding));
+    }
+    end[i] = count;
   }
-  return count;
 }
 
-/// What lists and forms are asked with, of all near points at once.
-struct Asked {
-  alignas(64) BatchArray<std::uint32_t> slant;
-  alignas(64) BatchArray<float> bound;  ///< error of forms over the sum of their coefficients' magnitudes
-};
-
-HWY_INLINE void prepare(const NearPoints& points, float form_bound, Asked& out) {
+/// Fills in QueryConstants.
+HWY_INLINE void fill_constants(const NearPoints& points, float form_bound, QueryConstants& out) {
   constexpr hn::RebindToFloat<DU> d;
   const auto byte = hn::Set(du, 255);
   for (std::size_t i = 0; i < points.count; i += hn::Lanes(du)) {
-    // As slant_of_point().
+    // As diagonal_of_point().
     const Words box = hn::Load(du, points.box.data() + i);
     const Words u = hn::And(box, byte), w = hn::And(hn::ShiftRight<16>(box), byte);
     const Words sum = hn::ShiftRight<1>(hn::Add(u, w));
     const Words difference = hn::ShiftRight<1>(hn::Add(hn::Sub(u, w), byte));
     const Words of_sum = hn::Or(sum, hn::ShiftLeft<8>(hn::Sub(byte, sum)));
     const Words of_difference = hn::Or(difference, hn::ShiftLeft<8>(hn::Sub(byte, difference)));
-    hn::Store(hn::Or(of_sum, hn::ShiftLeft<16>(of_difference)), du, out.slant.data() + i);
+    hn::Store(hn::Or(of_sum, hn::ShiftLeft<16>(of_difference)), du, out.diagonal.data() + i);
     const auto magnitude = [&](const auto& of) { return hn::Abs(hn::Load(d, of.data() + i)); };
     const auto largest = hn::Max(hn::Max(magnitude(points.x), magnitude(points.y)), magnitude(points.z));
     hn::Store(hn::Mul(hn::Set(d, form_bound), largest), d, out.bound.data() + i);
@@ -90,20 +76,21 @@ HWY_INLINE void prepare(const NearPoints& points, float form_bound, Asked& out) 
 
 /// Pairs of one near point with triangles that may say something of it, written behind the `count` of the
 /// others. Returns how many there are then; more than fit, where there are too many.
-HWY_INLINE std::size_t pair(const CubeView& cube, const NearPoints& points, const Asked& asked, std::size_t i,
-                            std::size_t count, Pairs& pairs) {
-  const CellRow row = cube.row[points.cell[i]].half_at(points.box[i]);
-  const Words box = hn::Set(du, points.box[i]), slant = hn::Set(du, asked.slant[i]);
+HWY_INLINE std::size_t gather_candidates(const CubeView& cube, const NearPoints& points,
+                                         const QueryConstants& constants, std::size_t i, std::size_t count,
+                                         Pairs& pairs) {
+  const CellRow row = cube.entries.row[points.cell[i]].half_at(points.box[i]);
+  const Words box = hn::Set(du, points.box[i]), diagonal = hn::Set(du, constants.diagonal[i]);
   constexpr hn::Rebind<std::uint16_t, DU> du16;
   const auto number = hn::Set(du16, static_cast<std::uint16_t>(i));
   const Words relevant = hn::Set(du, points.relevant[i] >> 8);
   for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
     const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint8_t, DU>(), cube.nearest + first));
-    const auto holding =
-        hn::And(octagons_holding(cube, first, row.last, box, slant), hn::Not(hn::Gt(nearest, relevant)));
+    const auto holding = hn::And(dops_holding(cube.entries, first, row.last, box, diagonal),
+                                 hn::Not(hn::Gt(nearest, relevant)));
     // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
     if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
-    store_compacted(du, hn::LoadU(du, cube.triangle + first), holding, pairs.triangle.data() + count);
+    store_compacted(du, hn::LoadU(du, cube.entries.triangle + first), holding, pairs.triangle.data() + count);
     hn::StoreU(number, du16, pairs.point.data() + count);
     count += hn::CountTrue(du, holding);
   }
@@ -122,8 +109,8 @@ HWY_INLINE void transpose(D, [[maybe_unused]] std::array<V, 4>& v) {
 }
 
 /// Evaluates the forms of each pair, and keeps those that are not certainly misses, in order.
-HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Asked& asked, Pairs& pairs,
-                      Crossings& out) {
+HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
+                               const QueryConstants& constants, Pairs& pairs, Crossings& out) {
   // Four pairs side by side; without vectors one, of which each form is a "vector".
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToUnsigned<decltype(d4)> du4;
@@ -134,7 +121,7 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
   for (std::size_t k = 0; pairs.count > 0 && k < ahead + side_by_side; ++k) {
     pairs.triangle[pairs.count + k] = pairs.triangle[last], pairs.point[pairs.count + k] = pairs.point[last];
   }
-  const auto fetch = [&](std::size_t i) { hwy::Prefetch(cube.forms + pairs.triangle[i]); };
+  const auto fetch = [&](std::size_t i) { hwy::Prefetch(cube.edge_functions + pairs.triangle[i]); };
   for (std::size_t i = 0; i < std::min(ahead, pairs.count); ++i) fetch(i);
   std::size_t end = Crossings::begin;
   for (std::size_t i = 0; i < pairs.count; i += side_by_side) {
@@ -142,7 +129,7 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
     for (std::size_t k = 0; k < side_by_side; ++k) fetch(i + ahead + k);
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t pair = side_by_side == 4 ? i + k : i, lane = side_by_side == 4 ? 0 : k;
-      const ConeForms& forms = cube.forms[pairs.triangle[pair]];
+      const EdgeFunctions& forms = cube.edge_functions[pairs.triangle[pair]];
       const std::uint32_t point = pairs.point[pair];
       const auto x = hn::LoadU(d4, forms.x + lane), y = hn::LoadU(d4, forms.y + lane),
                  z = hn::LoadU(d4, forms.z + lane);
@@ -150,7 +137,7 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
           hn::MulAdd(hn::Set(d4, points.x[point]), x,
                      hn::MulAdd(hn::Set(d4, points.y[point]), y, hn::Mul(hn::Set(d4, points.z[point]), z)));
       error[k] =
-          hn::Mul(hn::Set(d4, asked.bound[point]), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
+          hn::Mul(hn::Set(d4, constants.bound[point]), hn::Add(hn::Abs(x), hn::Add(hn::Abs(y), hn::Abs(z))));
     }
     transpose(d4, value), transpose(d4, error);
     const auto below =
@@ -172,35 +159,35 @@ HWY_INLINE void cross(const CubeView& cube, const NearPoints& points, const Aske
 }
 
 std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, float form_bound,
-                              FoundPoints& found) {
-  Pairs pairs;
-  Crossings crossings;
-  Decisions decisions;
-  Asked asked;
-  prepare(points, form_bound, asked);
+                              CrossingScratch& scratch, FoundPoints& found) {
+  Pairs& pairs = scratch.pairs;
+  Crossings& crossings = scratch.crossings;
+  QueryConstants& constants = scratch.constants;
+  fill_constants(points, form_bound, constants);
   std::size_t tried = 0;
   found.count = 0;
   for (std::size_t first = 0; first < points.count;) {
     std::size_t last = first;
     pairs.count = 0;
     for (; last < points.count; ++last) {
-      hwy::Prefetch(cube.row + points.cell[std::min(last + 8, points.count - 1)]);
-      const std::uint32_t row_ahead = cube.row[points.cell[std::min(last + 4, points.count - 1)]].first;
-      hwy::Prefetch(cube.box + row_ahead), hwy::Prefetch(cube.slant + row_ahead);
-      hwy::Prefetch(cube.triangle + row_ahead), hwy::Prefetch(cube.nearest + row_ahead);
-      const std::size_t count = pair(cube, points, asked, last, pairs.count, pairs);
+      hwy::Prefetch(cube.entries.row + points.cell[std::min(last + 8, points.count - 1)]);
+      const std::uint32_t row_ahead =
+          cube.entries.row[points.cell[std::min(last + 4, points.count - 1)]].first;
+      hwy::Prefetch(cube.entries.axis + row_ahead), hwy::Prefetch(cube.entries.diagonal + row_ahead);
+      hwy::Prefetch(cube.entries.triangle + row_ahead), hwy::Prefetch(cube.nearest + row_ahead);
+      const std::size_t count = gather_candidates(cube, points, constants, last, pairs.count, pairs);
       if (count > Pairs::most) break;
       pairs.count = count;
     }
-    cross(cube, points, asked, pairs, crossings);
+    evaluate_edges(cube, points, constants, pairs, crossings);
     if (cube.winding_at_centre == 0) {
-      decide_from_outside(points, crossings, decisions, found);
+      decide_from_outside(points, crossings, scratch.decisions, found);
     } else {
-      decide(cube, points, first, last, crossings, decisions, found);
+      decide(cube, points, first, last, crossings, scratch.decisions, found);
     }
     tried += pairs.count;
     if (last == first) {
-      // More triangles at one point than there is room for.
+      // More triangles at one point than there is capacity for.
       found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
     }
     first = last;
@@ -215,17 +202,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle::radial {
 
-HWY_EXPORT(triangles_holding_any);
+HWY_EXPORT(find_candidates_any);
 HWY_EXPORT(inside_points_any);
 
-std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
-                              std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(triangles_holding_any)(cube, cell, box, found);
+void find_candidates(const EntryView& entries, std::span<const CellPlace> places, std::uint32_t* end,
+                     std::uint32_t* found) {
+  HWY_DYNAMIC_DISPATCH(find_candidates_any)(entries, places, end, found);
 }
 
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
-                          FoundPoints& found) {
-  return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, found);
+                          CrossingScratch& scratch, FoundPoints& found) {
+  return HWY_DYNAMIC_DISPATCH(inside_points_any)(cube, points, form_bound, scratch, found);
 }
 
 }  // namespace condyle::radial

@@ -5,13 +5,16 @@
 #include <cstdint>
 
 #include "condyle/points.hpp"
-#include "radial/build/radius_scale.hpp"
+#include "simd/packed_interval.hpp"
 
 /// A cube table as the vector code reads it: plain arrays, borrowed from a RadialTable.
 
 namespace condyle::radial {
 
-/// Cells are cut into so many parts each way; octagons of triangles within a cell are rounded outwards to
+using simd::greatest_radius_code, simd::IntervalScale, simd::no_radii, simd::packed_interval,
+    simd::PackedInterval;
+
+/// Cells are cut into so many parts each way; 8-DOPs of triangles within a cell are rounded outwards to
 /// them.
 inline constexpr int parts_per_cell = 256;
 
@@ -30,7 +33,7 @@ inline constexpr double largest_translation = 4;
 /// The triangles of one cell: [first, last) of the lists. In long rows those of the cell's left half (u below
 /// its middle) come first and those of the right half last:
 ///
-///     first      | left half alone | both | right half alone |      last
+///     first      | left half only  | both | right half only  |      last
 ///                                  ^      ^
 ///                        right_begin      left_end                  counted from `first`
 struct CellRow {
@@ -39,10 +42,10 @@ struct CellRow {
   std::uint32_t first, last;
   std::uint16_t left_end = whole, right_begin = 0;
 
-  /// Those that a point with this box can meet. In which half it is cannot be foretold: bits choose, not
+  /// Those that a point with this axis part can meet. In which half it is cannot be predicted: bits choose, not
   /// branches.
-  constexpr CellRow half_at(std::uint32_t box) const noexcept {
-    const std::uint32_t is_right = 0u - (box >> 7 & 1u), end = left_end == whole ? last : first + left_end;
+  constexpr CellRow half_at(std::uint32_t axis) const noexcept {
+    const std::uint32_t is_right = 0u - (axis >> 7 & 1u), end = left_end == whole ? last : first + left_end;
     return {first + (right_begin & is_right), end ^ ((end ^ last) & is_right)};
   }
 };
@@ -57,11 +60,11 @@ struct CellRow {
 /// NaN throughout where floats could not say enough of the triangle: a plane nearly through the centre, a
 /// sliver. Every comparison with them is false, and the point is decided in double.
 ///
-/// `rest` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN where that is. `radii` are the
+/// `low` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN where that is. `radii` are the
 /// squared radii that the triangle takes, of the table's scale.
-struct alignas(64) ConeForms {
-  float x[4], y[4], z[4], rest[3];
-  RadiusWord radii;
+struct alignas(64) EdgeFunctions {
+  float x[4], y[4], z[4], low[3];
+  PackedInterval radii;
 };
 
 /// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v
@@ -73,44 +76,50 @@ inline constexpr double coefficient_error = 0x1p-22;
 inline constexpr float form_error = 24 * 0x1p-24f;
 inline constexpr float form_error_of_translation = 24 * 0x1p-24f;
 
-struct CubeView {
-  int cells_per_side;
-  int steps;                  ///< of the pyramid
-  const RadiusWord* radii;    ///< of each cell
-  const RadiusWord* pyramid;  ///< see DirectionPyramid
-  RadiusWord all_radii;
+/// The entries of a table's cells.
+struct EntryView {
   const CellRow* row;
   const std::uint32_t* triangle;
-  const std::uint32_t *box, *slant;  ///< of each listed triangle in its cell, see CellOctagon
-  const std::uint8_t* nearest;       ///< code of each listed triangle's least squared radius, its upper half
-  const ConeForms* forms;            ///< of each triangle
-  RadiusScale scale;
-  int winding_at_centre;
-  float nearest_squared;  ///< no surface is nearer to the centre
+  const std::uint32_t *axis, *diagonal;  ///< of each entry's triangle in its cell, see CellDop
 };
 
-/// Part of a cell that something takes, as an octagon: parts (256 to a cell) from the cell's corner, between
+struct CubeView {
+  int cells_per_side;
+  int levels;                     ///< of the pyramid
+  const PackedInterval* radii;    ///< of each cell
+  const PackedInterval* pyramid;  ///< see DirectionPyramid
+  PackedInterval all_radii;
+  EntryView entries;
+  const std::uint8_t* nearest;  ///< code of the least squared radius of each entry's triangle, its upper half
+  const EdgeFunctions* edge_functions;  ///< of each triangle
+  IntervalScale scale;
+  int winding_at_centre;
+  float nearest_squared;   ///< no surface is nearer to the centre
+  float furthest_squared;  ///< and none further away
+};
+
+/// Part of a cell that something takes, as an 8-DOP: parts (256 to a cell) from the cell's corner, between
 /// a least and a greatest value of column u, of row w, and of the diagonals u + w and u - w. Four bytes each,
-/// least and 255 - greatest, so that a point is in the octagon exactly where no byte exceeds the point's own.
+/// least and 255 - greatest, so that a point is in it exactly where no byte exceeds the point's own.
 ///
 ///         ____
-///       /     |     box    least u, 255 - greatest u, least w, 255 - greatest w
-///     /       |     slant  the same of (u + w) / 2 and (u - w + 255) / 2
+///       /     |     axis      least u, 255 - greatest u, least w, 255 - greatest w
+///     /       |     diagonal  the same of (u + w) / 2 and (u - w + 255) / 2
 ///    |______/
-struct CellOctagon {
-  std::uint32_t box, slant;
+struct CellDop {
+  std::uint32_t axis, diagonal;
 };
 
-constexpr std::uint32_t range_word(int least_a, int greatest_a, int least_b, int greatest_b) noexcept {
+constexpr std::uint32_t packed_range(int least_a, int greatest_a, int least_b, int greatest_b) noexcept {
   return static_cast<std::uint32_t>(least_a) | static_cast<std::uint32_t>(255 - greatest_a) << 8 |
          static_cast<std::uint32_t>(least_b) << 16 | static_cast<std::uint32_t>(255 - greatest_b) << 24;
 }
 
-/// The slant of a point, from its box.
-constexpr std::uint32_t slant_of_point(std::uint32_t box) noexcept {
-  const int u = static_cast<int>(box & 255), w = static_cast<int>(box >> 16 & 255);
+/// The diagonal part of a point, from its axis part.
+constexpr std::uint32_t diagonal_of_point(std::uint32_t axis) noexcept {
+  const int u = static_cast<int>(axis & 255), w = static_cast<int>(axis >> 16 & 255);
   const int sum = (u + w) / 2, difference = (u - w + 255) / 2;
-  return range_word(sum, sum, difference, difference);
+  return packed_range(sum, sum, difference, difference);
 }
 
 /// Whether no byte of the range exceeds the point's.

@@ -6,7 +6,7 @@
 #define CONDYLE_RADIAL_DOUBLE_VECTORS_INL
 #endif
 
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {

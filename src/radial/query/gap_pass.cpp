@@ -5,8 +5,6 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/query/gap_pass.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
 #include "radial/query/double_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

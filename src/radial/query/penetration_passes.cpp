@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <bit>
 
-#include <hwy/cache_control.h>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/query/penetration_passes.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "simd/compress_store-inl.hpp"
+#include "simd/cube_projection-inl.hpp"
+#include "simd/packed_intervals-inl.hpp"
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
 namespace {
 
+using simd::HWY_NAMESPACE::interval_codes;
 using simd::HWY_NAMESPACE::numbers_from;
 using simd::HWY_NAMESPACE::store_compacted;
 
@@ -32,29 +31,11 @@ constexpr D d;
 constexpr DI di;
 constexpr DU du;
 
-/// Where rays meet the cube: face, and u, w in [-1, 1] on it, as CubeMap has them.
-struct CubePlace {
-  Ints face;
-  Floats u, w;
-};
-
-HWY_INLINE CubePlace place_on_cube(Floats x, Floats y, Floats z) {
-  const auto ax = hn::Abs(x), ay = hn::Abs(y), az = hn::Abs(z);
-  const auto on_x = hn::And(hn::Ge(ax, ay), hn::Ge(ax, az));
-  const auto on_y = hn::AndNot(on_x, hn::Ge(ay, az));
-  const auto largest = hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z));
-  const auto u = hn::IfThenElse(on_x, y, hn::IfThenElse(on_y, z, x));
-  const auto w = hn::IfThenElse(on_x, z, hn::IfThenElse(on_y, x, y));
-  const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Abs(largest));
-  const auto axis = hn::IfThenElse(hn::RebindMask(di, on_x), hn::Zero(di),
-                                   hn::IfThenElse(hn::RebindMask(di, on_y), hn::Set(di, 1), hn::Set(di, 2)));
-  const auto negative = hn::And(hn::ShiftRight<31>(hn::BitCast(di, largest)), hn::Set(di, 3));
-  return {hn::Add(axis, negative), hn::Mul(u, inverse), hn::Mul(w, inverse)};
-}
+using Projection = simd::HWY_NAMESPACE::CubeProjection<D>;
 
 /// Column or row of `count` equal ones over [-1, 1], count up to 2^22. Added to 2^23, a float is rounded to a
 /// whole number, which its last bits then are; half a column less, it is rounded down. Where it is on a
-/// border, either side may come out.
+/// edge, either side may come out.
 HWY_INLINE Ints column(Floats u, int count) {
   constexpr float shift = 0x1p23f;
   const float half = 0.5f * static_cast<float>(count);
@@ -64,27 +45,20 @@ HWY_INLINE Ints column(Floats u, int count) {
   return hn::Min(hn::Max(whole, hn::Zero(di)), hn::Set(di, count - 1));
 }
 
-HWY_INLINE Ints radius_code(const RadiusScale& scale, Floats squared) {
-  const auto steps =
-      hn::ShiftRightSame(hn::Sub(hn::BitCast(di, squared), hn::Set(di, scale.base)), scale.shift);
-  return hn::Min(hn::Max(steps, hn::Zero(di)), hn::Set(di, greatest_radius_code));
-}
-
-/// radius_word(greatest, least): what an interval of radii must not exceed in either half to meet [least,
+/// packed_interval(greatest, least): what an interval of radii must not exceed in either half to meet [least,
 /// greatest].
-HWY_INLINE Words reach_word(Ints least, Ints greatest) {
-  const auto complement = hn::Sub(hn::Set(di, greatest_radius_code), least);
-  return hn::BitCast(du, hn::Or(greatest, hn::ShiftLeft<16>(complement)));
+HWY_INLINE Words reach(Ints least, Ints greatest) {
+  return hn::BitCast(du, simd::HWY_NAMESPACE::packed_intervals(di, greatest, least));
 }
 
-/// Whether no half of the entry exceeds the word's: the two intervals meet.
-HWY_INLINE hn::Mask<DU> radii_meet(Words entry, Words word) {
+/// Whether no half of the entry exceeds the reach's: the two intervals meet.
+HWY_INLINE hn::Mask<DU> radii_meet(Words entry, Words reached) {
 #if HWY_TARGET == HWY_SCALAR
-  const std::uint32_t e = hn::GetLane(entry), w = hn::GetLane(word);
+  const std::uint32_t e = hn::GetLane(entry), w = hn::GetLane(reached);
   return hn::MaskFromVec(hn::Set(du, (e & 0xffff) <= (w & 0xffff) && e >> 16 <= w >> 16 ? ~0u : 0u));
 #else
   constexpr hn::Repartition<std::uint16_t, DU> halves;
-  const auto excess = hn::SaturatedSub(hn::BitCast(halves, entry), hn::BitCast(halves, word));
+  const auto excess = hn::SaturatedSub(hn::BitCast(halves, entry), hn::BitCast(halves, reached));
   return hn::Eq(hn::BitCast(du, excess), hn::Zero(du));
 #endif
 }
@@ -93,27 +67,27 @@ HWY_INLINE Floats dot(Floats x, Floats y, Floats z, float a, float b, float c) {
   return hn::MulAdd(hn::Set(d, a), x, hn::MulAdd(hn::Set(d, b), y, hn::Mul(hn::Set(d, c), z)));
 }
 
-/// Step of the pyramid with room for a displacement on the face, given in cells: see DirectionPyramid. With k
+/// Level of the pyramid with slack for a displacement on the face, given in cells: see DirectionPyramid. With k
 /// half the octaves above one cell that are begun, counting the second half from 3/2 on: 0 where there are
 /// none, 1 up to two cells, then k itself.
-HWY_INLINE Ints step_for(Floats cells) {
+HWY_INLINE Ints level_for(Floats cells) {
   const auto one = std::bit_cast<std::int32_t>(1.0f);
   const auto k = hn::ShiftRight<22>(hn::Sub(hn::BitCast(di, cells), hn::Set(di, one + 1)));
   return hn::IfThenZeroElse(hn::Lt(k, hn::Zero(di)), hn::Max(k, hn::Set(di, 1)));
 }
 
 /// Index into the pyramid, see DirectionPyramid::start_of.
-HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints step) {
+HWY_INLINE Ints pyramid_index(const CubeView& cube, const Projection& place, Ints level) {
   const int finest = cube.cells_per_side;
-  const auto pair = hn::Max(hn::Sub(step, hn::Set(di, 1)), hn::Zero(di));
+  const auto pair = hn::Max(hn::Sub(level, hn::Set(di, 1)), hn::Zero(di));
   const auto shift = hn::BitCast(du, hn::ShiftRight<1>(pair));
   const auto at_level = [&](Ints value) { return hn::BitCast(di, hn::Shr(hn::BitCast(du, value), shift)); };
   const auto n = at_level(hn::Set(di, finest));
   const auto row = at_level(column(place.w, finest)), col = at_level(column(place.u, finest));
   const auto squares = hn::Set(di, finest * finest), own = hn::Mul(n, n);
   const auto before = hn::Add(hn::Set(di, 6 * finest * finest), hn::ShiftLeft<4>(hn::Sub(squares, own)));
-  const auto start = hn::IfThenZeroElse(hn::Eq(step, hn::Zero(di)), before);
-  // The second step of a level is as the first, six faces further on.
+  const auto start = hn::IfThenZeroElse(hn::Eq(level, hn::Zero(di)), before);
+  // Of two levels with tiles of one size the second is as the first, six faces further on.
   const auto face = hn::Add(place.face, hn::Mul(hn::And(pair, hn::Set(di, 1)), hn::Set(di, 6)));
   return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(face, n), row), n), col));
 }
@@ -156,7 +130,7 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
     least = hn::Add(squared, hn::MulAdd(hn::Mul(two, nearest), hn::Sub(along, slack), least));
     greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
   }
-  const CubePlace place = place_on_cube(ax, ay, az);
+  const Projection place(d, ax, ay, az);
   // With L the length of (1, u, w), L <= (L^2 + c^2) / 2c for any c, and M^2 = 1 + max(u^2, w^2), L M <= (L^2
   // + M^2) / 2: 4 and 2 percent too much at most, and no roots.
   constexpr float c = 1.3f, rounded = 1 + 0x1p-20f;
@@ -168,17 +142,17 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
   const auto opening = hn::Mul(sine, length);
   const auto cells = hn::Div(hn::Mul(hn::Mul(sine, hn::Set(d, finest_cells * (1 + 0x1p-10f))), product),
                              hn::Sub(one, opening));
-  const auto step = step_for(hn::Add(cells, hn::Set(d, 0.01f)));
+  const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
   const auto has_cells = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
-  const auto in_pyramid = hn::And(hn::RebindMask(di, has_cells), hn::Lt(step, hn::Set(di, cube.steps)));
+  const auto in_pyramid = hn::And(hn::RebindMask(di, has_cells), hn::Lt(level, hn::Set(di, cube.levels)));
   const auto index =
-      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, step)));
+      hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
   // What is too wide for the pyramid is held against all directions.
   const auto entry = hn::IfThenElse(hn::RebindMask(du, in_pyramid), hn::GatherIndex(du, cube.pyramid, index),
                                     hn::Set(du, cube.all_radii));
-  const auto word = reach_word(radius_code(cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
-                               radius_code(cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-  return hn::Or(radii_meet(entry, word), hn::Not(hn::RebindMask(du, certain)));
+  const auto reached = reach(interval_codes(d, cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
+                             interval_codes(d, cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
+  return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, certain)));
 }
 
 template <bool translated>
@@ -202,7 +176,7 @@ std::size_t near_blocks_any(const CubeView& cube, const BlockColumns& blocks, co
                            : near_blocks<false>(cube, blocks, pose, parents, parent_count, found);
 }
 
-/// Squared radius beyond which no way out is the nearer one, as a code. A point at radius r that is inside
+/// Squared radius beyond which no exit is the nearer one, as a code. A point at radius r that is inside
 /// has crossed surface at l or beyond, l the least radius in its cell, if the centre is outside: the way back
 /// there is at most r - l, and the ways to surface beyond 2 r - l are longer. With a = r^2 and b = l^2
 ///
@@ -218,7 +192,7 @@ HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry
   const auto harmonic = hn::Div(hn::Mul(squared, least), hn::Add(squared, least));
   const auto limit =
       hn::Add(hn::Mul(hn::Set(d, 4.0f), squared), hn::Sub(least, hn::Mul(hn::Set(d, 8.0f), harmonic)));
-  return hn::BitCast(du, radius_code(cube.scale, hn::Mul(limit, hn::Set(d, 1 + 0x1p-12f))));
+  return hn::BitCast(du, interval_codes(d, cube.scale, hn::Mul(limit, hn::Set(d, 1 + 0x1p-12f))));
 }
 
 void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
@@ -241,14 +215,14 @@ void near_points_any(const CubeView& cube, const PointColumns& points, const Flo
       const auto y = hn::Add(dot(px, py, pz, r[3], r[4], r[5]), hn::Set(d, t[1]));
       const auto z = hn::Add(dot(px, py, pz, r[6], r[7], r[8]), hn::Set(d, t[2]));
       const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-      const auto code = radius_code(cube.scale, squared);
-      const CubePlace place = place_on_cube(x, y, z);
+      const auto code = interval_codes(d, cube.scale, squared);
+      const Projection place(d, x, y, z);
       const auto u = column(place.u, finest * parts_per_cell), w = column(place.w, finest * parts_per_cell);
       const auto n = hn::Set(di, finest);
       const auto cell =
           hn::Add(hn::Mul(hn::Add(hn::Mul(place.face, n), hn::ShiftRight<8>(w)), n), hn::ShiftRight<8>(u));
       const auto entry = hn::GatherIndex(du, cube.radii, cell);
-      auto near = radii_meet(entry, reach_word(code, code));
+      auto near = radii_meet(entry, reach(code, code));
       if (HWY_UNLIKELY(first + 16 > points.size)) {
         near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
       }

@@ -1,25 +1,28 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 
 #include "condyle/pose.hpp"
 #include "radial/query/cube_view.hpp"
 
 /// The passes that find penetrating points, each compiled for every instruction set and chosen at run time.
-/// None of them decides what floats cannot: a point that a bound does not settle is handed on as doubtful.
+/// None of them decides what floats cannot: a point that a bound does not settle is handed on as uncertain.
 
 namespace condyle::radial {
 
 /// Blocks of points that go through the passes together. Few of their points are near, and those stay in
 /// cache.
-inline constexpr std::size_t blocks_per_batch = 512;
+inline constexpr std::size_t blocks_per_batch = 128;
 inline constexpr std::size_t points_per_batch = 16 * blocks_per_batch;
 
-/// Vectors are stored whole: room for one more than can be found.
-inline constexpr std::size_t vector_room = 16;
+/// Vectors are stored whole: capacity for one more than can be found.
+inline constexpr std::size_t vector_padding = 16;
 template <class T>
-using BatchArray = std::array<T, points_per_batch + vector_room>;
+using BatchArray = std::array<T, points_per_batch + vector_padding>;
 
 /// Points not rejected by their cell's radii, as floats in the table's frame. Surface beyond `relevant`, a
 /// code of squared radii, says nothing of a point: what lies before it is nearer.
@@ -29,11 +32,11 @@ struct NearPoints {
   alignas(64) BatchArray<std::uint32_t> cell, box, relevant, point;
 };
 
-/// Points that are inside (by certain signs), with the triangle they leave through, and points in doubt.
+/// Points that are inside (by certain signs), with the triangle they leave through, and uncertain points.
 struct FoundPoint {
   std::uint32_t point, triangle;
   std::int16_t winding;
-  bool away_from_centre, doubtful;
+  bool away_from_centre, uncertain;
 };
 struct FoundPoints {
   std::size_t count;
@@ -41,7 +44,7 @@ struct FoundPoints {
 };
 
 /// Blocks that may hold a point within the radii of the surface around them, among the sixteen blocks of each
-/// of `parents`, blocks of the next level. `found` has room for all of them and a vector.
+/// of `parents`, blocks of the next level. `found` has capacity for all of them and a vector.
 std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                         const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found);
 
@@ -49,14 +52,81 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
 void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found);
 
-/// Triangles of one cell whose octagons hold a point with that box, in the order of the list. `found` has
-/// room for the list and a vector. Returns how many.
-std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,
-                              std::uint32_t* found);
+/// Where a ray falls: its cell, and its place there as the axis part of its CellDop.
+struct CellPlace {
+  std::uint32_t cell, axis;
+};
 
-/// Those of them that have crossed the surface, or may have. Returns how many listed triangles were tried.
+/// Triangles of each place's cell whose 8-DOPs hold the place, in the order of the rows, place after place;
+/// end[i] is behind the last one of place i. `found` has capacity for all rows and a vector.
+void find_candidates(const EntryView& entries, std::span<const CellPlace> places, std::uint32_t* end,
+                     std::uint32_t* found);
+
+/// Most pairs of a near point and a triangle that are evaluated together.
+inline constexpr std::size_t most_pairs = 4096;
+
+/// Triangles whose 8-DOPs hold a point, with the number of the point among the near ones.
+struct Pairs {
+  static constexpr std::size_t most = most_pairs, padding = 3 * vector_padding;
+  std::array<std::uint32_t, most + padding> triangle;
+  std::array<std::uint16_t, most + padding> point;
+  static_assert(points_per_batch <= std::numeric_limits<std::uint16_t>::max());
+  std::size_t count;
+};
+
+/// What rows and edge functions are queried with, of all near points.
+struct QueryConstants {
+  alignas(64) BatchArray<std::uint32_t> diagonal;
+  alignas(64) BatchArray<float> bound;  ///< error of a form over the sum of its coefficients' magnitudes
+};
+
+/// Crossings of near points' rays, those of a point side by side. `s` is |v| over the crossing's radius,
+/// positive where the ray leaves the solid and negative where it enters; NaN where floats do not say whether
+/// there is one.
+struct Crossings {
+  /// Of the first: a vector of crossings can be read before it too, as behind the last, of no point.
+  static constexpr std::size_t begin = vector_padding;
+  template <class T>
+  using Array = std::array<T, begin + most_pairs + vector_padding>;
+  alignas(64) Array<float> s, error;
+  alignas(64) Array<std::uint32_t> triangle, point;
+  std::size_t end;
+
+  Crossings() {
+    std::fill_n(s.begin(), begin, 0.0f), std::fill_n(error.begin(), begin, 0.0f);
+    std::fill_n(point.begin(), begin, no_index);
+  }
+  void close(std::size_t last_end) {
+    end = last_end;
+    point[end] = no_index;
+  }
+};
+
+/// The sum of a near point's crossings.
+struct CrossingSum {
+  std::int16_t winding;
+  std::uint16_t crossings;
+  std::uint32_t end;  ///< behind the last of them
+  std::uint8_t uncertain;
+};
+
+/// Of points that may be inside.
+struct Decisions {
+  std::array<CrossingSum, points_per_batch> sum;
+  std::array<std::uint32_t, points_per_batch + vector_padding> kept;
+};
+
+/// What inside_points() writes on its way, 140 kB.
+struct CrossingScratch {
+  Pairs pairs;
+  QueryConstants constants;
+  Crossings crossings;
+  Decisions decisions;
+};
+
+/// Those of them that have crossed the surface, or may have. Returns how many triangles were tried.
 std::size_t inside_points(const CubeView& cube, const NearPoints& points, float form_bound,
-                          FoundPoints& found);
+                          CrossingScratch& scratch, FoundPoints& found);
 
 /// Some points found, with their triangles' scaled normals, and what comes of them.
 struct GapColumns {

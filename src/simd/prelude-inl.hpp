@@ -1,11 +1,13 @@
-// Included once for every instruction set, by sources that are compiled so.
-#if defined(CONDYLE_RADIAL_COMPACTION_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef CONDYLE_RADIAL_COMPACTION_INL
-#undef CONDYLE_RADIAL_COMPACTION_INL
+// Included once for every instruction set, by sources that are compiled so, behind <hwy/foreach_target.h>:
+// all of Highway that they need.
+#if defined(CONDYLE_SIMD_PRELUDE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONDYLE_SIMD_PRELUDE_INL
+#undef CONDYLE_SIMD_PRELUDE_INL
 #else
-#define CONDYLE_RADIAL_COMPACTION_INL
+#define CONDYLE_SIMD_PRELUDE_INL
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "simd/compress_lanes.hpp"

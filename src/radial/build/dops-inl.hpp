@@ -1,12 +1,12 @@
 // Included once for every instruction set, by sources that are compiled so.
-#if defined(CONDYLE_RADIAL_OCTAGONS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef CONDYLE_RADIAL_OCTAGONS_INL
-#undef CONDYLE_RADIAL_OCTAGONS_INL
+#if defined(CONDYLE_RADIAL_DOPS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef CONDYLE_RADIAL_DOPS_INL
+#undef CONDYLE_RADIAL_DOPS_INL
 #else
-#define CONDYLE_RADIAL_OCTAGONS_INL
+#define CONDYLE_RADIAL_DOPS_INL
 #endif
 
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 #include "radial/query/cube_view.hpp"
 
@@ -26,12 +26,12 @@ struct PartsInLanes {
 /// point's parts are rounded down one by one: their sum may be 1 less than that of what it is rounded from,
 /// their difference 1 more. One part more on either side is for points on the face's last edge.
 template <class DI>
-struct OctagonsInCells {
+struct DopsInCells {
   using Ints = hn::Vec<DI>;
   hn::Mask<DI> meet;
-  Ints box, slant;
+  Ints axis, diagonal;
 
-  HWY_INLINE OctagonsInCells(const PartsInLanes<DI>& parts, int n, Ints column, Ints row) {
+  HWY_INLINE DopsInCells(const PartsInLanes<DI>& parts, int n, Ints column, Ints row) {
     constexpr DI di;
     const auto set = [](int value) { return hn::Set(DI(), value); };
     const auto within = [&](Ints value, int most) {
@@ -51,10 +51,10 @@ struct OctagonsInCells {
     const auto most = set(510);
     const auto before = hn::Or(hn::Lt(greatest_sum, hn::Zero(di)), hn::Lt(greatest_difference, hn::Zero(di)));
     meet = hn::Not(hn::Or(before, hn::Or(hn::Gt(least_sum, most), hn::Gt(least_difference, most))));
-    box = word(within(hn::Sub(parts.least[0], u), 255), within(hn::Sub(parts.greatest[0], u), 255),
-               within(hn::Sub(parts.least[1], w), 255), within(hn::Sub(parts.greatest[1], w), 255));
+    axis = word(within(hn::Sub(parts.least[0], u), 255), within(hn::Sub(parts.greatest[0], u), 255),
+                within(hn::Sub(parts.least[1], w), 255), within(hn::Sub(parts.greatest[1], w), 255));
     const auto half = [&](Ints value) { return hn::ShiftRight<1>(within(value, 510)); };
-    slant = word(half(least_sum), half(greatest_sum), half(least_difference), half(greatest_difference));
+    diagonal = word(half(least_sum), half(greatest_sum), half(least_difference), half(greatest_difference));
   }
 };
 

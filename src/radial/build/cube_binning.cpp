@@ -1,4 +1,4 @@
-#include "radial/build/cube_listing.hpp"
+#include "radial/build/cube_binning.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@ namespace {
 /// Triangles looked at together: what is found of them stays in the nearest cache.
 constexpr std::size_t triangles_per_chunk = 1024;
 
-/// See Listing.
+/// See Binning.
 constexpr std::size_t spare_cells = 4;
 
-constexpr CellOctagon whole_cell{range_word(0, 255, 0, 255), range_word(0, 255, 0, 255)};
+constexpr CellDop whole_cell{packed_range(0, 255, 0, 255), packed_range(0, 255, 0, 255)};
 
 /// Rounding of a place on a face: 4 u, u = 2^-24, that of a division and of the floats divided; for vertices
 /// that are given as they are placed.
@@ -37,7 +37,7 @@ PlacedCorner corner_at(const PlacedVertices& placed, Index vertex) {
   return corner;
 }
 
-/// A face is seen by those rays whose largest coordinate is its own: a triangle with all corners beyond one
+/// A face takes those rays whose largest coordinate is its own: a triangle with all corners beyond one
 /// side of that pyramid keeps off it.
 bool keeps_off(const std::array<PlacedCorner, 3>& corner, int face) {
   const int axis = face % 3;
@@ -62,9 +62,9 @@ bool is_in_front(const std::array<PlacedCorner, 3>& corner, int face) {
   });
 }
 
-/// Where the triangle is seen on a face that it is in front of. A corner (depth, u, w) that is displaced by
+/// Where the triangle falls on a face that it is in front of. A corner (depth, u, w) that is displaced by
 /// up to s in each is displaced by at most s (1 + |u / depth|) / (depth - s) on the face.
-void see_on(const std::array<PlacedCorner, 3>& corner, int face, FaceCorners& at_u, FaceCorners& at_w) {
+void project_on(const std::array<PlacedCorner, 3>& corner, int face, FaceCorners& at_u, FaceCorners& at_w) {
   const int axis = face % 3;
   at_u.slack = at_w.slack = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -87,7 +87,7 @@ MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexc
           triangles.size()};
 }
 
-CubeListing::CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+CubeBinning::CubeBinning(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
                          const PlacedVertices& placed)
     : vertices_(vertices),
       triangles_(triangles),
@@ -96,42 +96,42 @@ CubeListing::CubeListing(PointsView vertices, std::span<const Triangle> triangle
       n_(map.cells_per_side()),
       length_(map.cell_count() + spare_cells, 0) {}
 
-void CubeListing::list() {
+void CubeBinning::bin() {
   const std::size_t triangles = triangles_.size();
   const MeshView view = view_of(vertices_, triangles_);
-  // Room for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
+  // Capacity for more cells than meshes take that fit the map: what is not written costs nothing, moving does.
   entry_.resize(6 * triangles);
   std::array<std::uint32_t, triangles_per_chunk> larger;
   for (std::size_t first = 0; first < triangles; first += triangles_per_chunk) {
     const std::size_t last = std::min(first + triangles_per_chunk, triangles);
-    make_room(4 * (last - first));
-    Listing small = listing();
+    reserve(4 * (last - first));
+    Binning small = scratch();
     small.elsewhere = larger.data();
-    list_small_triangles(view, placed_, first, last, small);
+    bin_small_triangles(view, placed_, first, last, small);
     count_ = small.count;
-    for (std::size_t i = 0; i < small.elsewhere_count; ++i) list_larger(larger[i]);
-    list_seen();
+    for (std::size_t i = 0; i < small.elsewhere_count; ++i) bin_larger(larger[i]);
+    bin_projected();
   }
 }
 
-void CubeListing::make_room(std::size_t entries) {
-  const std::size_t needed = count_ + entries + listing_room;
+void CubeBinning::reserve(std::size_t entries) {
+  const std::size_t needed = count_ + entries + binning_padding;
   if (entry_.size() < needed) entry_.resize(std::max(needed, entry_.size() + entry_.size() / 2));
 }
 
-void CubeListing::list_larger(Index triangle) {
-  // It is seen on six faces at most.
-  if (seen_count_ + 6 > most_seen) list_seen();
-  if (!see_on_one_face(triangle) && !see_on_faces(triangle)) list_clipped(triangle);
+void CubeBinning::bin_larger(Index triangle) {
+  // It is projected on six faces at most.
+  if (projected_count_ + 6 > most_projected) bin_projected();
+  if (!project_on_one_face(triangle) && !project_on_faces(triangle)) bin_clipped(triangle);
 }
 
 /// False where it reaches over the face's edges.
-bool CubeListing::see_on_one_face(Index triangle) {
+bool CubeBinning::project_on_one_face(Index triangle) {
   const Triangle& vertex = triangles_[triangle];
   const int face = placed_.face[vertex[0]];
   if (placed_.face[vertex[1]] != face || placed_.face[vertex[2]] != face) return false;
   // In its place: what is copied right after it was written in parts is waited for.
-  FaceCorners &u = seen_u_[seen_count_], &w = seen_w_[seen_count_];
+  FaceCorners &u = projected_u_[projected_count_], &w = projected_w_[projected_count_];
   u.slack = w.slack = 0;
   float furthest = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -142,53 +142,53 @@ bool CubeListing::see_on_one_face(Index triangle) {
     w.slack = std::max(w.slack, 0.5f * (high.w() - low.w()));
   }
   if (furthest >= 1 - 2 * list_margin) return false;
-  add_seen(triangle, face);
+  add_projected(triangle, face);
   return true;
 }
 
 /// False where it is too near to the plane between the centre and a face.
-bool CubeListing::see_on_faces(Index triangle) {
+bool CubeBinning::project_on_faces(Index triangle) {
   const Triangle& at = triangles_[triangle];
   const std::array<PlacedCorner, 3> corner = {corner_at(placed_, at[0]), corner_at(placed_, at[1]),
                                               corner_at(placed_, at[2])};
-  std::array<bool, 6> is_seen{};
+  std::array<bool, 6> is_projected{};
   for (int face = 0; face < 6; ++face) {
-    is_seen[static_cast<std::size_t>(face)] = !keeps_off(corner, face);
-    if (is_seen[static_cast<std::size_t>(face)] && !is_in_front(corner, face)) return false;
+    is_projected[static_cast<std::size_t>(face)] = !keeps_off(corner, face);
+    if (is_projected[static_cast<std::size_t>(face)] && !is_in_front(corner, face)) return false;
   }
   for (int face = 0; face < 6; ++face) {
-    if (!is_seen[static_cast<std::size_t>(face)]) continue;
-    see_on(corner, face, seen_u_[seen_count_], seen_w_[seen_count_]);
-    add_seen(triangle, face);
+    if (!is_projected[static_cast<std::size_t>(face)]) continue;
+    project_on(corner, face, projected_u_[projected_count_], projected_w_[projected_count_]);
+    add_projected(triangle, face);
   }
   return true;
 }
 
-void CubeListing::add_seen(Index triangle, int face) {
-  seen_triangle_[seen_count_] = triangle, seen_face_[seen_count_] = face;
-  ++seen_count_;
+void CubeBinning::add_projected(Index triangle, int face) {
+  projected_triangle_[projected_count_] = triangle, projected_face_[projected_count_] = face;
+  ++projected_count_;
 }
 
-void CubeListing::list_seen() {
-  const SeenTriangles seen{seen_u_.data(), seen_w_.data(), seen_triangle_.data(), seen_face_.data(),
-                           seen_count_};
-  for (std::size_t listed = 0; listed < seen_count_;) {
-    Listing larger = listing();
-    listed = list_seen_triangles(seen, listed, larger);
+void CubeBinning::bin_projected() {
+  const ProjectedTriangles projected{projected_u_.data(), projected_w_.data(), projected_triangle_.data(),
+                                     projected_face_.data(), projected_count_};
+  for (std::size_t binned = 0; binned < projected_count_;) {
+    Binning larger = scratch();
+    binned = bin_projected_triangles(projected, binned, larger);
     count_ = larger.count;
     // A triangle is in all cells of a face at most.
-    if (listed < seen_count_)
-      make_room(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + listing_room);
+    if (binned < projected_count_)
+      reserve(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_) + binning_padding);
   }
-  seen_count_ = 0;
+  projected_count_ = 0;
 }
 
-void CubeListing::list_clipped(Index triangle) {
+void CubeBinning::bin_clipped(Index triangle) {
   has_clipped_ = true;
   const auto& [a, b, c] = triangles_[triangle];
   const Cone cone{vertices_[a], vertices_[b], vertices_[c]};
   map_.visit_cells(cone, [&](const CellOverlap& overlap) {
-    make_room(1);
+    reserve(1);
     entry_[count_++] = {overlap.cell, triangle, whole_cell};
     ++length_[overlap.cell];
   });

@@ -6,23 +6,23 @@
 #include <cstdint>
 #include <limits>
 
-namespace condyle::radial {
+namespace condyle::simd {
 
-/// Radii of a cell's surface, least and greatest, in one word: code of the least squared radius below, and
-/// 65535 minus the code of the greatest above. The union of two intervals is then the smaller of each half.
-using RadiusWord = std::uint32_t;
+/// An interval of radii, least and greatest, packed in 32 bits: code of the least squared radius below, and
+/// 65535 minus the code of the greatest above. The hull of two intervals is then the smaller of each half.
+using PackedInterval = std::uint32_t;
 
-/// The interval that holds nothing: no point is between its ends, and a union with it changes nothing.
-inline constexpr RadiusWord no_radii = 0xffffffffu;
+/// The interval that holds nothing: no point is between its ends, and a hull with it changes nothing.
+inline constexpr PackedInterval no_radii = 0xffffffffu;
 
 inline constexpr int greatest_radius_code = 0xffff;
 
-constexpr RadiusWord radius_word(int least_code, int greatest_code) noexcept {
-  return static_cast<RadiusWord>(least_code) | static_cast<RadiusWord>(greatest_radius_code - greatest_code)
-                                                   << 16;
+constexpr PackedInterval packed_interval(int least_code, int greatest_code) noexcept {
+  return static_cast<PackedInterval>(least_code) |
+         static_cast<PackedInterval>(greatest_radius_code - greatest_code) << 16;
 }
 
-constexpr RadiusWord union_of(RadiusWord a, RadiusWord b) noexcept {
+constexpr PackedInterval hull(PackedInterval a, PackedInterval b) noexcept {
   return std::min(a & 0xffffu, b & 0xffffu) | std::min(a & 0xffff0000u, b & 0xffff0000u);
 }
 
@@ -35,12 +35,12 @@ constexpr RadiusWord union_of(RadiusWord a, RadiusWord b) noexcept {
 ///
 /// The first and the last code are kept for what lies outside the scale: an interval that ends in one of them
 /// has no end there, and no interval within the scale reaches points outside of it.
-struct RadiusScale {
+struct IntervalScale {
   std::int32_t base = 0;
   std::int32_t shift = 0;
 
-  RadiusScale() = default;
-  RadiusScale(float least_squared, float greatest_squared) noexcept {
+  IntervalScale() = default;
+  IntervalScale(float least_squared, float greatest_squared) noexcept {
     assert(least_squared >= 0 && least_squared <= greatest_squared);
     while ((bits(greatest_squared) - bits(least_squared)) >> shift > greatest_radius_code - 2) ++shift;
     base = bits(least_squared) - (1 << shift);
@@ -61,4 +61,4 @@ struct RadiusScale {
   float value(int code) const noexcept { return std::bit_cast<float>(base + (code << shift)); }
 };
 
-}  // namespace condyle::radial
+}  // namespace condyle::simd

@@ -16,34 +16,34 @@ namespace condyle::radial {
 ///   entry   triangle by triangle   | a in cell 7 | a in cell 8 | b in cell 7 | ...
 ///   length  of each cell's row        ...  7: 2   8: 1  ...
 ///
-/// Small triangles on one face, most of all, are listed by their octagon on the face; larger ones by octagon
-/// and edges; those on several faces by what is seen of them on each. What is too near to the planes between
+/// Small triangles on one face, most of all, are binned by their 8-DOP on the face; larger ones by 8-DOP
+/// and edges; those on several faces by their projections on each. What is too near to the planes between
 /// faces for that is clipped (CubeMap::visit_cells).
-class CubeListing {
+class CubeBinning {
  public:
   /// Borrows all; `placed` are the vertices.
-  CubeListing(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
+  CubeBinning(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
               const PlacedVertices& placed);
 
   /// Lists all triangles.
-  void list();
+  void bin();
 
   /// In the order of the triangles.
-  std::span<const ListedTriangle> entries() const noexcept { return {entry_.data(), count_}; }
+  std::span<const CellEntry> entries() const noexcept { return {entry_.data(), count_}; }
   std::uint32_t length(Index cell) const noexcept { return length_[cell]; }
   /// Whether any triangle had to be clipped: then only where the vertices truly are has counted for it.
   bool has_clipped() const noexcept { return has_clipped_; }
 
  private:
-  void make_room(std::size_t entries);
-  void list_larger(Index triangle);
-  bool see_on_one_face(Index triangle);
-  bool see_on_faces(Index triangle);
+  void reserve(std::size_t entries);
+  void bin_larger(Index triangle);
+  bool project_on_one_face(Index triangle);
+  bool project_on_faces(Index triangle);
   /// Its corners are in their place already.
-  void add_seen(Index triangle, int face);
-  void list_clipped(Index triangle);
-  void list_seen();
-  Listing listing() noexcept {
+  void add_projected(Index triangle, int face);
+  void bin_clipped(Index triangle);
+  void bin_projected();
+  Binning scratch() noexcept {
     return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
   }
 
@@ -52,15 +52,15 @@ class CubeListing {
   const CubeMap& map_;
   PlacedVertices placed_;
   int n_;
-  core::UninitialisedVector<ListedTriangle> entry_;
+  core::UninitialisedVector<CellEntry> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
-  /// Waiting to be listed, see SeenTriangles.
-  static constexpr std::size_t most_seen = 256;
-  std::array<FaceCorners, most_seen + listing_room> seen_u_, seen_w_;
-  std::array<std::uint32_t, most_seen> seen_triangle_;
-  std::array<std::int32_t, most_seen> seen_face_;
-  std::size_t seen_count_ = 0;
+  /// Waiting to be binned, see ProjectedTriangles.
+  static constexpr std::size_t most_projected = 256;
+  std::array<FaceCorners, most_projected + binning_padding> projected_u_, projected_w_;
+  std::array<std::uint32_t, most_projected> projected_triangle_;
+  std::array<std::int32_t, most_projected> projected_face_;
+  std::size_t projected_count_ = 0;
   bool has_clipped_ = false;
 };
 

@@ -2,17 +2,13 @@
 #include <cstring>
 #include <limits>
 
-#include <hwy/cache_control.h>
-
 #include "radial/build/cube_passes.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "radial/build/small_listing_pass.cpp"
+#define HWY_TARGET_INCLUDE "radial/build/small_binning_pass.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "radial/build/octagons-inl.hpp"
-#include "simd/compress_store-inl.hpp"
+#include "radial/build/dops-inl.hpp"
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
@@ -36,14 +32,14 @@ struct TriangleBatch {
 #if HWY_TARGET != HWY_SCALAR
 constexpr hn::CappedTag<float, 4> four;
 
-/// FaceRoom::lowest() and highest().
-HWY_INLINE hn::Vec<decltype(four)> end_of_room(hn::Vec<decltype(four)> room, const std::int32_t* first,
-                                               const std::int32_t* second) {
+/// SlackRectangle::lowest() and highest().
+HWY_INLINE hn::Vec<decltype(four)> end_of_slack(hn::Vec<decltype(four)> slack, const std::int32_t* first,
+                                                const std::int32_t* second) {
   constexpr hn::RebindToSigned<decltype(four)> words;
   alignas(16) constexpr std::int32_t is_added[4] = {0, 0, -1, -1};
   alignas(16) constexpr std::int32_t is_negative[4] = {0, 0, 0, std::numeric_limits<std::int32_t>::min()};
-  const auto a = hn::TableLookupLanes(room, hn::SetTableIndices(four, first));
-  const auto b = hn::And(hn::TableLookupLanes(room, hn::SetTableIndices(four, second)),
+  const auto a = hn::TableLookupLanes(slack, hn::SetTableIndices(four, first));
+  const auto b = hn::And(hn::TableLookupLanes(slack, hn::SetTableIndices(four, second)),
                          hn::BitCast(four, hn::Load(words, is_added)));
   return hn::Add(a, hn::Xor(b, hn::BitCast(four, hn::Load(words, is_negative))));
 }
@@ -51,26 +47,26 @@ HWY_INLINE hn::Vec<decltype(four)> end_of_room(hn::Vec<decltype(four)> room, con
 
 /// Coordinates of a vertex's place from the given one on, as many as fit the tag: the least ones, or the
 /// greatest.
-template <bool has_rooms, bool is_least, class Tag>
+template <bool has_slack, bool is_least, class Tag>
 HWY_INLINE hn::Vec<Tag> end_of_place(Tag tag, const PlacedVertices& vertices, std::uint32_t vertex,
                                      std::size_t coordinate) {
-  if constexpr (!has_rooms) {
+  if constexpr (!has_slack) {
     return hn::Load(tag, vertices.place[vertex].at + coordinate);
   } else {
 #if HWY_TARGET == HWY_SCALAR
-    const FaceRoom& room = vertices.room[vertex];
-    return hn::Set(tag, (is_least ? room.lowest() : room.highest()).at[coordinate]);
+    const SlackRectangle& slack = vertices.slack[vertex];
+    return hn::Set(tag, (is_least ? slack.lowest() : slack.highest()).at[coordinate]);
 #else
     alignas(16) static constexpr std::int32_t first[2][4] = {{2, 3, 2, 2}, {0, 1, 0, 0}};
     alignas(16) static constexpr std::int32_t second[2][4] = {{3, 3, 3, 1}, {1, 1, 1, 3}};
-    const auto room = hn::LoadU(tag, &vertices.room[vertex].low_u);
-    return end_of_room(room, first[is_least], second[is_least]);
+    const auto slack = hn::LoadU(tag, &vertices.slack[vertex].low_u);
+    return end_of_slack(slack, first[is_least], second[is_least]);
 #endif
   }
 }
 
 /// Triangles from the given one on; the last one again where there are not as many.
-template <bool has_rooms>
+template <bool has_slack>
 HWY_INLINE void read_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
                                std::size_t count, int cells_per_side, TriangleBatch& batch) {
   constexpr hn::CappedTag<float, 4> d4;
@@ -85,15 +81,15 @@ HWY_INLINE void read_triangles(const MeshView& mesh, const PlacedVertices& verti
     const std::uint32_t* corner = mesh.corner + 3 * t;
     const std::uint32_t* later = mesh.corner + 3 * std::min(t + triangles_ahead, mesh.triangles - 1);
     for (int i = 0; i < 3; ++i) {
-      if constexpr (has_rooms) {
-        hwy::Prefetch(vertices.room + later[i]);
+      if constexpr (has_slack) {
+        hwy::Prefetch(vertices.slack + later[i]);
       } else {
         hwy::Prefetch(vertices.place + later[i]);
       }
     }
     for (std::size_t k = 0; k < 4; k += hn::MaxLanes(d4)) {
-      const auto least = [&](int i) { return end_of_place<has_rooms, true>(d4, vertices, corner[i], k); };
-      const auto greatest = [&](int i) { return end_of_place<has_rooms, false>(d4, vertices, corner[i], k); };
+      const auto least = [&](int i) { return end_of_place<has_slack, true>(d4, vertices, corner[i], k); };
+      const auto greatest = [&](int i) { return end_of_place<has_slack, false>(d4, vertices, corner[i], k); };
       const auto first_of_all = hn::Min(least(0), hn::Min(least(1), least(2)));
       const auto last_of_all = hn::Max(greatest(0), hn::Max(greatest(1), greatest(2)));
       const auto low = hn::Mul(hn::Add(first_of_all, hn::Load(d4, low_shift + k)), scale);
@@ -107,19 +103,19 @@ HWY_INLINE void read_triangles(const MeshView& mesh, const PlacedVertices& verti
   }
 }
 
-void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
-                              std::size_t last, Listing& listing) {
+void bin_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
+                             std::size_t last, Binning& binning) {
   constexpr Lanes di;
   constexpr Words du;
-  const int n = listing.cells_per_side;
+  const int n = binning.cells_per_side;
   const auto last_part = hn::Set(di, n * parts_per_cell - 1), one = hn::Set(di, 1), zero = hn::Zero(di);
   TriangleBatch batch;
-  // Up to four cells of each, always worked out: which of them there are is not to be foretold.
+  // Up to four cells of each, always worked out: which of them there are cannot be predicted.
   alignas(64) std::uint32_t entry[4][4 * lanes], cell[4][lanes], met[4][lanes];
-  ListedTriangle* next = listing.entry + listing.count;
+  CellEntry* next = binning.entry + binning.count;
   for (std::size_t t = first; t < last; t += lanes) {
     const std::size_t count = std::min(lanes, last - t);
-    if (vertices.room != nullptr) {
+    if (vertices.slack != nullptr) {
       read_triangles<true>(mesh, vertices, t, count, n, batch);
     } else {
       read_triangles<false>(mesh, vertices, t, count, n, batch);
@@ -141,33 +137,33 @@ void list_small_triangles_any(const MeshView& mesh, const PlacedVertices& vertic
       alignas(64) std::int32_t is_here[lanes];
       hn::Store(hn::VecFromMask(di, is_small), di, is_here);
       for (std::size_t k = 0; k < count; ++k) {
-        listing.elsewhere[listing.elsewhere_count] = static_cast<std::uint32_t>(t + k);
-        listing.elsewhere_count += is_here[k] == 0 ? 1 : 0;
+        binning.elsewhere[binning.elsewhere_count] = static_cast<std::uint32_t>(t + k);
+        binning.elsewhere_count += is_here[k] == 0 ? 1 : 0;
       }
     }
     const auto triangle = numbers_from(du, t);
     for (int q = 0; q < 4; ++q) {
       const auto i = hn::Add(i0, hn::Set(di, q & 1)), j = hn::Add(j0, hn::Set(di, q >> 1));
-      const OctagonsInCells<Lanes> octagons(parts, n, i, j);
+      const DopsInCells<Lanes> dops(parts, n, i, j);
       const auto beyond = hn::Or(hn::Gt(i, i1), hn::Gt(j, j1));
-      const auto meets = hn::And(hn::And(is_small, octagons.meet), hn::Not(beyond));
+      const auto meets = hn::And(hn::And(is_small, dops.meet), hn::Not(beyond));
       const auto row = hn::Add(hn::Mul(face, hn::Set(di, n)), j);
       const auto own = hn::Add(hn::Mul(row, hn::Set(di, n)), i);
       const auto cells = hn::BitCast(du, hn::IfThenElse(meets, own, hn::Set(di, 6 * n * n + q)));
       hn::Store(cells, du, cell[q]);
       hn::Store(hn::And(hn::BitCast(du, hn::VecFromMask(di, meets)), hn::Set(du, 1)), du, met[q]);
-      hn::StoreInterleaved4(cells, triangle, hn::BitCast(du, octagons.box), hn::BitCast(du, octagons.slant),
-                            du, entry[q]);
+      hn::StoreInterleaved4(cells, triangle, hn::BitCast(du, dops.axis), hn::BitCast(du, dops.diagonal), du,
+                            entry[q]);
     }
     for (std::size_t k = 0; k < count; ++k) {
       for (int q = 0; q < 4; ++q) {
         std::memcpy(next, entry[q] + 4 * k, sizeof *next);
         next += met[q][k];
-        listing.length[cell[q][k]] += met[q][k];
+        binning.length[cell[q][k]] += met[q][k];
       }
     }
   }
-  listing.count = static_cast<std::size_t>(next - listing.entry);
+  binning.count = static_cast<std::size_t>(next - binning.entry);
 }
 
 }  // namespace
@@ -177,11 +173,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle::radial {
 
-HWY_EXPORT(list_small_triangles_any);
+HWY_EXPORT(bin_small_triangles_any);
 
-void list_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
-                          std::size_t last, Listing& listing) {
-  HWY_DYNAMIC_DISPATCH(list_small_triangles_any)(mesh, vertices, first, last, listing);
+void bin_small_triangles(const MeshView& mesh, const PlacedVertices& vertices, std::size_t first,
+                         std::size_t last, Binning& binning) {
+  HWY_DYNAMIC_DISPATCH(bin_small_triangles_any)(mesh, vertices, first, last, binning);
 }
 
 }  // namespace condyle::radial

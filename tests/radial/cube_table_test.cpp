@@ -1,12 +1,14 @@
-#include "radial/build/cell_lists.hpp"
+#include "radial/build/cube_table.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "radial/build/cell_radii.hpp"
 #include "radial/build/direction_pyramid.hpp"
 #include "radial/query/point_blocks.hpp"
+#include "radial/update/slack_updates.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/parameter_names.hpp"
 #include "support/test_meshes.hpp"
@@ -49,18 +51,31 @@ Vec3 random_point(const TriMesh& mesh, Index t, std::mt19937& random) {
          r * (mesh.corner(t, 2) - mesh.corner(t, 0));
 }
 
-class CubeListsOn : public testing::TestWithParam<simd::InstructionSet> {
+class CubeTableOn : public testing::TestWithParam<simd::InstructionSet> {
  protected:
   simd::InstructionSetInUse in_use_{GetParam()};
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, CubeListsOn, testing::ValuesIn(simd::instruction_sets()),
+INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, CubeTableOn, testing::ValuesIn(simd::instruction_sets()),
                          [](const auto& set) { return set.param.name; });
 
+/// A table with its radii.
+struct WithRadii {
+  radial::CubeTable table;
+  radial::CellRadii radii;
+
+  WithRadii(const TriMesh& mesh, const radial::CubeMap& map) {
+    radial::build(mesh, map, table);
+    radial::find_radii(map, table, radii);
+  }
+};
+
 /// Points of every triangle, and directions next to theirs as near as floats may bring them, find it once in
-/// their cell, in its octagon and between the cell's radii.
+/// their cell, in its 8-DOP and between the cell's radii.
 void expect_points_find_their_triangles(const TriMesh& mesh, const radial::CubeMap& map,
-                                        const radial::CellLists& lists, int points_per_triangle) {
+                                        const WithRadii& built, int points_per_triangle) {
+  const radial::CellEntries& entries = built.table.entries;
+  const radial::IntervalScale& scale = built.table.forms.scale;
   std::mt19937 random(1);
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     for (int k = 0; k < points_per_triangle; ++k) {
@@ -70,43 +85,43 @@ void expect_points_find_their_triangles(const TriMesh& mesh, const radial::CubeM
       const Index cell = map.cell_of(v);
       const std::uint32_t place = map.box_of(v);
       int found = 0, held = 0;
-      for (std::uint32_t i = lists.row[cell].first; i < lists.row[cell].last; ++i) {
-        if (lists.triangle[i] != t) continue;
+      for (std::uint32_t i = entries.row[cell].first; i < entries.row[cell].last; ++i) {
+        if (entries.triangle[i] != t) continue;
         ++found;
-        held +=
-            radial::holds(lists.box[i], place) && radial::holds(lists.slant[i], radial::slant_of_point(place))
-                ? 1
-                : 0;
+        held += radial::holds(entries.axis[i], place) &&
+                        radial::holds(entries.diagonal[i], radial::diagonal_of_point(place))
+                    ? 1
+                    : 0;
       }
       ASSERT_EQ(found, 1) << "triangle " << t << " cells " << map.cells_per_side();
       ASSERT_EQ(held, 1) << "triangle " << t << " cells " << map.cells_per_side();
       const auto squared = static_cast<float>(p.squaredNorm());
-      ASSERT_LE(lists.scale.least(static_cast<int>(lists.radii[cell] & 0xffff)), squared);
-      ASSERT_GE(lists.scale.greatest(0xffff - static_cast<int>(lists.radii[cell] >> 16)), squared);
+      ASSERT_LE(scale.least(static_cast<int>(built.radii.of_cell[cell] & 0xffff)), squared);
+      ASSERT_GE(scale.greatest(0xffff - static_cast<int>(built.radii.of_cell[cell] >> 16)), squared);
     }
   }
 }
 
-TEST_P(CubeListsOn, EveryPointOfATriangleFindsItInItsCellOctagonAndRadii) {
+TEST_P(CubeTableOn, EveryPointOfATriangleFindsItInItsCellDopAndRadii) {
   for (const double largest : {0.1, 1.0, 3.0}) {
     const TriMesh mesh = triangle_soup(400, largest, 2);
     for (const int cells : {1, 5, 16, 64}) {
       const radial::CubeMap map(cells);
-      expect_points_find_their_triangles(mesh, map, radial::list_cells(mesh, map), 20);
+      expect_points_find_their_triangles(mesh, map, WithRadii(mesh, map), 20);
     }
   }
 }
 
-TEST_P(CubeListsOn, CellsThatClippingFindsAreListed) {
+TEST_P(CubeTableOn, CellsThatClippingFindsHaveTheTriangle) {
   const TriMesh mesh = triangle_soup(400, 1, 7);
   for (const int cells : {5, 16, 64}) {
     const radial::CubeMap map(cells);
-    const radial::CellLists lists = radial::list_cells(mesh, map);
+    const WithRadii built(mesh, map);
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
       map.visit_cells({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
                       [&](const radial::CellOverlap& overlap) {
-                        const auto listed = lists.of(overlap.cell);
-                        EXPECT_EQ(std::count(listed.begin(), listed.end(), t), 1) << "triangle " << t;
+                        const auto of_cell = built.table.entries.of(overlap.cell);
+                        EXPECT_EQ(std::count(of_cell.begin(), of_cell.end(), t), 1) << "triangle " << t;
                       });
     }
   }
@@ -119,30 +134,30 @@ void jiggle(TriMesh& mesh, double size, std::mt19937& random) {
     mesh.vertices.set(i, mesh.vertices[i] + Vec3(uniform(random), uniform(random), uniform(random)));
 }
 
-TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterAllVerticesMoved) {
+TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterAllVerticesMoved) {
   std::mt19937 random(11);
   for (const int cells : {5, 16, 64}) {
     const radial::CubeMap map(cells);
     TriMesh mesh = triangle_soup(300, 0.3, 8);
-    radial::CellLists lists = radial::list_cells(mesh, map);
-    // Little, so that lists stay; now and then more than a room or a cell holds.
+    WithRadii built(mesh, map);
+    // Little, so that rows stay; now and then more than slack or a cell holds.
     for (const double size : {1e-3, 1e-3, 1e-2, 1e-4, 0.2, 1e-3}) {
-      radial::make_rooms(mesh, lists);
+      radial::init_slack(mesh, built.table);
       jiggle(mesh, size, random);
-      radial::follow_vertices(mesh, map, lists);
-      radial::find_radii(map, lists);
-      expect_points_find_their_triangles(mesh, map, lists, 10);
+      radial::follow_vertices(mesh, map, built.table);
+      radial::find_radii(map, built.table, built.radii);
+      expect_points_find_their_triangles(mesh, map, built, 10);
     }
   }
 }
 
-TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
+TEST_P(CubeTableOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
   std::mt19937 random(12);
   for (const int cells : {5, 16, 64}) {
     const radial::CubeMap map(cells);
     TriMesh mesh = triangle_soup(300, 0.3, 9);
-    radial::CellLists lists = radial::list_cells(mesh, map);
-    radial::make_rooms(mesh, lists);
+    WithRadii built(mesh, map);
+    radial::init_slack(mesh, built.table);
     for (const double size : {1e-3, 1e-2, 1e-3, 0.2, 1e-4, 1e-2, 1e-3}) {
       TriMesh all = mesh;
       jiggle(all, size, random);
@@ -156,59 +171,61 @@ TEST_P(CubeListsOn, EveryPointFindsItsTriangleAfterSomeVerticesMoved) {
           mesh.vertices.set(v, all.vertices[v]);
         }
       }
-      radial::make_rooms(mesh, lists);
-      const std::vector<radial::RadiusWord> before = lists.radii;
-      radial::ChangedRadii changed = radial::follow_vertices(mesh, map, moved, triangles, lists);
-      expect_points_find_their_triangles(mesh, map, lists, 10);
-      // Radii of the cells touched, and of what is listed there, are those found anew for all.
+      radial::init_slack(mesh, built.table);
+      const std::vector<radial::PackedInterval> before = built.radii.of_cell;
+      radial::ChangedRadii changed =
+          radial::follow_vertices(mesh, map, moved, triangles, built.table, &built.radii);
+      expect_points_find_their_triangles(mesh, map, built, 10);
+      // Radii of the cells touched, and of the entries there, are those found anew for all.
       if (!changed.may_be_all) {
         std::vector<Index> others;
-        for (Index cell = 0; cell < lists.radii.size(); ++cell)
-          if (lists.radii[cell] != before[cell]) others.push_back(cell);
+        for (Index cell = 0; cell < before.size(); ++cell)
+          if (built.radii.of_cell[cell] != before[cell]) others.push_back(cell);
         std::sort(changed.cells.begin(), changed.cells.end());
         EXPECT_EQ(changed.cells, others);
       }
-      radial::CellLists again = lists;
-      radial::find_radii(map, again);
-      EXPECT_EQ(again.radii, lists.radii);
-      for (const radial::CellRow& row : lists.row) {
+      radial::CellRadii again = built.radii;
+      radial::find_radii(map, built.table, again);
+      EXPECT_EQ(again.of_cell, built.radii.of_cell);
+      for (const radial::CellRow& row : built.table.entries.row) {
         for (std::uint32_t i = row.first; i < row.last; ++i) {
-          ASSERT_EQ(again.entry_radii[i], lists.entry_radii[i]);
-          ASSERT_EQ(again.nearest[i], lists.nearest[i]);
+          ASSERT_EQ(again.of_entry[i], built.radii.of_entry[i]);
+          ASSERT_EQ(again.nearest[i], built.radii.nearest[i]);
         }
       }
     }
   }
 }
 
-TEST(CubeLists, VerticesThatGoToAndFroAreListedOnce) {
+TEST(CubeTable, TrianglesWhoseVerticesGoToAndFroAreBinnedOnce) {
   // Over edges of the cube too: a sphere about the centre.
   TriMesh mesh = test::sphere({0.1, 0, 0}, 20, 5);
   const radial::CubeMap map(16);
-  radial::CellLists lists = radial::list_cells(mesh, map);
+  WithRadii built(mesh, map);
   std::mt19937 random(13);
   TriMesh there = mesh;
   jiggle(there, 0.1, random);
   for (int frame = 0; frame < 3; ++frame) {
-    radial::make_rooms(mesh, lists);
-    radial::follow_vertices(frame % 2 == 0 ? there : mesh, map, lists);
+    radial::init_slack(mesh, built.table);
+    radial::follow_vertices(frame % 2 == 0 ? there : mesh, map, built.table);
   }
-  const std::vector<Index> entries(lists.triangle.begin(), lists.triangle.end());
+  const auto& now = built.table.entries.triangle;
+  const std::vector<Index> entries(now.begin(), now.end());
   for (int frame = 0; frame < 4; ++frame) {
-    radial::follow_vertices(frame % 2 == 0 ? mesh : there, map, lists);
-    EXPECT_TRUE(std::equal(entries.begin(), entries.end(), lists.triangle.begin(), lists.triangle.end()));
-    radial::find_radii(map, lists);
-    expect_points_find_their_triangles(frame % 2 == 0 ? mesh : there, map, lists, 5);
+    radial::follow_vertices(frame % 2 == 0 ? mesh : there, map, built.table);
+    EXPECT_TRUE(std::equal(entries.begin(), entries.end(), now.begin(), now.end()));
+    radial::find_radii(map, built.table, built.radii);
+    expect_points_find_their_triangles(frame % 2 == 0 ? mesh : there, map, built, 5);
   }
 }
 
-TEST_P(CubeListsOn, FormsThatAreNumbersTellOnWhichSideOfEdgesAndPlaneAPointIs) {
+TEST_P(CubeTableOn, EdgeFunctionsThatAreNumbersSayOnWhichSideOfEdgesAndPlaneAPointIs) {
   const TriMesh mesh = triangle_soup(400, 1, 3);
-  const radial::CellLists lists = radial::list_cells(mesh, radial::CubeMap(16));
+  const WithRadii built(mesh, radial::CubeMap(16));
   std::mt19937 random(4);
   std::size_t numbers = 0;
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
-    const radial::ConeForms& forms = lists.forms[t];
+    const radial::EdgeFunctions& forms = built.table.forms.edge_functions[t];
     if (std::isnan(forms.x[0])) continue;
     ++numbers;
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
@@ -227,8 +244,8 @@ TEST_P(CubeListsOn, FormsThatAreNumbersTellOnWhichSideOfEdgesAndPlaneAPointIs) {
   EXPECT_GT(numbers, 200u);
 }
 
-TEST(RadiusScale, CodesRiseWithTheRadiusAndHoldIt) {
-  const radial::RadiusScale scale(3.0f, 5000.0f);
+TEST(IntervalScale, CodesRiseWithTheRadiusAndHoldIt) {
+  const radial::IntervalScale scale(3.0f, 5000.0f);
   int last = 0;
   for (float squared = 0.5f; squared < 2e4f; squared *= 1.0001f) {
     const int code = scale.code(squared);
@@ -242,11 +259,11 @@ TEST(RadiusScale, CodesRiseWithTheRadiusAndHoldIt) {
   EXPECT_EQ(scale.code(1e20f), radial::greatest_radius_code);
 }
 
-TEST(RadiusScale, AnEmptyIntervalAddsNothingAndMeetsNothing) {
-  const radial::RadiusWord word = radial::radius_word(7, 9);
-  EXPECT_EQ(radial::union_of(word, radial::no_radii), word);
-  EXPECT_EQ(radial::union_of(radial::radius_word(3, 5), radial::radius_word(4, 8)),
-            radial::radius_word(3, 8));
+TEST(IntervalScale, AnEmptyIntervalAddsNothingAndMeetsNothing) {
+  const radial::PackedInterval word = radial::packed_interval(7, 9);
+  EXPECT_EQ(simd::hull(word, radial::no_radii), word);
+  EXPECT_EQ(simd::hull(radial::packed_interval(3, 5), radial::packed_interval(4, 8)),
+            radial::packed_interval(3, 8));
 }
 
 /// Place on the face of a cube map, in [-1, 1].
@@ -260,105 +277,108 @@ Place place_of(const Vec3& v) {
   return {axis + (v[axis] < 0 ? 3 : 0), v[(axis + 1) % 3] / largest, v[(axis + 2) % 3] / largest};
 }
 
-TEST_P(CubeListsOn, AnEntryOfThePyramidHoldsAllDirectionsDisplacedByNoMoreThanItsBorder) {
+TEST_P(CubeTableOn, AnEntryOfThePyramidHoldsAllDirectionsDisplacedByNoMoreThanItsDilation) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (const int cells : {1, 3, 4, 12, 24, 32}) {
     const radial::CubeMap map(cells);
-    std::vector<radial::RadiusWord> radii(map.cell_count());
+    std::vector<radial::PackedInterval> radii(map.cell_count());
     for (auto& word : radii)
-      word = radial::radius_word(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
+      word =
+          radial::packed_interval(static_cast<int>(random() % 100), static_cast<int>(100 + random() % 100));
     radial::DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
     for (int k = 0; k < 100000; ++k) {
-      const int step =
-          static_cast<int>(random() % static_cast<unsigned>(radial::DirectionPyramid::step_count(cells)));
-      const int n = cells >> radial::DirectionPyramid::level_of(step);
+      const int level =
+          static_cast<int>(random() % static_cast<unsigned>(radial::DirectionPyramid::level_count(cells)));
+      const int n = cells >> radial::DirectionPyramid::halvings_of(level);
       const Place at = place_of({uniform(random), uniform(random), uniform(random)});
       const auto index = [&](double s) { return std::clamp(static_cast<int>((s + 1) * n / 2), 0, n - 1); };
-      const std::size_t start = radial::DirectionPyramid::start_of(step, cells);
-      const radial::RadiusWord entry =
+      const std::size_t start = radial::DirectionPyramid::start_of(level, cells);
+      const radial::PackedInterval entry =
           pyramid.data()[start + static_cast<std::size_t>((at.face * n + index(at.w)) * n + index(at.u))];
       // A direction displaced on the plane of the face, past its edges too.
-      const double width = radial::DirectionPyramid::border_of(step) * 2.0 / n;
+      const double width = radial::DirectionPyramid::dilation_of(level) * 2.0 / n;
       Vec3 displaced;
       displaced[at.face % 3] = at.face < 3 ? 1 : -1;
       displaced[(at.face + 1) % 3] = at.u + width * uniform(random);
       displaced[(at.face + 2) % 3] = at.w + width * uniform(random);
-      const radial::RadiusWord word = radii[map.cell_of(displaced)];
-      ASSERT_EQ(radial::union_of(entry, word), entry);
+      const radial::PackedInterval word = radii[map.cell_of(displaced)];
+      ASSERT_EQ(simd::hull(entry, word), entry);
     }
   }
 }
 
-/// A piece of the cube: its face, and the middle of it.
-struct Piece {
+/// A tile of the cube: its face, and the middle of it.
+struct Tile {
   int face;
   Vec3 middle;
 };
 
-std::vector<Piece> pieces_of(int n) {
-  std::vector<Piece> pieces;
+std::vector<Tile> tiles_of(int n) {
+  std::vector<Tile> tiles;
   for (int face = 0; face < 6; ++face) {
     for (int row = 0; row < n; ++row) {
       for (int column = 0; column < n; ++column) {
         Vec3 middle;
         middle[face % 3] = face < 3 ? 1 : -1;
         middle[(face + 1) % 3] = (2.0 * column + 1) / n - 1, middle[(face + 2) % 3] = (2.0 * row + 1) / n - 1;
-        pieces.push_back({face, middle});
+        tiles.push_back({face, middle});
       }
     }
   }
-  return pieces;
+  return tiles;
 }
 
-/// Whether a piece's entry with that border takes in another piece: within the border on its face; beyond an
-/// edge, as far as the border reaches, and along it by the border and what lies beyond the edge.
-bool reaches(const Piece& from, const Piece& to, int n, int border) {
+/// Whether a tile's entry with that dilation takes in another tile: within the dilation on its face; beyond an
+/// edge, as far as the dilation reaches, and along it by the dilation and what lies beyond the edge.
+bool reaches(const Tile& from, const Tile& to, int n, int dilation) {
   const auto apart = [&](int axis) {
     return static_cast<int>(std::lround(std::abs(from.middle[axis] - to.middle[axis]) * n / 2));
   };
   const int own = from.face % 3, other = to.face % 3;
-  if (from.face == to.face) return std::max(apart((own + 1) % 3), apart((own + 2) % 3)) <= border;
+  if (from.face == to.face) return std::max(apart((own + 1) % 3), apart((own + 2) % 3)) <= dilation;
   if (own == other) return false;
-  // From one's middle to the edge between them, in pieces, and on to the other's: both count from the edge.
+  // From one's middle to the edge between them, in tiles, and on to the other's: both count from the edge.
   const auto from_edge = [&](const Vec3& middle, int axis, int face) {
     return static_cast<int>(std::floor((1 - (face < 3 ? 1 : -1) * middle[axis]) * n / 2));
   };
   const int before = from_edge(from.middle, other, to.face), beyond = from_edge(to.middle, own, from.face);
-  return before + beyond < border && apart(3 - own - other) <= border + beyond + 1;
+  return before + beyond < dilation && apart(3 - own - other) <= dilation + beyond + 1;
 }
 
-TEST_P(CubeListsOn, AnEntryOfThePyramidIsTheUnionOfThePiecesThatItsBorderReaches) {
+TEST_P(CubeTableOn, AnEntryOfThePyramidIsTheHullOfTheTilesThatItsDilationReaches) {
   std::mt19937 random(8);
   for (const int cells : {1, 2, 3, 5, 8, 12, 20}) {
-    std::vector<radial::RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
+    std::vector<radial::PackedInterval> radii(6 * static_cast<std::size_t>(cells * cells));
     for (auto& word : radii)
-      word = radial::radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
+      word = radial::packed_interval(static_cast<int>(random() % 1000),
+                                     static_cast<int>(1000 + random() % 1000));
     radial::DirectionPyramid pyramid;
     pyramid.fill(cells, radii);
-    for (const int step : {0, 1, 2}) {
-      const std::vector<Piece> pieces = pieces_of(cells);
-      for (std::size_t i = 0; i < pieces.size(); ++i) {
-        radial::RadiusWord all = radial::no_radii;
-        for (std::size_t k = 0; k < pieces.size(); ++k) {
-          if (reaches(pieces[i], pieces[k], cells, radial::DirectionPyramid::border_of(step)))
-            all = radial::union_of(all, radii[k]);
+    for (const int level : {0, 1, 2}) {
+      const std::vector<Tile> tiles = tiles_of(cells);
+      for (std::size_t i = 0; i < tiles.size(); ++i) {
+        radial::PackedInterval all = radial::no_radii;
+        for (std::size_t k = 0; k < tiles.size(); ++k) {
+          if (reaches(tiles[i], tiles[k], cells, radial::DirectionPyramid::dilation_of(level)))
+            all = simd::hull(all, radii[k]);
         }
-        ASSERT_EQ(pyramid.data()[radial::DirectionPyramid::start_of(step, cells) + i], all)
-            << cells << " " << step;
+        ASSERT_EQ(pyramid.data()[radial::DirectionPyramid::start_of(level, cells) + i], all)
+            << cells << " " << level;
       }
     }
   }
 }
 
-TEST_P(CubeListsOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
+TEST_P(CubeTableOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
   std::mt19937 random(9);
   const auto any_radii = [&] {
-    return radial::radius_word(static_cast<int>(random() % 1000), static_cast<int>(1000 + random() % 1000));
+    return radial::packed_interval(static_cast<int>(random() % 1000),
+                                   static_cast<int>(1000 + random() % 1000));
   };
   for (const int cells : {1, 3, 5, 8, 16, 24, 40}) {
-    std::vector<radial::RadiusWord> radii(6 * static_cast<std::size_t>(cells * cells));
+    std::vector<radial::PackedInterval> radii(6 * static_cast<std::size_t>(cells * cells));
     for (auto& word : radii) word = any_radii();
     radial::DirectionPyramid followed;
     followed.fill(cells, radii);

@@ -4,18 +4,16 @@
 #include "radial/build/cube_passes.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "radial/build/seen_listing_pass.cpp"
+#define HWY_TARGET_INCLUDE "radial/build/projected_binning_pass.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
-
-#include "radial/build/octagons-inl.hpp"
+#include "radial/build/dops-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
 namespace {
 
-/// Triangles seen on faces, one in each lane: what is asked of their cells.
-struct SeenBatch {
+/// Triangles projected on faces, one in each lane: the constants of their cells.
+struct ProjectedBatch {
   /// Parts of the face that they take, widened: of u, w, u + w and u - w.
   alignas(64) std::int32_t least[4][lanes], greatest[4][lanes];
   /// Last column and row; -1 where the triangle is beside the face.
@@ -24,7 +22,7 @@ struct SeenBatch {
   /// is furthest inside is one of its corners, and its value moves by equal steps from cell to cell; `first`
   /// is that in the cell (0, 0), and what counts as outside on top. Floats err by less than list_margin
   /// (|u| + |w|), the other half of the widening: a cell is left out only if no point of it, widened, is
-  /// inside. All zero for slivers, of which the turn may be rounding: these keep their octagons.
+  /// inside. All zero for slivers, of which the sense may be rounding: these keep their 8-DOPs.
   alignas(64) float first[3][lanes], to_next_column[3][lanes], to_next_row[3][lanes];
 };
 
@@ -42,7 +40,7 @@ struct SeenCorners {
   LaneVector u[3], w[3], slack_u, slack_w;
 };
 
-HWY_INLINE void find_parts(const SeenCorners& at, int cells_per_side, SeenBatch& batch) {
+HWY_INLINE void find_parts(const SeenCorners& at, int cells_per_side, ProjectedBatch& batch) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   const int last = cells_per_side * parts_per_cell - 1;
@@ -67,7 +65,7 @@ HWY_INLINE void find_parts(const SeenCorners& at, int cells_per_side, SeenBatch&
 }
 
 /// After the parts are found. Beside the face are triangles of which all corners are beyond the same edge.
-HWY_INLINE void find_last_cells(const SeenCorners& at, SeenBatch& batch) {
+HWY_INLINE void find_last_cells(const SeenCorners& at, ProjectedBatch& batch) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   const auto is_beyond = [&](const LaneVector* corner, LaneVector slack) {
@@ -82,7 +80,7 @@ HWY_INLINE void find_last_cells(const SeenCorners& at, SeenBatch& batch) {
   hn::Store(last(1), di, batch.last_row);
 }
 
-HWY_INLINE void find_edges(const SeenCorners& at, float cell, SeenBatch& batch) {
+HWY_INLINE void find_edges(const SeenCorners& at, float cell, ProjectedBatch& batch) {
   constexpr LaneFloats d;
   const auto set = [](float value) { return hn::Set(LaneFloats(), value); };
   const auto turn = hn::Sub(hn::Mul(hn::Sub(at.u[1], at.u[0]), hn::Sub(at.w[2], at.w[0])),
@@ -109,12 +107,12 @@ HWY_INLINE void find_edges(const SeenCorners& at, float cell, SeenBatch& batch) 
   }
 }
 
-HWY_INLINE void read_seen(const SeenTriangles& seen, std::size_t first, int cells_per_side,
-                          SeenBatch& batch) {
+HWY_INLINE void read_projected(const ProjectedTriangles& projected, std::size_t first, int cells_per_side,
+                               ProjectedBatch& batch) {
   constexpr LaneFloats d;
   SeenCorners at;
-  hn::LoadInterleaved4(d, seen.u[first].at, at.u[0], at.u[1], at.u[2], at.slack_u);
-  hn::LoadInterleaved4(d, seen.w[first].at, at.w[0], at.w[1], at.w[2], at.slack_w);
+  hn::LoadInterleaved4(d, projected.u[first].at, at.u[0], at.u[1], at.u[2], at.slack_u);
+  hn::LoadInterleaved4(d, projected.w[first].at, at.w[0], at.w[1], at.w[2], at.slack_w);
   find_parts(at, cells_per_side, batch);
   find_last_cells(at, batch);
   find_edges(at, 2.0f / static_cast<float>(cells_per_side), batch);
@@ -125,22 +123,22 @@ constexpr int tile_cells = static_cast<int>(lanes);
 constexpr int tile_columns = std::min(4, tile_cells), tile_rows = tile_cells / tile_columns;
 
 /// Entries of the cells that a triangle meets, one behind the other; returns how many they are. May write as
-/// many as there are lanes. How many it meets is not to be foretold: sixteen lanes have an instruction for
+/// many as there are lanes. How many it meets cannot be predicted: sixteen lanes have an instruction for
 /// that.
 HWY_INLINE std::size_t store_met(hn::Mask<Lanes> meets, hn::Vec<Words> cell, std::uint32_t triangle,
-                                 hn::Vec<Words> box, hn::Vec<Words> slant, ListedTriangle* to) {
+                                 hn::Vec<Words> axis, hn::Vec<Words> diagonal, CellEntry* to) {
   constexpr Lanes di;
   constexpr Words du;
   const auto all = hn::Set(du, triangle);
   if constexpr (lanes == 16) {
-    static_assert(listing_room >= lanes && sizeof *to == 4 * sizeof(std::uint32_t));
+    static_assert(binning_padding >= lanes && sizeof *to == 4 * sizeof(std::uint32_t));
     const auto met = hn::RebindMask(du, meets);
-    hn::StoreInterleaved4(hn::Compress(cell, met), all, hn::Compress(box, met), hn::Compress(slant, met), du,
-                          &to->cell);
+    hn::StoreInterleaved4(hn::Compress(cell, met), all, hn::Compress(axis, met), hn::Compress(diagonal, met),
+                          du, &to->cell);
     return hn::CountTrue(di, meets);
   } else {
     alignas(64) std::uint32_t entry[4 * lanes];
-    hn::StoreInterleaved4(cell, all, box, slant, du, entry);
+    hn::StoreInterleaved4(cell, all, axis, diagonal, du, entry);
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(di, meets, bits);
     std::size_t count = 0;
@@ -151,8 +149,8 @@ HWY_INLINE std::size_t store_met(hn::Mask<Lanes> meets, hn::Vec<Words> cell, std
 }
 
 /// Lists one triangle of a batch.
-HWY_INLINE ListedTriangle* list_seen_triangle(const SeenBatch& batch, std::size_t lane, int face,
-                                              std::uint32_t triangle, int n, ListedTriangle* next) {
+HWY_INLINE CellEntry* bin_projected_triangle(const ProjectedBatch& batch, std::size_t lane, int face,
+                                             std::uint32_t triangle, int n, CellEntry* next) {
   constexpr LaneFloats d;
   constexpr Lanes di;
   constexpr Words du;
@@ -169,7 +167,7 @@ HWY_INLINE ListedTriangle* list_seen_triangle(const SeenBatch& batch, std::size_
   for (int row = first_row; row <= last_row; row += tile_rows) {
     for (int column = first_column; column <= last_column; column += tile_columns) {
       const auto i = hn::Add(hn::Set(di, column), column_step), j = hn::Add(hn::Set(di, row), row_step);
-      const OctagonsInCells<Lanes> octagons(parts, n, i, j);
+      const DopsInCells<Lanes> dops(parts, n, i, j);
       const auto beyond = hn::Or(hn::Gt(i, hn::Set(di, last_column)), hn::Gt(j, hn::Set(di, last_row)));
       const auto at_column = hn::ConvertTo(d, i), at_row = hn::ConvertTo(d, j);
       const auto inside = [&](std::size_t k) {
@@ -179,39 +177,40 @@ HWY_INLINE ListedTriangle* list_seen_triangle(const SeenBatch& batch, std::size_
       };
       const auto least = hn::Min(inside(0), hn::Min(inside(1), inside(2)));
       const auto is_inside = hn::RebindMask(di, hn::Ge(least, hn::Zero(d)));
-      const auto meets = hn::And(hn::And(octagons.meet, hn::Not(beyond)), is_inside);
+      const auto meets = hn::And(hn::And(dops.meet, hn::Not(beyond)), is_inside);
       const auto own = hn::Add(hn::Mul(hn::Add(hn::Set(di, face * n), j), hn::Set(di, n)), i);
-      next += store_met(meets, hn::BitCast(du, own), triangle, hn::BitCast(du, octagons.box),
-                        hn::BitCast(du, octagons.slant), next);
+      next += store_met(meets, hn::BitCast(du, own), triangle, hn::BitCast(du, dops.axis),
+                        hn::BitCast(du, dops.diagonal), next);
     }
   }
   return next;
 }
 
-std::size_t list_seen_triangles_any(const SeenTriangles& seen, std::size_t first, Listing& listing) {
-  SeenBatch batch;
-  ListedTriangle* next = listing.entry + listing.count;
-  std::size_t listed = first;
-  const auto has_room = [&](std::size_t lane) {
+std::size_t bin_projected_triangles_any(const ProjectedTriangles& projected, std::size_t first,
+                                        Binning& binning) {
+  ProjectedBatch batch;
+  CellEntry* next = binning.entry + binning.count;
+  std::size_t binned = first;
+  const auto has_capacity = [&](std::size_t lane) {
     const int columns = batch.last_column[lane] - (batch.least[0][lane] >> 8) + 1;
     const int rows = batch.last_row[lane] - (batch.least[1][lane] >> 8) + 1;
-    const auto made = static_cast<std::size_t>(next - listing.entry);
+    const auto made = static_cast<std::size_t>(next - binning.entry);
     const int cells = std::max(columns, 0) * std::max(rows, 0);
-    return made + static_cast<std::size_t>(cells) + listing_room <= listing.room;
+    return made + static_cast<std::size_t>(cells) + binning_padding <= binning.capacity;
   };
-  for (std::size_t lane = lanes; listed < seen.count; ++listed, ++lane) {
+  for (std::size_t lane = lanes; binned < projected.count; ++binned, ++lane) {
     if (lane == lanes) {
-      read_seen(seen, listed, listing.cells_per_side, batch);
+      read_projected(projected, binned, binning.cells_per_side, batch);
       lane = 0;
     }
-    if (!has_room(lane)) break;
-    next = list_seen_triangle(batch, lane, seen.face[listed], seen.triangle[listed], listing.cells_per_side,
-                              next);
+    if (!has_capacity(lane)) break;
+    next = bin_projected_triangle(batch, lane, projected.face[binned], projected.triangle[binned],
+                                  binning.cells_per_side, next);
   }
-  for (const ListedTriangle* entry = listing.entry + listing.count; entry != next; ++entry)
-    ++listing.length[entry->cell];
-  listing.count = static_cast<std::size_t>(next - listing.entry);
-  return listed;
+  for (const CellEntry* entry = binning.entry + binning.count; entry != next; ++entry)
+    ++binning.length[entry->cell];
+  binning.count = static_cast<std::size_t>(next - binning.entry);
+  return binned;
 }
 
 }  // namespace
@@ -221,10 +220,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle::radial {
 
-HWY_EXPORT(list_seen_triangles_any);
+HWY_EXPORT(bin_projected_triangles_any);
 
-std::size_t list_seen_triangles(const SeenTriangles& seen, std::size_t first, Listing& listing) {
-  return HWY_DYNAMIC_DISPATCH(list_seen_triangles_any)(seen, first, listing);
+std::size_t bin_projected_triangles(const ProjectedTriangles& projected, std::size_t first,
+                                    Binning& binning) {
+  return HWY_DYNAMIC_DISPATCH(bin_projected_triangles_any)(projected, first, binning);
 }
 
 }  // namespace condyle::radial

@@ -1,0 +1,80 @@
+#include "radial/build/cell_entries.hpp"
+
+#include <array>
+
+namespace condyle::radial {
+
+std::size_t CellEntries::count() const noexcept {
+  std::size_t count = 0;
+  for (const CellRow& cell : row) count += cell.last - cell.first;
+  return count;
+}
+
+std::size_t CellEntries::bytes() const noexcept {
+  return row.size() * sizeof(CellRow) + triangle.size() * sizeof(Index) +
+         (axis.size() + diagonal.size() + row_end.size()) * sizeof(std::uint32_t);
+}
+
+void CellEntries::resize(std::size_t entries) {
+  triangle.resize(entries + entries_beyond);
+  axis.resize(entries + entries_beyond);
+  diagonal.resize(entries + entries_beyond);
+  for (std::size_t i = entries; i < entries + entries_beyond; ++i) set(i, 0, {0, 0});
+}
+
+void CellEntries::split_rows() {
+  // Two vectors: what is read at once costs the same in any order.
+  constexpr std::uint32_t longest_whole = 32;
+  struct Entry {
+    Index triangle;
+    CellDop dop;
+  };
+  std::vector<Entry> sorted;  // for left only, both, right only: each may be the whole row
+  for (CellRow& at : row) {
+    const std::uint32_t length = at.last - at.first;
+    if (length <= longest_whole || length >= CellRow::whole) continue;
+    sorted.resize(std::max<std::size_t>(sorted.size(), std::size_t{3} * length));
+    const std::array<Entry*, 3> part = {sorted.data(), sorted.data() + length, sorted.data() + 2 * length};
+    std::array<Entry*, 3> end = part;
+    for (std::uint32_t i = at.first; i < at.last; ++i) {
+      // Of least u, and of 255 - greatest u: never both. Which, cannot be predicted.
+      const std::uint32_t is_right = axis[i] >> 7 & 1, is_left = axis[i] >> 15 & 1;
+      *end[1 + is_right - is_left]++ = {triangle[i], {axis[i], diagonal[i]}};
+    }
+    std::uint32_t next = at.first;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const Entry* entry = part[k]; entry != end[k]; ++entry) set(next++, entry->triangle, entry->dop);
+    }
+    at.right_begin = static_cast<std::uint16_t>(end[0] - part[0]);
+    at.left_end = static_cast<std::uint16_t>(at.right_begin + (end[1] - part[1]));
+  }
+}
+
+CellEntries bin_triangles(const TriMesh& mesh, const CartesianMap& map) {
+  struct Entry {
+    Index cell, triangle;
+  };
+  const Index cells = map.cell_count();
+  std::vector<Entry> all;
+  std::vector<std::uint32_t> length(cells, 0);
+  all.reserve(4 * mesh.triangles.size());
+  for (Index t = 0; t < mesh.triangles.size(); ++t) {
+    map.visit_cells({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)},
+                    [&](const CellOverlap& overlap) {
+                      all.push_back({overlap.cell, t});
+                      ++length[overlap.cell];
+                    });
+  }
+  CellEntries entries;
+  entries.row.resize(cells);
+  entries.triangle.resize(all.size());
+  std::uint32_t first = 0;
+  for (Index cell = 0; cell < cells; ++cell) {
+    entries.row[cell] = {first, first};
+    first += length[cell];
+  }
+  for (const auto& [cell, triangle] : all) entries.triangle[entries.row[cell].last++] = triangle;
+  return entries;
+}
+
+}  // namespace condyle::radial

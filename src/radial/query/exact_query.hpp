@@ -1,0 +1,22 @@
+#pragma once
+
+#include "condyle/radial.hpp"
+#include "radial/query/candidates.hpp"
+
+namespace condyle::radial {
+
+/// What a point's exact answer is found from.
+struct ExactView {
+  const TriMesh& mesh;
+  const DirectionMap& map;
+  const CellEntries& entries;
+  int winding_at_centre;
+};
+
+/// Points decided together: their candidates stay in the nearest caches.
+inline constexpr std::size_t points_per_gathering = 64;
+
+/// RadialTable::query() of a closed mesh.
+void query(const ExactView& table, PointsView points, RadialResults& out);
+
+}  // namespace condyle::radial

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <memory>
+
+#include "radial/query/exact_query.hpp"
+#include "radial/query/point_blocks.hpp"
+
+namespace condyle::radial {
+
+/// What the passes of a penetration query write: 220 kB, on the heap, made once for all poses that one thread
+/// is given. What is left on the stack stays below 16 kB.
+struct PenetrationScratch {
+  NearPoints near;
+  FoundPoints found;
+  CrossingScratch crossing;
+};
+
+/// RadialTable::penetrations() of a closed mesh at one pose. `cube` is empty for a table on the paper's map.
+void penetrations(const ExactView& table, const std::optional<CubeView>& cube, const PointBlocks& points,
+                  const Pose& X_FM, PenetrationScratch& scratch, Penetrations& out, PenetrationWork* work);
+
+}  // namespace condyle::radial
