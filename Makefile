@@ -1,5 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies
+.PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+  package package-test
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -7,13 +8,16 @@ dependencies:
 clang_dependencies:
 	@scripts/install_dependencies.sh clang
 
+docs_dependencies:
+	@scripts/install_dependencies.sh docs
+
 bench_dependencies:
 	@scripts/install_dependencies.sh bench
 
 build/release/build.ninja: | dependencies
 	@cmake --preset release >/dev/null
 
-# Release build of the library and the command line alone.
+# Release build of the library and the command line only.
 build: dependencies build/release/build.ninja
 	@cmake --build --preset release --target condyle_cli
 
@@ -52,6 +56,23 @@ verify: bench_dependencies
 	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
 	@cmake --build --preset release --target condyle_verify
 	@build/release/condyle-verify
+
+# The API page and every other page: out/api/index.html.
+docs: docs_dependencies
+	@cmake --preset release >/dev/null
+	@cmake --build --preset release --target docs
+
+# Debian packages in out/packages: the command, libcondyle-dev, condyle-doc.
+package: build docs
+	@cmake --build --preset release --target condyle condyle_sample condyle_io
+	@rm -rf out/packages
+	@cpack --config build/release/CPackConfig.cmake >out/package.log || { cat out/package.log; exit 1; }
+	@ls out/packages/*.deb
+
+# The packages on a bare Debian.
+package-test: package
+	@scripts/install_dependencies.sh package-test
+	@scripts/package_test.sh
 
 format: clang_dependencies
 	@git ls-files '*.hpp' '*.cpp' | xargs clang-format -i

@@ -94,7 +94,7 @@ Building ask_building(const Joint& joint, const MethodKind& fcl, int rounds, Rep
 
 void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& range, Method& fcl,
                const Building& building, int rounds, Report& report) {
-  const double sign = motion.sense == condyle::TurnSense::positive ? 1 : -1;
+  const double sign = motion.sense == condyle::RotationSense::positive ? 1 : -1;
   const TouchAt touch = [&](Angle turn) {
     return fcl.touch(condyle::pose_at(joint.side, turned_by(motion.start, motion.vary, turn * sign)));
   };
@@ -114,7 +114,7 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
                                                    bisection = bisected(touch, *bisection, certificate);
                                                },
                                            });
-  if (limit.reason != condyle::LimitReason::contact || !stepped || !bisection) {
+  if (limit.end.reason != condyle::LimitReason::contact || !stepped || !bisection) {
     report.disagreements.push_back(fmt::format("{}, {}: not both find a contact", joint.name, motion.name));
     return;
   }
@@ -133,15 +133,16 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
             "times cheaper"},
            (bisecting + building.fcl_seconds) / (ours + building.condyle_seconds), report);
 
-  const bool holds = stepped->holds(limit.turned);
+  const bool holds = stepped->holds(limit.end.turned);
   if (!holds)
     report.disagreements.push_back(
         fmt::format("{}, {}: the limit {} is not between {} and {}, where FCL steps", joint.name, motion.name,
-                    limit.turned.degrees(), stepped->free.degrees(), stepped->touching.degrees()));
+                    limit.end.turned.degrees(), stepped->free.degrees(), stepped->touching.degrees()));
   report.table(agreement_head)
-      .add({joint.name, motion.name, limit.turned.degrees(), stepped->free.degrees(),
-            stepped->touching.degrees(), yes_or_no(holds), (bisection->touching - limit.turned).degrees(),
-            yes_or_no(!touch(limit.turned - certificate)), yes_or_no(touch(limit.turned + certificate))});
+      .add({joint.name, motion.name, limit.end.turned.degrees(), stepped->free.degrees(),
+            stepped->touching.degrees(), yes_or_no(holds), (bisection->touching - limit.end.turned).degrees(),
+            yes_or_no(!touch(limit.end.turned - certificate)),
+            yes_or_no(touch(limit.end.turned + certificate))});
 }
 
 }  // namespace

@@ -8,8 +8,7 @@
 #include "method.hpp"
 #include "questions.hpp"
 #include "radial/exact/triangle_plane.hpp"
-#include "radial/query/penetrations.hpp"
-#include "radial/radial_table.hpp"
+#include "condyle/radial.hpp"
 #include "timing.hpp"
 #include "turned.hpp"
 

@@ -39,16 +39,16 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
   const condyle::Joint& joint = scene.joint;
   const double step = effort == Effort::full ? 1 : 10;
   const condyle::RangeOfMotion range(
-      joint, {.articular = {}, .overlap = {.contact_at_rest = condyle::ContactAtRest::accept}});
-  condyle::MotionMap map({.row = {JointAngle::adduction, -40, 30, step},
-                          .column = {JointAngle::flexion, -20, 120, step},
-                          .vary = JointAngle::internal_rotation});
+      joint, {.articular = {}, .overlap = {.reference_contact = condyle::ReferenceContact::accept}});
+  const condyle::MapGrid grid{.row = {JointAngle::adduction, -40, 30, step},
+                              .column = {JointAngle::flexion, -20, 120, step},
+                              .vary = JointAngle::internal_rotation};
   const Stopwatch watch;
-  fill(map, range);
+  const condyle::MotionMap map = motion_map(grid, range);
   const double wall = watch.wall_seconds(), processor = watch.processor_seconds();
 
   std::int64_t free = 0;
-  for (const auto& point : map.points) free += point->free_at_start() ? 1 : 0;
+  for (const auto& point : map.points) free += point.free_at_start() ? 1 : 0;
   const auto points = static_cast<double>(map.points.size());
   report.table(map_head).add({joint.name, step, static_cast<std::int64_t>(map.points.size()), free,
                               std::int64_t{tbb::this_task_arena::max_concurrency()}, wall, processor,
@@ -60,9 +60,9 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
     add_goal({"the same, processors kept busy", joint.name, Bound::at_least, 1.8, "of 2 threads"},
              processor / wall, report);
   }
-  report.table(work_head).add({joint.name, mean(map.work.node_pairs), mean(map.work.leaf_pairs),
-                               mean(map.work.events), mean(map.work.exact_decisions),
-                               mean(map.work.triangle_tests)});
+  const condyle::SearchWork work = map.work();
+  report.table(work_head).add({joint.name, mean(work.node_pairs), mean(work.leaf_pairs), mean(work.events),
+                               mean(work.exact_decisions), mean(work.triangle_tests)});
 }
 
 }  // namespace bench

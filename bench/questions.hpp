@@ -18,7 +18,7 @@ void ask_first_contact(const Scene& scene, Effort effort, Report& report);
 void ask_motion_map(const Scene& scene, Effort effort, Report& report);
 
 /// What the radial table costs beside its queries at single poses: building it and following a deformation,
-/// poses along a motion, other instruction sets.
+/// other instruction sets.
 void ask_radial_table(const Scene& scene, Effort effort, Report& report);
 
 /// What no method that tells every vertex inside, with triangle and depth, can do without: beside what

@@ -4,12 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "condyle/joint_coordinates.hpp"
+#include "condyle/radial.hpp"
 #include "goals.hpp"
 #include "questions.hpp"
-#include "radial/query/penetration_track.hpp"
-#include "radial/query/sorted_points.hpp"
-#include "radial/radial_table.hpp"
 #include "simd/instruction_set.hpp"
 #include "table_floor.hpp"
 #include "timing.hpp"
@@ -45,16 +42,6 @@ const TableHead sets_head{"instruction_sets",
                            {"set", "instruction set"},
                            {"us_per_pose", "µs per pose"},
                            {"over_best", "over the best"}}};
-
-const TableHead motion_head{
-    "along_a_motion",
-    "Every vertex at poses 0.1° apart, what keeps off the surface carried along; one thread",
-    {{"scene", "scene"},
-     {"apart_us", "each pose for itself, µs"},
-     {"carried_us", "carried from pose to pose, µs"},
-     {"ratio", "ratio"},
-     {"unrelated_us", "poses of the experiment, µs"},
-     {"unrelated_ratio", "ratio"}}};
 
 std::vector<Pose> poses_of(const Scene& scene, std::size_t most) {
   std::vector<Pose> poses;
@@ -92,6 +79,18 @@ void move_there_and_back(RadialTable& table, const Patch& patch) {
   table.update(patch.vertices, patch.here);
 }
 
+/// With all that penetrations() reads.
+RadialTable prepared(const TriMesh& mesh) {
+  RadialTable table(mesh);
+  table.prepare_penetrations();
+  return table;
+}
+
+void update(RadialTable& table, const condyle::Points& vertices) {
+  table.update(vertices);
+  table.prepare_penetrations();
+}
+
 /// Frames of the deforming variant that are gone through again and again.
 constexpr int frames = 4;
 
@@ -102,7 +101,7 @@ double bytes_per_triangle(const RadialTable& table) {
 void ask_building(const Scene& scene, int rounds, Report& report) {
   const TriMesh& fixed = scene.joint.fixed.mesh;
   const auto embree = method_named("embree_16_robust");
-  RadialTable table(fixed), part_table(fixed);
+  RadialTable table = prepared(fixed), part_table = prepared(fixed);
   const double bytes = bytes_per_triangle(table);
   const std::size_t table_bytes = table.table_size().bytes;
   volatile double kept = 0;
@@ -114,8 +113,8 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
   double cold_build = 0, cold_part = 0;
   tbb::task_arena(1).execute([&] {
     // What a table learns of how far vertices go, it has learnt after one round.
-    for (const condyle::Points& vertices : moved) table.update(vertices);
-    const Repeated build([&] { RadialTable{fixed}; });
+    for (const condyle::Points& vertices : moved) update(table, vertices);
+    const Repeated build([&] { prepared(fixed); });
     const Repeated part_update([&] {
       for (const Patch& patch : parts) move_there_and_back(part_table, patch);
     });
@@ -126,15 +125,18 @@ void ask_building(const Scene& scene, int rounds, Report& report) {
                                       part_update,
                                       floor,
                                       [&] {
-                                        for (const condyle::Points& vertices : moved) table.update(vertices);
+                                        for (const condyle::Points& vertices : moved) update(table, vertices);
                                       },
                                       [&] {
                                         if (embree) embree->make({fixed, scene.joint.mobile.mesh});
                                       },
-                                      [&] { RadialTable{fixed}.update(moved[0]); },
-                                      [&] { RadialTable{fixed}; },
+                                      [&] {
+                                        RadialTable first = prepared(fixed);
+                                        update(first, moved[0]);
+                                      },
+                                      [&] { prepared(fixed); },
                                   });
-    cold_build = cold_seconds(rounds, [&] { RadialTable{fixed}; });
+    cold_build = cold_seconds(rounds, [&] { prepared(fixed); });
     cold_part = cold_seconds(rounds, [&] { move_there_and_back(part_table, parts[patch_count / 2]); }) / 2;
   });
   const auto each = [&](std::size_t way) { return median(samples[way]) / times[way]; };
@@ -192,53 +194,12 @@ void ask_instruction_sets(const Scene& scene, int rounds, Report& report) {
   goal("SCALAR", 10);
 }
 
-/// From the neutral pose through the motions of a hip's day, turned by a tenth of a degree at a time.
-std::vector<Pose> motion(const Scene& scene) {
-  constexpr int steps = 600;
-  std::vector<Pose> poses;
-  for (int i = 0; i < steps; ++i) {
-    const double degrees = 0.1 * i;
-    poses.push_back(condyle::pose_at(scene.joint.side, {condyle::Angle::degrees(degrees), {}, {}}));
-  }
-  return poses;
-}
-
-void ask_motion(const Scene& scene, int rounds, Report& report) {
-  const RadialTable table(scene.joint.fixed.mesh);
-  const condyle::SortedPoints points(scene.joint.mobile.mesh.vertices());
-  const std::vector<Pose> steps = motion(scene), unrelated = poses_of(scene, scene.poses.size());
-  condyle::Penetrations found;
-  const auto samples = interleaved(rounds, {
-                                               [&] {
-                                                 for (const Pose& X : steps)
-                                                   table.penetrations(points, X, found);
-                                               },
-                                               [&] {
-                                                 condyle::radial::PenetrationTrack track(table, points);
-                                                 for (const Pose& X : steps) track.penetrations(X, found);
-                                               },
-                                               [&] {
-                                                 for (const Pose& X : unrelated)
-                                                   table.penetrations(points, X, found);
-                                               },
-                                           });
-  const auto us = [&](std::size_t i, std::size_t poses) {
-    return median(samples[i]) * 1e6 / static_cast<double>(poses);
-  };
-  const double apart = us(0, steps.size()), carried = us(1, steps.size()), other = us(2, unrelated.size());
-  report.table(motion_head).add({scene.joint.name, apart, carried, apart / carried, other, other / carried});
-  add_goal({"every vertex along a motion of 0.1°, unrelated poses", scene.joint.name, Bound::at_least, 3,
-            "times cheaper"},
-           other / carried, report);
-}
-
 }  // namespace
 
 void ask_radial_table(const Scene& scene, Effort effort, Report& report) {
   const int rounds = effort == Effort::full ? 9 : 1;
   ask_building(scene, rounds, report);
   ask_instruction_sets(scene, rounds, report);
-  ask_motion(scene, rounds, report);
 }
 
 }  // namespace bench

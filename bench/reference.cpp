@@ -12,7 +12,8 @@ Reference::Reference(const Bodies& bodies, std::vector<condyle::Pose> poses)
       mobile_(&bodies.mobile),
       poses_(std::move(poses)),
       winding_(bodies.fixed),
-      radial_(bodies.fixed) {}
+      radial_(bodies.fixed),
+      pair_(bodies.fixed, bodies.mobile) {}
 
 const std::vector<Reference::Inside>& Reference::inside(std::size_t pose) {
   const auto [at, is_new] = inside_.try_emplace(pose);
@@ -39,11 +40,11 @@ const std::vector<double>& Reference::depths(std::size_t pose, DepthKind kind) {
   std::vector<double>& depths = at->second;
   switch (kind) {
     case DepthKind::along_ray:
-      for (const double gap : radial_.query(points).radial_gap) depths.push_back(-gap);
+      for (const double gap : radial_.query(points).radial_gap_mm) depths.push_back(-gap);
       break;
     case DepthKind::along_arc:
       if (!rings_) rings_ = std::make_unique<condyle::RingTable>(*fixed_, arc_axis());
-      for (const double gap : rings_->query(points).arc_gap) depths.push_back(-gap);
+      for (const double gap : rings_->query(points).arc_gap_mm) depths.push_back(-gap);
       break;
     case DepthKind::nearest_surface:
       if (!distance_) distance_ = std::make_unique<condyle::mesh::SurfaceDistance>(*fixed_);
@@ -57,7 +58,7 @@ const std::vector<double>& Reference::depths(std::size_t pose, DepthKind kind) {
 
 const std::vector<condyle::TrianglePair>& Reference::pairs(std::size_t pose) {
   const auto [at, is_new] = pairs_.try_emplace(pose);
-  if (is_new) at->second = intersecting_pairs(radial_, condyle::posed(poses_[pose], *mobile_));
+  if (is_new) at->second = pair_.pairs(poses_[pose]);
   return at->second;
 }
 

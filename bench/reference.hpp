@@ -5,19 +5,20 @@
 #include <memory>
 #include <vector>
 
+#include "condyle/radial.hpp"
+#include "condyle/tangential.hpp"
+#include "contact/body_pair.hpp"
 #include "mesh/surface_distance.hpp"
 #include "mesh/winding_number.hpp"
 #include "method.hpp"
-#include "radial/radial_table.hpp"
-#include "tangential/ring_table.hpp"
 
 /// What every method's answer is held against.
 
 namespace bench {
 
 /// Exact answers for one fixed body. Whether a vertex is inside comes from the winding number along +z: exact
-/// arithmetic, and no code in common with the tables. Pairs are those of the plain radial table with the
-/// exact test of two triangles. The tests of the repository hold both against CGAL's exact predicates, and
+/// arithmetic, and no code in common with the tables. Pairs are those of the two bodies' trees with the exact
+/// test of two triangles. The tests of the repository hold both against CGAL's exact predicates, and
 /// CGAL is among the methods here.
 class Reference {
  public:
@@ -46,6 +47,7 @@ class Reference {
   std::vector<condyle::Pose> poses_;
   condyle::mesh::WindingNumber winding_;
   condyle::RadialTable radial_;
+  condyle::contact::BodyPair pair_;
   std::unique_ptr<condyle::RingTable> rings_;
   std::unique_ptr<condyle::mesh::SurfaceDistance> distance_;
   std::map<std::size_t, std::vector<Inside>> inside_;

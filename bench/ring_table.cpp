@@ -1,4 +1,4 @@
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 #include <tbb/task_arena.h>
 
@@ -49,9 +49,9 @@ void ask_ring_table(const Scene& scene, Effort effort, Report& report) {
   const Bodies bodies{fixed, mobile};
   const auto embree_kind = method_named("embree_16_robust");
   const auto embree = embree_kind ? embree_kind->make(bodies) : nullptr;
-  const condyle::mesh::ClosedMesh closed(fixed);
+  const condyle::Mesh closed(fixed);
   const condyle::RingTable ring(closed, arc_axis());
-  condyle::TangentialHits hits;
+  condyle::TangentialResults hits;
   std::vector<InsideVertex> inside;
   // Every tenth degree stands for ten.
   constexpr int stride = 10;

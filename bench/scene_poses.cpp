@@ -43,7 +43,7 @@ std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const con
   const condyle::motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
   condyle::motion::TurningBody turning(mobile_tree);
   const int axes = (poses_per_scene + 2) / 3;
-  const condyle::TurnRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
+  const condyle::RotationRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
 
   std::vector<ScenePose> poses;
   Vec3 axis;
@@ -55,7 +55,7 @@ std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const con
       const condyle::AxisFrame frame({0, 0, 0}, axis);
       const condyle::motion::RotationTable resting(fixed_tree, frame);
       turning.start_at(frame, Pose::Identity());
-      limit = first_contact(resting, turning, range).positive.angle;
+      limit = first_contact(resting, turning, range).positive.turned;
     }
     const PoseKind kind = kind_of(i);
     const Angle angle = kind == PoseKind::free      ? limit * (0.2 + 0.75 * spread(k))

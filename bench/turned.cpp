@@ -1,5 +1,7 @@
 #include "turned.hpp"
 
+#include "radial/query/point_blocks.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "turned.cpp"
 #include <hwy/foreach_target.h>
@@ -11,7 +13,8 @@ namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-float greatest_turned_any(const condyle::SortedPoints& points, const condyle::Pose& X) {
+float greatest_turned_any(const condyle::SortedPoints& sorted, const condyle::Pose& X) {
+  const condyle::radial::PointBlocks& points = sorted.blocks();
   constexpr hn::CappedTag<float, 16> d;
   const float *x = points.coordinate(0), *y = points.coordinate(1), *z = points.coordinate(2);
   const Eigen::Matrix<float, 3, 4> m = X.matrix().topRows<3>().cast<float>();

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "condyle/pose.hpp"
-#include "radial/query/sorted_points.hpp"
+#include "condyle/radial.hpp"
 
 namespace bench {
 

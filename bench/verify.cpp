@@ -10,9 +10,7 @@
 #include <exception>
 #include <random>
 
-#include "radial/query/penetration_track.hpp"
-#include "radial/query/sorted_points.hpp"
-#include "radial/radial_table.hpp"
+#include "condyle/radial.hpp"
 #include "scenes.hpp"
 #include "simd/instruction_set.hpp"
 
@@ -44,7 +42,7 @@ Pose near(const Pose& X_FM, std::mt19937& random) {
 
 /// Points inside or on the surface by the plain query, as `penetrations` orders them.
 struct Truth {
-  condyle::RadialHits hits;
+  condyle::RadialResults hits;
   std::size_t inside = 0;
 
   Truth(const condyle::RadialTable& table, condyle::PointsView points, const Pose& X_FM)
@@ -60,7 +58,8 @@ struct Truth {
       const condyle::Index p = found.point[i];
       told_inside += hits.state[p] != PointState::outside;
       const bool is_right = found.state[i] == hits.state[p] && found.winding[i] == hits.winding[p] &&
-                            found.triangle[i] == hits.triangle[p] && found.depth[i] == -hits.radial_gap[p] &&
+                            found.triangle[i] == hits.triangle[p] &&
+                            found.depth_mm[i] == -hits.radial_gap_mm[p] &&
                             found.direction[i] == hits.direction[p];
       wrong += !is_right;
     }
@@ -69,14 +68,13 @@ struct Truth {
 };
 
 struct Count {
-  std::int64_t decisions = 0, inside = 0, doubtful = 0, wrong = 0;
+  std::int64_t decisions = 0, inside = 0, uncertain = 0, wrong = 0;
 };
 
 Count verify(const Scene& scene, double decisions, unsigned seed) {
   const condyle::RadialTable table(scene.joint.fixed.mesh);
   const condyle::PointsView vertices = scene.joint.mobile.mesh.vertices().view();
   const condyle::SortedPoints points(vertices);
-  condyle::radial::PenetrationTrack track(table, points);
   const std::vector<condyle::simd::InstructionSet> sets = condyle::simd::instruction_sets();
   std::mt19937 random(seed);
   Penetrations found;
@@ -88,11 +86,9 @@ Count verify(const Scene& scene, double decisions, unsigned seed) {
     condyle::PenetrationWork work;
     table.penetrations(points, X_FM, found, &work);
     count.wrong += truth.wrong(found);
-    track.penetrations(X_FM, found);
-    count.wrong += truth.wrong(found);
     count.decisions += static_cast<std::int64_t>(vertices.size());
     count.inside += static_cast<std::int64_t>(truth.inside);
-    count.doubtful += static_cast<std::int64_t>(work.doubtful);
+    count.uncertain += static_cast<std::int64_t>(work.uncertain);
   }
   return count;
 }
@@ -100,7 +96,7 @@ Count verify(const Scene& scene, double decisions, unsigned seed) {
 int run(const Options& options) {
   const double per_scene = options.decisions / static_cast<double>(scene_names().size());
   Count all;
-  fmt::print("{:<24} {:>12} {:>10} {:>10} {:>6}\n", "scene", "decisions", "inside", "in doubt", "wrong");
+  fmt::print("{:<24} {:>12} {:>10} {:>10} {:>6}\n", "scene", "decisions", "inside", "uncertain", "wrong");
   for (const SceneName& name : scene_names()) {
     const auto scene = make_scene(name.name);
     if (!scene) {
@@ -109,12 +105,12 @@ int run(const Options& options) {
     }
     const Count count = verify(*scene, per_scene, options.seed);
     fmt::print("{:<24} {:>12} {:>10} {:>10} {:>6}\n", name.name, count.decisions, count.inside,
-               count.doubtful, count.wrong);
+               count.uncertain, count.wrong);
     std::fflush(stdout);
     all.decisions += count.decisions, all.inside += count.inside;
-    all.doubtful += count.doubtful, all.wrong += count.wrong;
+    all.uncertain += count.uncertain, all.wrong += count.wrong;
   }
-  fmt::print("{:<24} {:>12} {:>10} {:>10} {:>6}\n", "all", all.decisions, all.inside, all.doubtful,
+  fmt::print("{:<24} {:>12} {:>10} {:>10} {:>6}\n", "all", all.decisions, all.inside, all.uncertain,
              all.wrong);
   return all.wrong == 0 ? 0 : 1;
 }

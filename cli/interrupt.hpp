@@ -5,14 +5,14 @@
 
 namespace condyle::cli {
 
-/// Work was stopped from outside before it was done. The message is one line and says what was kept.
+/// Work was stopped from outside before it was done. The message is one line.
 class Interrupted : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// While it lives, the first SIGINT or SIGTERM is noted instead of ending the process, so that what is done
-/// can be kept; a second one ends it as ever. One at a time.
+/// While it lives, the first SIGINT or SIGTERM is noted instead of ending the process, so that it can end with
+/// nothing half-written; a second one ends it as ever. One at a time.
 class InterruptWatch {
  public:
   InterruptWatch();

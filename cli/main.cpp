@@ -14,6 +14,8 @@
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
+#include "condyle/overlap_options.hpp"
+#include "condyle/version.hpp"
 #include "interrupt.hpp"
 #include "verbs.hpp"
 
@@ -27,12 +29,13 @@ enum ExitCode {
   bad_file = 3,
   unfit_mesh = 4,
   internal_error = 5,
+  reference_contact = 6,
   interrupted = 130
 };
 
 constexpr const char* exit_codes =
     "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error, "
-    "130 interrupted.";
+    "6 bodies in contact in the reference pose, 130 interrupted.";
 
 /// A closed standard stream would give its number to the next file that is opened, and answers would be
 /// written into it. Opened for reading, the number is taken and writing still fails.
@@ -67,7 +70,7 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Condyle tells where the bones of a joint run into each other, how deep, and along which direction.",
       "condyle");
-  app.set_version_flag("--version", "condyle " CONDYLE_VERSION);
+  app.set_version_flag("--version", "condyle " + std::string(condyle::version));
   app.require_subcommand(1);
   app.fallthrough();
   app.footer(exit_codes);
@@ -109,6 +112,8 @@ int main(int argc, char** argv) {
     return fail(bad_usage, error.what());
   } catch (const condyle::FileError& error) {
     return fail(bad_file, error.what());
+  } catch (const condyle::ReferenceContactError& error) {
+    return fail(reference_contact, error.what());
   } catch (const condyle::MeshError& error) {
     return fail(unfit_mesh, error.what());
   } catch (const cli::Interrupted& stopped) {

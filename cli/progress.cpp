@@ -29,10 +29,9 @@ ProgressPlace standard_error_place() {
   return ::isatty(STDERR_FILENO) ? ProgressPlace::terminal : ProgressPlace::log;
 }
 
-std::optional<double> remaining_seconds(double elapsed_s, std::size_t before, std::size_t done,
-                                        std::size_t total) {
-  if (done <= before || elapsed_s <= 0) return std::nullopt;
-  return elapsed_s * (static_cast<double>(total - done) / static_cast<double>(done - before));
+std::optional<double> remaining_seconds(double elapsed_s, std::size_t done, std::size_t total) {
+  if (done == 0 || elapsed_s <= 0) return std::nullopt;
+  return elapsed_s * (static_cast<double>(total - done) / static_cast<double>(done));
 }
 
 std::string duration_text(double seconds) {
@@ -43,12 +42,11 @@ std::string duration_text(double seconds) {
   return fmt::format("{:.0f} h {:02.0f} min", std::floor(minutes / 60), std::fmod(minutes, 60));
 }
 
-Progress::Progress(std::string what, std::size_t before)
-    : Progress(std::move(what), before, standard_error_place(), Clock::now, show_on_standard_error) {}
+Progress::Progress(std::string what)
+    : Progress(std::move(what), standard_error_place(), Clock::now, show_on_standard_error) {}
 
-Progress::Progress(std::string what, std::size_t before, ProgressPlace place, Now now, Show show)
+Progress::Progress(std::string what, ProgressPlace place, Now now, Show show)
     : what_(std::move(what)),
-      before_(before),
       place_(place),
       now_(std::move(now)),
       show_(std::move(show)),
@@ -63,7 +61,7 @@ void Progress::update(std::size_t done, std::size_t total) {
   const auto now = now_();
   if (now < next_ || done == total) return;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const auto left = remaining_seconds(elapsed, before_, done, total);
+  const auto left = remaining_seconds(elapsed, done, total);
   const std::string line =
       fmt::format("{}: {} of {} ({:.0f} %){}", what_, done, total,
                   std::floor(100 * static_cast<double>(done) / static_cast<double>(total)),

@@ -18,10 +18,8 @@ enum class ProgressPlace { terminal, log };
 /// The place that standard error is.
 ProgressPlace standard_error_place();
 
-/// Seconds still to go at the pace since the start, for work of which `before` was done when it started;
-/// nothing where there is no pace yet.
-std::optional<double> remaining_seconds(double elapsed_s, std::size_t before, std::size_t done,
-                                        std::size_t total);
+/// Seconds still to go at the pace since the start; nothing where there is no pace yet.
+std::optional<double> remaining_seconds(double elapsed_s, std::size_t done, std::size_t total);
 
 /// "40 s", "12 min", "3 h 05 min": to the precision that an estimate has.
 std::string duration_text(double seconds);
@@ -35,9 +33,9 @@ class Progress {
   using Show = std::function<void(std::string_view)>;
 
   /// Shows on standard error.
-  Progress(std::string what, std::size_t before);
+  explicit Progress(std::string what);
   /// Shows elsewhere, by another clock.
-  Progress(std::string what, std::size_t before, ProgressPlace place, Now now, Show show);
+  Progress(std::string what, ProgressPlace place, Now now, Show show);
   /// Wipes the line on a terminal.
   ~Progress();
   Progress(const Progress&) = delete;
@@ -47,7 +45,6 @@ class Progress {
 
  private:
   std::string what_;
-  std::size_t before_;
   ProgressPlace place_;
   Now now_;
   Show show_;

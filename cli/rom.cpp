@@ -20,7 +20,7 @@
 #include "condyle/io/rom_files.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "condyle/motion_map.hpp"
-#include "resumable_map.hpp"
+#include "map.hpp"
 #include "verbs.hpp"
 
 namespace condyle::cli {
@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class RestContacts { count, leave_out };
+enum class ReferenceContacts { count, leave_out };
 enum class Centre { fixed, follows_socket };
 
 struct Options {
@@ -36,12 +36,12 @@ struct Options {
   std::vector<std::string> motions, map;
   std::optional<double> exclude_radius_mm, allow_depth_mm, past_deg;
   Centre centre = Centre::fixed;
-  RestContacts rest_contacts = RestContacts::count;
-  ContactAtRest contact_at_rest = ContactAtRest::refuse;
+  ReferenceContacts reference_contacts = ReferenceContacts::count;
+  ReferenceContact reference_contact = ReferenceContact::refuse;
   AnswerForm form = AnswerForm::text;
 };
 
-/// The motions asked for, all where none was.
+/// The motions named, all where none is.
 std::vector<Motion> chosen_motions(const std::vector<Motion>& known, const std::vector<std::string>& names) {
   if (names.empty()) return known;
   std::vector<Motion> chosen;
@@ -70,12 +70,13 @@ std::optional<MapGrid> grid_of(const Options& options, JointKind kind) {
   return grid;
 }
 
-RangeOptions range_options(const Options& options, const JointAngles& rest) {
+RangeOptions range_options(const Options& options, const JointAngles& reference_pose) {
   RangeOptions range;
-  range.overlap.rest = rest;
-  range.overlap.contact_at_rest = options.contact_at_rest;
+  range.overlap.reference_pose = reference_pose;
+  range.overlap.reference_contact = options.reference_contact;
   if (options.exclude_radius_mm) range.overlap.leave_out_region = ArticularRegion{*options.exclude_radius_mm};
-  if (options.rest_contacts == RestContacts::leave_out) range.overlap.leave_out_rest_contacts.emplace();
+  if (options.reference_contacts == ReferenceContacts::leave_out)
+    range.overlap.leave_out_reference_contacts.emplace();
   return range;
 }
 
@@ -110,25 +111,27 @@ std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMoti
   if (overlap.leave_out_region)
     terms.push_back(fmt::format("left out: triangles within {:g} mm of the joint centre",
                                 overlap.leave_out_region->radius_mm));
-  if (overlap.leave_out_rest_contacts)
-    terms.push_back(fmt::format("left out: triangles in contact at rest and {} rings of neighbours",
-                                overlap.leave_out_rest_contacts->rings));
+  if (overlap.leave_out_reference_contacts)
+    terms.push_back(
+        fmt::format("left out: triangles in contact in the reference pose and {} rings of neighbours",
+                    overlap.leave_out_reference_contacts->rings));
   if (overlap.leaves_out())
     terms.push_back(fmt::format("left out in all: {} triangles of the fixed body, {} of the mobile one",
                                 range.left_out().fixed_triangles, range.left_out().mobile_triangles));
-  if (overlap.contact_at_rest == ContactAtRest::accept)
-    terms.emplace_back("contact at rest is accepted: motions that start in contact say so");
+  if (overlap.reference_contact == ReferenceContact::accept)
+    terms.emplace_back("contact in the reference pose is accepted: motions that start in contact say so");
   return terms;
 }
 
-/// The joint made ready; where its bodies touch at rest, the error names the options that go on from there.
+/// The joint made ready; where its bodies are in contact in the reference pose, the error names the options
+/// there are.
 std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const RangeOptions& options) {
   try {
     return std::make_unique<RangeOfMotion>(joint, options);
-  } catch (const ContactAtRestError& error) {
-    throw MeshError(
-        std::string(error.what()) +
-        " (--allow-depth, --exclude-radius, --exclude-rest, [rest] in the joint file, --accept-rest)");
+  } catch (const ReferenceContactError& error) {
+    throw ReferenceContactError(std::string(error.what()) +
+                                " (--allow-depth, --exclude-radius, --exclude-reference-contacts, "
+                                "[reference_pose] in the joint file, --accept-reference-contact)");
   }
 }
 
@@ -138,21 +141,20 @@ void run(const Options& options) {
   const std::vector<Motion> motions = chosen_motions(
       with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
-  const RangeOptions asked = range_options(options, loaded.report.file.rest);
+  const RangeOptions asked = range_options(options, loaded.report.file.reference_pose);
   std::optional<ZoneFinder> finder;
   if (options.past_deg) finder.emplace(joint, ZoneOptions{.past = Angle::degrees(*options.past_deg)});
-  // A folder that cannot be written to is told before the work, not after it.
+  // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
   Limits found;
   std::optional<MotionMap> map;
-  const fs::path checkpoint = checkpoint_in(options.out);
   if (options.allow_depth_mm) {
     found = depth_limits(options, joint, motions);
   } else {
     const auto range = ready(joint, asked);
     found = {range->limits(motions), {}, range->articular_region(), terms_of(asked, *range)};
-    if (grid) map = resumable_map(*grid, {joint, asked, *range}, checkpoint);
+    if (grid) map = computed_map(*grid, *range);
   }
   std::vector<std::optional<ImpingementZone>> zones;
   if (finder)
@@ -160,60 +162,62 @@ void run(const Options& options) {
 
   const RomResult result{joint,        found.limits, found.articular,      found.terms,
                          found.depths, zones,        map ? &*map : nullptr};
-  if (!options.out.empty()) {
-    write_rom(options.out, result);
-    if (map) remove_checkpoint(checkpoint);
-  }
+  if (!options.out.empty()) write_rom(options.out, result);
   print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
 }
 
 }  // namespace
 
 void add_rom(CLI::App& app) {
-  auto* verb = app.add_subcommand("rom", "How far a joint turns before bone meets bone, where, and why");
-  verb->footer(
+  auto* command = app.add_subcommand("rom", "How far a joint turns before bone meets bone, where, and why");
+  command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle rom sample/hip.toml --motion flexion --motion fadir\n"
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
-      "An interrupted map (exit code 130) is kept in the --out folder; the same command goes on with it.");
+      "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<Options>();
-  verb->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  verb->add_option("--motion", options->motions, "A motion by its name; all if not given")
+  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("--motion", options->motions, "A motion by its name; all if not given")
       ->expected(1)
       ->take_all();
   auto* map =
-      verb->add_option(
+      command
+          ->add_option(
               "--map", options->map,
               "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
               "adduction=-40:30:1; the first one runs to the right")
           ->expected(2);
-  verb->add_option("--vary", options->vary, "The angle that turns in the map: the third one");
-  verb->add_option("--past", options->past_deg,
-                   "Also find the impingement zones this many degrees past each limit");
-  auto* radius = verb->add_option(
+  command->add_option("--vary", options->vary, "The angle that varies in the map: the third one");
+  command->add_option("--past", options->past_deg,
+                      "Also find the impingement zones this many degrees past each limit");
+  auto* radius = command->add_option(
       "--exclude-radius", options->exclude_radius_mm,
       "Leave out what lies within this many mm of the joint centre: sliding surfaces that overlap");
-  auto* rest = verb->add_flag_callback(
-      "--exclude-rest", [options] { options->rest_contacts = RestContacts::leave_out; },
-      "Leave out what is in contact at rest");
-  auto* depth = verb->add_option("--allow-depth", options->allow_depth_mm,
-                                 "End a motion where the radial depth exceeds this many mm, for meshes that "
-                                 "overlap wherever they are: searched for, not exact");
-  verb->add_flag_callback(
+  auto* contacts = command->add_flag_callback(
+      "--exclude-reference-contacts",
+      [options] { options->reference_contacts = ReferenceContacts::leave_out; },
+      "Leave out what is in contact in the reference pose");
+  auto* depth =
+      command->add_option("--allow-depth", options->allow_depth_mm,
+                          "End a motion where the radial depth exceeds this many mm, for meshes that "
+                          "overlap wherever they are: searched for, not exact");
+  command
+      ->add_flag_callback(
           "--follow-socket", [options] { options->centre = Centre::follows_socket; },
           "With --allow-depth: shift the mobile body at every pose so that the joint space is even")
       ->needs(depth);
-  auto* accept = verb->add_flag_callback(
-      "--accept-rest", [options] { options->contact_at_rest = ContactAtRest::accept; },
-      "Answer although the bodies are in contact at rest: motions that start in contact say so");
-  for (CLI::Option* other : {map, radius, rest, accept}) depth->excludes(other);
-  verb->add_option(
+  auto* accept = command->add_flag_callback(
+      "--accept-reference-contact", [options] { options->reference_contact = ReferenceContact::accept; },
+      "Answer although the bodies are in contact in the reference pose: motions that start in contact say "
+      "so");
+  for (CLI::Option* other : {map, radius, contacts, accept}) depth->excludes(other);
+  command->add_option(
       "--out", options->out,
       "Folder for rom.json, limits.csv, limits.svg and clock_face.svg, map.csv and map_*.svg of a map, "
       "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
-  verb->add_flag_callback(
+  command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
-  verb->callback([options] { run(*options); });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace condyle::cli

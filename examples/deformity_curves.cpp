@@ -36,7 +36,7 @@ double internal_rotation_at_90_flexion_deg(const HipParameters& parameters) {
                                       {"hip bone", hip.hip_bone},
                                       {"femur", hip.femur}});
   const auto motions = condyle::hip_motions();
-  return range.limit(condyle::motion_named(motions, "internal_rotation_at_90_flexion")).turned.degrees();
+  return range.limit(condyle::motion_named(motions, "internal_rotation_at_90_flexion")).end.turned.degrees();
 }
 
 /// Evenly spaced values, both ends included; at least two.
@@ -75,22 +75,23 @@ Curve pincer_curve(int count) {
 }
 
 std::string drawing(const Curve& curve) {
-  namespace palette = condyle::palette;
+  namespace palette = condyle::io::palette;
   constexpr double width = 640, height = 420;
-  condyle::SvgCanvas canvas(width, height, curve.title);
-  condyle::draw_heading(canvas, {curve.title, "Internal rotation at 90\xC2\xB0 flexion, sample hip"});
-  const condyle::PlotScale x{curve.low, curve.high, 84, width - 40}, y{0, 60, height - 92, 84};
+  condyle::io::SvgCanvas canvas(width, height, curve.title);
+  condyle::io::draw_heading(canvas, {curve.title, "Internal rotation at 90\xC2\xB0 flexion, sample hip"});
+  const condyle::io::PlotScale x{curve.low, curve.high, 84, width - 40}, y{0, 60, height - 92, 84};
   constexpr int x_steps = 8, y_steps = 6;
-  for (const double value : condyle::ticks(y.low, y.high, condyle::tick_step(y.high - y.low, y_steps)))
+  for (const double value :
+       condyle::io::ticks(y.low, y.high, condyle::io::tick_step(y.high - y.low, y_steps)))
     canvas.line({x.px_low, y(value)}, {x.px_high, y(value)}, {.stroke = palette::light_grey});
-  condyle::draw_bottom_axis(canvas, x, y.px_low, x_steps, curve.parameter + ", degrees");
-  condyle::draw_left_axis(canvas, y, x.px_low, y_steps, "internal rotation, degrees");
-  std::vector<condyle::ScreenPoint> line;
+  condyle::io::draw_bottom_axis(canvas, x, y.px_low, x_steps, curve.parameter + ", degrees");
+  condyle::io::draw_left_axis(canvas, y, x.px_low, y_steps, "internal rotation, degrees");
+  std::vector<condyle::io::ScreenPoint> line;
   for (const auto& [parameter, rotation] : curve.points) line.push_back({x(parameter), y(rotation)});
   canvas.polyline(line, {.stroke = palette::blue, .stroke_width = 2});
-  for (const condyle::ScreenPoint& at : line)
+  for (const condyle::io::ScreenPoint& at : line)
     canvas.circle(at, 4.5, {.fill = palette::blue, .stroke = palette::paper, .stroke_width = 1.2});
-  condyle::draw_footer(canvas);
+  condyle::io::draw_footer(canvas);
   return canvas.document();
 }
 

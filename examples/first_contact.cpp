@@ -1,7 +1,8 @@
-// How far a door turns before it meets a post: in closed form, without a step size.
+// How far a door rotates before it meets a post: in closed form, without a step size.
+#include "condyle/first_contact.hpp"
+
 #include <cstdio>
 
-#include "motion/search/first_contact.hpp"
 #include "shapes.hpp"
 
 int main() {
@@ -11,14 +12,10 @@ int main() {
     door.vertices.set(i, door.vertices[i] + condyle::Vec3(10, 0, 0));  // ten millimetres away along x
   }
 
-  // The axis through the origin along z; positive angles turn x towards y.
+  // The axis through the origin along z; positive angles go from x towards y.
   const condyle::AxisFrame axis(condyle::Vec3::Zero(), condyle::Vec3::UnitZ());
-  const condyle::motion::FeatureTree post_features(post), door_features(door);
-  const condyle::motion::RotationTable table(post_features, axis);
-  condyle::motion::TurningBody turning(door_features);
-  turning.start_at(axis, condyle::Pose::Identity());
-
-  const condyle::TurnLimits limits = condyle::motion::first_contact(table, turning);
+  const condyle::FirstContact first_contact(post, door, axis);
+  const condyle::RotationLimits limits = first_contact.limits();
   std::printf("turns %.9f deg one way and %.9f deg the other before they touch\n",
-              limits.positive.angle.degrees(), -limits.negative.angle.degrees());
+              limits.positive.turned.degrees(), limits.negative.turned.degrees());
 }

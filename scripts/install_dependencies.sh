@@ -3,6 +3,8 @@
 #   install_dependencies.sh           for make demo and make test
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 #   install_dependencies.sh bench     and for make bench; groups can be named together
+#   install_dependencies.sh docs      and for make docs and make package
+#   install_dependencies.sh package-test   and for make package-test
 set -euo pipefail
 
 packages=(
@@ -21,8 +23,10 @@ for group in "$@"; do
       packages+=(libfcl-dev libembree-dev libopenvdb-dev libbullet-dev libode-dev libsimbody-dev)
       packages+=(python3 git)
       ;;
+    docs) packages+=(doxygen) ;;
+    package-test) packages+=(debootstrap) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are clang and bench" >&2
+      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs and package-test" >&2
       exit 2
       ;;
   esac

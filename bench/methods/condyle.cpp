@@ -1,10 +1,9 @@
 #include <optional>
 
+#include "condyle/radial.hpp"
+#include "condyle/tangential.hpp"
 #include "contact/body_pair.hpp"
 #include "kinds.hpp"
-#include "radial/query/sorted_points.hpp"
-#include "radial/radial_table.hpp"
-#include "tangential/ring_table.hpp"
 
 namespace bench {
 namespace {
@@ -26,17 +25,21 @@ TriMesh with_vertices(condyle::PointsView vertices, const TriMesh& mesh) {
 class RadialVectors final : public Method {
  public:
   explicit RadialVectors(const Bodies& bodies)
-      : table_(std::make_shared<condyle::RadialTable>(bodies.fixed)),
-        points_(std::make_shared<condyle::SortedPoints>(bodies.mobile.vertices)) {}
-
-  void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
-    table_->penetrations(*points_, X_FM, found_, &work_);
-    out.resize(found_.size());
-    for (std::size_t i = 0; i < found_.size(); ++i)
-      out[i] = {found_.point[i], found_.triangle[i], found_.depth[i]};
+      : table_(std::make_shared<condyle::RadialTable>(bodies.fixed)), points_(bodies.mobile.vertices) {
+    table_->prepare_penetrations();
   }
 
-  void deform(condyle::PointsView fixed_vertices) override { table_->update(fixed_vertices); }
+  void find_inside(const Pose& X_FM, std::vector<InsideVertex>& out) override {
+    table_->penetrations(points_, X_FM, found_, &work_);
+    out.resize(found_.size());
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      out[i] = {found_.point[i], found_.triangle[i], found_.depth_mm[i]};
+  }
+
+  void deform(condyle::PointsView fixed_vertices) override {
+    table_->update(fixed_vertices);
+    table_->prepare_penetrations();
+  }
 
   std::unique_ptr<Method> for_another_thread() override { return std::make_unique<RadialVectors>(*this); }
   std::size_t bytes() const override { return table_->table_size().bytes; }
@@ -46,12 +49,12 @@ class RadialVectors final : public Method {
             {"blocks near", count(work_.near_blocks)},
             {"vertices near", count(work_.near_points)},
             {"triangles tried", count(work_.triangles)},
-            {"vertices in doubt", count(work_.doubtful)}};
+            {"vertices uncertain", count(work_.uncertain)}};
   }
 
  private:
   std::shared_ptr<condyle::RadialTable> table_;
-  std::shared_ptr<const condyle::SortedPoints> points_;
+  condyle::SortedPoints points_;
   condyle::Penetrations found_;
   condyle::PenetrationWork work_;
 };
@@ -87,7 +90,7 @@ class Radial final : public Method {
     out.clear();
     for (std::size_t v = 0; v < hits_.size(); ++v)
       if (hits_.state[v] != PointState::outside)
-        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.radial_gap[v]});
+        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.radial_gap_mm[v]});
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
@@ -103,7 +106,7 @@ class Radial final : public Method {
   const TriMesh* mobile_;
   std::shared_ptr<const Table> table_;
   condyle::Points posed_;
-  condyle::RadialHits hits_;
+  condyle::RadialResults hits_;
 };
 
 /// Rings about the flexion axis.
@@ -121,7 +124,7 @@ class Tangential final : public Method {
     out.clear();
     for (std::size_t v = 0; v < hits_.size(); ++v)
       if (hits_.state[v] != PointState::outside)
-        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.arc_gap[v]});
+        out.push_back({static_cast<condyle::Index>(v), hits_.triangle[v], -hits_.arc_gap_mm[v]});
   }
 
   void deform(condyle::PointsView fixed_vertices) override {
@@ -136,7 +139,7 @@ class Tangential final : public Method {
   const TriMesh *fixed_, *mobile_;
   std::shared_ptr<const condyle::RingTable> table_;
   condyle::Points posed_;
-  condyle::TangentialHits hits_;
+  condyle::TangentialResults hits_;
 };
 
 MethodKind radial_vectors() {
@@ -159,7 +162,7 @@ MethodKind trees() {
           [](const Bodies& bodies) { return std::make_unique<Trees>(bodies); }};
 }
 
-MethodKind radial(std::string name, std::string title, condyle::radial::DirectionMapKind map) {
+MethodKind radial(std::string name, std::string title, condyle::DirectionMapKind map) {
   return {std::move(name),
           "Condyle",
           std::move(title),
@@ -184,12 +187,12 @@ MethodKind tangential(std::string name, std::string title, condyle::TangentialRu
 }  // namespace
 
 std::vector<MethodKind> condyle_kinds() {
-  using condyle::radial::DirectionMapKind, condyle::TangentialRule;
+  using condyle::DirectionMapKind, condyle::TangentialRule;
   return {
       radial_vectors(),
       trees(),
-      radial("radial_plain", "radial, cube map, a vertex at a time", condyle::radial::DirectionMapKind::cube),
-      radial("radial_cartesian", "radial, the paper's map", condyle::radial::DirectionMapKind::cartesian),
+      radial("radial_plain", "radial, cube map, a vertex at a time", DirectionMapKind::cube),
+      radial("radial_cartesian", "radial, the paper's map", DirectionMapKind::cartesian),
       tangential("tangential", "tangential, all crossings in their order", TangentialRule::alternating, true),
       tangential("tangential_nearest_arc", "tangential, the paper's rule", TangentialRule::nearest_arc,
                  false),

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 
-#include "condyle/mesh.hpp"
+#include "condyle/points.hpp"
 
 namespace condyle {
+
+struct TriMesh;
 
 /// Coordinates in which a joint axis is +z: the axis point becomes the origin, the axis direction +z, and a
 /// positive angle about the axis is counter-clockwise seen from +z.
@@ -26,14 +28,13 @@ class AxisFrame {
   /// Rows: the frame's x, y and z.
   const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
 
+  /// From mesh coordinates to the frame's, and back; millimetres.
   Vec3 to_axis(const Vec3& p) const noexcept {
     const double x = p.x() - point_.x(), y = p.y() - point_.y(), z = p.z() - point_.z();
     const auto row = [&](int i) { return (rotation_(i, 0) * x + rotation_(i, 1) * y) + rotation_(i, 2) * z; };
     return {row(0), row(1), row(2)};
   }
   Vec3 from_axis(const Vec3& p) const noexcept { return rotation_.transpose() * p + point_; }
-
-  TriMesh to_axis(const TriMesh& mesh) const;
 
  private:
   Vec3 point_;

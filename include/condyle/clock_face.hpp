@@ -42,8 +42,8 @@ struct NeckAxis {
   Vec3 direction;  ///< unit
 };
 
-/// The neck's axis as told by the mesh: the direction of the centroid, by area, of all triangles with their
-/// corners between 1.2 and 1.6 head radii from the joint centre. There the femur consists of the neck alone;
+/// The neck's axis as the mesh has it: the direction of the centroid, by area, of all triangles with their
+/// corners between 1.2 and 1.6 head radii from the joint centre. There the femur consists only of the neck;
 /// nearer is the head, farther begin the trochanters. Empty where there is nothing in that shell, or it lies
 /// around the centre more evenly than any neck does.
 std::optional<NeckAxis> find_neck_axis(const TriMesh& mobile, double head_radius_mm);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/articular_centre.hpp"
+#include "condyle/articular_region.hpp"
 #include "condyle/range_of_motion.hpp"
 
 /// Limits of joints whose meshes overlap a little wherever they are: a motion ends where the deepest radial
@@ -17,24 +18,24 @@ struct AllowedDepth {
   double depth_mm = 0;
   Angle step = Angle::degrees(1);          ///< of the search along the motion
   Angle tolerance = Angle::degrees(1e-3);  ///< of the limit, once bracketed
-  /// The mobile body is shifted at every pose as even_joint_space() says; empty: it turns about the joint
+  /// The mobile body is shifted at every pose so that the joint space is even; empty: it turns about the joint
   /// centre.
   std::optional<CentreRule> follow_socket = {};
 };
 
 /// The deepest place of two bodies at one pose.
 struct DeepestPlace {
-  double depth_mm = 0;  ///< 0 where no vertex is inside
-  std::optional<ContactPlace> place = {};
-  Angle ray_to_normal = {};
-  std::optional<CentreShift> shift = {};
+  double depth_mm = 0;                         ///< 0 where no vertex is inside
+  std::optional<ContactWitness> contact = {};  ///< that vertex, and the face that its ray leaves through
+  Angle ray_to_normal = {};                    ///< at that face; beyond 60 degrees the radial depth grazes
+  std::optional<CentreShift> shift = {};       ///< where the centre follows the socket
 };
 
 struct DepthLimit {
-  MotionLimit limit = {};  ///< `shortfall` is not a bound on true contact here, but the search's tolerance
+  MotionLimit limit = {};      ///< its error bound is here the tolerance of the search
   DeepestPlace at_limit = {};  ///< at the reported angle, where the depth is still allowed
   double start_depth_mm = 0;
-  /// Whether every pose asked inside the last step was as deep as the allowed ones before it: where not, the
+  /// Whether every pose tried inside the last step was as deep as the allowed ones before it: where not, the
   /// surfaces are rough at this scale and a limit a little further on would be as good.
   bool depth_grows = true;
 };
@@ -44,9 +45,9 @@ struct DepthLimit {
 /// a neck runs into a rim the ray grazes the wall and the radial depth reads many times the true one, so
 /// there a motion ends almost as soon as a vertex is inside: what is allowed is allowed to sliding surfaces.
 ///
-/// Not exact, unlike RangeOfMotion: depth is asked at poses one step apart, and of vertices alone. Contact
+/// Not exact, unlike RangeOfMotion: depth is computed at poses one step apart, and only of vertices. Contact
 /// that comes and goes between two poses of the search, or of edges and faces without a vertex, is not seen.
-/// Of the first step whose end is too deep, ten parts are asked and the first too deep one is halved until
+/// Of the first step whose end is too deep, ten parts are tried and the first too deep one is halved until
 /// the tolerance: the reported angle is allowed, and within the tolerance after it the depth is too large.
 class DepthRange {
  public:

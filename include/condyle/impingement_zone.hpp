@@ -7,7 +7,6 @@
 
 #include "condyle/clock_face.hpp"
 #include "condyle/range_of_motion.hpp"
-#include "contact/joint_contact.hpp"
 
 /// Impingement zones: which parts of both bones meet at the end of a motion and past it.
 
@@ -24,13 +23,14 @@ struct BodyZone {
   /// One per vertex, 0 for those not inside the other body; empty where the other body is open and has no
   /// inside. At rim and neck rays graze the wall: there read the tangential depth.
   std::vector<double> radial_depth_mm;
-  std::vector<double> ray_to_normal_deg;  ///< of those inside, else 0: beyond 60 the radial depth is no depth
+  /// Of those inside, else 0; beyond 60 the radial depth is no depth. As many, and empty likewise.
+  std::vector<double> ray_to_normal_deg;
   /// The arc about the motion's axis by which the vertex would have to turn back or on, whichever is shorter;
   /// infinite where its whole circle is solid. As many, and empty likewise.
   std::vector<double> tangential_depth_deg, tangential_depth_mm;
-  std::vector<Index> triangles;  ///< that meet the other body, ascending
-  double area_mm2 = 0;           ///< of these triangles, whole
-  std::optional<Vec3> centroid;  ///< by area of these triangles, mm; empty where there are none
+  std::vector<Index> triangles;     ///< that meet the other body, ascending
+  double area_mm2 = 0;              ///< of these triangles, whole
+  std::optional<Vec3> centroid_mm;  ///< by area of these triangles; empty where there are none
 };
 
 struct ImpingementZone {
@@ -44,26 +44,26 @@ struct ImpingementZone {
   std::optional<Angle> contact_neck_angle, zone_neck_angle;
 };
 
-/// Finds zones on a joint whose limits are known. At the limit itself the zone is one point, limit.contact:
-/// there surfaces touch and nothing is inside; how a zone grows shows past it.
+/// Finds zones on a joint whose limits are known. At the limit itself the zone is one point, limit.end.contact:
+/// there the surfaces meet and nothing is inside; how a zone grows shows past it.
 class ZoneFinder {
  public:
   /// Throws UsageError for an angle past the limit that is negative, more than a half turn or not finite.
   explicit ZoneFinder(const Joint& joint, const ZoneOptions& options = {});
+  ~ZoneFinder();
+  ZoneFinder(ZoneFinder&&) noexcept;
+  ZoneFinder& operator=(ZoneFinder&&) noexcept;
 
   /// Empty for motions that did not end by contact on their way. Zones are of whole bodies, also where limits
   /// were found with parts left out.
   std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
 
-  const std::optional<NeckAxis>& neck() const noexcept { return neck_; }
-  const ClockFace& socket_clock() const noexcept { return socket_clock_; }
+  const std::optional<NeckAxis>& neck() const noexcept;
+  const ClockFace& socket_clock() const noexcept;
 
  private:
-  Side side_;
-  Angle past_;
-  ClockFace socket_clock_;
-  std::optional<NeckAxis> neck_;
-  JointContact contact_;
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
 };
 
 }  // namespace condyle

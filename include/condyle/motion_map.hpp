@@ -24,12 +24,12 @@ struct GridAxis {
   double value_deg(std::size_t i) const noexcept { return first_deg + static_cast<double>(i) * step_deg; }
 };
 
-/// Past this many points a map is refused: at a millisecond each it would run for hours, at some 250 bytes
+/// Past this many points a map is refused: at a millisecond each it would run for hours, at some 350 bytes
 /// each fill gigabytes.
 inline constexpr std::size_t most_map_points = 10'000'000;
 
-/// What a map asks: for every pair of values of the two held angles, from the start value of the third, how
-/// far that one turns either way.
+/// What a map shows: for every pair of values of the two held angles, from the start value of the third, how
+/// far that one changes either way.
 ///
 ///     column.count()
 ///     +---+---+---+
@@ -40,11 +40,11 @@ inline constexpr std::size_t most_map_points = 10'000'000;
 struct MapGrid {
   GridAxis row = {}, column = {};
   JointAngle vary = JointAngle::internal_rotation;
-  Angle start = {};                                               ///< of the varied angle
-  TurnRange range = {Angle::degrees(-180), Angle::degrees(180)};  ///< from the start, either way
+  Angle start = {};                                                   ///< of the varied angle
+  RotationRange range = {Angle::degrees(-180), Angle::degrees(180)};  ///< from the start, either way
 
   std::size_t size() const { return row.count() * column.count(); }
-  /// The joint's angles at the start of a point's turns.
+  /// The joint's angles at the start of a point's rotations.
   JointAngles start_of(std::size_t point) const;
 };
 
@@ -53,25 +53,14 @@ struct MapGrid {
 /// a hinge, or more than most_map_points (saying how many).
 void check_grid(const MapGrid& grid, JointKind kind);
 
-/// The limits at one point. In contact at the start, both ends say so, turned 0: the point has no free range,
-/// even if there is one elsewhere on its turn.
-struct MapPoint {
-  TurnEnd negative, positive;
-
-  bool free_at_start() const noexcept { return positive.reason != LimitReason::contact_at_start; }
-};
-
-/// A map, whole or in part: what is not computed yet is empty. Fill it, save it, fill the rest another day.
+/// Limits over a grid. At a point in contact at the start there is no free range, even if there is one
+/// elsewhere on its rotation.
 struct MotionMap {
   MapGrid grid;
-  std::vector<std::optional<MapPoint>> points;  ///< grid.size(), row by row
-  TurnWork work;                                ///< of the points computed since it was made or loaded
+  std::vector<RotationLimits> points;  ///< grid.size(), row by row
 
-  /// Empty. Throws as check_grid() for a ball.
-  explicit MotionMap(const MapGrid& of);
-
-  std::size_t done() const noexcept;
-  bool complete() const noexcept { return done() == points.size(); }
+  /// Of all searches together.
+  SearchWork work() const noexcept;
 };
 
 /// How a map's computation is followed and ended.
@@ -82,9 +71,12 @@ struct MapControl {
   std::stop_token stop = {};
 };
 
-/// Computes the points that are missing, on all threads. Each point's limits are those of RangeOfMotion:
-/// the same bits whatever the threads, and whether computed in one go or in several. Throws as check_grid().
-void fill(MotionMap& map, const RangeOfMotion& joint, const MapControl& control = {});
+/// Computes all points, on all threads. Each point's limits are those of RangeOfMotion: the same bits whatever
+/// the threads. Throws as check_grid().
+MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint);
+/// The same; empty where it was stopped before all points were done.
+std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
+                                    const MapControl& control);
 
 /// How much of the space of joint angles is free, by the trapezoidal rule over the grid: the error of the
 /// volume goes with the square of the step where limits change smoothly.
@@ -93,7 +85,7 @@ void fill(MotionMap& map, const RangeOfMotion& joint, const MapControl& control 
 /// adduction = +-90 degrees flexion and internal rotation turn about nearly one line. A small change of the
 /// angles turns M by omega = e1 df + e2 da + e3 dr, and the volume that these three vectors span,
 /// |e1 . (e2 x e3)| = |e1 x e3| = cos(adduction), is what a box da df dr holds of the invariant (Haar)
-/// measure, which does not ask how rotations are written down. Weighted by it the volume is the same in any
+/// measure, which does not depend on how rotations are written down. Weighted by it the volume is the same in any
 /// joint coordinate system; the whole of rotations, flexion and internal rotation over a full turn and
 /// adduction over a half, has 360 * 360 * 360 / pi deg^3.
 struct FreeVolume {
@@ -102,7 +94,7 @@ struct FreeVolume {
   std::vector<double> row_area_deg2;  ///< free width over the columns of each row
 };
 
-/// Empty until the map is complete. A grid with one row has no volume, with one column no areas: zeros.
-std::optional<FreeVolume> free_volume(const MotionMap& map);
+/// A grid with one row has no volume, with one column no areas: zeros.
+FreeVolume free_volume(const MotionMap& map);
 
 }  // namespace condyle

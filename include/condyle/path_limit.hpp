@@ -13,18 +13,17 @@ namespace condyle {
 /// Where a path ends.
 struct PathLimit {
   std::size_t segment = 0;  ///< from waypoint `segment` to the next one
-  double share = 0;         ///< of that segment, in [0, 1]
+  double fraction = 0;      ///< of that segment, in [0, 1]
   JointAngles at = {};
   LimitReason reason = LimitReason::end_of_range;
   /// For `contact`, the two faces that are nearest to meeting and their nearest points.
-  std::optional<ContactPlace> contact = {};
-  bool articular = false;
+  std::optional<ContactWitness> contact = {};
   double distance_mm = 0;  ///< between these points
   std::size_t poses = 0;   ///< looked at on the way
 };
 
-/// Follows paths of straight pieces in the joint's angles. Several angles at once turn about no fixed axis,
-/// so there is no closed form; instead every step is as long as is certain to be free.
+/// Follows paths of straight segments in the joint's angles. Several angles that change at once are a rotation
+/// about no fixed axis, so there is no closed form; instead every step is as long as is certain to be free.
 ///
 ///     angle b          o waypoint 2
 ///       |     .  .   .
@@ -32,14 +31,14 @@ struct PathLimit {
 ///       | .
 ///       o waypoint 0
 ///
-/// On one piece the angles change by df, da, dr. With e1 and e3 at a right angle to e2, M turns by at most
-/// W = sqrt(da^2 + (|df| + |dr|)^2) over the piece, so from a pose from which no turn below c brings anything
-/// together (see clearance()) the next c / W of the piece are free.
+/// On one segment the angles change by df, da, dr. With e1 and e3 at a right angle to e2, M turns by at most
+/// W = sqrt(da^2 + (|df| + |dr|)^2) over the segment, so from a pose from which no rotation below c brings
+/// anything together the next c / W of the segment are free.
 ///
 /// Guarantee: the path is free up to the limit, whatever the surfaces do between two poses. The search ends
-/// where c falls below the tolerance: there a turn of no more than that, about some axis, might touch, though
-/// not always the path itself: surfaces that pass that close count as touching. A path along one angle alone
-/// is better asked as a motion, which is exact.
+/// where c falls below the tolerance: there a rotation by no more than that, about some axis, might bring the
+/// surfaces together, though not always the path itself: surfaces that pass that close count as in contact. A
+/// path along only one angle is better computed as a motion, which is exact.
 class PathFinder {
  public:
   /// Throws as RangeOfMotion does.
@@ -48,7 +47,7 @@ class PathFinder {
   PathFinder(const PathFinder&) = delete;
   PathFinder& operator=(const PathFinder&) = delete;
 
-  /// Throws UsageError for fewer than two waypoints, angles that are not finite, pieces of more than a full
+  /// Throws UsageError for fewer than two waypoints, angles that are not finite, segments of more than a full
   /// turn, other angles than flexion on a hinge, or a tolerance below 1e-6 degrees.
   PathLimit limit(std::span<const JointAngles> waypoints, Angle tolerance = Angle::degrees(1e-3)) const;
 

@@ -17,14 +17,11 @@
 
 namespace condyle {
 
-/// Which way the varied angle turns: flexion, adduction and internal rotation are positive.
-enum class TurnSense { positive, negative };
-
-/// A motion as a clinician names it: one joint angle turns from where `start` has it, the other two are held.
+/// A motion as a clinician names it: one joint angle changes from where `start` has it, the other two are held.
 struct Motion {
   std::string name = {};
   JointAngle vary = JointAngle::flexion;
-  TurnSense sense = TurnSense::positive;
+  RotationSense sense = RotationSense::positive;
   JointAngles start = {};
   Angle range = {};  ///< how far it may turn from its start, positive
 };
@@ -56,38 +53,14 @@ std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<con
 /// The motion of that name. Throws UsageError with the names there are.
 const Motion& motion_named(std::span<const Motion> motions, std::string_view name);
 
-/// Throws UsageError where a motion cannot be asked of this kind of joint: a range that is not above 0 and at
+/// Throws UsageError where this kind of joint has no such motion: a range that is not above 0 and at
 /// most a full turn, an angle that is not finite, or a hinge turned or held in another angle than flexion.
 void check_motion(const Motion& motion, JointKind kind);
-
-/// A contact point on both bodies and what touches there.
-struct ContactPlace {
-  Feature fixed_feature, mobile_feature;
-  Vec3 fixed_point, mobile_point;  ///< mm, each in its own body's frame
-};
-
-/// One end of a free turn of a joint.
-struct TurnEnd {
-  Angle turned;  ///< from the start, >= 0
-  LimitReason reason = LimitReason::end_of_range;
-  std::optional<ContactPlace> contact;
-  bool articular = false;  ///< contact inside the articular region (see ArticularRegion), not at rim or neck
-  Angle shortfall;         ///< true contact is at `turned` or past it by at most this
-};
-
-struct TurnEnds {
-  TurnEnd negative, positive;
-  TurnWork work;
-};
 
 /// Where one motion ends.
 struct MotionLimit {
   Motion motion = {};
-  Angle turned = {};  ///< from the start, >= 0
-  LimitReason reason = LimitReason::end_of_range;
-  std::optional<ContactPlace> contact = {};
-  bool articular = false;  ///< contact inside the articular region (see ArticularRegion), not at rim or neck
-  Angle shortfall = {};    ///< true contact is at `turned` or past it by at most this
+  Limit end = {};
 
   JointAngles angles_at_limit() const noexcept;
 };
@@ -106,24 +79,24 @@ struct RangeOptions {
 
 /// A joint made ready for motions: exact limits, each from tables that are built once.
 ///
-/// Turning one joint angle turns one body about an axis that rests in the other (section 6), so the body in
-/// which the axis rests carries the table and the other one turns:
+/// Changing one joint angle rotates one body about an axis that is constant in the other (section 6), so the
+/// body in which the axis is constant carries the table and the other one turns:
 ///
 ///     varied             axis             table on                     turning body
 ///     flexion            e1, in F         F, once                      M, from the pose
 ///     internal rotation  e3, in M         M, once                      F, from the inverse pose, about -e3
 ///     adduction          e2, in neither   F, once per flexion value    M, from the pose
 ///
-/// With F turning instead of M, what touches is reported the same: features and points say fixed and mobile.
+/// With F turning instead of M, contact is reported the same: features and points say fixed and mobile.
 ///
-/// Guarantee: as first_contact(), for the vertices of the turning body as rounded into the frame of the axis:
-/// never past a contact, short of one by at most `shortfall`. All limits of one joint and pose are the same
-/// bits on any thread and whichever was asked first.
+/// Guarantee: as of FirstContact, for the vertices of the turning body as rounded into the frame of the axis:
+/// never past a contact, short of one by at most `error_bound`. All limits of one joint and pose are the same
+/// bits on any thread and in any order.
 class RangeOfMotion {
  public:
-  /// The joint's meshes are borrowed only here. Throws MeshError where the bodies are in contact at the rest
-  /// pose and the options say nothing about it: the message explains what can be done and shows the deepest
-  /// place.
+  /// The joint's meshes are borrowed only here. Throws ReferenceContactError where the bodies are in contact in
+  /// the reference pose and the options say nothing about it: the message explains what can be done and names
+  /// the deepest vertex.
   explicit RangeOfMotion(const Joint& joint, const RangeOptions& options = {});
   ~RangeOfMotion();
   RangeOfMotion(const RangeOfMotion&) = delete;
@@ -134,9 +107,9 @@ class RangeOfMotion {
   /// The same for many, in their order, on all threads.
   std::vector<MotionLimit> limits(std::span<const Motion> motions) const;
 
-  /// Both ends of the turn of one angle from this start; range as of first_contact(). The start must be
-  /// finite, and on a hinge flexion is the only angle. May be called from any thread.
-  TurnEnds ends(JointAngle vary, const JointAngles& start, const TurnRange& range) const;
+  /// How far one angle changes from this start either way. The start must be finite, the range as
+  /// RotationRange says, and on a hinge flexion is the only angle. May be called from any thread.
+  RotationLimits both_limits(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
 
   JointKind kind() const noexcept;
   Side side() const noexcept;

@@ -16,7 +16,7 @@ RadialTable table_of(const char* body, const Mesh& mesh, const RadialOptions& op
   }
 }
 
-bool any_not_outside(const std::optional<RadialHits>& hits) {
+bool any_not_outside(const std::optional<RadialResults>& hits) {
   return hits && std::any_of(hits->state.begin(), hits->state.end(),
                              [](PointState state) { return state != PointState::outside; });
 }

@@ -5,16 +5,16 @@
 
 #include "contact/body_pair.hpp"
 #include "contact/triangle_pairs.hpp"
-#include "radial/radial_table.hpp"
+#include "condyle/radial.hpp"
 
 namespace condyle {
 
 /// Everything about two bodies in one pose, by the radial method.
 struct RadialContact {
   /// Every mobile vertex against the fixed body; empty where the fixed mesh is open.
-  std::optional<RadialHits> mobile_in_fixed;
+  std::optional<RadialResults> mobile_in_fixed;
   /// Every fixed vertex against the mobile body; empty where the mobile mesh is open.
-  std::optional<RadialHits> fixed_in_mobile;
+  std::optional<RadialResults> fixed_in_mobile;
   /// The exact set of intersecting triangle pairs, ascending.
   std::vector<TrianglePair> pairs;
   /// Whether the bodies share a point: surfaces that meet, or one body wholly inside the other.

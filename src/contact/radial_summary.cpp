@@ -6,19 +6,19 @@
 
 namespace condyle {
 
-RadialBodySummary summarise(const RadialHits& hits, PointsView points, const TriMesh& other) {
+RadialBodySummary summarise(const RadialResults& hits, PointsView points, const TriMesh& other) {
   RadialBodySummary summary;
   std::optional<mesh::SurfaceDistance> distance;  // built where a vertex is inside
   const auto deepen = [](std::optional<DeepestVertex>& deepest, const DeepestVertex& candidate) {
     if (!deepest || candidate.depth_mm > deepest->depth_mm) deepest = candidate;
   };
   for (Index i = 0; i < hits.size(); ++i) {
-    const double gap = hits.radial_gap[i];
+    const double gap = hits.radial_gap_mm[i];
     switch (hits.state[i]) {
       case PointState::inside: {
         ++summary.vertices_inside;
         if (!distance) distance.emplace(other);
-        const DeepestVertex vertex{i, -gap, (*distance)(points[i]), Angle::radians(hits.ray_to_normal[i])};
+        const DeepestVertex vertex{i, -gap, (*distance)(points[i]), hits.ray_to_normal[i]};
         deepen(summary.deepest, vertex);
         if (vertex.applies() == DepthKind::tangential) {
           ++summary.oblique_inside;

@@ -45,7 +45,7 @@ struct RadialBodySummary {
 };
 
 /// `points` are those that were asked of `other`, which gave `hits`.
-RadialBodySummary summarise(const RadialHits& hits, PointsView points, const TriMesh& other);
+RadialBodySummary summarise(const RadialResults& hits, PointsView points, const TriMesh& other);
 
 /// Both bodies; empty where the other mesh is open.
 struct RadialSummary {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contact/joint_contact.hpp"
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 namespace condyle {
 
@@ -12,10 +12,10 @@ namespace condyle {
 struct TangentialContact {
   /// Every mobile vertex against the fixed body; empty where the fixed mesh is open. A positive turn is one
   /// of the mobile body about the axis.
-  std::optional<TangentialHits> mobile_in_fixed;
+  std::optional<TangentialResults> mobile_in_fixed;
   /// Every fixed vertex against the mobile body; empty where the mobile mesh is open. A positive turn is one
   /// of the fixed body about the axis: that is the opposite movement.
-  std::optional<TangentialHits> fixed_in_mobile;
+  std::optional<TangentialResults> fixed_in_mobile;
   /// The exact set of intersecting triangle pairs, ascending.
   std::vector<TrianglePair> pairs;
   /// Whether the bodies share a point: surfaces that meet, or one body wholly inside the other.
@@ -49,6 +49,6 @@ struct TangentialBodySummary {
   std::optional<double> min_gap_mm;
 };
 
-TangentialBodySummary summarise(const TangentialHits& hits);
+TangentialBodySummary summarise(const TangentialResults& hits);
 
 }  // namespace condyle

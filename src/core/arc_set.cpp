@@ -1,18 +1,10 @@
 #include "core/arc_set.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/wrapped_angle.hpp"
 
 namespace condyle::core {
-namespace {
-
-/// In [0, 2 pi).
-double in_turn(double angle) noexcept {
-  const double rest = std::fmod(angle, two_pi), positive = rest < 0 ? rest + two_pi : rest;
-  return positive >= two_pi ? 0 : positive;
-}
-
-}  // namespace
 
 ArcSet::ArcSet(const std::vector<Arc>& arcs) {
   std::vector<Stretch> stretches;
@@ -30,7 +22,7 @@ void ArcSet::append(const Arc& arc, std::vector<Stretch>& to) {
     to.push_back({0, two_pi});
     return;
   }
-  const double low = in_turn(arc.start.radians()), high = low + width;
+  const double low = wrapped(arc.start.radians()), high = low + width;
   to.push_back({low, std::min(high, two_pi)});
   if (high >= two_pi) to.push_back({0, high - two_pi});
 }
@@ -83,13 +75,13 @@ bool ArcSet::holds(const Stretch& stretch) const noexcept {
 }
 
 bool ArcSet::contains(Angle direction) const noexcept {
-  const double at = in_turn(direction.radians());
+  const double at = wrapped(direction.radians());
   return holds({at, at});
 }
 
 bool ArcSet::contains(const Arc& arc) const noexcept {
   if (arc.width.radians() >= two_pi) return is_full_turn();
-  const double low = in_turn(arc.start.radians()), high = low + arc.width.radians();
+  const double low = wrapped(arc.start.radians()), high = low + arc.width.radians();
   return high < two_pi ? holds({low, high}) : holds({low, two_pi}) && holds({0, high - two_pi});
 }
 

@@ -15,9 +15,8 @@ struct Arc {
 
 /// A set of directions: closed arcs on the circle.
 ///
-///   0 |----[====]-------[==========]--| 2 pi      kept as disjoint stretches, ascending; an arc across 0 is
-///   kept as
-///     |==]----------------------[=====|           two, of which arcs() makes one again
+///   0 |----[====]-------[==========]--| 2 pi      kept as disjoint stretches, ascending;
+///     |==]----------------------[=====|           an arc across 0 is kept as two, of which arcs() makes one again
 ///
 /// Ends are compared as they are, with no tolerance, and no operation computes new ones: the union of many
 /// sets is the same to the last bit in whatever order it is formed.
@@ -41,7 +40,7 @@ class ArcSet {
 
   /// Directions in either.
   ArcSet united(const ArcSet& other) const;
-  /// Everything else, its ends included: single directions have no room beside them and are lost.
+  /// Everything else, its ends included: single directions leave no gap, and are lost.
   ArcSet complement() const;
 
   friend bool operator==(const ArcSet&, const ArcSet&) = default;

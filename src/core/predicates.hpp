@@ -83,7 +83,7 @@ inline Sign orientation(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3&
   return filtered.certain ? sign_of(filtered.value) : exact::orientation(a, b, c, d);
 }
 
-/// Sign of (b - a) x (c - a) in the plane: positive where a, b, c turn counter-clockwise.
+/// Sign of (b - a) x (c - a) in the plane: positive where a, b, c are counter-clockwise.
 inline Sign orientation_2d(double ax, double ay, double bx, double by, double cx, double cy) noexcept {
   const double left = (bx - ax) * (cy - ay), right = (by - ay) * (cx - ax), value = left - right;
   const double magnitude = std::abs(left) + std::abs(right);

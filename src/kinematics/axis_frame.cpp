@@ -1,6 +1,7 @@
 #include "condyle/axis_frame.hpp"
 
 #include "condyle/error.hpp"
+#include "condyle/mesh.hpp"
 
 namespace condyle {
 namespace {
@@ -31,12 +32,6 @@ AxisFrame::AxisFrame(const Vec3& point, const Vec3& direction) : point_(point) {
   rotation_.row(0) = x;
   rotation_.row(1) = z.cross(x);
   rotation_.row(2) = z;
-}
-
-TriMesh AxisFrame::to_axis(const TriMesh& mesh) const {
-  TriMesh out{Points(mesh.vertices.size()), mesh.triangles};
-  for (std::size_t i = 0; i < out.vertices.size(); ++i) out.vertices.set(i, to_axis(mesh.vertices[i]));
-  return out;
 }
 
 }  // namespace condyle

@@ -1,244 +1,95 @@
-#include "radial/radial_table.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include "condyle/error.hpp"
-#include "core/parallel.hpp"
-#include "mesh/edge_balance.hpp"
-#include "radial/exact/ray_crossing.hpp"
-#include "radial/query/penetration_passes.hpp"
+#include "condyle/radial.hpp"
+#include "radial/direction_table.hpp"
 
 namespace condyle {
-namespace {
 
-/// Points per task: enough to outweigh starting one.
-constexpr std::size_t points_per_chunk = 256;
-
-/// Cells along a side for a mesh of so many triangles.
-int cells_per_side(const RadialOptions& options, std::size_t triangles) {
-  // 2048^2 cells a face is 25 million cells: past that the table outgrows any mesh it could serve.
-  if (options.cells_per_side && (*options.cells_per_side < 1 || *options.cells_per_side > 2048)) {
-    throw UsageError("cells_per_side is " + std::to_string(*options.cells_per_side) +
-                     ", not within 1 to 2048");
-  }
-  if (options.cells_per_side) return *options.cells_per_side;
-  if (options.map == radial::DirectionMapKind::cartesian) return 64;
-  // A few triangles to a cell: with finer ones each is listed more often, which costs time to build and
-  // memory, and a query gains little. Sides that can be halved have deep pyramids.
-  if (triangles < 6000) return triangles < 3000 ? 16 : 24;
-  if (triangles < 12000) return 32;
-  return triangles < 60000 ? 48 : triangles < 600000 ? 64 : 128;
-}
-
-std::variant<radial::CartesianMap, radial::CubeMap> make_map(const RadialOptions& options,
-                                                             std::size_t triangles) {
-  const int side = cells_per_side(options, triangles);
-  if (options.map == radial::DirectionMapKind::cartesian) return radial::CartesianMap(side);
-  return radial::CubeMap(side);
-}
-
-radial::CellLists list_triangles(const TriMesh& mesh,
-                                 const std::variant<radial::CartesianMap, radial::CubeMap>& map) {
-  const auto* cube = std::get_if<radial::CubeMap>(&map);
-  if (!cube) return radial::list_cells(mesh, std::get<radial::CartesianMap>(map));
-  radial::CellLists lists;
-  radial::list_cells(mesh, *cube, lists);
-  return lists;
-}
-
-}  // namespace
-
-void RadialHits::resize(std::size_t count) {
-  state.resize(count), winding.resize(count), radial_gap.resize(count);
+void RadialResults::resize(std::size_t count) {
+  state.resize(count), winding.resize(count), radial_gap_mm.resize(count);
   triangle.resize(count), direction.resize(count), ray_to_normal.resize(count);
 }
 
-RadialTable::RadialTable(TriMesh mesh, RadialOptions options)
-    : mesh_(std::move(mesh)),
-      map_(make_map(options, mesh_.triangles.size())),
-      lists_(list_triangles(mesh_, map_)),
-      boundary_edge_(mesh::unbalanced_edge(mesh_)) {
-  finish_lists();
+void Penetrations::clear() {
+  resize(0);
+  ray_to_normal.clear();
 }
 
+void Penetrations::resize(std::size_t count) {
+  point.resize(count), state.resize(count), winding.resize(count);
+  triangle.resize(count), depth_mm.resize(count), direction.resize(count);
+}
+
+SortedPoints::SortedPoints(PointsView points, const Vec3& centre)
+    : blocks_(std::make_shared<radial::PointBlocks>(points, centre)) {}
+
+std::size_t SortedPoints::size() const noexcept {
+  return blocks_->size();
+}
+
+RadialTable::RadialTable(Mesh mesh, RadialOptions options)
+    : table_(std::make_unique<radial::DirectionTable>(std::move(mesh), options)) {}
+
+RadialTable::RadialTable(const RadialTable& other)
+    : table_(std::make_unique<radial::DirectionTable>(*other.table_)) {}
+
+RadialTable& RadialTable::operator=(const RadialTable& other) {
+  if (this != &other) table_ = std::make_unique<radial::DirectionTable>(*other.table_);
+  return *this;
+}
+
+RadialTable::RadialTable(RadialTable&&) noexcept = default;
+RadialTable& RadialTable::operator=(RadialTable&&) noexcept = default;
+RadialTable::~RadialTable() = default;
+
 void RadialTable::update(PointsView vertices) {
-  if (vertices.size() != mesh_.vertices.size()) {
-    throw UsageError("an update of " + std::to_string(mesh_.vertices.size()) + " vertices gives " +
-                     std::to_string(vertices.size()));
-  }
-  const auto* cube = std::get_if<radial::CubeMap>(&map_);
-  if (cube) radial::make_rooms(mesh_, lists_);
-  mesh_.vertices.x.assign(vertices.x.begin(), vertices.x.end());
-  mesh_.vertices.y.assign(vertices.y.begin(), vertices.y.end());
-  mesh_.vertices.z.assign(vertices.z.begin(), vertices.z.end());
-  if (cube) {
-    radial::follow_vertices(mesh_, *cube, lists_);
-  } else {
-    lists_ = list_triangles(mesh_, map_);
-  }
-  finish_lists();
+  table_->update(vertices);
 }
 
 void RadialTable::update(std::span<const Index> moved, PointsView positions) {
-  const auto* cube = std::get_if<radial::CubeMap>(&map_);
-  if (cube) radial::make_rooms(mesh_, lists_);
-  for (std::size_t i = 0; i < moved.size(); ++i) mesh_.vertices.set(moved[i], positions[i]);
-  if (!cube) {
-    lists_ = list_triangles(mesh_, map_);
-    return finish_lists();
-  }
-  if (triangles_at_.empty()) triangles_at_ = mesh::VertexTriangles(mesh_);
-  const std::vector<Index> triangles = triangles_at_.of(moved);
-  const radial::ChangedRadii changed = radial::follow_vertices(mesh_, *cube, moved, triangles, lists_);
-  for (const Index t : triangles) require_centre_off_triangle(t);
-  if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
-  if ((winding_at_centre_.value_or(0) > 0) != lists_.starts_at_centre) {
-    find_all_radii();
-  } else if (changed.may_be_all) {
-    pyramid_.fill(cube->cells_per_side(), lists_.radii);
-  } else {
-    pyramid_.refill(cube->cells_per_side(), lists_.radii, changed.cells);
-  }
+  table_->update(moved, positions);
 }
 
-/// What follows from lists, forms and vertices.
-void RadialTable::finish_lists() {
-  require_centre_off_surface();
-  if (!boundary_edge_) winding_at_centre_ = find_winding_at_centre();
-  find_all_radii();
+void RadialTable::query(PointsView points, RadialResults& out) const {
+  table_->query(points, out);
 }
 
-void RadialTable::find_all_radii() {
-  // Points nearer to the centre than the surface are inside and to be found where the centre is.
-  lists_.starts_at_centre = winding_at_centre_.value_or(0) > 0;
-  if (const auto* cube = std::get_if<radial::CubeMap>(&map_)) {
-    radial::find_radii(*cube, lists_);
-    pyramid_.fill(cube->cells_per_side(), lists_.radii);
-  } else if (lists_.starts_at_centre) {
-    for (radial::RadiusWord& word : lists_.radii) word = radial::union_of(word, radial::radius_word(0, 0));
-  }
-}
-
-void RadialTable::require_centre_off_surface() const {
-  // A form that is a number has a plane that is certainly off the centre.
-  if (std::holds_alternative<radial::CubeMap>(map_)) {
-    for (const Index t : lists_.unknown) require_centre_off_triangle(t);
-  } else {
-    for (Index t = 0; t < mesh_.triangles.size(); ++t) require_centre_off_triangle(t);
-  }
-}
-
-void RadialTable::require_centre_off_triangle(Index t) const {
-  if (!lists_.forms.empty() && !std::isnan(lists_.forms[t].x[3])) return;
-  const radial::Cone cone = radial::cone_of(mesh_, t);
-  if (core::orientation(cone.a, cone.b, cone.c) == core::Sign::zero &&
-      mesh::contains_coplanar({cone.a, cone.b, cone.c}, Vec3::Zero())) {
-    throw MeshError("the joint centre lies on the surface, in triangle " + std::to_string(t));
-  }
-}
-
-int RadialTable::find_winding_at_centre() const {
-  // Far out the winding number is zero; every skin crossed on the way in adds what it is wound.
-  const Vec3 any_direction(0, 0, 1);
-  int winding = 0;
-  for (const Index t : lists_.of(cell_of(any_direction))) {
-    const radial::Cone cone = radial::cone_of(mesh_, t);
-    winding += static_cast<int>(radial::ray_crossing(any_direction, cone.a, cone.b, cone.c).outwards);
-  }
-  return winding;
-}
-
-radial::CubeView RadialTable::view_of(const radial::CubeMap& map) const {
-  return {map.cells_per_side(),
-          radial::DirectionPyramid::step_count(map.cells_per_side()),
-          lists_.radii.data(),
-          pyramid_.data(),
-          pyramid_.all(),
-          lists_.row.data(),
-          lists_.triangle.data(),
-          lists_.box.data(),
-          lists_.slant.data(),
-          lists_.nearest.data(),
-          lists_.forms.data(),
-          lists_.scale,
-          winding_at_centre_.value_or(0),
-          lists_.least_squared};
-}
-
-std::span<const Index> RadialTable::candidates(const Vec3& v, std::vector<Index>& room) const {
-  if (v == Vec3::Zero()) return {};
-  const Index cell = cell_of(v);
-  const auto* map = std::get_if<radial::CubeMap>(&map_);
-  if (!map) return lists_.of(cell);
-  room.resize(std::max(room.size(), lists_.of(cell).size() + radial::vector_room));
-  return {room.data(), radial::triangles_holding(view_of(*map), cell, map->box_of(v), room.data())};
-}
-
-void RadialTable::require_closed() const {
-  if (boundary_edge_) mesh::refuse_unbalanced(*boundary_edge_);
-}
-
-void RadialTable::query(PointsView points, RadialHits& out) const {
-  require_closed();
-  out.resize(points.size());
-  core::parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
-    radial::RayScan scan(mesh_, *winding_at_centre_);
-    std::vector<Index> room;
-    for (std::size_t i = first; i < last; ++i) {
-      const Vec3 v = points[i];
-      const radial::RayAnswer answer = scan.answer(v, candidates(v, room));
-      out.state[i] = answer.state;
-      out.winding[i] = answer.winding;
-      out.radial_gap[i] = answer.gap;
-      out.triangle[i] = answer.triangle;
-      out.direction[i] = answer.direction;
-      out.ray_to_normal[i] = answer.triangle == no_index
-                                 ? 0
-                                 : radial::angle_to_normal(v, radial::cone_of(mesh_, answer.triangle));
-    }
-  });
-}
-
-RadialHits RadialTable::query(PointsView points) const {
-  RadialHits out;
+RadialResults RadialTable::query(PointsView points) const {
+  RadialResults out;
   query(points, out);
   return out;
 }
 
-void RadialTable::query_states(PointsView points, std::vector<PointState>& out) const {
-  require_closed();
-  out.resize(points.size());
-  const PointState state_at_centre = *winding_at_centre_ > 0 ? PointState::inside : PointState::outside;
-  core::parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
-    radial::RayScan scan(mesh_, *winding_at_centre_);
-    std::vector<Index> room;
-    for (std::size_t i = first; i < last; ++i) {
-      const Vec3 v = points[i];
-      if (v == Vec3::Zero()) {
-        out[i] = state_at_centre;
-        continue;
-      }
-      const Index cell = cell_of(v);
-      const SquaredRadii radii = radii_of(cell);
-      const double squared_radius = v.squaredNorm();
-      if (squared_radius < radii.least) {
-        out[i] = state_at_centre;
-      } else if (squared_radius > radii.greatest) {
-        out[i] = PointState::outside;
-      } else {
-        out[i] = scan.state(v, candidates(v, room));
-      }
-    }
-  });
+void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
+                               PenetrationWork* work) const {
+  table_->penetrations(points.blocks(), X_FM, out, work);
+}
+
+void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose> X_FM,
+                               std::span<Penetrations> out) const {
+  table_->penetrations(points.blocks(), X_FM, out);
+}
+
+void RadialTable::add_ray_to_normal(PointsView points, const Pose& X_FM, Penetrations& out) const {
+  table_->add_ray_to_normal(points, X_FM, out);
+}
+
+void RadialTable::prepare_penetrations() const {
+  table_->prepare_penetrations();
+}
+
+const TriMesh& RadialTable::mesh() const noexcept {
+  return table_->mesh();
+}
+
+bool RadialTable::is_closed() const noexcept {
+  return table_->is_closed();
+}
+
+std::optional<int> RadialTable::winding_at_centre() const noexcept {
+  return table_->winding_at_centre();
 }
 
 RadialTableSize RadialTable::table_size() const noexcept {
-  Index longest = 0;
-  for (const radial::CellRow& row : lists_.row) longest = std::max(longest, row.last - row.first);
-  return {lists_.row.size(), lists_.entry_count(),
-          lists_.bytes() + pyramid_.size() * sizeof(radial::RadiusWord) + triangles_at_.bytes(), longest};
+  return table_->table_size();
 }
 
 }  // namespace condyle

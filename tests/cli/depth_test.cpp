@@ -66,7 +66,7 @@ TEST_F(SampleJoint, DepthIsWhatTheLibraryFinds) {
   const JointContact joint(read_mesh(folder / "sample/hip_bone.ply").mesh,
                            read_mesh(folder / "sample/femur.ply").mesh);
   const RadialContact contact = joint.radial(pose_at(Side::right, deep_angles));
-  const auto inside = [](const RadialHits& hits) {
+  const auto inside = [](const RadialResults& hits) {
     return std::count(hits.state.begin(), hits.state.end(), PointState::inside);
   };
   EXPECT_TRUE(json["in_contact"]);
@@ -74,9 +74,9 @@ TEST_F(SampleJoint, DepthIsWhatTheLibraryFinds) {
   EXPECT_EQ(json["fixed_vertices_inside"], inside(*contact.fixed_in_mobile));
   EXPECT_GT(json["mobile_vertices_inside"], 0);
   EXPECT_EQ(json["triangle_pairs"], contact.pairs.size());
-  const RadialHits& deepest =
+  const RadialResults& deepest =
       json["deepest_body"] == "mobile" ? *contact.mobile_in_fixed : *contact.fixed_in_mobile;
-  EXPECT_EQ(json["max_radial_depth_mm"], -deepest.radial_gap[json["deepest_vertex"].get<std::size_t>()]);
+  EXPECT_EQ(json["max_radial_depth_mm"], -deepest.radial_gap_mm[json["deepest_vertex"].get<std::size_t>()]);
   EXPECT_EQ(json["deepest_point_mm"].size(), 3u);
   EXPECT_LE(json["max_facing_radial_depth_mm"], json["max_radial_depth_mm"]);
   EXPECT_GT(json["min_gap_mm"], 0);

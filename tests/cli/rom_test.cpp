@@ -95,7 +95,6 @@ TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
   for (const char* name : {"limits.csv", "limits.svg", "clock_face.svg", "map.csv", "map_flexion.svg",
                            "map_extension.svg", "map_free_range.svg"})
     EXPECT_TRUE(fs::exists(here / "out" / name)) << name;
-  EXPECT_FALSE(fs::exists(here / "out/map.checkpoint"));
   EXPECT_EQ(Json::parse(ran.out)["map"]["points"], 25);
 }
 
@@ -164,7 +163,7 @@ TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
   expect_refused(2, "rom joint.toml --out out --past -1", "past the limit");
   expect_refused(2, "rom joint.toml --out out --past nan", "past the limit");
   expect_refused(2, "rom joint.toml --out out --allow-depth -1", "depth");
-  expect_refused(2, "rom joint.toml --out out --allow-depth 1 --exclude-rest", "excludes");
+  expect_refused(2, "rom joint.toml --out out --allow-depth 1 --exclude-reference-contacts", "excludes");
   expect_refused(2, "rom joint.toml --out out --follow-socket", "requires --allow-depth");
 }
 
@@ -175,11 +174,12 @@ TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {
   EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
 }
 
-TEST_F(RomCommand, BodiesInContactAtRestNeedAnOption) {
+TEST_F(RomCommand, BodiesInContactInTheReferencePoseAreExitCodeSixWithoutAnOption) {
   write_mesh(here / "fat.ply", box({-1, -100, -2}, {41, -10, 2}));
   write_joint("fat.ply", "");
-  expect_refused(4, "rom joint.toml --out out", "in contact at rest");
-  const Ran ran = run("rom joint.toml --accept-rest --json");
+  expect_refused(6, "rom joint.toml --out out", "in contact in the reference pose");
+  expect_refused(6, "rom joint.toml --motion flexion --json", "--accept-reference-contact");
+  const Ran ran = run("rom joint.toml --accept-reference-contact --json");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json answer = Json::parse(ran.out);
   EXPECT_EQ(answer["motions"][0]["reason"], "contact_at_start");
@@ -205,43 +205,16 @@ std::string last_line(const std::string& text) {
   return text.substr(text.rfind('\n', text.size() - 2) + 1);
 }
 
-TEST_F(RomCommand, AnInterruptedMapIsKeptAndTheSameCommandGoesOn) {
+TEST_F(RomCommand, AnInterruptedMapLeavesNothingAndSaysSoInOneLine) {
   write_fine_meshes();
-  const std::string command = std::string("rom joint.toml --motion flexion --out out") + long_map;
-  const Ran first = run_interrupted(here, command);
-  EXPECT_EQ(first.exit_code, 130) << first.err;
-  EXPECT_EQ(first.out, "");
-  EXPECT_TRUE(is_one_error_line(last_line(first.err))) << first.err;
-  EXPECT_NE(first.err.find("kept in out/map.checkpoint"), first.err.npos) << first.err;
-  ASSERT_TRUE(fs::exists(here / "out/map.checkpoint"));
-  EXPECT_FALSE(fs::exists(here / "out/rom.json"));
-  const auto kept = fs::file_size(here / "out/map.checkpoint");
-
-  const Ran second = run_interrupted(here, command);
-  EXPECT_EQ(second.exit_code, 130) << second.err;
-  EXPECT_GT(fs::file_size(here / "out/map.checkpoint"), kept);
-
-  // Another question says so and starts anew; having finished, it leaves no checkpoint.
-  const Ran other = run(std::string("rom joint.toml --motion flexion --out out") + small_map);
-  EXPECT_EQ(other.exit_code, 0) << other.err;
-  EXPECT_NE(other.err.find("of another joint, mesh, grid or option"), other.err.npos) << other.err;
-  EXPECT_FALSE(fs::exists(here / "out/map.checkpoint"));
-}
-
-TEST_F(RomCommand, InterruptedWithoutAFolderSaysThatNothingIsKept) {
-  write_fine_meshes();
-  const Ran ran = run_interrupted(here, std::string("rom joint.toml") + long_map);
-  EXPECT_EQ(ran.exit_code, 130) << ran.err;
-  EXPECT_NE(ran.err.find("nothing is kept without --out"), ran.err.npos) << ran.err;
-}
-
-TEST_F(RomCommand, ADamagedCheckpointIsRefused) {
-  fs::create_directory(here / "out");
-  std::ofstream(here / "out/map.checkpoint") << "condyle map checkpoint 1\nrubbish that is long enough";
-  const Ran ran = run(std::string("rom joint.toml --out out") + small_map);
-  EXPECT_EQ(ran.exit_code, 3);
-  EXPECT_TRUE(is_one_error_line(ran.err)) << ran.err;
-  EXPECT_NE(ran.err.find("map.checkpoint"), ran.err.npos) << ran.err;
+  for (const char* out : {"", " --out out/deeper"}) {
+    const Ran ran = run_interrupted(here, std::string("rom joint.toml --motion flexion") + out + long_map);
+    EXPECT_EQ(ran.exit_code, 130) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_TRUE(is_one_error_line(last_line(ran.err))) << ran.err;
+    EXPECT_NE(ran.err.find("map points; nothing is written"), ran.err.npos) << ran.err;
+    EXPECT_FALSE(fs::exists(here / "out"));
+  }
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(TangentialContact, ADoorTurnedIntoAPostMustTurnBackByWhatItIsTooFar) {
   const double depth = Angle::degrees(26).radians() - first_touch;
   EXPECT_NEAR(post_summary.deepest->depth.radians(), depth, 1e-14);
   EXPECT_NEAR(post_summary.deepest->depth_mm, depth * radius, 1e-13);
-  EXPECT_EQ(low.fixed_in_mobile->turn[post_summary.deepest->vertex], Turn::positive);
+  EXPECT_EQ(low.fixed_in_mobile->rotation_sense[post_summary.deepest->vertex], RotationSense::positive);
 }
 
 TEST(TangentialContact, StatesAndPairsAreThoseOfTheRadialMethod) {

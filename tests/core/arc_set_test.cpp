@@ -15,7 +15,7 @@ core::Arc arc(double start_deg, double width_deg) {
   return {deg(start_deg), deg(width_deg)};
 }
 
-TEST(ArcSet, of_nothing_holds_nothing_and_of_everything_everything) {
+TEST(ArcSet, OfNothingHoldsNothingAndOfEverythingEverything) {
   EXPECT_TRUE(core::ArcSet().empty());
   EXPECT_FALSE(core::ArcSet().contains(deg(0)));
   EXPECT_TRUE(core::ArcSet().complement().is_full_turn());
@@ -26,7 +26,7 @@ TEST(ArcSet, of_nothing_holds_nothing_and_of_everything_everything) {
   EXPECT_EQ(core::ArcSet::full_turn().measure().radians(), two_pi);
 }
 
-TEST(ArcSet, includes_the_ends_of_its_arcs) {
+TEST(ArcSet, IncludesTheEndsOfItsArcs) {
   const core::ArcSet set({{Angle::radians(1), Angle::radians(2)}});
   EXPECT_TRUE(set.contains(Angle::radians(1)));
   EXPECT_TRUE(set.contains(Angle::radians(3)));
@@ -34,12 +34,12 @@ TEST(ArcSet, includes_the_ends_of_its_arcs) {
   EXPECT_FALSE(set.contains(Angle::radians(std::nextafter(3, 4))));
 }
 
-TEST(ArcSet, joins_arcs_that_overlap_or_touch) {
+TEST(ArcSet, JoinsArcsThatOverlapOrMeet) {
   const core::ArcSet set({{Angle::radians(2), Angle::radians(1)}, {Angle::radians(1), Angle::radians(1)}});
   EXPECT_EQ(set.arcs(), (std::vector<core::Arc>{{Angle::radians(1), Angle::radians(2)}}));
 }
 
-TEST(ArcSet, reports_an_arc_across_zero_as_one) {
+TEST(ArcSet, ReportsAnArcAcrossZeroAsOne) {
   const core::ArcSet set({arc(-10, 20), arc(100, 10)});
   const auto arcs = set.arcs();
   ASSERT_EQ(arcs.size(), 2u);
@@ -52,7 +52,7 @@ TEST(ArcSet, reports_an_arc_across_zero_as_one) {
   EXPECT_FALSE(set.contains(arc(-5, 30)));
 }
 
-TEST(ArcSet, holds_zero_however_it_is_named) {
+TEST(ArcSet, HoldsZeroHoweverItIsNamed) {
   for (const core::ArcSet& set :
        {core::ArcSet({{Angle(), Angle()}}), core::ArcSet({{Angle::radians(two_pi - 1), Angle::radians(1)}}),
         core::ArcSet({{Angle::radians(0), Angle::radians(1)}})}) {
@@ -63,7 +63,7 @@ TEST(ArcSet, holds_zero_however_it_is_named) {
   }
 }
 
-TEST(ArcSet, of_a_single_direction_has_no_width_and_no_complement_of_its_own) {
+TEST(ArcSet, OfASingleDirectionHasNoWidthAndNoComplementOfItsOwn) {
   const core::ArcSet point({arc(90, 0)});
   EXPECT_TRUE(point.contains(deg(90)));
   EXPECT_EQ(point.measure().radians(), 0);
@@ -100,7 +100,7 @@ bool any_holds(const Arcs& from, int at) {
                      [at](const auto& a) { return (at - a.first + quarters) % quarters <= a.second; });
 }
 
-RC_GTEST_PROP(ArcSet, holds_what_any_of_its_arcs_holds, ()) {
+RC_GTEST_PROP(ArcSet, HoldsWhatAnyOfItsArcsHolds, ()) {
   const Arcs a = any_arcs(), b = any_arcs();
   const core::ArcSet one = set_of(a), other = set_of(b), both = one.united(other), rest = both.complement();
   for (int at = 1; at < quarters; at += 2) {
@@ -113,7 +113,7 @@ RC_GTEST_PROP(ArcSet, holds_what_any_of_its_arcs_holds, ()) {
   RC_ASSERT(std::abs(both.measure().radians() + rest.measure().radians() - two_pi) < 1e-12);
 }
 
-RC_GTEST_PROP(ArcSet, holds_an_arc_where_it_holds_all_of_it, ()) {
+RC_GTEST_PROP(ArcSet, HoldsAnArcWhereItHoldsAllOfIt, ()) {
   const Arcs a = any_arcs();
   const auto [start, width] = any_arc();
   bool all = true;

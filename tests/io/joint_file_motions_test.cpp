@@ -53,11 +53,11 @@ TEST_F(JointFileMotions, AreReadInTheirOrder) {
   const Motion &kick = file.motions[0], &fadir = file.motions[1];
   EXPECT_EQ(kick.name, "kick");
   EXPECT_EQ(kick.vary, JointAngle::internal_rotation);
-  EXPECT_EQ(kick.sense, TurnSense::positive);
+  EXPECT_EQ(kick.sense, RotationSense::positive);
   EXPECT_EQ(kick.start, (JointAngles{Angle::degrees(90), Angle::degrees(12.5), Angle::degrees(-5)}));
   EXPECT_EQ(kick.range, Angle::degrees(65));
   EXPECT_EQ(fadir.vary, JointAngle::adduction);
-  EXPECT_EQ(fadir.sense, TurnSense::negative);
+  EXPECT_EQ(fadir.sense, RotationSense::negative);
   EXPECT_EQ(fadir.start, (JointAngles{Angle(), Angle::degrees(10), Angle()}));
   EXPECT_EQ(fadir.range, Angle::degrees(40));
 }

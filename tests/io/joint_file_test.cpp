@@ -135,15 +135,16 @@ TEST_F(JointFileTest, AScannersFrameIsTurnedToTheJointsWithoutRounding) {
   }
 }
 
-TEST_F(JointFileTest, ARestPoseIsTakenOffTheMobileMeshAlone) {
+TEST_F(JointFileTest, AReferencePoseIsTakenOffTheMobileMeshOnly) {
   for (const auto& [name, side] : {std::pair{"right", Side::right}, std::pair{"left", Side::left}}) {
-    const JointAngles rest{Angle::degrees(20), Angle::degrees(-10), Angle::degrees(5)};
-    const auto [joint, report] = read(replaced(plain, "\"right\"", "\"" + std::string(name) + "\"") +
-                                      "[rest]\nflexion = 20\nadduction = -10.0\ninternal_rotation = 5\n");
+    const JointAngles reference{Angle::degrees(20), Angle::degrees(-10), Angle::degrees(5)};
+    const auto [joint, report] =
+        read(replaced(plain, "\"right\"", "\"" + std::string(name) + "\"") +
+             "[reference_pose]\nflexion = 20\nadduction = -10.0\ninternal_rotation = 5\n");
     EXPECT_EQ(joint.fixed.mesh, pelvis_like());
-    EXPECT_EQ(report.file.rest, rest);
-    // At the rest angles the mesh is again where the file has it: two rotations with a few u of 400 mm each.
-    const TriMesh given = femur_like(), back = posed(pose_at(side, rest), joint.mobile.mesh);
+    EXPECT_EQ(report.file.reference_pose, reference);
+    // In the reference pose the mesh is again where the file has it: two rotations with a few u of 400 mm each.
+    const TriMesh given = femur_like(), back = posed(pose_at(side, reference), joint.mobile.mesh);
     for (std::size_t v = 0; v < given.vertices.size(); ++v)
       EXPECT_LE((back.vertices[v] - given.vertices[v]).norm(), 32 * core::rounding_unit * 400);
   }
@@ -294,8 +295,8 @@ TEST_F(JointFileTest, UnknownKeysAreRefusedEverywhere) {
   EXPECT_EQ(refusal_of("units", "unit = 1\nunits").substr(0, 25), "line 5: unit: unknown key");
   EXPECT_EQ(refusal_of("[mobile]\n", "[mobile]\ncolour = 1\n").substr(0, 35),
             "line 10: mobile.colour: unknown key");
-  EXPECT_EQ(refusal(plain + std::string("[rest]\nflex = 1\n")).substr(0, 30),
-            "line 17: rest.flex: unknown ke");
+  EXPECT_EQ(refusal(plain + std::string("[reference_pose]\nflex = 1\n")).substr(0, 40),
+            "line 17: reference_pose.flex: unknown ke");
 }
 
 TEST_F(JointFileTest, KeysThatContradictEachOtherAreRefused) {
@@ -304,7 +305,7 @@ TEST_F(JointFileTest, KeysThatContradictEachOtherAreRefused) {
                        "-400, 40]\n[frame]"),
             "accepted");
   EXPECT_NE(refusal_of("[frame]\n", "[frame]\nfit_body = \"fixed\"\n"), "accepted");
-  EXPECT_NE(refusal_of("\"ball\"", "\"hinge\"\n[rest]\nadduction = 5\n"), "accepted");
+  EXPECT_NE(refusal_of("\"ball\"", "\"hinge\"\n[reference_pose]\nadduction = 5\n"), "accepted");
 }
 
 TEST_F(JointFileTest, OneSidesSpinesAskForTheOtherSides) {

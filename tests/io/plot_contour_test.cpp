@@ -11,6 +11,8 @@
 namespace condyle::test {
 namespace {
 
+using namespace io;
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A field that owns its numbers.

@@ -5,13 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "condyle/io/plot_map.hpp"
 #include "io/result/plot_clock_face.hpp"
 #include "io/result/plot_limits.hpp"
+#include "io/result/plot_map.hpp"
 #include "plot_svg_elements.hpp"
 
 namespace condyle::test {
 namespace {
+
+using namespace io;
 
 constexpr const char* footer = "osseous contact; research software, not a medical device";
 
@@ -20,8 +22,8 @@ const PlotHeading heading{"Left hip <7> & co", "what is shown"};
 MotionLimit limit_of(std::string name, double degrees, LimitReason reason) {
   MotionLimit limit;
   limit.motion.name = std::move(name);
-  limit.turned = Angle::degrees(degrees);
-  limit.reason = reason;
+  limit.end.turned = Angle::degrees(degrees);
+  limit.end.reason = reason;
   return limit;
 }
 
@@ -106,29 +108,29 @@ TEST(LimitsPlot, Stays_inside_its_canvas_for_many_motions_with_long_names) {
   expect_sober(limits_plot(heading, std::vector{limit_of("flexion", 0, LimitReason::contact_at_start)}));
 }
 
-MapPlot map_of(int columns, int rows, MapPointKind kind) {
+MapPlot map_of(int columns, int rows, LimitReason kind) {
   MapPlot map{heading, "limit of internal rotation", "flexion, degrees", "adduction, degrees", {}, {}, {},
               {}};
   for (int i = 0; i < columns; ++i) map.x.push_back(10 * i - 20);
   for (int j = 0; j < rows; ++j) map.y.push_back(5 * j - 40);
-  for (int k = 0; k < columns * rows; ++k) map.values.push_back(k), map.kinds.push_back(kind);
+  for (int k = 0; k < columns * rows; ++k) map.values.push_back(k), map.reasons.push_back(kind);
   return map;
 }
 
 TEST(MapPlot, Is_well_formed_for_every_shape_and_kind) {
-  for (const MapPointKind kind :
-       {MapPointKind::contact, MapPointKind::end_of_range, MapPointKind::contact_at_start})
+  for (const LimitReason kind :
+       {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
     for (const int columns : {1, 2, 9})
       for (const int rows : {1, 2, 7}) {
         const std::string plot = map_plot(map_of(columns, rows, kind));
         expect_sober(plot);
         EXPECT_TRUE(has_text(plot, "limit of internal rotation, degrees") ||
-                    kind == MapPointKind::contact_at_start);
+                    kind == LimitReason::contact_at_start);
       }
 }
 
 TEST(MapPlot, Fills_the_whole_plane_with_its_lowest_band) {
-  const std::string plot = map_plot(map_of(5, 4, MapPointKind::contact));
+  const std::string plot = map_plot(map_of(5, 4, LimitReason::contact));
   const auto bands = elements_named(plot, "path");
   ASSERT_GT(bands.size(), 3u);
   // The frame is 548 x 432 px from (92, 84); only its corners are left of the lowest band's outline.
@@ -137,9 +139,9 @@ TEST(MapPlot, Fills_the_whole_plane_with_its_lowest_band) {
 }
 
 TEST(MapPlot, Leaves_out_points_in_contact_at_the_start_and_says_so) {
-  MapPlot map = map_of(5, 4, MapPointKind::contact);
+  MapPlot map = map_of(5, 4, LimitReason::contact);
   EXPECT_FALSE(has_text(map_plot(map), "in contact at the start"));
-  map.kinds[0] = MapPointKind::contact_at_start;
+  map.reasons[0] = LimitReason::contact_at_start;
   map.values[0] = 1e9;  // not read
   const std::string plot = map_plot(map);
   EXPECT_TRUE(has_text(plot, "in contact at the start"));

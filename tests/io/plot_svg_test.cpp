@@ -8,6 +8,8 @@
 namespace condyle::test {
 namespace {
 
+using namespace io;
+
 TEST(SvgNumber, Has_at_most_two_decimals_and_no_negative_zero) {
   EXPECT_EQ(svg_number(3), "3");
   EXPECT_EQ(svg_number(-0.004), "0");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/result/clock_contacts.hpp"
 #include "rom_scene.hpp"
 
 namespace condyle::test {
@@ -19,21 +20,21 @@ std::vector<MotionLimit> some_limits() {
   MotionLimit contact;
   contact.motion = {"flexion",
                     JointAngle::flexion,
-                    TurnSense::positive,
+                    RotationSense::positive,
                     {Angle::degrees(0.1), Angle::degrees(1.0 / 3), Angle::degrees(-7)},
                     Angle::degrees(180)};
-  contact.turned = Angle::radians(1.2345678901234567);
-  contact.reason = LimitReason::contact;
-  contact.contact = {{FeatureKind::edge, 3, 17}, {FeatureKind::face, 40}, {0.1, 1.0 / 3, -2e-17}, {7, 8, 9}};
-  contact.articular = true;
-  contact.shortfall = Angle::radians(1.5e-12);
+  contact.end.turned = Angle::radians(1.2345678901234567);
+  contact.end.reason = LimitReason::contact;
+  contact.end.contact = {
+      {FeatureKind::edge, 3, 17}, {FeatureKind::face, 40}, {0.1, 1.0 / 3, -2e-17}, {7, 8, 9}, true};
+  contact.end.error_bound = Angle::radians(1.5e-12);
   MotionLimit ended;
   ended.motion = {
-      "own, \"odd\" motion", JointAngle::internal_rotation, TurnSense::negative, {}, Angle::degrees(40)};
-  ended.turned = Angle::degrees(40);
+      "own, \"odd\" motion", JointAngle::internal_rotation, RotationSense::negative, {}, Angle::degrees(40)};
+  ended.end.turned = Angle::degrees(40);
   MotionLimit swallowed;
-  swallowed.motion = {"schön", JointAngle::adduction, TurnSense::negative, {}, Angle::degrees(90)};
-  swallowed.reason = LimitReason::contact_at_start;
+  swallowed.motion = {"schön", JointAngle::adduction, RotationSense::negative, {}, Angle::degrees(90)};
+  swallowed.end.reason = LimitReason::contact_at_start;
   return {contact, ended, swallowed};
 }
 
@@ -63,14 +64,14 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
 
   const Json& flexion = json["motions"][0];
   EXPECT_EQ(flexion["name"], "flexion");
-  EXPECT_EQ(flexion["limit_deg"].get<double>(), limits[0].turned.degrees());
+  EXPECT_EQ(flexion["limit_deg"].get<double>(), limits[0].end.turned.degrees());
   EXPECT_EQ(flexion["reason"], "contact");
   EXPECT_EQ(flexion["articular"], true);
   EXPECT_EQ(flexion["contact_point_mm"], (Json{0.1, 1.0 / 3, -2e-17}));
   EXPECT_EQ(flexion["contact_point_mobile_mm"], (Json{7.0, 8.0, 9.0}));
   EXPECT_EQ(flexion["features"]["fixed"], (Json{{"kind", "edge"}, {"vertices", {3, 17}}}));
   EXPECT_EQ(flexion["features"]["mobile"], (Json{{"kind", "face"}, {"id", 40}}));
-  EXPECT_EQ(flexion["shortfall_deg"].get<double>(), limits[0].shortfall.degrees());
+  EXPECT_EQ(flexion["error_bound_deg"].get<double>(), limits[0].end.error_bound.degrees());
   EXPECT_EQ(flexion["vary"], "flexion");
   EXPECT_EQ(flexion["sense"], "positive");
   EXPECT_EQ(flexion["range_deg"].get<double>(), limits[0].motion.range.degrees());
@@ -79,7 +80,7 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   EXPECT_EQ(flexion["held_deg"]["internal_rotation"].get<double>(),
             limits[0].motion.start.internal_rotation.degrees());
   EXPECT_EQ(flexion["at_limit_deg"]["flexion"].get<double>(), limits[0].angles_at_limit().flexion.degrees());
-  EXPECT_EQ(flexion["certificate"], certificate_text(limits[0]));
+  EXPECT_EQ(flexion["guarantee"], guarantee_text(limits[0]));
 
   const Json& ended = json["motions"][1];
   EXPECT_EQ(ended["reason"], "end_of_range");
@@ -114,7 +115,7 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   double turned = 0;
   const char* digits = lines[1].c_str() + std::string("flexion,").size();
   std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
-  EXPECT_EQ(turned, limits[0].turned.degrees());
+  EXPECT_EQ(turned, limits[0].end.turned.degrees());
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
   EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,"));
 }
@@ -139,8 +140,8 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
 MotionLimit contact_towards(const Vec3& p) {
   MotionLimit limit;
   limit.motion.name = "flexion";
-  limit.reason = LimitReason::contact;
-  limit.contact = {{}, {}, p, p};
+  limit.end.reason = LimitReason::contact;
+  limit.end.contact = {{}, {}, p, p};
   return limit;
 }
 
@@ -154,7 +155,7 @@ TEST(ClockContacts, HaveTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
                              contact_towards({14, 14, lateral}), contact_towards({0, -20, lateral}),
                              contact_towards({-20, 0, lateral})};
     const RomResult result{joint, limits};
-    const auto contacts = clock_contacts(result);
+    const auto contacts = io::clock_contacts(result);
     ASSERT_EQ(contacts.size(), 5u);
     const std::array hours{0.0, 3.0, 1.5, 6.0, 9.0};
     // Four roundings of an arctangent, in hours.
@@ -168,9 +169,9 @@ TEST(ClockContacts, HaveTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
 TEST(ClockContacts, LeaveOutWhatDidNotTouchAndHinges) {
   Joint joint = arm_and_post();
   const std::vector<MotionLimit> limits = some_limits();
-  EXPECT_EQ(clock_contacts({joint, limits}).size(), 1u);
+  EXPECT_EQ(io::clock_contacts({joint, limits}).size(), 1u);
   joint.kind = JointKind::hinge;
-  EXPECT_TRUE(clock_contacts({joint, limits}).empty());
+  EXPECT_TRUE(io::clock_contacts({joint, limits}).empty());
   EXPECT_TRUE(Json::parse(rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
 }
 
@@ -181,23 +182,23 @@ TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
   depth.at_limit.depth_mm = 0.4375;
   depth.start_depth_mm = 0.125;
   depth.depth_grows = false;
-  depth.at_limit.shift = CentreShift{.translation = {0.5, 0.25, 0}};
+  depth.at_limit.shift = CentreShift{.translation_mm = {0.5, 0.25, 0}};
   const Json motion = Json::parse(
       rom_json({.joint = joint, .limits = {&depth.limit, 1}, .depths = {&depth, 1}}))["motions"][0];
   EXPECT_EQ(motion["depth"]["at_limit_mm"], 0.4375);
   EXPECT_EQ(motion["depth"]["at_start_mm"], 0.125);
   EXPECT_EQ(motion["depth"]["grows"], false);
   EXPECT_EQ(motion["depth"]["centre_shift_mm"], (Json{0.5, 0.25, 0.0}));
-  EXPECT_TRUE(motion["certificate"].get<std::string>().starts_with("searched, not exact"));
+  EXPECT_TRUE(motion["guarantee"].get<std::string>().starts_with("searched, not exact"));
   EXPECT_FALSE(motion.contains("zone"));
 }
 
-TEST(Certificate, SaysWhatEachReasonPromises) {
+TEST(Guarantee, SaysWhatHoldsForEachReason) {
   const auto limits = some_limits();
-  EXPECT_EQ(certificate_text(limits[0]),
+  EXPECT_EQ(guarantee_text(limits[0]),
             "free before the limit; in contact at it or past it by at most 8.6e-11 deg");
-  EXPECT_EQ(certificate_text(limits[1]), "free over the whole range of 40 deg");
-  EXPECT_EQ(certificate_text(limits[2]), "in contact before any turn");
+  EXPECT_EQ(guarantee_text(limits[1]), "free over the whole range of 40 deg");
+  EXPECT_EQ(guarantee_text(limits[2]), "in contact before any rotation");
 }
 
 }  // namespace

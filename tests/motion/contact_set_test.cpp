@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "motion/turn_scenes.hpp"
+#include "motion/rotation_scenes.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -15,31 +15,31 @@ namespace {
 using namespace test;
 using std::numbers::pi;
 
-core::ArcSet contact_set_of(const TurnScene& scene) {
+core::ArcSet contact_set_of(const RotationScene& scene) {
   const motion::FeatureTree resting(scene.resting), turning(scene.turning);
   return motion::contact_set(motion::RotationTable(resting, scene.axis),
                              motion::RotationTable(turning, scene.axis));
 }
 
-std::vector<TurnScene> everywhere(const TurnScene& scene) {
+std::vector<RotationScene> everywhere(const RotationScene& scene) {
   std::mt19937 random(2);
   return {scene, moved(far_away(random), scene), moved(far_away(random), scene)};
 }
 
 constexpr int teeth = 12;
 constexpr double pitch = two_pi / teeth;
-/// Share of the pitch a tooth takes, of the wheel and of the ring, and where the ring's teeth begin.
+/// Fraction of the pitch a tooth takes, of the wheel and of the ring, and where the ring's teeth begin.
 constexpr double wheel_tooth = 0.25, ring_tooth = 0.3, ring_start = 0.45;
 
-/// Corners of a toothed outline: in each pitch from `start` for `share` at radius `tooth`, the rest at `gap`.
-std::vector<Eigen::Vector2d> toothed(double start, double share, double tooth, double gap) {
+/// Corners of a toothed outline: in each pitch from `start` for `fraction` of it at radius `tooth`, the rest at `gap`.
+std::vector<Eigen::Vector2d> toothed(double start, double fraction, double tooth, double gap) {
   std::vector<Eigen::Vector2d> outline;
   const auto corner = [&](double pitches, double radius) {
     outline.emplace_back(radius * std::cos(pitches * pitch), radius * std::sin(pitches * pitch));
   };
   for (int i = 0; i < teeth; ++i) {
     corner(i + start, gap), corner(i + start, tooth);
-    corner(i + start + share, tooth), corner(i + start + share, gap);
+    corner(i + start + fraction, tooth), corner(i + start + fraction, gap);
   }
   return outline;
 }
@@ -70,13 +70,13 @@ TriMesh ring(const std::vector<Eigen::Vector2d>& inner, double radius, double lo
 }
 
 /// The wheel's teeth reach to 3, the ring's from outside to 2.5; tips and bottoms pass one another.
-TurnScene wheel_in_ring() {
+RotationScene wheel_in_ring() {
   return {prism(toothed(0, wheel_tooth, 3, 2), 0, 1),
           ring(toothed(ring_start, ring_tooth, 2.5, 4), 6, -1, 2)};
 }
 
-TEST(ToothedWheel, in_a_toothed_ring_touches_once_per_tooth_where_the_angles_say) {
-  for (const TurnScene& scene : everywhere(wheel_in_ring())) {
+TEST(ToothedWheel, InAToothedRingTouchesOncePerToothWhereTheAnglesSay) {
+  for (const RotationScene& scene : everywhere(wheel_in_ring())) {
     const auto arcs = contact_set_of(scene).arcs();
     ASSERT_EQ(arcs.size(), static_cast<std::size_t>(teeth));
     for (int i = 0; i < teeth; ++i) {
@@ -88,28 +88,28 @@ TEST(ToothedWheel, in_a_toothed_ring_touches_once_per_tooth_where_the_angles_say
   }
 }
 
-TEST(ToothedWheel, in_a_toothed_ring_turns_freely_to_either_end_of_the_gap) {
-  for (const TurnScene& scene : everywhere(wheel_in_ring())) {
+TEST(ToothedWheel, InAToothedRingTurnsFreelyToEitherEndOfTheGap) {
+  for (const RotationScene& scene : everywhere(wheel_in_ring())) {
     const auto found = limits(scene);
-    EXPECT_NEAR(found.positive.angle.radians(), (ring_start - wheel_tooth) * pitch, 1e-10);
-    EXPECT_NEAR(found.negative.angle.radians(), -(1 - ring_start - ring_tooth) * pitch, 1e-10);
+    EXPECT_NEAR(found.positive.turned.radians(), (ring_start - wheel_tooth) * pitch, 1e-10);
+    EXPECT_NEAR(found.negative.turned.radians(), (1 - ring_start - ring_tooth) * pitch, 1e-10);
   }
 }
 
-TEST(BodyOfRevolution, touches_at_no_angle_or_at_all) {
+TEST(BodyOfRevolution, TouchesAtNoAngleOrAtAll) {
   const TriMesh ring_torus = torus(3, 1, 64, 16);
-  for (const TurnScene& scene : everywhere({ring_torus, box({4.5, -1, -1}, {6, 1, 1})})) {
+  for (const RotationScene& scene : everywhere({ring_torus, box({4.5, -1, -1}, {6, 1, 1})})) {
     EXPECT_TRUE(contact_set_of(scene).empty());
     EXPECT_TRUE(contact_set_of(exchanged(scene)).empty());
   }
-  for (const TurnScene& scene : everywhere({ring_torus, box({3, -1, -3}, {6, 1, 3})})) {
+  for (const RotationScene& scene : everywhere({ring_torus, box({3, -1, -3}, {6, 1, 3})})) {
     EXPECT_TRUE(contact_set_of(scene).is_full_turn());
     EXPECT_TRUE(contact_set_of(exchanged(scene)).is_full_turn());
   }
 }
 
-TEST(ContactSet, of_a_bar_through_a_hub_on_the_axis_is_the_full_turn) {
-  const TurnScene scene{box({-1, -1, -1}, {1, 1, 1}), box({-0.5, -0.5, -3}, {0.5, 0.5, 3})};
+TEST(ContactSet, OfABarThroughAHubOnTheAxisIsTheFullTurn) {
+  const RotationScene scene{box({-1, -1, -1}, {1, 1, 1}), box({-0.5, -0.5, -3}, {0.5, 0.5, 3})};
   EXPECT_TRUE(contact_set_of(scene).is_full_turn());
 }
 
@@ -117,9 +117,9 @@ std::mt19937 any_random() {
   return std::mt19937(*rc::gen::arbitrary<unsigned>());
 }
 
-RC_GTEST_PROP(ContactSet, holds_the_angles_at_which_exact_triangle_tests_find_contact_and_no_others, ()) {
+RC_GTEST_PROP(ContactSet, HoldsTheAnglesAtWhichExactTriangleTestsFindContactAndNoOthers, ()) {
   auto random = any_random();
-  const TurnScene scene = random_scene(random);
+  const RotationScene scene = random_scene(random);
   const core::ArcSet touching = contact_set_of(scene);
   const auto ends = touching.arcs();
   std::uniform_real_distribution<double> any_angle(0, two_pi);
@@ -132,32 +132,32 @@ RC_GTEST_PROP(ContactSet, holds_the_angles_at_which_exact_triangle_tests_find_co
     }
   }
   for (const double angle : angles) {
-    RC_ASSERT(touching.contains(Angle::radians(angle)) == brute_touching(scene, angle));
+    RC_ASSERT(touching.contains(Angle::radians(angle)) == brute_contact_at(scene, angle));
   }
 }
 
-RC_GTEST_PROP(ContactSet, begins_where_the_first_contact_is, ()) {
+RC_GTEST_PROP(ContactSet, BeginsWhereTheFirstContactIs, ()) {
   auto random = any_random();
   for (int i = 0; i < 10; ++i) {
-    const TurnScene scene = random_scene(random);
+    const RotationScene scene = random_scene(random);
     const auto found = limits(scene);
     const core::ArcSet touching = contact_set_of(scene);
     if (found.positive.reason == LimitReason::contact_at_start) {
-      RC_ASSERT(touching.contains(Angle()) == found.positive.touching.has_value());
+      RC_ASSERT(touching.contains(Angle()) == found.positive.contact.has_value());
     } else if (found.positive.reason == LimitReason::end_of_range) {
       RC_ASSERT(touching.empty());
     } else {
       const auto arcs = touching.arcs();
-      RC_ASSERT(std::abs(arcs.front().start.radians() - found.positive.angle.radians()) <= 4e-12);
+      RC_ASSERT(std::abs(arcs.front().start.radians() - found.positive.turned.radians()) <= 4e-12);
       const double end = (arcs.back().start + arcs.back().width).radians();
-      RC_ASSERT(std::abs(end - two_pi - found.negative.angle.radians()) <= 4e-12);
+      RC_ASSERT(std::abs(end - two_pi + found.negative.turned.radians()) <= 4e-12);
     }
   }
 }
 
-TEST(ContactSet, is_the_same_to_the_byte_on_one_thread_and_many) {
-  const TurnScene scene{sphere({3, 0, 0}, 1.2, 3),
-                        joined(sphere({0, 3, 0.2}, 1, 3), sphere({-3, 0, 1}, 1, 3))};
+TEST(ContactSet, IsTheSameToTheByteOnOneThreadAndMany) {
+  const RotationScene scene{sphere({3, 0, 0}, 1.2, 3),
+                            joined(sphere({0, 3, 0.2}, 1, 3), sphere({-3, 0, 1}, 1, 3))};
   const core::ArcSet many = contact_set_of(scene);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(contact_set_of(scene), many);

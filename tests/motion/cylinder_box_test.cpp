@@ -53,7 +53,7 @@ void expect_held(const CylinderBox& box, const Point& p, double far) {
   RC_ASSERT(wrapped(wrapped(at.theta + angle_slack) - box.theta) <= box.theta_width + 2 * angle_slack);
 }
 
-RC_GTEST_PROP(CylinderBox, of_a_triangle_and_of_its_edges_holds_every_point_of_them, ()) {
+RC_GTEST_PROP(CylinderBox, OfATriangleAndOfItsEdgesHoldsEveryPointOfThem, ()) {
   auto random = any_random();
   for (int i = 0; i < 100; ++i) {
     const auto t = random_corners(random);
@@ -71,7 +71,7 @@ RC_GTEST_PROP(CylinderBox, of_a_triangle_and_of_its_edges_holds_every_point_of_t
   }
 }
 
-RC_GTEST_PROP(CylinderBox, of_a_box_holds_every_point_of_it, ()) {
+RC_GTEST_PROP(CylinderBox, OfABoxHoldsEveryPointOfIt, ()) {
   auto random = any_random();
   for (int i = 0; i < 100; ++i) {
     const Point centre = random_corners(random)[1];
@@ -88,7 +88,7 @@ RC_GTEST_PROP(CylinderBox, of_a_box_holds_every_point_of_it, ()) {
   }
 }
 
-RC_GTEST_PROP(CylinderBox, hull_holds_both, ()) {
+RC_GTEST_PROP(CylinderBox, HullHoldsBoth, ()) {
   auto random = any_random();
   for (int i = 0; i < 100; ++i) {
     const Point p = random_corners(random)[1], q = random_corners(random)[2];
@@ -99,7 +99,7 @@ RC_GTEST_PROP(CylinderBox, hull_holds_both, ()) {
   }
 }
 
-TEST(CylinderBox, of_a_triangle_with_the_axis_through_its_inside_reaches_it_all_around) {
+TEST(CylinderBox, OfATriangleWithTheAxisThroughItsInsideReachesItAllAround) {
   const std::array<Point, 3> t = {Point{2, 0, 1}, Point{-1, 2, 1}, Point{-1, -2, 1}};
   const auto box =
       box_of_triangle(t[0], cylinder_point(t[0]), t[1], cylinder_point(t[1]), t[2], cylinder_point(t[2]));
@@ -107,7 +107,7 @@ TEST(CylinderBox, of_a_triangle_with_the_axis_through_its_inside_reaches_it_all_
   EXPECT_EQ(box.theta_width, two_pi);
 }
 
-TEST(CylinderBox, of_an_edge_is_nearest_to_the_axis_inside_it) {
+TEST(CylinderBox, OfAnEdgeIsNearestToTheAxisInsideIt) {
   const Point a{1, -1, 0}, b{1, 1, 0};
   const auto box = box_of_edge(a, cylinder_point(a), b, cylinder_point(b));
   EXPECT_NEAR(box.rho_lo, 1, 1e-14);
@@ -119,23 +119,23 @@ CylinderBox arc_from(double start, double width) {
   return {0, 1, 0, 1, 0, 1, start, width};
 }
 
-TEST(GapInTurn, is_the_angle_between_the_arcs_either_way_round) {
+TEST(GapInSense, IsTheAngleBetweenTheArcsEitherWayRound) {
   const auto m = arc_from(0.5, 0.25), f = arc_from(2, 1);
-  EXPECT_DOUBLE_EQ(gap_in_turn(m, f, TurnDirection::positive), 2 - 0.75);
-  EXPECT_DOUBLE_EQ(gap_in_turn(m, f, TurnDirection::negative), two_pi - 3 + 0.5);
+  EXPECT_DOUBLE_EQ(gap_in_sense(m, f, RotationSense::positive), 2 - 0.75);
+  EXPECT_DOUBLE_EQ(gap_in_sense(m, f, RotationSense::negative), two_pi - 3 + 0.5);
   const auto across_zero = arc_from(6, 1);
-  EXPECT_EQ(gap_in_turn(m, across_zero, TurnDirection::positive), 0) << "7 - 2 pi is past 0.5";
-  EXPECT_DOUBLE_EQ(gap_in_turn(arc_from(0.8, 0.1), across_zero, TurnDirection::positive), 6 - 0.9);
-  EXPECT_EQ(gap_in_turn(m, arc_from(0, two_pi), TurnDirection::negative), 0);
+  EXPECT_EQ(gap_in_sense(m, across_zero, RotationSense::positive), 0) << "7 - 2 pi is past 0.5";
+  EXPECT_DOUBLE_EQ(gap_in_sense(arc_from(0.8, 0.1), across_zero, RotationSense::positive), 6 - 0.9);
+  EXPECT_EQ(gap_in_sense(m, arc_from(0, two_pi), RotationSense::negative), 0);
 }
 
 /// The gap is what it says: no turn smaller than it makes the arcs meet, and one as large does.
-RC_GTEST_PROP(GapInTurn, is_the_smallest_turn_that_makes_the_arcs_meet, ()) {
+RC_GTEST_PROP(GapInSense, IsTheSmallestRotationThatMakesTheArcsMeet, ()) {
   auto random = any_random();
   const auto m = arc_from(uniform(random, 0, two_pi), uniform(random, 0, 3));
   const auto f = arc_from(uniform(random, 0, two_pi), uniform(random, 0, 3));
-  for (const TurnDirection direction : {TurnDirection::positive, TurnDirection::negative}) {
-    const double gap = gap_in_turn(m, f, direction), sign = static_cast<double>(direction);
+  for (const RotationSense sense : {RotationSense::positive, RotationSense::negative}) {
+    const double gap = gap_in_sense(m, f, sense), sign = static_cast<double>(sense);
     const auto meets_after = [&](double turn) {
       const double start = wrapped(wrapped(m.theta + sign * turn + two_pi));
       return arcs_meet(arc_from(start, m.theta_width), f);

@@ -6,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/rom/even_joint_space.hpp"
 #include "support/test_meshes.hpp"
 
 /// Limits by allowed depth and the centre that follows the socket, where the depth is known.
@@ -47,13 +48,13 @@ Motion flexion() {
 TEST(DepthLimit, IsWhereTheRadialDepthIsTheAllowedOne) {
   for (const double depth : {0.0, 0.25, 2.0}) {
     const DepthLimit found = DepthRange(spike_and_wall(), {.depth_mm = depth}).limit(flexion());
-    EXPECT_EQ(found.limit.reason, LimitReason::contact);
+    EXPECT_EQ(found.limit.end.reason, LimitReason::contact);
     // Allowed at the answer, too deep at most the tolerance after it.
-    EXPECT_LE(found.limit.turned.degrees(), limit_deg(depth) + 1e-9);
-    EXPECT_GE(found.limit.turned.degrees(), limit_deg(depth) - 1e-3 - 1e-9);
+    EXPECT_LE(found.limit.end.turned.degrees(), limit_deg(depth) + 1e-9);
+    EXPECT_GE(found.limit.end.turned.degrees(), limit_deg(depth) - 1e-3 - 1e-9);
     EXPECT_LE(found.at_limit.depth_mm, depth + 1e-9);
     EXPECT_TRUE(found.depth_grows);
-    EXPECT_EQ(found.limit.contact->mobile_feature, (Feature{FeatureKind::vertex, 3}));
+    EXPECT_EQ(found.limit.end.contact->mobile_feature, (Feature{FeatureKind::vertex, 3}));
     EXPECT_EQ(found.start_depth_mm, 0);
   }
 }
@@ -62,7 +63,7 @@ TEST(DepthLimit, WithNothingAllowedIsTheExactLimit) {
   const Joint joint = spike_and_wall();
   const MotionLimit exact = RangeOfMotion(joint).limit(flexion());
   const DepthLimit found = DepthRange(joint, {.depth_mm = 0}).limit(flexion());
-  EXPECT_NEAR(found.limit.turned.degrees(), exact.turned.degrees(), 1e-3);
+  EXPECT_NEAR(found.limit.end.turned.degrees(), exact.end.turned.degrees(), 1e-3);
 }
 
 TEST(DepthLimit, TellsWhereTheStartIsTooDeepOrTheRangeEndsFirst) {
@@ -70,13 +71,13 @@ TEST(DepthLimit, TellsWhereTheStartIsTooDeepOrTheRangeEndsFirst) {
   Motion late = flexion();
   late.start.flexion = Angle::degrees(limit_deg(1));
   const DepthLimit start = DepthRange(joint, {.depth_mm = 0.9}).limit(late);
-  EXPECT_EQ(start.limit.reason, LimitReason::contact_at_start);
+  EXPECT_EQ(start.limit.end.reason, LimitReason::contact_at_start);
   EXPECT_NEAR(start.start_depth_mm, 1, 1e-9);
   Motion brief = flexion();
   brief.range = Angle::degrees(limit_deg(0.5));
   const DepthLimit end = DepthRange(joint, {.depth_mm = 0.6}).limit(brief);
-  EXPECT_EQ(end.limit.reason, LimitReason::end_of_range);
-  EXPECT_EQ(end.limit.turned, brief.range);
+  EXPECT_EQ(end.limit.end.reason, LimitReason::end_of_range);
+  EXPECT_EQ(end.limit.end.turned, brief.range);
 }
 
 TEST(DepthLimit, RefusesWhatItCannotAnswer) {
@@ -103,8 +104,8 @@ TEST(EvenJointSpace, BringsABallBackToTheMiddleOfItsSocket) {
   // 0.025 and 0.028 mm; a fit to either is off by no more than both.
   const double sag = 0.053;
   for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(0.7, -0.5, 0.3), Vec3(-1.2, 0.9, 0.6)}) {
-    const CentreShift shift = even_joint_space(ball_in_socket(offset), {22.5}, Pose::Identity());
-    EXPECT_LT((shift.translation + offset).norm(), 2 * sag);
+    const CentreShift shift = motion::even_joint_space(ball_in_socket(offset), {22.5}, Pose::Identity());
+    EXPECT_LT((shift.translation_mm + offset).norm(), 2 * sag);
     EXPECT_NEAR(shift.gap_mm, 3, 2 * sag);
     EXPECT_FALSE(shift.cut_back);
     EXPECT_LE(shift.spread_after_mm, shift.spread_before_mm + 1e-12);
@@ -112,16 +113,16 @@ TEST(EvenJointSpace, BringsABallBackToTheMiddleOfItsSocket) {
 }
 
 TEST(EvenJointSpace, IsCutBackToTheLargestShift) {
-  const CentreShift shift =
-      even_joint_space(ball_in_socket({1, 0, 0}), {22.5}, Pose::Identity(), {.largest_shift_mm = 0.25});
+  const CentreShift shift = motion::even_joint_space(ball_in_socket({1, 0, 0}), {22.5}, Pose::Identity(),
+                                                     {.largest_shift_mm = 0.25});
   EXPECT_TRUE(shift.cut_back);
-  EXPECT_NEAR(shift.translation.norm(), 0.25, 1e-12);
-  EXPECT_LT(shift.translation.x(), -0.24);
+  EXPECT_NEAR(shift.translation_mm.norm(), 0.25, 1e-12);
+  EXPECT_LT(shift.translation_mm.x(), -0.24);
 }
 
 TEST(EvenJointSpace, RefusesJointsWithoutASocket) {
   const JointContact apart(box({100, 100, 100}, {110, 110, 110}), sphere({0, 0, 0}, 20, 3));
-  EXPECT_THROW(even_joint_space(apart, {22}, Pose::Identity()), MeshError);
+  EXPECT_THROW(motion::even_joint_space(apart, {22}, Pose::Identity()), MeshError);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-TEST(FeatureTree, gives_every_edge_and_vertex_to_exactly_one_of_its_triangles) {
+TEST(FeatureTree, GivesEveryEdgeAndVertexToExactlyOneOfItsTriangles) {
   const TriMesh mesh = torus(3, 1, 20, 12);
   const motion::FeatureTree tree(mesh);
   std::set<std::array<Index, 2>> edges;
@@ -40,7 +40,7 @@ TEST(FeatureTree, gives_every_edge_and_vertex_to_exactly_one_of_its_triangles) {
   EXPECT_EQ(tree.edges().size(), edges.size());
 }
 
-TEST(FeatureTree, has_every_corner_of_a_node_in_its_ball) {
+TEST(FeatureTree, HasEveryCornerOfANodeInItsBall) {
   const motion::FeatureTree tree(sphere({5, 6, 7}, 2, 3));
   for (const auto& node : tree.nodes()) {
     const motion::NodeBall ball = motion::ball_of(node);
@@ -51,7 +51,7 @@ TEST(FeatureTree, has_every_corner_of_a_node_in_its_ball) {
   }
 }
 
-TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
+TEST(TurningBody, HasNodeBoxesAroundItsVerticesAboutAnyAxis) {
   const TriMesh mesh = sphere({0, 0, 0}, 2, 3);
   const motion::FeatureTree tree(mesh);
   motion::TurningBody body(tree);
@@ -68,7 +68,7 @@ TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
           for (const Index v : tree.triangles()[t]) {
             const auto p = body.placed_vertex(v);
             const motion::CylinderBox point = motion::box_of_vertex(p, motion::cylinder_point(p));
-            EXPECT_TRUE(node_box.shares_profile(point) && motion::arcs_meet(node_box, point));
+            EXPECT_TRUE(node_box.overlaps_profile(point) && motion::arcs_meet(node_box, point));
           }
         }
       }
@@ -76,7 +76,7 @@ TEST(TurningBody, has_node_boxes_around_its_vertices_about_any_axis) {
   }
 }
 
-TEST(FeatureTree, remembers_the_numbers_of_the_mesh) {
+TEST(FeatureTree, RemembersTheNumbersOfTheMesh) {
   const TriMesh mesh = joined(box({0, 0, 0}, {1, 1, 1}), sphere({5, 0, 0}, 1, 1));
   const motion::FeatureTree tree(mesh);
   for (Index t = 0; t < tree.triangles().size(); ++t) {
@@ -85,19 +85,19 @@ TEST(FeatureTree, remembers_the_numbers_of_the_mesh) {
     }
   }
   for (const auto& [a, b] : tree.edges()) EXPECT_LT(tree.mesh_vertex(a), tree.mesh_vertex(b));
-  EXPECT_EQ(tree.pieces().size(), 2u);
+  EXPECT_EQ(tree.component_vertices().size(), 2u);
 }
 
-TEST(FeatureTree, leaves_out_vertices_no_triangle_uses) {
+TEST(FeatureTree, LeavesOutVerticesNoTriangleUses) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.vertices.push_back({9, 9, 9});
   const motion::FeatureTree tree(mesh);
   EXPECT_EQ(tree.vertices().size(), 8u);
-  EXPECT_EQ(tree.pieces().size(), 1u);
+  EXPECT_EQ(tree.component_vertices().size(), 1u);
   EXPECT_TRUE(tree.is_closed());
 }
 
-TEST(FeatureTree, knows_an_open_mesh) {
+TEST(FeatureTree, KnowsAnOpenMesh) {
   TriMesh mesh = box({0, 0, 0}, {1, 1, 1});
   mesh.triangles.pop_back();
   EXPECT_FALSE(motion::FeatureTree(mesh).is_closed());
@@ -106,7 +106,7 @@ TEST(FeatureTree, knows_an_open_mesh) {
 
 /// Points in general position and in line with vertices and edges along the axis, on it, and level with
 /// vertices.
-TEST(WindingNumber, through_the_table_equals_brute_force) {
+TEST(WindingNumber, ThroughTheTableEqualsBruteForce) {
   const TriMesh mesh =
       joined(joined(torus(3, 1, 8, 6), box({-1, -1, -1}, {1, 1, 1})), box({-0.5, -2, -3}, {2, 2, 3}));
   const motion::FeatureTree tree(mesh);

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "motion/turn_scenes.hpp"
+#include "motion/rotation_scenes.hpp"
 #include "support/brute_force.hpp"
 
 /// First contact of random meshes: against every pair of features, against exact triangle tests just before
@@ -18,48 +18,45 @@ std::mt19937 any_random() {
   return std::mt19937(*rc::gen::arbitrary<unsigned>());
 }
 
-double size_of(const Limit& limit) {
-  return std::abs(limit.angle.radians());
-}
-
-void expect_brute_force_agrees(const TurnScene& scene) {
+void expect_brute_force_agrees(const RotationScene& scene) {
   const auto found = limits(scene);
   if (found.positive.reason == LimitReason::contact_at_start) {
     RC_ASSERT(found.negative.reason == LimitReason::contact_at_start);
     return;
   }
-  for (const auto& [limit, direction] : {std::pair{found.negative, motion::TurnDirection::negative},
-                                         std::pair{found.positive, motion::TurnDirection::positive}}) {
-    const auto truth = brute_first_contact(scene, direction);
+  for (const auto& [limit, sense] : {std::pair{found.negative, RotationSense::negative},
+                                     std::pair{found.positive, RotationSense::positive}}) {
+    const auto truth = brute_first_contact(scene, sense);
     RC_ASSERT(truth.has_value() == (limit.reason == LimitReason::contact));
     if (!truth) {
-      RC_ASSERT(size_of(limit) == two_pi);
+      RC_ASSERT(limit.turned.radians() == two_pi);
       continue;
     }
-    RC_ASSERT(size_of(limit) == truth->size);
-    RC_ASSERT(limit.touching->features == truth->features);
-    RC_ASSERT(limit.shortfall.radians() <= 4e-12);
-    RC_ASSERT(limit.shortfall.radians() >= 0);
+    RC_ASSERT(limit.turned.radians() == truth->size);
+    RC_ASSERT(limit.contact->mobile_feature == truth->features.turning);
+    RC_ASSERT(limit.contact->fixed_feature == truth->features.resting);
+    RC_ASSERT(limit.error_bound.radians() <= 4e-12);
+    RC_ASSERT(limit.error_bound.radians() >= 0);
   }
 }
 
 /// 100 runs of 100 pairs.
-RC_GTEST_PROP(FirstContactRandom, equals_the_first_of_all_pairs_of_features, ()) {
+RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeatures, ()) {
   auto random = any_random();
   for (int i = 0; i < 100; ++i) expect_brute_force_agrees(random_scene(random));
 }
 
-RC_GTEST_PROP(FirstContactRandom, equals_the_first_of_all_pairs_of_features_ten_metres_away, ()) {
+RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesTenMetresAway, ()) {
   auto random = any_random();
   for (int i = 0; i < 10; ++i) expect_brute_force_agrees(moved(far_away(random), random_scene(random)));
 }
 
 /// Coordinates from a coarse lattice: coplanar faces, parallel edges, features on the axis and in planes of
 /// the motion.
-RC_GTEST_PROP(FirstContactRandom, equals_the_first_of_all_pairs_of_features_on_a_lattice, ()) {
+RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesOnALattice, ()) {
   auto random = any_random();
   for (int i = 0; i < 20; ++i) {
-    TurnScene scene = random_scene(random);
+    RotationScene scene = random_scene(random);
     for (auto* mesh : {&scene.turning, &scene.resting}) {
       for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
         const Vec3 p = 2 * mesh->vertices[v];
@@ -70,29 +67,31 @@ RC_GTEST_PROP(FirstContactRandom, equals_the_first_of_all_pairs_of_features_on_a
   }
 }
 
-RC_GTEST_PROP(FirstContactRandom, is_free_just_before_and_touching_just_after_by_exact_triangle_tests, ()) {
+RC_GTEST_PROP(FirstContactRandom, IsFreeJustBeforeAndTouchingJustAfterByExactTriangleTests, ()) {
   auto random = any_random();
   for (int i = 0; i < 2; ++i) {
-    const TurnScene scene = random_scene(random);
+    const RotationScene scene = random_scene(random);
     const auto found = limits(scene);
-    for (const Limit& limit : {found.negative, found.positive}) {
+    for (const auto& [limit, sense] : {std::pair{found.negative, RotationSense::negative},
+                                       std::pair{found.positive, RotationSense::positive}}) {
       if (limit.reason == LimitReason::contact_at_start) {
-        if (limit.touching) RC_ASSERT(brute_touching(scene, 0));
+        if (limit.contact) RC_ASSERT(brute_contact_at(scene, 0));
         continue;
       }
-      const double sign = limit.angle.radians() < 0 ? -1 : 1, size = size_of(limit);
-      for (int k = 0; k < 10; ++k) RC_ASSERT(!brute_touching(scene, sign * size * k / 10));
-      RC_ASSERT(!brute_touching(scene, sign * (size - microdegree)));
-      if (limit.reason == LimitReason::contact) RC_ASSERT(brute_touching(scene, sign * (size + microdegree)));
+      const double sign = sign_of(sense), size = limit.turned.radians();
+      for (int k = 0; k < 10; ++k) RC_ASSERT(!brute_contact_at(scene, sign * size * k / 10));
+      RC_ASSERT(!brute_contact_at(scene, sign * (size - microdegree)));
+      if (limit.reason == LimitReason::contact)
+        RC_ASSERT(brute_contact_at(scene, sign * (size + microdegree)));
     }
   }
 }
 
 /// Containment by an independent winding number.
-RC_GTEST_PROP(FirstContactRandom, starts_in_contact_exactly_where_surfaces_touch_or_one_is_inside, ()) {
+RC_GTEST_PROP(FirstContactRandom, StartsInContactExactlyWhereSurfacesTouchOrOneIsInside, ()) {
   auto random = any_random();
   for (int i = 0; i < 5; ++i) {
-    TurnScene scene = random_scene(random);
+    RotationScene scene = random_scene(random);
     const Vec3 c = scene.resting.vertices[0];
     for (std::size_t v = 0; v < scene.turning.vertices.size(); ++v) {
       const Vec3 p = scene.turning.vertices[v], centre = scene.turning.vertices[1];
@@ -103,25 +102,25 @@ RC_GTEST_PROP(FirstContactRandom, starts_in_contact_exactly_where_surfaces_touch
                 .winding > 0 ||
         winding_number(scene.axis.to_axis(scene.turning), scene.axis.to_axis(scene.resting).vertices[0])
                 .winding > 0;
-    const bool touching = brute_touching(scene, 0);
+    const bool touching = brute_contact_at(scene, 0);
     const auto found = limits(scene).positive;
     RC_ASSERT((found.reason == LimitReason::contact_at_start) == (inside || touching));
-    if (found.reason == LimitReason::contact_at_start) RC_ASSERT(found.touching.has_value() == touching);
+    if (found.reason == LimitReason::contact_at_start) RC_ASSERT(found.contact.has_value() == touching);
   }
 }
 
-RC_GTEST_PROP(FirstContactRandom, exchanging_the_bodies_negates_and_agrees, ()) {
+RC_GTEST_PROP(FirstContactRandom, ExchangingTheBodiesNegatesAndAgrees, ()) {
   auto random = any_random();
   for (int i = 0; i < 20; ++i) {
-    const TurnScene scene = random_scene(random);
+    const RotationScene scene = random_scene(random);
     const auto one = limits(scene), other = limits(exchanged(scene));
     const auto expect_same = [](const Limit& a, const Limit& b) {
       RC_ASSERT(a.reason == b.reason);
-      RC_ASSERT(std::abs(a.angle.radians() + b.angle.radians()) <=
-                a.shortfall.radians() + b.shortfall.radians());
+      RC_ASSERT(std::abs(a.turned.radians() - b.turned.radians()) <=
+                a.error_bound.radians() + b.error_bound.radians());
       if (a.reason == LimitReason::contact) {
-        RC_ASSERT((a.touching->turning_point - b.touching->resting_point).norm() <= 1e-9);
-        RC_ASSERT((a.touching->resting_point - b.touching->turning_point).norm() <= 1e-9);
+        RC_ASSERT((a.contact->mobile_point - b.contact->fixed_point).norm() <= 1e-9);
+        RC_ASSERT((a.contact->fixed_point - b.contact->mobile_point).norm() <= 1e-9);
       }
     };
     expect_same(one.positive, other.negative);
@@ -129,31 +128,34 @@ RC_GTEST_PROP(FirstContactRandom, exchanging_the_bodies_negates_and_agrees, ()) 
   }
 }
 
-RC_GTEST_PROP(FirstContactRandom, splitting_every_triangle_in_place_changes_nothing, ()) {
+RC_GTEST_PROP(FirstContactRandom, SplittingEveryTriangleInPlaceChangesNothing, ()) {
   auto random = any_random();
   for (int i = 0; i < 5; ++i) {
-    const TurnScene scene = random_scene(random);
-    const TurnScene finer{split_in_four(split_in_four(scene.turning)), split_in_four(scene.resting),
-                          scene.axis};
+    const RotationScene scene = random_scene(random);
+    const RotationScene finer{split_in_four(split_in_four(scene.turning)), split_in_four(scene.resting),
+                              scene.axis};
     const auto coarse = limits(scene), fine = limits(finer);
     for (const auto& [a, b] :
          {std::pair{coarse.positive, fine.positive}, std::pair{coarse.negative, fine.negative}}) {
       RC_ASSERT(a.reason == b.reason);
-      RC_ASSERT(std::abs(a.angle.radians() - b.angle.radians()) <= 1e-9);
+      RC_ASSERT(std::abs(a.turned.radians() - b.turned.radians()) <= 1e-9);
     }
   }
 }
 
-RC_GTEST_PROP(FirstContactRandom, touches_at_one_point_of_both_bodies, ()) {
+RC_GTEST_PROP(FirstContactRandom, TouchesAtOnePointOfBothBodies, ()) {
   auto random = any_random();
   for (int i = 0; i < 10; ++i) {
-    const TurnScene scene = moved(Pose(Eigen::Translation3d(1, 2, 3)), random_scene(random));
-    for (const Limit& limit : {limits(scene).positive, limits(scene).negative}) {
+    const RotationScene scene = moved(Pose(Eigen::Translation3d(1, 2, 3)), random_scene(random));
+    const auto found = limits(scene);
+    for (const auto& [limit, sense] : {std::pair{found.negative, RotationSense::negative},
+                                       std::pair{found.positive, RotationSense::positive}}) {
       if (limit.reason != LimitReason::contact) continue;
-      const Pose turn(Eigen::Translation3d(scene.axis.point()) *
-                      Eigen::AngleAxisd(limit.angle.radians(), scene.axis.direction()) *
-                      Eigen::Translation3d(-scene.axis.point()));
-      RC_ASSERT((turn * limit.touching->turning_point - limit.touching->resting_point).norm() <= 1e-9);
+      const double angle = sign_of(sense) * limit.turned.radians();
+      const Pose rotation(Eigen::Translation3d(scene.axis.point()) *
+                          Eigen::AngleAxisd(angle, scene.axis.direction()) *
+                          Eigen::Translation3d(-scene.axis.point()));
+      RC_ASSERT((rotation * limit.contact->mobile_point - limit.contact->fixed_point).norm() <= 1e-9);
     }
   }
 }

@@ -82,7 +82,7 @@ TEST(ImpingementZone, OfAnArmInAPostIsWhereTheyMeet) {
   const auto zone = ZoneFinder(scene.joint, {.past = Angle::degrees(4)}).zone(limit);
   ASSERT_TRUE(zone);
   EXPECT_NEAR(*zone->contact_hour, std::atan2(post_x, post_y) / deg / 30, 1e-9);
-  ASSERT_TRUE(zone->fixed.centroid && zone->mobile.centroid);
+  ASSERT_TRUE(zone->fixed.centroid_mm && zone->mobile.centroid_mm);
   // Areas and centroids once more, from the triangles named.
   const TriMesh& mesh = scene.joint.fixed.mesh;
   double area = 0;

@@ -34,7 +34,7 @@ Joint bumpy_joint(Side side);
 /// The same joint on the other side of the body.
 Joint mirrored(const Joint& joint);
 
-/// The arm reaches 1 mm into the post at rest.
+/// The arm reaches 1 mm into the post in the reference pose.
 Joint overlapping_joint();
 
 /// post_joint() for flexion with a ball on the arm's end that overlaps another ball of the fixed body, all

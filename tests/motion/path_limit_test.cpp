@@ -42,25 +42,25 @@ TEST(PathLimit, OnDiagonalPathsIsNeverPastAContactAndEndsBesideOne) {
                                  degrees(10, 15, 170), degrees(-90, -40, -30)}) {
     const std::vector<JointAngles> path{{}, end};
     const PathLimit limit = finder.limit(path, tolerance);
-    const auto at = [&](double share) {
+    const auto at = [&](double fraction) {
       JointAngles angles;
       for (const JointAngle a : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
-        angles = turned_by(angles, a, angle_of(end, a) * share);
+        angles = turned_by(angles, a, angle_of(end, a) * fraction);
       return pose_at(Side::right, angles);
     };
-    for (int k = 0; k <= 50; ++k) EXPECT_TRUE(exact.pairs(at(limit.share * k / 50)).empty());
+    for (int k = 0; k <= 50; ++k) EXPECT_TRUE(exact.pairs(at(limit.fraction * k / 50)).empty());
     if (limit.reason != LimitReason::contact) continue;
     ++contacts;
     // Within the tolerance at the mobile triangle's largest radius, here below 50 mm.
     EXPECT_LE(limit.distance_mm, tolerance.radians() * 50);
-    const Vec3 m = at(limit.share) * limit.contact->mobile_point;
+    const Vec3 m = at(limit.fraction) * limit.contact->mobile_point;
     EXPECT_NEAR((m - limit.contact->fixed_point).norm(), limit.distance_mm, 1e-9);
-    EXPECT_FALSE(exact.pairs(at(limit.share + 0.01)).empty());
+    EXPECT_FALSE(exact.pairs(at(limit.fraction + 0.01)).empty());
   }
   EXPECT_GE(contacts, 3u);
 }
 
-TEST(PathLimit, RunsThroughItsWaypointsAndTellsWhichPieceItEndsOn) {
+TEST(PathLimit, RunsThroughItsWaypointsAndReportsWhichSegmentItEndsOn) {
   const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
   const PathFinder finder(scene.joint);
   const std::vector<JointAngles> around{{}, degrees(-40, 10, 20), degrees(0, -5, 0)};
@@ -68,7 +68,7 @@ TEST(PathLimit, RunsThroughItsWaypointsAndTellsWhichPieceItEndsOn) {
   EXPECT_EQ(whole.reason, LimitReason::end_of_range);
   EXPECT_EQ(whole.at, around.back());
   EXPECT_EQ(whole.segment, 1u);
-  EXPECT_EQ(whole.share, 1.0);
+  EXPECT_EQ(whole.fraction, 1.0);
   const std::vector<JointAngles> into{{}, degrees(-40, 0, 0), degrees(80, 0, 0)};
   const PathLimit stopped = finder.limit(into);
   EXPECT_EQ(stopped.segment, 1u);
@@ -76,11 +76,11 @@ TEST(PathLimit, RunsThroughItsWaypointsAndTellsWhichPieceItEndsOn) {
 }
 
 TEST(PathLimit, StartingInContactIsReported) {
-  const PathFinder finder(overlapping_joint(), {.overlap = {.contact_at_rest = ContactAtRest::accept}});
+  const PathFinder finder(overlapping_joint(), {.overlap = {.reference_contact = ReferenceContact::accept}});
   const std::vector<JointAngles> path{{}, degrees(10, 10, 10)};
   const PathLimit limit = finder.limit(path);
   EXPECT_EQ(limit.reason, LimitReason::contact_at_start);
-  EXPECT_EQ(limit.share, 0.0);
+  EXPECT_EQ(limit.fraction, 0.0);
   EXPECT_TRUE(limit.contact);
 }
 

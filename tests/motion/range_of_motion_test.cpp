@@ -22,16 +22,23 @@ using namespace test;
 constexpr double angle_tolerance = 5e-12;
 
 void expect_same_end(const MotionLimit& a, const MotionLimit& b) {
-  EXPECT_EQ(a.turned, b.turned) << a.motion.name;
-  EXPECT_EQ(a.reason, b.reason);
-  EXPECT_EQ(a.articular, b.articular);
-  EXPECT_EQ(a.shortfall, b.shortfall);
-  ASSERT_EQ(a.contact.has_value(), b.contact.has_value());
-  if (!a.contact) return;
-  EXPECT_EQ(a.contact->fixed_feature, b.contact->fixed_feature);
-  EXPECT_EQ(a.contact->mobile_feature, b.contact->mobile_feature);
-  EXPECT_EQ(a.contact->fixed_point, b.contact->fixed_point);
-  EXPECT_EQ(a.contact->mobile_point, b.contact->mobile_point);
+  EXPECT_EQ(a.end.turned, b.end.turned) << a.motion.name;
+  EXPECT_EQ(a.end.reason, b.end.reason);
+  EXPECT_EQ(a.end.is_articular(), b.end.is_articular());
+  EXPECT_EQ(a.end.error_bound, b.end.error_bound);
+  ASSERT_EQ(a.end.contact.has_value(), b.end.contact.has_value());
+  if (!a.end.contact) return;
+  EXPECT_EQ(a.end.contact->fixed_feature, b.end.contact->fixed_feature);
+  EXPECT_EQ(a.end.contact->mobile_feature, b.end.contact->mobile_feature);
+  EXPECT_EQ(a.end.contact->fixed_point, b.end.contact->fixed_point);
+  EXPECT_EQ(a.end.contact->mobile_point, b.end.contact->mobile_point);
+}
+
+std::string name_of(JointAngle vary, Side side) {
+  const char* angle = vary == JointAngle::flexion     ? "flexion"
+                      : vary == JointAngle::adduction ? "adduction"
+                                                      : "internal_rotation";
+  return std::string(angle) + (side == Side::right ? "_right" : "_left");
 }
 
 class EachAngle : public testing::TestWithParam<std::tuple<JointAngle, Side>> {
@@ -39,27 +46,30 @@ class EachAngle : public testing::TestWithParam<std::tuple<JointAngle, Side>> {
   JointAngle vary() const { return std::get<0>(GetParam()); }
   Side side() const { return std::get<1>(GetParam()); }
   Motion motion(const JointAngles& start = {}) const {
-    return {"turn", vary(), TurnSense::positive, start, Angle::degrees(180)};
+    return {"rotation", vary(), RotationSense::positive, start, Angle::degrees(180)};
   }
 };
 INSTANTIATE_TEST_SUITE_P(RangeOfMotion, EachAngle,
                          testing::Combine(testing::Values(JointAngle::flexion, JointAngle::adduction,
                                                           JointAngle::internal_rotation),
-                                          testing::Values(Side::right, Side::left)));
+                                          testing::Values(Side::right, Side::left)),
+                         [](const auto& at) {
+                           return name_of(std::get<0>(at.param), std::get<1>(at.param));
+                         });
 
 TEST_P(EachAngle, AnArmMeetsAPostWhereTheArctangentSays) {
   const PostJoint scene = post_joint(vary(), side());
   const MotionLimit limit = RangeOfMotion(scene.joint).limit(motion());
-  EXPECT_EQ(limit.reason, LimitReason::contact);
-  EXPECT_NEAR(limit.turned.radians(), scene.limit, angle_tolerance);
-  EXPECT_LE(limit.shortfall.radians(), 4e-12);
+  EXPECT_EQ(limit.end.reason, LimitReason::contact);
+  EXPECT_NEAR(limit.end.turned.radians(), scene.limit, angle_tolerance);
+  EXPECT_LE(limit.end.error_bound.radians(), 4e-12);
 }
 
 TEST_P(EachAngle, TheOtherWayRoundIsAFullTurnLess) {
   const PostJoint scene = post_joint(vary(), side());
   Motion other = motion();
-  other.sense = TurnSense::negative, other.range = Angle::radians(two_pi);
-  EXPECT_NEAR(RangeOfMotion(scene.joint).limit(other).turned.radians(), scene.limit_other_way,
+  other.sense = RotationSense::negative, other.range = Angle::radians(two_pi);
+  EXPECT_NEAR(RangeOfMotion(scene.joint).limit(other).end.turned.radians(), scene.limit_other_way,
               angle_tolerance);
 }
 
@@ -67,7 +77,7 @@ TEST_P(EachAngle, AStartOnTheWayLeavesTheRest) {
   const PostJoint scene = post_joint(vary(), side());
   const Angle start = Angle::degrees(7);
   const MotionLimit limit = RangeOfMotion(scene.joint).limit(motion(turned_by({}, vary(), start)));
-  EXPECT_NEAR(limit.turned.radians(), scene.limit - start.radians(), angle_tolerance);
+  EXPECT_NEAR(limit.end.turned.radians(), scene.limit - start.radians(), angle_tolerance);
   EXPECT_NEAR(angle_of(limit.angles_at_limit(), vary()).radians(), scene.limit, angle_tolerance);
 }
 
@@ -76,9 +86,9 @@ TEST_P(EachAngle, ARangeThatEndsBeforeContactSaysSo) {
   Motion shorter = motion();
   shorter.range = Angle::radians(scene.limit - 1e-9);
   const MotionLimit limit = RangeOfMotion(scene.joint).limit(shorter);
-  EXPECT_EQ(limit.reason, LimitReason::end_of_range);
-  EXPECT_EQ(limit.turned, shorter.range);
-  EXPECT_FALSE(limit.contact);
+  EXPECT_EQ(limit.end.reason, LimitReason::end_of_range);
+  EXPECT_EQ(limit.end.turned, shorter.range);
+  EXPECT_FALSE(limit.end.contact);
 }
 
 TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
@@ -104,8 +114,8 @@ TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
   Joint carried = scene.joint;
   carried.fixed.mesh = posed(pose_at(side(), before), carried.fixed.mesh);
   carried.mobile.mesh = posed(pose_at(side(), after).inverse(), carried.mobile.mesh);
-  const RangeOptions accept{.articular = {}, .overlap = {.contact_at_rest = ContactAtRest::accept}};
-  EXPECT_NEAR(RangeOfMotion(carried, accept).limit(motion(held)).turned.radians(), scene.limit, 1e-11);
+  const RangeOptions accept{.articular = {}, .overlap = {.reference_contact = ReferenceContact::accept}};
+  EXPECT_NEAR(RangeOfMotion(carried, accept).limit(motion(held)).end.turned.radians(), scene.limit, 1e-11);
 }
 
 TEST_P(EachAngle, ExchangingTheBodiesNegatesAndAgrees) {
@@ -113,21 +123,21 @@ TEST_P(EachAngle, ExchangingTheBodiesNegatesAndAgrees) {
   Joint exchanged = joint;
   std::swap(exchanged.fixed, exchanged.mobile);
   Motion one = motion(), other = motion();
-  other.sense = TurnSense::negative;
+  other.sense = RotationSense::negative;
   const MotionLimit a = RangeOfMotion(joint).limit(one), b = RangeOfMotion(exchanged).limit(other);
-  ASSERT_EQ(a.reason, LimitReason::contact);
-  EXPECT_EQ(b.reason, a.reason);
-  EXPECT_NEAR(a.turned.radians(), b.turned.radians(), 1e-11);
-  EXPECT_EQ(a.contact->fixed_feature, b.contact->mobile_feature);
-  EXPECT_EQ(a.contact->mobile_feature, b.contact->fixed_feature);
+  ASSERT_EQ(a.end.reason, LimitReason::contact);
+  EXPECT_EQ(b.end.reason, a.end.reason);
+  EXPECT_NEAR(a.end.turned.radians(), b.end.turned.radians(), 1e-11);
+  EXPECT_EQ(a.end.contact->fixed_feature, b.end.contact->mobile_feature);
+  EXPECT_EQ(a.end.contact->mobile_feature, b.end.contact->fixed_feature);
 }
 
 TEST_P(EachAngle, ContactPointsAreOnePlaceSeenFromBothBodies) {
   const MotionLimit limit = RangeOfMotion(bumpy_joint(side())).limit(motion({Angle::degrees(5), {}, {}}));
-  ASSERT_TRUE(limit.contact);
-  const Vec3 seen_from_F = pose_at(side(), limit.angles_at_limit()) * limit.contact->mobile_point;
+  ASSERT_TRUE(limit.end.contact);
+  const Vec3 seen_from_F = pose_at(side(), limit.angles_at_limit()) * limit.end.contact->mobile_point;
   // 40 mm away at most, short of contact by up to 4e-12, some ten roundings.
-  EXPECT_LT((seen_from_F - limit.contact->fixed_point).norm(), 40 * 5e-12);
+  EXPECT_LT((seen_from_F - limit.end.contact->fixed_point).norm(), 40 * 5e-12);
 }
 
 TEST(RangeOfMotion, AMirroredLeftJointTurnsAsFar) {
@@ -135,8 +145,8 @@ TEST(RangeOfMotion, AMirroredLeftJointTurnsAsFar) {
   const auto motions = hip_motions();
   const auto one = RangeOfMotion(right).limits(motions), other = RangeOfMotion(left).limits(motions);
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    EXPECT_EQ(one[i].reason, other[i].reason) << motions[i].name;
-    EXPECT_NEAR(one[i].turned.radians(), other[i].turned.radians(), 1e-11) << motions[i].name;
+    EXPECT_EQ(one[i].end.reason, other[i].end.reason) << motions[i].name;
+    EXPECT_NEAR(one[i].end.turned.radians(), other[i].end.turned.radians(), 1e-11) << motions[i].name;
   }
 }
 
@@ -152,31 +162,32 @@ TEST(RangeOfMotion, SharedTablesAndManyThreadsGiveTheBytesOfFreshOnes) {
   for (std::size_t i = 0; i < motions.size(); ++i) {
     expect_same_end(many[i], again[i]);
     expect_same_end(many[i], RangeOfMotion(joint).limit(motions[i]));
-    contacts += many[i].reason == LimitReason::contact;
+    contacts += many[i].end.reason == LimitReason::contact;
   }
   EXPECT_GT(contacts, 4u);
 }
 
-TEST(RangeOfMotion, BodiesInContactAtRestAreRefusedWithTheDeepestPlaceAndWhatCanBeDone) {
+TEST(RangeOfMotion, BodiesInContactInTheReferencePoseAreRefusedWithTheDeepestVertexAndWhatCanBeDone) {
   const Joint joint = overlapping_joint();
   try {
     const RangeOfMotion refused(joint);
     FAIL() << "accepted";
-  } catch (const MeshError& error) {
+  } catch (const ReferenceContactError& error) {
     const std::string text = error.what();
-    for (const char* part :
-         {"arm and post are in contact at rest", "arm vertex", "1 mm inside post", "leave out", "accept"})
+    for (const char* part : {"arm and post are in contact in the reference pose", "arm vertex",
+                             "1 mm inside post", "leave out", "accept"})
       EXPECT_NE(text.find(part), std::string::npos) << part << " is not in: " << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
   }
 }
 
-TEST(RangeOfMotion, ContactAtRestCanBeAcceptedAndIsThenReported) {
-  const RangeOfMotion range(overlapping_joint(), {.overlap = {.contact_at_rest = ContactAtRest::accept}});
+TEST(RangeOfMotion, ContactInTheReferencePoseCanBeAcceptedAndIsThenReported) {
+  const RangeOfMotion range(overlapping_joint(),
+                            {.overlap = {.reference_contact = ReferenceContact::accept}});
   const MotionLimit limit = range.limit(hip_motions().front());
-  EXPECT_EQ(limit.reason, LimitReason::contact_at_start);
-  EXPECT_EQ(limit.turned, Angle());
-  EXPECT_TRUE(limit.contact);
+  EXPECT_EQ(limit.end.reason, LimitReason::contact_at_start);
+  EXPECT_EQ(limit.end.turned, Angle());
+  EXPECT_TRUE(limit.end.contact);
 }
 
 TEST(RangeOfMotion, ContactsInsideARegionCanBeLeftOut) {
@@ -186,25 +197,25 @@ TEST(RangeOfMotion, ContactsInsideARegionCanBeLeftOut) {
   EXPECT_GT(range.left_out().fixed_triangles, 0u);
   EXPECT_GT(range.left_out().mobile_triangles, 0u);
   const MotionLimit limit = range.limit(hip_motions().front());
-  EXPECT_EQ(limit.reason, LimitReason::contact);
-  EXPECT_NEAR(limit.turned.radians(), post_limit(), angle_tolerance);
-  EXPECT_FALSE(limit.articular);
+  EXPECT_EQ(limit.end.reason, LimitReason::contact);
+  EXPECT_NEAR(limit.end.turned.radians(), post_limit(), angle_tolerance);
+  EXPECT_FALSE(limit.end.is_articular());
   // Features carry the numbers of the whole mesh: the point lies on the named fixed edge or its faces.
-  EXPECT_NEAR(limit.contact->fixed_point.x(), post_x, 1e-9);
-  EXPECT_NEAR(limit.contact->fixed_point.y(), post_y, 1e-9);
+  EXPECT_NEAR(limit.end.contact->fixed_point.x(), post_x, 1e-9);
+  EXPECT_NEAR(limit.end.contact->fixed_point.y(), post_y, 1e-9);
 }
 
-TEST(RangeOfMotion, ContactsAtRestCanBeLeftOut) {
-  const OverlapOptions options{.leave_out_rest_contacts = LeaveOutRestContacts{.rings = 1}};
+TEST(RangeOfMotion, ContactsInTheReferencePoseCanBeLeftOut) {
+  const OverlapOptions options{.leave_out_reference_contacts = LeaveOutReferenceContacts{.rings = 1}};
   const RangeOfMotion range(ball_and_post_joint(), {.overlap = options});
-  EXPECT_NEAR(range.limit(hip_motions().front()).turned.radians(), post_limit(), angle_tolerance);
+  EXPECT_NEAR(range.limit(hip_motions().front()).end.turned.radians(), post_limit(), angle_tolerance);
 }
 
 TEST(RangeOfMotion, ContactsAreArticularInsideTheStatedRegionOnly) {
   const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
   const double radius = std::hypot(post_x, post_y);
   const auto articular = [&](const ArticularRegion& region) {
-    return RangeOfMotion(scene.joint, {.articular = region}).limit(hip_motions().front()).articular;
+    return RangeOfMotion(scene.joint, {.articular = region}).limit(hip_motions().front()).end.is_articular();
   };
   // The post's edge is 10 mm long: contact is on its straight line, at most 5 mm off its middle.
   EXPECT_FALSE(articular({radius - 0.01}));

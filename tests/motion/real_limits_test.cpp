@@ -37,7 +37,7 @@ class RealHipLimits : public testing::TestWithParam<HipFiles> {
               {"femur", test::read_ply(*data / GetParam().mobile)}};
   }
   Pose pose_past(const MotionLimit& limit, Angle past) const {
-    const Angle by = limit.motion.sense == TurnSense::positive ? past : -past;
+    const Angle by = limit.motion.sense == RotationSense::positive ? past : -past;
     return pose_at(joint_.side, turned_by(limit.angles_at_limit(), limit.motion.vary, by));
   }
 
@@ -46,25 +46,25 @@ class RealHipLimits : public testing::TestWithParam<HipFiles> {
 INSTANTIATE_TEST_SUITE_P(SharedData, RealHipLimits, testing::ValuesIn(hips),
                          [](const auto& hip) { return hip.param.name; });
 
-TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndTouchingAMicrodegreeAfter) {
+TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndInContactAMicrodegreeAfter) {
   const JointContact exact(joint_.fixed.mesh, joint_.mobile.mesh);
   const auto limits = RangeOfMotion(joint_).limits(hip_motions());
   std::size_t contacts = 0;
   for (const MotionLimit& limit : limits) {
     SCOPED_TRACE(limit.motion.name);
-    ASSERT_NE(limit.reason, LimitReason::contact_at_start);
+    ASSERT_NE(limit.end.reason, LimitReason::contact_at_start);
     const Angle microdegree = Angle::degrees(1e-6);
     EXPECT_TRUE(exact.pairs(pose_past(limit, -microdegree)).empty());
     // 20 poses on the way.
     for (int k = 1; k <= 20; ++k)
-      EXPECT_TRUE(exact.pairs(pose_past(limit, limit.turned * (-k / 20.0))).empty());
-    if (limit.reason != LimitReason::contact) continue;
+      EXPECT_TRUE(exact.pairs(pose_past(limit, limit.end.turned * (-k / 20.0))).empty());
+    if (limit.end.reason != LimitReason::contact) continue;
     ++contacts;
     const auto pairs = exact.pairs(pose_past(limit, microdegree));
     ASSERT_FALSE(pairs.empty());
-    // What the limit names is one place on both bones, within the shortfall and the rounding of a pose.
-    const Vec3 seen_from_F = pose_past(limit, Angle()) * limit.contact->mobile_point;
-    EXPECT_LT((seen_from_F - limit.contact->fixed_point).norm(), 1e-9);
+    // What the limit names is one place on both bones, within the error_bound and the rounding of a pose.
+    const Vec3 seen_from_F = pose_past(limit, Angle()) * limit.end.contact->mobile_point;
+    EXPECT_LT((seen_from_F - limit.end.contact->fixed_point).norm(), 1e-9);
   }
   EXPECT_GE(contacts, 11u);
 }
@@ -77,13 +77,13 @@ TEST_P(RealHipLimits, HaveZonesThatGrowFromTheContactPoint) {
   for (const MotionLimit& limit : limits) {
     SCOPED_TRACE(limit.motion.name);
     const auto small = shortly_after.zone(limit), large = later.zone(limit);
-    ASSERT_EQ(small.has_value(), limit.reason == LimitReason::contact);
+    ASSERT_EQ(small.has_value(), limit.end.reason == LimitReason::contact);
     if (!small) continue;
     EXPECT_GT(small->fixed.area_mm2, 0);
     EXPECT_GE(large->fixed.triangles.size(), small->fixed.triangles.size());
     EXPECT_GE(large->mobile.triangles.size(), small->mobile.triangles.size());
     // Half a degree past the limit the zone is no further from the contact point than some ten triangles.
-    EXPECT_LT((*small->fixed.centroid - limit.contact->fixed_point).norm(), 40);
+    EXPECT_LT((*small->fixed.centroid_mm - limit.end.contact->fixed_point).norm(), 40);
     EXPECT_EQ(large->fixed.radial_depth_mm.size(), joint_.fixed.mesh.vertices().size());
     EXPECT_EQ(large->mobile.tangential_depth_mm.size(), joint_.mobile.mesh.vertices().size());
     // No vertex is deeper along the arc than the motion went past the limit: turning back by that frees it.
@@ -103,7 +103,7 @@ TEST_P(RealHipLimits, FindTheNeckWhereAnatomyHasIt) {
   EXPECT_GT(d.z() * (joint_.side == Side::right ? 1 : -1), 0.4) << "lateral";
 }
 
-/// Segmented without care for contact: 47 pairs of triangles meet at rest (the data's own table), and the hip
+/// Segmented without care for contact: 47 pairs of triangles meet in the reference pose (the data's own table), and the hip
 /// bone is open.
 TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
   const auto data = test::shared_data();
@@ -120,12 +120,13 @@ TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
     const std::string text = error.what();
     EXPECT_NE(text.find("47 pairs of triangles meet; an open mesh has no depth"), std::string::npos) << text;
   }
-  const RangeOfMotion bones(joint, {.overlap = {.leave_out_rest_contacts = LeaveOutRestContacts{}}});
+  const RangeOfMotion bones(joint,
+                            {.overlap = {.leave_out_reference_contacts = LeaveOutReferenceContacts{}}});
   EXPECT_GT(bones.left_out().fixed_triangles, 0u);
   std::size_t contacts = 0;
   for (const MotionLimit& limit : bones.limits(hip_motions())) {
-    EXPECT_NE(limit.reason, LimitReason::contact_at_start) << limit.motion.name;
-    contacts += limit.reason == LimitReason::contact;
+    EXPECT_NE(limit.end.reason, LimitReason::contact_at_start) << limit.motion.name;
+    contacts += limit.end.reason == LimitReason::contact;
   }
   EXPECT_GT(contacts, 3u);
 }

@@ -15,7 +15,7 @@ using Point = Triple<double>;
 
 /// Six hundred digits. What is compared with zero here is of degree 20 in the coordinates at most, after
 /// clearing the root; with coordinates of size 1 that are multiples of 2^-54 it is 0 or above 1e-330, and
-/// `negligible` tells the two apart.
+/// `negligible` is between the two.
 using Real =
     boost::multiprecision::number<boost::multiprecision::cpp_bin_float<600>, boost::multiprecision::et_off>;
 const Real negligible("1e-400");
@@ -29,39 +29,39 @@ Triple<Real> real(const Point& p) {
 }
 
 /// A direction of the unit circle.
-struct RealTurn {
+struct RealRotation {
   Real cosine, sine;
 };
 
-Triple<Real> turned(const Triple<Real>& p, const RealTurn& t) {
+Triple<Real> turned(const Triple<Real>& p, const RealRotation& t) {
   return {p.x * t.cosine - p.y * t.sine, p.x * t.sine + p.y * t.cosine, p.z};
 }
 
-/// In [0, 2 pi), as long as the turn is not within a rounding of 0 without being it.
-double angle_of(const RealTurn& t) {
+/// In [0, 2 pi), as long as the rotation is not within a rounding of 0 without being it.
+double angle_of(const RealRotation& t) {
   const double angle = std::atan2(static_cast<double>(t.sine), static_cast<double>(t.cosine));
   return angle < 0 ? angle + two_pi : angle;
 }
 
 /// Directions e with (A, B) . e = -C: the foot of the line's perpendicular, and half a chord to either side.
-std::vector<RealTurn> real_roots(const Real& A, const Real& B, const Real& C) {
+std::vector<RealRotation> real_roots(const Real& A, const Real& B, const Real& C) {
   const Real r2 = A * A + B * B, D = r2 - C * C;
   if (side(r2) == 0 || side(D) < 0) return {};
   const Real foot = -C / r2, half_chord = side(D) == 0 ? Real(0) : Real(sqrt(D) / r2);
-  std::vector<RealTurn> turns;
-  turns.push_back({foot * A - half_chord * B, foot * B + half_chord * A});
-  if (side(D) != 0) turns.push_back({foot * A + half_chord * B, foot * B - half_chord * A});
-  return turns;
+  std::vector<RealRotation> roots;
+  roots.push_back({foot * A - half_chord * B, foot * B + half_chord * A});
+  if (side(D) != 0) roots.push_back({foot * A + half_chord * B, foot * B - half_chord * A});
+  return roots;
 }
 
 /// The plain reading of "a turning point is on a triangle": solve for the plane, then look at the three
 /// sides.
-std::vector<RealTurn> real_vertex_face(const Point& vertex, const Corners& face) {
+std::vector<RealRotation> real_vertex_face(const Point& vertex, const Corners& face) {
   const auto p = real(vertex);
   const std::array<Triple<Real>, 3> f = {real(face[0]), real(face[1]), real(face[2])};
   const auto n = cross(f[1] - f[0], f[2] - f[0]);
-  std::vector<RealTurn> found;
-  for (const RealTurn& t :
+  std::vector<RealRotation> found;
+  for (const RealRotation& t :
        real_roots(n.x * p.x + n.y * p.y, n.y * p.x - n.x * p.y, n.z * p.z - dot(n, f[0]))) {
     const auto x = turned(p, t);
     bool inside = true;
@@ -75,12 +75,13 @@ std::vector<RealTurn> real_vertex_face(const Point& vertex, const Corners& face)
 
 /// The plain reading of "two edges meet": solve for coplanar lines, then for both parameters; parallel lines
 /// are none.
-std::vector<RealTurn> real_edges(const Point& pa, const Point& pb, const Point& pc, const Point& pd) {
+std::vector<RealRotation> real_edges(const Point& pa, const Point& pb, const Point& pc, const Point& pd) {
   const auto a = real(pa), b = real(pb), c = real(pc), d = real(pd);
   const auto w = d - c, u = b - a, m = cross(a, u), n = cross(c, w);
-  std::vector<RealTurn> found;
-  for (const RealTurn& t : real_roots(m.x * w.x + m.y * w.y + u.x * n.x + u.y * n.y,
-                                      m.x * w.y - m.y * w.x + u.x * n.y - u.y * n.x, m.z * w.z + u.z * n.z)) {
+  std::vector<RealRotation> found;
+  for (const RealRotation& t :
+       real_roots(m.x * w.x + m.y * w.y + u.x * n.x + u.y * n.y,
+                  m.x * w.y - m.y * w.x + u.x * n.y - u.y * n.x, m.z * w.z + u.z * n.z)) {
     const auto x = turned(a, t), ru = turned(u, t), across = cross(ru, w);
     const Real size = dot(across, across);
     if (side(size) == 0) continue;
@@ -91,16 +92,17 @@ std::vector<RealTurn> real_edges(const Point& pa, const Point& pb, const Point& 
 }
 
 /// Same angles: as many, each within the stated error, and that error as small as promised.
-void expect_same(const Touches& touches, const std::vector<RealTurn>& truth) {
-  RC_ASSERT(static_cast<std::size_t>(touches.count) == truth.size());
-  std::vector<Touch> found(touches.begin(), touches.end());
-  std::sort(found.begin(), found.end(), [](const Touch& a, const Touch& b) { return a.angle < b.angle; });
+void expect_same(const ContactEvents& events, const std::vector<RealRotation>& truth) {
+  RC_ASSERT(static_cast<std::size_t>(events.count) == truth.size());
+  std::vector<ContactEvent> found(events.begin(), events.end());
+  std::sort(found.begin(), found.end(),
+            [](const ContactEvent& a, const ContactEvent& b) { return a.angle < b.angle; });
   std::vector<double> angles;
-  for (const RealTurn& t : truth) angles.push_back(angle_of(t));
+  for (const RealRotation& t : truth) angles.push_back(angle_of(t));
   std::sort(angles.begin(), angles.end());
   const double rounding_of_truth = 1e-15;
   for (std::size_t i = 0; i < found.size(); ++i) {
-    RC_ASSERT(found[i].error <= worst_touch_error);
+    RC_ASSERT(found[i].error <= worst_event_error);
     RC_ASSERT(std::abs(found[i].angle - angles[i]) <= found[i].error + rounding_of_truth);
   }
 }
@@ -115,48 +117,20 @@ Point any_point() {
   return {coordinate(), coordinate(), coordinate()};
 }
 
-TEST(RotationRoots, of_cosine_and_sine_are_where_they_vanish) {
-  const Roots cosine = rotation_roots(1, 0, 0), sine = rotation_roots(0, 1, 0);
-  ASSERT_EQ(cosine.count, 2);
-  EXPECT_NEAR(cosine.angle[0], pi / 2, 1e-15);
-  EXPECT_NEAR(cosine.angle[1], 3 * pi / 2, 2e-15);
-  ASSERT_EQ(sine.count, 2);
-  EXPECT_NEAR(std::min(sine.angle[0], sine.angle[1]), 0, 1e-15);
-  EXPECT_NEAR(std::max(sine.angle[0], sine.angle[1]), pi, 1e-15);
-}
-
-TEST(RotationRoots, exist_up_to_grazing_and_not_beyond) {
-  EXPECT_EQ(rotation_roots(3, 4, 5).count, 1);
-  EXPECT_NEAR(rotation_roots(3, 4, 5).angle[0], pi + std::atan2(4, 3), 1e-15);
-  EXPECT_EQ(rotation_roots(3, 4, -5).count, 1);
-  EXPECT_NEAR(rotation_roots(3, 4, -5).angle[0], std::atan2(4, 3), 1e-15);
-  EXPECT_EQ(rotation_roots(3, 4, std::nextafter(5, 6)).count, 0);
-  EXPECT_EQ(rotation_roots(3, 4, std::nextafter(5, 4)).count, 2);
-  EXPECT_EQ(rotation_roots(0, 0, 0).count, 0) << "sliding contact is reported by neighbours";
-}
-
-TEST(RotationRoots, of_a_grazing_plane_lie_as_far_apart_as_the_square_root_says) {
-  // cos t = 1 - e has roots +-sqrt(2 e) (1 + e / 12): acos would have lost half the digits.
-  const double e = 0x1p-40;
-  const Roots roots = rotation_roots(1, 0, -(1 - e));
-  ASSERT_EQ(roots.count, 2);
-  EXPECT_NEAR(roots.angle[0], std::sqrt(2 * e) * (1 + e / 12), 1e-21);
-}
-
-TEST(VertexMeetsFace, where_the_arctangent_says) {
+TEST(VertexMeetsFace, WhereTheArctangentSays) {
   // A point at distance 2 from the axis meets the wall x = 1 at +-60 degrees: only one of the two is in the
   // triangle.
   const Corners wall = {Point{1, 0, -5}, Point{1, 9, 0}, Point{1, 0, 5}};
-  const auto touches = vertex_meets_face({2, 0, 0}, wall);
-  ASSERT_EQ(touches.count, 1);
-  EXPECT_NEAR(touches.touch[0].angle, pi / 3, touches.touch[0].error);
-  EXPECT_LE(touches.touch[0].error, 1e-13);
+  const auto events = vertex_meets_face({2, 0, 0}, wall);
+  ASSERT_EQ(events.count, 1);
+  EXPECT_NEAR(events.event[0].angle, pi / 3, events.event[0].error);
+  EXPECT_LE(events.event[0].error, 1e-13);
   const auto backwards = face_meets_vertex(wall, {2, 0, 0});
   ASSERT_EQ(backwards.count, 1);
-  EXPECT_NEAR(backwards.touch[0].angle, 5 * pi / 3, backwards.touch[0].error);
+  EXPECT_NEAR(backwards.event[0].angle, 5 * pi / 3, backwards.event[0].error);
 }
 
-TEST(VertexMeetsFace, touching_an_edge_or_a_corner_counts) {
+TEST(VertexMeetsFace, TouchingAnEdgeOrACornerCounts) {
   const Corners wall = {Point{0, 1, -5}, Point{0, 3, -5}, Point{0, 1, 5}};
   EXPECT_EQ(vertex_meets_face({2, 0, -5}, wall).count, 1) << "on an edge";
   EXPECT_EQ(vertex_meets_face({3, 0, -5}, wall).count, 1) << "on a corner";
@@ -164,16 +138,16 @@ TEST(VertexMeetsFace, touching_an_edge_or_a_corner_counts) {
   EXPECT_EQ(vertex_meets_face({std::nextafter(3, 4), 0, -5}, wall).count, 0) << "just beside";
 }
 
-TEST(VertexMeetsFace, grazing_a_face_is_one_touch_and_missing_it_by_one_rounding_is_none) {
+TEST(VertexMeetsFace, GrazingAFaceIsOneEventAndMissingItByOneRoundingIsNone) {
   const Corners wall = {Point{2, -4, -5}, Point{2, 4, -5}, Point{2, 0, 5}};
-  const auto touches = vertex_meets_face({0, 2, 0}, wall);
-  ASSERT_EQ(touches.count, 1);
-  EXPECT_NEAR(touches.touch[0].angle, 3 * pi / 2, touches.touch[0].error);
+  const auto events = vertex_meets_face({0, 2, 0}, wall);
+  ASSERT_EQ(events.count, 1);
+  EXPECT_NEAR(events.event[0].angle, 3 * pi / 2, events.event[0].error);
   EXPECT_EQ(vertex_meets_face({0, std::nextafter(2, 0), 0}, wall).count, 0);
   EXPECT_EQ(vertex_meets_face({0, std::nextafter(2, 3), 0}, wall).count, 2);
 }
 
-TEST(VertexMeetsFace, sliding_in_its_plane_or_resting_on_the_axis_reports_nothing) {
+TEST(VertexMeetsFace, SlidingInItsPlaneOrRestingOnTheAxisReportsNothing) {
   const Corners floor = {Point{-5, -5, 1}, Point{5, -5, 1}, Point{0, 5, 1}};
   EXPECT_EQ(vertex_meets_face({1, 0, 1}, floor).count, 0);
   EXPECT_EQ(vertex_meets_face({0, 0, 1}, floor).count, 0);
@@ -181,47 +155,47 @@ TEST(VertexMeetsFace, sliding_in_its_plane_or_resting_on_the_axis_reports_nothin
   EXPECT_EQ(vertex_meets_face({0, 0, 0}, through_axis).count, 0);
 }
 
-TEST(VertexMeetsFace, a_triangle_without_area_reports_nothing) {
+TEST(VertexMeetsFace, ATriangleWithoutAreaReportsNothing) {
   EXPECT_EQ(vertex_meets_face({2, 0, 0}, {Point{0, 2, -1}, Point{0, 2, 1}, Point{0, 2, 0}}).count, 0);
 }
 
-TEST(VertexMeetsFace, next_to_the_start_the_side_is_decided_exactly) {
+TEST(VertexMeetsFace, NextToTheStartTheSideIsDecidedExactly) {
   // The wall x = 1 + e meets the point (1 + e, y, 0) on either side of y = 0, by less than one rounding of 2
   // pi.
   const double y = 1e-17;
   const Corners wall = {Point{-5, 0, -5}, Point{5, 0, -5}, Point{0, 0, 5}};
-  const auto before = vertex_meets_face({1, -y, 0}, wall, TurnWindow::forward(1));
+  const auto before = vertex_meets_face({1, -y, 0}, wall, AngleWindow::forward(1));
   ASSERT_EQ(before.count, 1);
-  EXPECT_LT(before.touch[0].angle, 1e-15);
-  const auto after = vertex_meets_face({1, y, 0}, wall, TurnWindow::backward(1));
+  EXPECT_LT(before.event[0].angle, 1e-15);
+  const auto after = vertex_meets_face({1, y, 0}, wall, AngleWindow::backward(1));
   ASSERT_EQ(after.count, 1);
-  EXPECT_GT(after.touch[0].angle, two_pi - 1e-15);
+  EXPECT_GT(after.event[0].angle, two_pi - 1e-15);
 }
 
-TEST(VertexMeetsFace, at_any_scale_of_the_coordinates) {
+TEST(VertexMeetsFace, AtAnyScaleOfTheCoordinates) {
   for (const double scale : {0x1p-1000, 0x1p-400, 0x1p-170, 1.0, 0x1p170, 0x1p300}) {
     const Corners wall = {Point{scale, 0, -5 * scale}, Point{scale, 9 * scale, 0},
                           Point{scale, 0, 5 * scale}};
-    const auto touches = vertex_meets_face({2 * scale, 0, 0}, wall);
-    ASSERT_EQ(touches.count, 1) << scale;
-    EXPECT_NEAR(touches.touch[0].angle, pi / 3, touches.touch[0].error);
+    const auto events = vertex_meets_face({2 * scale, 0, 0}, wall);
+    ASSERT_EQ(events.count, 1) << scale;
+    EXPECT_NEAR(events.event[0].angle, pi / 3, events.event[0].error);
     const auto edges =
         edges_meet({scale, 0, 0}, {3 * scale, 0, 0}, {0, 2 * scale, -scale}, {0, 2 * scale, scale});
     ASSERT_EQ(edges.count, 1) << scale;
-    EXPECT_NEAR(edges.touch[0].angle, pi / 2, edges.touch[0].error);
+    EXPECT_NEAR(edges.event[0].angle, pi / 2, edges.event[0].error);
   }
 }
 
-TEST(EdgesMeet, where_the_arctangent_says) {
+TEST(EdgesMeet, WhereTheArctangentSays) {
   // A radial spoke at height 0 meets an upright post at distance 2, 90 degrees on.
-  const auto touches = edges_meet({1, 0, 0}, {3, 0, 0}, {0, 2, -1}, {0, 2, 1});
-  ASSERT_EQ(touches.count, 1);
-  EXPECT_NEAR(touches.touch[0].angle, pi / 2, touches.touch[0].error);
+  const auto events = edges_meet({1, 0, 0}, {3, 0, 0}, {0, 2, -1}, {0, 2, 1});
+  ASSERT_EQ(events.count, 1);
+  EXPECT_NEAR(events.event[0].angle, pi / 2, events.event[0].error);
   EXPECT_EQ(edges_meet({1, 0, 0}, {3, 0, 0}, {0, 3, -1}, {0, 3, 1}).count, 1) << "at an end";
   EXPECT_EQ(edges_meet({1, 0, 0}, {3, 0, 0}, {0, 4, -1}, {0, 4, 1}).count, 0) << "past an end";
 }
 
-TEST(EdgesMeet, always_in_one_plane_reports_nothing) {
+TEST(EdgesMeet, AlwaysInOnePlaneReportsNothing) {
   EXPECT_EQ(edges_meet({1, 0, 0}, {1, 0, 2}, {0, 1, -1}, {0, 1, 1}).count, 0) << "both parallel to the axis";
   EXPECT_EQ(edges_meet({1, 0, 1}, {2, 0, 2}, {0, 1, 1}, {0, 3, 3}).count, 0)
       << "both through one point of the axis";
@@ -229,22 +203,22 @@ TEST(EdgesMeet, always_in_one_plane_reports_nothing) {
       << "mirrored rulings of a hyperboloid";
 }
 
-TEST(EdgesMeet, parallel_at_the_root_reports_nothing) {
+TEST(EdgesMeet, ParallelAtTheRootReportsNothing) {
   // At 90 degrees both are parallel, and one is the other.
-  for (const Touch& t : edges_meet({2, 1, 0}, {2, -1, 1}, {-1, 2, 0}, {1, 2, 1})) {
-    EXPECT_GT(std::abs(t.angle - pi / 2), 0.1);
+  for (const ContactEvent& e : edges_meet({2, 1, 0}, {2, -1, 1}, {-1, 2, 0}, {1, 2, 1})) {
+    EXPECT_GT(std::abs(e.angle - pi / 2), 0.1);
   }
 }
 
-TEST(EdgesMeet, in_one_plane_across_the_axis_where_an_end_passes_the_other_edge) {
+TEST(EdgesMeet, InOnePlaneAcrossTheAxisWhereAnEndPassesTheOtherEdge) {
   // A spoke from 1 to 3 sweeps the plane z = 0 and meets the bar x = 2 (|y| < 1) end first at atan(1/2)...
   // from below.
-  const auto touches = edges_meet({1, 0, 0}, {3, 0, 0}, {2, -1, 0}, {2, 1, 0});
-  ASSERT_EQ(touches.count, 2);
-  for (const Touch& t : touches) EXPECT_NEAR(std::abs(std::sin(t.angle)), 1 / std::sqrt(5), 1e-14);
+  const auto events = edges_meet({1, 0, 0}, {3, 0, 0}, {2, -1, 0}, {2, 1, 0});
+  ASSERT_EQ(events.count, 2);
+  for (const ContactEvent& e : events) EXPECT_NEAR(std::abs(std::sin(e.angle)), 1 / std::sqrt(5), 1e-14);
 }
 
-RC_GTEST_PROP(RotationEvents, of_a_vertex_agree_with_six_hundred_digits, ()) {
+RC_GTEST_PROP(RotationEvents, OfAVertexAgreeWithSixHundredDigits, ()) {
   for (int i = 0; i < 20; ++i) {
     const Point p = any_point();
     const Corners face = {any_point(), any_point(), any_point()};
@@ -252,14 +226,14 @@ RC_GTEST_PROP(RotationEvents, of_a_vertex_agree_with_six_hundred_digits, ()) {
   }
 }
 
-RC_GTEST_PROP(RotationEvents, of_edges_agree_with_six_hundred_digits, ()) {
+RC_GTEST_PROP(RotationEvents, OfEdgesAgreeWithSixHundredDigits, ()) {
   for (int i = 0; i < 20; ++i) {
     const Point a = any_point(), b = any_point(), c = any_point(), d = any_point();
     expect_same(edges_meet(a, b, c, d), real_edges(a, b, c, d));
   }
 }
 
-RC_GTEST_PROP(RotationEvents, on_a_lattice_of_degenerate_cases_agree_with_six_hundred_digits, ()) {
+RC_GTEST_PROP(RotationEvents, OnALatticeOfDegenerateCasesAgreeWithSixHundredDigits, ()) {
   for (int i = 0; i < 100; ++i) {
     const Point a = lattice_point(), b = lattice_point(), c = lattice_point(), d = lattice_point();
     expect_same(vertex_meets_face(a, {b, c, d}), real_vertex_face(a, {b, c, d}));
@@ -269,7 +243,7 @@ RC_GTEST_PROP(RotationEvents, on_a_lattice_of_degenerate_cases_agree_with_six_hu
 }
 
 /// Almost degenerate: where bounds have to notice that they cannot decide.
-RC_GTEST_PROP(RotationEvents, a_hair_off_the_lattice_agree_with_six_hundred_digits, ()) {
+RC_GTEST_PROP(RotationEvents, AHairOffTheLatticeAgreeWithSixHundredDigits, ()) {
   const auto nudged = [](Point p) {
     for (double* x : {&p.x, &p.y, &p.z})
       *x += *rc::gen::inRange(-1, 2) * std::ldexp(1, *rc::gen::inRange(-54, -20));
@@ -284,24 +258,24 @@ RC_GTEST_PROP(RotationEvents, a_hair_off_the_lattice_agree_with_six_hundred_digi
   }
 }
 
-RC_GTEST_PROP(RotationEvents, ten_metres_away_agree_with_six_hundred_digits, ()) {
+RC_GTEST_PROP(RotationEvents, TenMetresAwayAgreeWithSixHundredDigits, ()) {
   const auto away = [](Point p) { return Point{p.x + 1e4, p.y, p.z - 1e4}; };
   const Point a = away(any_point()), b = away(any_point()), c = away(any_point()), d = away(any_point());
   expect_same(vertex_meets_face(a, {b, c, d}), real_vertex_face(a, {b, c, d}));
   expect_same(edges_meet(a, b, c, d), real_edges(a, b, c, d));
 }
 
-RC_GTEST_PROP(RotationEvents, a_window_loses_none_of_its_touches, ()) {
+RC_GTEST_PROP(RotationEvents, AWindowLosesNoneOfItsEvents, ()) {
   for (int i = 0; i < 100; ++i) {
     const Point a = any_point(), b = any_point(), c = any_point(), d = any_point();
     const double last = *rc::gen::inRange(0, 6283) * 1e-3;
     const auto all = vertex_meets_face(a, {b, c, d});
-    const auto forward = vertex_meets_face(a, {b, c, d}, TurnWindow::forward(last));
-    const auto backward = vertex_meets_face(a, {b, c, d}, TurnWindow::backward(last));
-    for (const Touch& t : all) {
-      const auto same = [&](const Touch& other) { return other.angle == t.angle; };
-      if (t.angle <= last) RC_ASSERT(std::any_of(forward.begin(), forward.end(), same));
-      if (t.angle >= two_pi - last) RC_ASSERT(std::any_of(backward.begin(), backward.end(), same));
+    const auto forward = vertex_meets_face(a, {b, c, d}, AngleWindow::forward(last));
+    const auto backward = vertex_meets_face(a, {b, c, d}, AngleWindow::backward(last));
+    for (const ContactEvent& e : all) {
+      const auto same = [&](const ContactEvent& other) { return other.angle == e.angle; };
+      if (e.angle <= last) RC_ASSERT(std::any_of(forward.begin(), forward.end(), same));
+      if (e.angle >= two_pi - last) RC_ASSERT(std::any_of(backward.begin(), backward.end(), same));
     }
   }
 }

@@ -62,20 +62,21 @@ TEST_P(RealHip, stops_at_the_limit_free_a_microdegree_before_and_touching_a_micr
     const auto touching = [&](double degrees) {
       return !oracle.pairs(posed(about(start.axis, degrees) * start.X_FM, mobile)).empty();
     };
-    for (const Limit& limit : {found.negative, found.positive}) {
+    for (const auto& [limit, sense] : {std::pair{found.negative, RotationSense::negative},
+                                       std::pair{found.positive, RotationSense::positive}}) {
       if (limit.reason == LimitReason::contact_at_start) {
         EXPECT_TRUE(touching(0));
         continue;
       }
-      const double end = limit.angle.degrees(), sign = end < 0 ? -1 : 1;
+      const double sign = sign_of(sense), end = sign * limit.turned.degrees();
       for (int k = 0; k < 10; ++k) EXPECT_FALSE(touching(end * k / 10)) << k;
       EXPECT_FALSE(touching(end - sign * microdegree)) << end;
       if (limit.reason != LimitReason::contact) continue;
       ++contacts;
       EXPECT_TRUE(touching(end + sign * microdegree)) << end;
-      EXPECT_LE(limit.shortfall.radians(), 4e-12);
-      const Vec3 there = about(start.axis, end) * start.X_FM * limit.touching->turning_point;
-      EXPECT_LT((there - limit.touching->resting_point).norm(), 1e-9);
+      EXPECT_LE(limit.error_bound.radians(), 4e-12);
+      const Vec3 there = about(start.axis, end) * start.X_FM * limit.contact->mobile_point;
+      EXPECT_LT((there - limit.contact->fixed_point).norm(), 1e-9);
     }
   }
   EXPECT_GE(contacts, 4) << "too few contacts to mean anything";

@@ -48,23 +48,23 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
   const MotionLimit limit = RangeOfMotion(joint, {.articular = ArticularRegion{30}}).limit(motion);
   const CgalOracle oracle(joint.fixed.mesh);
   const auto touching = [&](Angle turned) {
-    const Angle by = motion.sense == TurnSense::positive ? turned : -turned;
+    const Angle by = motion.sense == RotationSense::positive ? turned : -turned;
     return !oracle
                 .pairs(
                     posed(pose_at(joint.side, turned_by(motion.start, motion.vary, by)), joint.mobile.mesh))
                 .empty();
   };
-  if (limit.reason == LimitReason::contact_at_start) {
+  if (limit.end.reason == LimitReason::contact_at_start) {
     EXPECT_TRUE(touching(Angle()));
     return;
   }
   const Angle microdegree = Angle::degrees(1e-6);
   constexpr int poses_before = 200;
   for (int k = 0; k < poses_before; ++k)
-    EXPECT_FALSE(touching(limit.turned * (static_cast<double>(k) / poses_before))) << "of 200: " << k;
-  EXPECT_FALSE(touching(limit.turned - microdegree));
-  if (limit.reason == LimitReason::contact) {
-    EXPECT_TRUE(touching(limit.turned + microdegree));
+    EXPECT_FALSE(touching(limit.end.turned * (static_cast<double>(k) / poses_before))) << "of 200: " << k;
+  EXPECT_FALSE(touching(limit.end.turned - microdegree));
+  if (limit.end.reason == LimitReason::contact) {
+    EXPECT_TRUE(touching(limit.end.turned + microdegree));
   }
 }
 

@@ -10,7 +10,7 @@
 #include "contact/joint_contact.hpp"
 #include "contact/tangential_contact.hpp"
 #include "oracle/cgal_oracle.hpp"
-#include "radial/query/sorted_points.hpp"
+#include "condyle/radial.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
@@ -89,12 +89,12 @@ std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
   const Side side = side_sign > 0 ? Side::right : Side::left;
   const Joint joint{"", JointKind::ball, side, {"", meshes.fixed}, {"", meshes.mobile}};
   const RangeOfMotion range(
-      joint, {.articular = ArticularRegion{25}, .overlap = {.contact_at_rest = ContactAtRest::accept}});
+      joint, {.articular = ArticularRegion{25}, .overlap = {.reference_contact = ReferenceContact::accept}});
   std::vector<Pose> poses;
   for (const MotionLimit& limit : range.limits(hip_motions())) {
-    if (limit.reason != LimitReason::contact) continue;
+    if (limit.end.reason != LimitReason::contact) continue;
     for (const double past : {-1e-4, 1e-4}) {
-      const double sense = limit.motion.sense == TurnSense::positive ? 1 : -1;
+      const double sense = limit.motion.sense == RotationSense::positive ? 1 : -1;
       poses.push_back(
           pose_at(side, turned_by(limit.angles_at_limit(), limit.motion.vary, Angle::degrees(sense * past))));
     }
@@ -121,7 +121,7 @@ const LoadedJoint* load(const JointFiles& files) {
 
 /// Parity is blind to how often a self-overlapping mesh is wound about a point; where the two differ,
 /// rational arithmetic tells the winding number, and it must be one that parity cannot express.
-void expect_same_states(const RadialHits& ours, const std::vector<PointState>& oracle, const TriMesh& mesh,
+void expect_same_states(const RadialResults& ours, const std::vector<PointState>& oracle, const TriMesh& mesh,
                         PointsView points, std::size_t& overlapping) {
   ASSERT_EQ(ours.size(), oracle.size());
   for (std::size_t i = 0; i < oracle.size(); ++i) {
@@ -137,7 +137,7 @@ void expect_same_states(const RadialHits& ours, const std::vector<PointState>& o
 
 /// The fast path tells the same points inside, as deep.
 void expect_same_penetrations(const RadialTable& table, const SortedPoints& points, const Pose& X,
-                              const RadialHits& hits) {
+                              const RadialResults& hits) {
   Penetrations found;
   table.penetrations(points, X, found);
   const auto not_outside = std::count_if(hits.state.begin(), hits.state.end(),
@@ -146,7 +146,7 @@ void expect_same_penetrations(const RadialTable& table, const SortedPoints& poin
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Index p = found.point[i];
     EXPECT_EQ(found.state[i], hits.state[p]) << "vertex " << p;
-    EXPECT_EQ(found.depth[i], -hits.radial_gap[p]) << "vertex " << p;
+    EXPECT_EQ(found.depth_mm[i], -hits.radial_gap_mm[p]) << "vertex " << p;
     EXPECT_EQ(found.triangle[i], hits.triangle[p]) << "vertex " << p;
   }
 }
@@ -231,12 +231,12 @@ TEST_P(RealJoint, DepthsAreThoseOfAnIndependentRay) {
   std::size_t compared = 0;
   for (const Pose& X : {turned(120, 10, 30, GetParam().side), turned(-30, 0, -40, GetParam().side)}) {
     const Points points = posed(X, meshes->mobile.vertices.view());
-    const RadialHits hits = fixed.query(points);
+    const RadialResults hits = fixed.query(points);
     for (std::size_t i = 0; i < hits.size(); ++i) {
       // Several skins or overlaps are counted by winding number; the plain scan knows one skin.
       if (hits.state[i] != PointState::inside || hits.winding[i] != 1 || compared > 400) continue;
       const double expected = depth_by_all_triangles(meshes->fixed, points[i]);
-      EXPECT_NEAR(-hits.radial_gap[i], expected, 1e-9 * points[i].norm()) << "vertex " << i;
+      EXPECT_NEAR(-hits.radial_gap_mm[i], expected, 1e-9 * points[i].norm()) << "vertex " << i;
       ++compared;
     }
   }
@@ -246,8 +246,8 @@ TEST_P(RealJoint, DepthsAreThoseOfAnIndependentRay) {
 TEST_P(RealJoint, BothMapsGiveTheSameBytesInEveryPose) {
   const LoadedJoint* meshes = load(GetParam());
   if (!meshes) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const JointContact cube(meshes->fixed, meshes->mobile, {radial::DirectionMapKind::cube, 64});
-  const JointContact cartesian(meshes->fixed, meshes->mobile, {radial::DirectionMapKind::cartesian, 64});
+  const JointContact cube(meshes->fixed, meshes->mobile, {DirectionMapKind::cube, 64});
+  const JointContact cartesian(meshes->fixed, meshes->mobile, {DirectionMapKind::cartesian, 64});
   for (const double flexion : {0., 60., 120.}) {
     const Pose X = turned(flexion, 10, 20, GetParam().side);
     const RadialContact a = cube.radial(X), b = cartesian.radial(X);
@@ -297,7 +297,7 @@ TEST(RealHips, NeutralPosesGiveThePublishedTables) {
     // The table's distances are rounded to 1e-4 mm; no gap along a ray is shorter than the distance.
     EXPECT_NEAR(CgalOracle(fixed).min_distance(moving.vertices), row.min_distance_mm, 0.5e-4 + 1e-9);
     if (row.pairs == 0) {
-      const double min_gap = *std::min_element(hits.radial_gap.begin(), hits.radial_gap.end());
+      const double min_gap = *std::min_element(hits.radial_gap_mm.begin(), hits.radial_gap_mm.end());
       EXPECT_GE(min_gap, row.min_distance_mm - 0.5e-4);
     }
   }

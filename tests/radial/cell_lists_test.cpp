@@ -6,7 +6,7 @@
 #include <random>
 
 #include "radial/build/direction_pyramid.hpp"
-#include "radial/query/sorted_points.hpp"
+#include "radial/query/point_blocks.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/test_meshes.hpp"
 
@@ -377,18 +377,18 @@ TEST_P(CubeListsOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
   }
 }
 
-TEST(SortedPoints, BlocksHoldEachPointOnceWithinTheirCapsAndRadii) {
+TEST(PointBlocks, BlocksHoldEachPointOnceWithinTheirCapsAndRadii) {
   std::mt19937 random(6);
   std::uniform_real_distribution<double> uniform(-1, 1);
   Points points;
   for (int i = 0; i < 3001; ++i)
     points.push_back({uniform(random), uniform(random) * uniform(random), uniform(random)});
   const Vec3 centre(0.2, -0.1, 0.3);
-  const SortedPoints sorted(points, centre);
+  const radial::PointBlocks sorted(points, centre);
   std::vector<Index> numbers(sorted.index().begin(), sorted.index().end());
   std::sort(numbers.begin(), numbers.end());
   for (Index i = 0; i < points.size(); ++i) ASSERT_EQ(numbers[i], i);
-  using S = SortedPoints;
+  using S = radial::PointBlocks;
   for (std::size_t i = 0; i < sorted.size(); ++i) {
     ASSERT_EQ(sorted[i], points[sorted.index()[i]]);
     const Vec3 p = sorted[i] - centre;

@@ -1,4 +1,4 @@
-#include "radial/radial_table.hpp"
+#include "condyle/radial.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -22,7 +22,7 @@ using test::sphere;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class RadialTableOnMap : public testing::TestWithParam<radial::DirectionMapKind> {
+class RadialTableOnMap : public testing::TestWithParam<DirectionMapKind> {
  protected:
   RadialTable table(const TriMesh& mesh, int cells_per_side = 16) const {
     return RadialTable(mesh, {GetParam(), cells_per_side});
@@ -30,9 +30,9 @@ class RadialTableOnMap : public testing::TestWithParam<radial::DirectionMapKind>
 };
 
 INSTANTIATE_TEST_SUITE_P(BothMaps, RadialTableOnMap,
-                         testing::Values(radial::DirectionMapKind::cartesian, radial::DirectionMapKind::cube),
+                         testing::Values(DirectionMapKind::cartesian, DirectionMapKind::cube),
                          [](const auto& kind) {
-                           return kind.param == radial::DirectionMapKind::cube ? "cube" : "cartesian";
+                           return kind.param == DirectionMapKind::cube ? "cube" : "cartesian";
                          });
 
 Points random_points(std::size_t count, double reach, unsigned seed) {
@@ -45,9 +45,7 @@ Points random_points(std::size_t count, double reach, unsigned seed) {
 }
 
 void expect_states_of_brute_force(const RadialTable& table, const Points& points) {
-  const RadialHits hits = table.query(points);
-  std::vector<PointState> states;
-  table.query_states(points, states);
+  const RadialResults hits = table.query(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto truth = test::winding_number(table.mesh(), points[i]);
     if (truth.on_surface) {
@@ -57,7 +55,6 @@ void expect_states_of_brute_force(const RadialTable& table, const Points& points
       EXPECT_EQ(hits.state[i], truth.winding > 0 ? PointState::inside : PointState::outside)
           << points[i].transpose();
     }
-    EXPECT_EQ(states[i], hits.state[i]) << points[i].transpose();
   }
 }
 
@@ -71,15 +68,15 @@ TEST_P(RadialTableOnMap, ConcentricBallInSocketHasTheClearanceAsGapEverywhere) {
   constexpr double socket = 25, ball = 24;
   const TriMesh mesh = cavity(Vec3::Zero(), socket, 4);
   const TriMesh mobile = sphere(Vec3::Zero(), ball, 3);
-  const RadialHits hits = table(mesh).query(mobile.vertices);
+  const RadialResults hits = table(mesh).query(mobile.vertices);
   // Longest edge of the 4-level octasphere: a quarter turn in 16 parts, stretched at most by pi/2.
   const double edge = socket * std::numbers::pi / 2 / 16 * (std::numbers::pi / 2);
   const double sag = edge * edge / (8 * socket) * 2;  // at a triangle's middle, within twice that of an edge
   for (std::size_t i = 0; i < hits.size(); ++i) {
     EXPECT_EQ(hits.state[i], PointState::outside);
-    EXPECT_LE(hits.radial_gap[i], socket - ball + 1e-12);
-    EXPECT_GE(hits.radial_gap[i], socket - ball - sag);
-    EXPECT_EQ(hits.direction[i], radial::RayDirection::away_from_centre);
+    EXPECT_LE(hits.radial_gap_mm[i], socket - ball + 1e-12);
+    EXPECT_GE(hits.radial_gap_mm[i], socket - ball - sag);
+    EXPECT_EQ(hits.direction[i], RayDirection::away_from_centre);
   }
 }
 
@@ -88,7 +85,7 @@ TEST_P(RadialTableOnMap, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootS
   const Vec3 u = Vec3(1, 2, -2) / 3;
   const TriMesh mesh = cavity(Vec3::Zero(), socket, 5);
   const TriMesh mobile = sphere(shift * u, ball, 3);
-  const RadialHits hits = table(mesh, 32).query(mobile.vertices);
+  const RadialResults hits = table(mesh, 32).query(mobile.vertices);
   const double edge = socket * std::numbers::pi / 2 / 32 * (std::numbers::pi / 2);
   const double sag = edge * edge / (8 * socket) * 2;
   int inside = 0, outside = 0;
@@ -99,14 +96,14 @@ TEST_P(RadialTableOnMap, ABallShiftedInItsSocketPenetratesWhereTheRaySphereRootS
     const double gap = socket - radius;
     if (gap < -1e-12) {
       EXPECT_EQ(hits.state[i], PointState::inside);
-      EXPECT_LE(hits.radial_gap[i], gap + 1e-11);
-      EXPECT_GE(hits.radial_gap[i], gap - sag);
-      EXPECT_EQ(hits.direction[i], radial::RayDirection::towards_centre);
+      EXPECT_LE(hits.radial_gap_mm[i], gap + 1e-11);
+      EXPECT_GE(hits.radial_gap_mm[i], gap - sag);
+      EXPECT_EQ(hits.direction[i], RayDirection::towards_centre);
       ++inside;
     } else if (gap > sag) {
       EXPECT_EQ(hits.state[i], PointState::outside);
-      EXPECT_LE(hits.radial_gap[i], gap + 1e-11);
-      EXPECT_GE(hits.radial_gap[i], gap - sag);
+      EXPECT_LE(hits.radial_gap_mm[i], gap + 1e-11);
+      EXPECT_GE(hits.radial_gap_mm[i], gap - sag);
       ++outside;
     }
   }
@@ -145,10 +142,10 @@ TEST_P(RadialTableOnMap, PointsExactlyOnTheSurfaceAreOnIt) {
     points.push_back(0.5 * (mesh.corner(t, 0) + mesh.corner(t, 1)));
     points.push_back(0.25 * mesh.corner(t, 0) + 0.25 * mesh.corner(t, 1) + 0.5 * mesh.corner(t, 2));
   }
-  const RadialHits hits = table(mesh).query(points);
+  const RadialResults hits = table(mesh).query(points);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     EXPECT_EQ(hits.state[i], PointState::on_surface) << points[i].transpose();
-    EXPECT_EQ(hits.radial_gap[i], 0);
+    EXPECT_EQ(hits.radial_gap_mm[i], 0);
     EXPECT_NE(hits.triangle[i], no_index);
   }
 }
@@ -162,7 +159,7 @@ TEST_P(RadialTableOnMap, PointsOnTheSilhouetteAreOnTheSurface) {
   points.push_back({1, 0, 0});
   points.push_back({3, 0, 1});
   points.push_back({1, 1, 1});
-  const RadialHits hits = table(mesh).query(points);
+  const RadialResults hits = table(mesh).query(points);
   for (const PointState state : hits.state) EXPECT_EQ(state, PointState::on_surface);
   expect_states_of_brute_force(table(mesh), random_points(300, 3.5, 4));
 }
@@ -173,16 +170,16 @@ TEST_P(RadialTableOnMap, SeveralSkinsAlongOneRayAreToldApart) {
   mesh = joined(mesh, box({3.5, -1, -1}, {5, 1, 1}));
   Points points;
   for (const double x : {0.5, 1.25, 1.75, 2.5, 3.25, 3.75, 4.75, 6.0}) points.push_back({x, 0.01, 0.02});
-  const RadialHits hits = table(mesh).query(points);
+  const RadialResults hits = table(mesh).query(points);
   EXPECT_EQ(hits.winding, (std::vector<int>{0, 1, 1, 0, 1, 2, 1, 0}));
   const double stretch = points[0].norm() / 0.5;  // the ray is not quite along x: path per unit of x
-  const auto at = [&](std::size_t i) { return hits.radial_gap[i]; };
+  const auto at = [&](std::size_t i) { return hits.radial_gap_mm[i]; };
   const auto along = [&](std::size_t i) { return points[i].norm() / points[i].x(); };
   EXPECT_NEAR(at(0), 0.5 * stretch, 1e-14);
   EXPECT_NEAR(at(1), -0.25 * along(1), 1e-14);
-  EXPECT_EQ(hits.direction[1], radial::RayDirection::towards_centre);
+  EXPECT_EQ(hits.direction[1], RayDirection::towards_centre);
   EXPECT_NEAR(at(2), -0.25 * along(2), 1e-14);
-  EXPECT_EQ(hits.direction[2], radial::RayDirection::away_from_centre);
+  EXPECT_EQ(hits.direction[2], RayDirection::away_from_centre);
   EXPECT_NEAR(at(3), 0.5 * along(3), 1e-14);
   // Where two solids overlap, the way out passes the skin inside: the union's outer skin counts.
   EXPECT_NEAR(at(5), -0.75 * along(5), 1e-14);
@@ -199,22 +196,22 @@ TEST_P(RadialTableOnMap, ASolidThatHoldsTheCentreMeasuresGapsInwards) {
   points.push_back({12, 0, 0});  // along a vertex: the true radius
   points.push_back({0, 9, 0});
   points.push_back({0, 0, 0});
-  const RadialHits hits = solid.query(points);
+  const RadialResults hits = solid.query(points);
   EXPECT_EQ(hits.state[0], PointState::outside);
-  EXPECT_NEAR(hits.radial_gap[0], 2, 1e-14);
-  EXPECT_EQ(hits.direction[0], radial::RayDirection::towards_centre);
+  EXPECT_NEAR(hits.radial_gap_mm[0], 2, 1e-14);
+  EXPECT_EQ(hits.direction[0], RayDirection::towards_centre);
   EXPECT_EQ(hits.state[1], PointState::inside);
-  EXPECT_NEAR(hits.radial_gap[1], -1, 1e-14);
-  EXPECT_EQ(hits.direction[1], radial::RayDirection::away_from_centre);
+  EXPECT_NEAR(hits.radial_gap_mm[1], -1, 1e-14);
+  EXPECT_EQ(hits.direction[1], RayDirection::away_from_centre);
   EXPECT_EQ(hits.state[2], PointState::inside);
-  EXPECT_EQ(hits.radial_gap[2], -infinity);
+  EXPECT_EQ(hits.radial_gap_mm[2], -infinity);
 }
 
 TEST_P(RadialTableOnMap, DepthsAreThoseOfAnIndependentRayInFiftyDigits) {
   using Fifty = boost::multiprecision::cpp_bin_float_50;
   const TriMesh mesh = sphere({0.4, -0.3, 0.2}, 1, 3);
   const Points points = random_points(2000, 1.3, 7);
-  const RadialHits hits = table(mesh).query(points);
+  const RadialResults hits = table(mesh).query(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (hits.triangle[i] == no_index) continue;
     std::array<std::array<Fifty, 3>, 4> p;  // corners a b c, then the query point
@@ -232,7 +229,7 @@ TEST_P(RadialTableOnMap, DepthsAreThoseOfAnIndependentRayInFiftyDigits) {
     };
     const Fifty distance = (dot(n, p[0]) / dot(n, p[3]) - 1) * sqrt(dot(p[3], p[3]));
     const double expected = abs(distance).convert_to<double>();
-    EXPECT_NEAR(std::abs(hits.radial_gap[i]), expected, 1e-12 * points[i].norm());
+    EXPECT_NEAR(std::abs(hits.radial_gap_mm[i]), expected, 1e-12 * points[i].norm());
   }
 }
 
@@ -241,16 +238,16 @@ TEST_P(RadialTableOnMap, TurningMeshAndPointsTogetherChangesNothingBeyondRoundin
   const Points points = random_points(2000, 1.3, 8);
   Pose X = Pose::Identity();
   X.linear() = Eigen::AngleAxisd(0.7, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
-  const RadialHits still = table(mesh).query(points),
-                   turned = table(posed(X, mesh)).query(posed(X, points.view()));
+  const RadialResults still = table(mesh).query(points),
+                      turned = table(posed(X, mesh)).query(posed(X, points.view()));
   // Posing moves a coordinate by at most 4u of its size; no random point is that near to a surface or to an
   // edge's ray, and a gap moves by that over the cosine between ray and normal.
   EXPECT_EQ(still.state, turned.state);
   EXPECT_EQ(still.triangle, turned.triangle);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (still.triangle[i] == no_index) continue;
-    const double moved = 16 * 0x1p-53 * 1.5 / std::cos(still.ray_to_normal[i]);
-    EXPECT_NEAR(still.radial_gap[i], turned.radial_gap[i], moved * 2);
+    const double moved = 16 * 0x1p-53 * 1.5 / std::cos(still.ray_to_normal[i].radians());
+    EXPECT_NEAR(still.radial_gap_mm[i], turned.radial_gap_mm[i], moved * 2);
   }
 }
 
@@ -261,20 +258,20 @@ TEST_P(RadialTableOnMap, RefiningTheMeshWithoutMovingItsSurfaceChangesNoAnswer) 
     mesh.vertices.set(i, (mesh.vertices[i] * 64).array().round() / 64);
   }
   const Points points = random_points(2000, 1.3, 12);
-  const RadialHits coarse = table(mesh).query(points),
-                   fine = table(mesh::subdivided(mesh::subdivided(mesh))).query(points);
+  const RadialResults coarse = table(mesh).query(points),
+                      fine = table(mesh::subdivided(mesh::subdivided(mesh))).query(points);
   EXPECT_EQ(coarse.state, fine.state);
   EXPECT_EQ(coarse.winding, fine.winding);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (coarse.triangle[i] == no_index) continue;
-    EXPECT_NEAR(coarse.radial_gap[i], fine.radial_gap[i], 2e-12 * points[i].norm());
+    EXPECT_NEAR(coarse.radial_gap_mm[i], fine.radial_gap_mm[i], 2e-12 * points[i].norm());
   }
 }
 
 TEST_P(RadialTableOnMap, OneThreadAndManyGiveTheSameBytes) {
   const RadialTable solid = table(sphere({0.4, -0.3, 0.2}, 1, 4));
   const Points points = random_points(20000, 1.3, 9);
-  RadialHits one, many;
+  RadialResults one, many;
   {
     const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
     solid.query(points, one);
@@ -307,15 +304,15 @@ TEST_P(RadialTableOnMap, ACentreOnTheSurfaceIsRefusedByNameOfItsTriangle) {
 }
 
 TEST_P(RadialTableOnMap, AMeshWoundInsideOutHasNegativeWindingAndNoInside) {
-  const RadialHits hits = table(flipped(sphere({0.1, 0.2, 0.3}, 1, 2))).query(random_points(200, 0.3, 10));
+  const RadialResults hits = table(flipped(sphere({0.1, 0.2, 0.3}, 1, 2))).query(random_points(200, 0.3, 10));
   for (const int winding : hits.winding) EXPECT_EQ(winding, -1);
 }
 
 TEST(RadialTable, BothMapsGiveTheSameBytes) {
   const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
   const Points points = random_points(3000, 1.5, 11);
-  EXPECT_EQ(RadialTable(mesh, {radial::DirectionMapKind::cube, 24}).query(points),
-            RadialTable(mesh, {radial::DirectionMapKind::cartesian, 40}).query(points));
+  EXPECT_EQ(RadialTable(mesh, {DirectionMapKind::cube, 24}).query(points),
+            RadialTable(mesh, {DirectionMapKind::cartesian, 40}).query(points));
 }
 
 TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething) {
@@ -323,15 +320,15 @@ TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething
   Points points;
   points.push_back({0, 0, 5.5});
   points.push_back({9, 0, 5.1});
-  const RadialHits hits = table.query(points);
-  EXPECT_NEAR(hits.ray_to_normal[0], 0, 1e-15);
-  EXPECT_NEAR(hits.ray_to_normal[1], std::atan2(9.0, 5.1), 1e-15);
-  EXPECT_GT(Angle::radians(hits.ray_to_normal[1]), oblique_ray);
+  const RadialResults hits = table.query(points);
+  EXPECT_NEAR(hits.ray_to_normal[0].radians(), 0, 1e-15);
+  EXPECT_NEAR(hits.ray_to_normal[1].radians(), std::atan2(9.0, 5.1), 1e-15);
+  EXPECT_GT(hits.ray_to_normal[1], oblique_ray);
 }
 
 TEST(RadialTable, CellsOutOfRangeAreRefused) {
-  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {radial::DirectionMapKind::cube, 0}), UsageError);
-  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {radial::DirectionMapKind::cube, 1 << 20}), UsageError);
+  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 0}), UsageError);
+  EXPECT_THROW(RadialTable(sphere({0, 0, 0}, 1, 0), {DirectionMapKind::cube, 1 << 20}), UsageError);
 }
 
 }  // namespace

@@ -147,7 +147,7 @@ std::vector<double> articular_gaps(const SampleCartilages& cartilages, double ra
       JointContact(cartilages.acetabular, cartilages.femoral).radial(Pose::Identity());
   std::vector<double> gaps;
   for (std::size_t v = 0; v < cartilages.femoral.vertices.size(); ++v) {
-    const double gap = contact.mobile_in_fixed->radial_gap[v];
+    const double gap = contact.mobile_in_fixed->radial_gap_mm[v];
     if (std::isfinite(gap) && is_on_sphere(cartilages.femoral.vertices[v], radius)) gaps.push_back(gap);
   }
   std::sort(gaps.begin(), gaps.end());

@@ -18,8 +18,8 @@ double internal_rotation_at_90_flexion_deg(const HipParameters& parameters) {
       {"sample hip", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}});
   const auto motions = hip_motions();
   const MotionLimit limit = range.limit(motion_named(motions, "internal_rotation_at_90_flexion"));
-  EXPECT_EQ(limit.reason, LimitReason::contact);
-  return limit.turned.degrees();
+  EXPECT_EQ(limit.end.reason, LimitReason::contact);
+  return limit.end.turned.degrees();
 }
 
 /// What meshing may change in a limit where the solids' own limit does not change: every hip is meshed anew.

@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
+#include "core/predicates.hpp"
+#include "tangential/build/profile_grid.hpp"
 
-/// Points that turn about the z axis, and how well their angles are known.
+/// Points that rotate about the z axis, and how well their angles are known.
 
 namespace condyle::test {
 
@@ -13,8 +15,8 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 inline const AxisFrame z_axis(Vec3::Zero(), Vec3::UnitZ());
 
-inline TangentialHits query_one(const TriMesh& mesh, const Vec3& p,
-                                TangentialRule rule = TangentialRule::alternating) {
+inline TangentialResults query_one(const TriMesh& mesh, const Vec3& p,
+                                   TangentialRule rule = TangentialRule::alternating) {
   Points points;
   points.push_back(p);
   return RingTable(mesh, z_axis).query(points, rule);

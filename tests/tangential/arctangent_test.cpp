@@ -1,4 +1,4 @@
-#include "tangential/query/arctangent.hpp"
+#include "tangential/exact/arctangent.hpp"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ bool near_triangle(const Real3& a, const Real3& b, const Real3& c, const Real3& 
 
 }  // namespace
 
-Vec3 turned(const Vec3& p, double angle) {
+Vec3 rotated(const Vec3& p, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
 }
@@ -28,7 +28,7 @@ Vec3 turned(const Vec3& p, double angle) {
 std::vector<CirclePiece> circle_pieces(const TriMesh& mesh, const Vec3& point) {
   const Real shrink = 1 - 1e-10L / std::hypot(Real(point.x()), Real(point.y()));
   const Real3 v(point.x() * shrink, point.y() * shrink, point.z() - 1e-13L);
-  constexpr Real turn = 2 * std::numbers::pi_v<Real>;
+  constexpr Real full_turn = 2 * std::numbers::pi_v<Real>;
   std::vector<Real> angles;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Real3 a = mesh.corner(t, 0).cast<Real>(), b = mesh.corner(t, 1).cast<Real>(),
@@ -42,17 +42,17 @@ std::vector<CirclePiece> circle_pieces(const TriMesh& mesh, const Vec3& point) {
       const Real angle = std::atan2(B, A) + sign * std::atan2(std::sqrt((r - C) * (r + C)), -C);
       const Real3 p(std::cos(angle) * v.x() - std::sin(angle) * v.y(),
                     std::sin(angle) * v.x() + std::cos(angle) * v.y(), v.z());
-      if (near_triangle(a, b, c, n, p)) angles.push_back(std::fmod(angle + 2 * turn, turn));
+      if (near_triangle(a, b, c, n, p)) angles.push_back(std::fmod(angle + 2 * full_turn, full_turn));
     }
   }
   std::sort(angles.begin(), angles.end());
   if (angles.empty()) angles.push_back(0);
   std::vector<CirclePiece> pieces;
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    const Real end = i + 1 < angles.size() ? angles[i + 1] : angles[0] + turn;
-    const Vec3 middle = turned(v.cast<double>(), static_cast<double>((angles[i] + end) / 2));
+    const Real end = i + 1 < angles.size() ? angles[i + 1] : angles[0] + full_turn;
+    const Vec3 middle = rotated(v.cast<double>(), static_cast<double>((angles[i] + end) / 2));
     pieces.push_back({static_cast<double>(angles[i]), static_cast<double>(end), 0});
-    // Pieces too short to tell from rounding are not asked about by anybody.
+    // Pieces as short as rounding are never compared.
     if (end - angles[i] > 1e-3L) pieces.back().winding = winding_number(mesh, middle).winding;
   }
   return pieces;

@@ -21,7 +21,7 @@ struct CirclePiece {
 /// decides.
 std::vector<CirclePiece> circle_pieces(const TriMesh& mesh, const Vec3& point);
 
-/// The point turned by an angle about z.
-Vec3 turned(const Vec3& point, double angle);
+/// The point rotated about z, by an angle in radians.
+Vec3 rotated(const Vec3& point, double angle);
 
 }  // namespace condyle::test

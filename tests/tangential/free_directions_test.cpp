@@ -8,7 +8,7 @@
 
 #include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
-#include "tangential/ring_table.hpp"
+#include "tangential/build/rings.hpp"
 
 namespace condyle {
 namespace {
@@ -63,7 +63,7 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
   EXPECT_EQ(tangential::FreeDirections::between(1u << 1 | 1u << 4 | 1u << 6), std::nullopt);
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  std::size_t told = 0;
+  std::size_t decided = 0;
   for (int i = 0; i < 20000; ++i) {
     const Vec3 centre = 2 * Vec3(uniform(random), uniform(random), 0);
     Points corners;
@@ -98,9 +98,9 @@ TEST(FreeDirections, BetweenSectorsOfCornersAreTheDirectionsThatTheTriangleMeets
         EXPECT_GT(std::abs(off), tangential::FreeDirections::clearance);
       }
     }
-    ++told;
+    ++decided;
   }
-  EXPECT_GT(told, 15000u);
+  EXPECT_GT(decided, 15000u);
 }
 
 /// Bodies beside the axis, around it, pierced by it, nested, hollow: wherever a cell has a free direction,
@@ -113,22 +113,23 @@ TEST(FreeDirections, TheWindingNumberInAFreeDirectionIsThatOfEveryPointThere) {
        {test::sphere({12, 3, 1}, 7, 3), test::torus(8, 3, 31, 17), test::box({-5, -5, -5}, {5, 5, 5}),
         test::joined(test::sphere({12, 0, 0}, 6, 3), test::sphere({12, 0, 0}, 3, 3)),
         test::socket({10, 4, -3}, 8, 12, 3)}) {
-    const RingTable table(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()), {.cells_per_triangle = 2});
+    const tangential::Rings rings =
+        tangential::build_rings(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitZ()), 2 * mesh.triangles.size());
     const mesh::WindingNumber winding(mesh);
-    const tangential::ProfileGrid& grid = table.grid();
-    std::size_t inside = 0, asked = 0;
+    const tangential::ProfileGrid& grid = rings.grid();
+    std::size_t inside = 0, compared = 0;
     for (Index row = 0; row < grid.rows; ++row) {
       for (Index column = 0; column < grid.columns; ++column) {
-        const auto anchor = table.free_directions().of(grid.cell(row, column));
+        const auto anchor = rings.free_directions.of(grid.cell(row, column));
         if (anchor.direction == tangential::FreeDirections::none) continue;
         const double rho = grid.rho_min + (column + weight(random)) * grid.rho_cell;
         const double z = grid.z_min + (row + weight(random)) * grid.z_cell;
         const double angle = tangential::FreeDirections::angle_of(anchor.direction).radians();
         EXPECT_EQ(winding.at(on_circle(rho, angle, z)).winding, anchor.winding) << rho << " " << z;
-        inside += anchor.winding > 0, ++asked;
+        inside += anchor.winding > 0, ++compared;
       }
     }
-    EXPECT_GT(asked, grid.cells() / 3);
+    EXPECT_GT(compared, grid.cells() / 3);
     all_inside += inside;
   }
   EXPECT_GT(all_inside, 100u);

@@ -1,4 +1,4 @@
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,9 +21,9 @@ TEST(RingTable, TheNearestArcRuleFailsBeyondAPlaneMetTwiceAndTheDefaultDoesNot) 
   const double rho = std::sqrt(89), arc = std::acos(9 / rho) + std::atan2(8, 5);
   const auto published = query_one(bar, p, TangentialRule::nearest_arc), all = query_one(bar, p);
   EXPECT_EQ(published.state[0], PointState::inside);
-  EXPECT_NEAR(published.angular_gap[0], -arc, angle_error(9, rho));
+  EXPECT_NEAR(published.angular_gap[0].radians(), -arc, angle_error(9, rho));
   EXPECT_EQ(all.state[0], PointState::outside);
-  EXPECT_NEAR(all.angular_gap[0], arc, angle_error(9, rho));
+  EXPECT_NEAR(all.angular_gap[0].radians(), arc, angle_error(9, rho));
   // The default is right everywhere about the same bar.
   Points points;
   std::vector<PointState> expected;
@@ -48,7 +48,7 @@ TEST(RingTable, TheNearestArcRuleAgreesAwayFromEdgesAndUnderHalfATurn) {
   const auto nearest = table.query(points, TangentialRule::nearest_arc), all = table.query(points);
   EXPECT_EQ(nearest.state, all.state);
   EXPECT_EQ(nearest.angular_gap, all.angular_gap);
-  EXPECT_EQ(nearest.turn, all.turn);
+  EXPECT_EQ(nearest.rotation_sense, all.rotation_sense);
 }
 
 }  // namespace

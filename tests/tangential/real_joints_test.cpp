@@ -6,8 +6,9 @@
 #include <string>
 
 #include "condyle/angle.hpp"
+#include "condyle/tangential.hpp"
+#include "mesh/winding_number.hpp"
 #include "support/shared_data.hpp"
-#include "tangential/ring_table.hpp"
 
 namespace condyle {
 namespace {
@@ -16,7 +17,7 @@ struct Pair {
   const char *fixed, *mobile;
 };
 
-/// Closed pairs of the real hips: bones, and cartilages with a gap and touching.
+/// Closed pairs of the real hips: bones, and cartilages with a gap and without.
 constexpr Pair pairs[] = {
     {"hip_libhip_m1_left/hip_bone.ply", "hip_libhip_m1_left/femur.ply"},
     {"hip_vhf_right/hip_bone.ply", "hip_vhf_right/femur.ply"},
@@ -25,7 +26,7 @@ constexpr Pair pairs[] = {
     {"hip_libhip_m1_left/coarse/hip_bone_2442.ply", "hip_libhip_m1_left/coarse/femur_1542.ply"},
 };
 
-/// Free, grazing and deep poses about the hip centre (the origin): turns about z, x and y in degrees, and a
+/// Free, grazing and deep poses about the hip centre (the origin): rotations about z, x and y in degrees, and a
 /// shift in mm.
 struct HipPose {
   double z, x, y, shift;
@@ -35,12 +36,13 @@ constexpr HipPose poses[] = {{0, 0, 0, 0},     {30, 0, 0, 0},    {90, -10, 20, 0
                              {100, 30, 40, 0}, {45, 0, -60, 25}};
 
 Points posed_vertices(const TriMesh& mesh, const HipPose& pose) {
-  const auto turn = [](double degrees, const Vec3& axis) {
+  const auto rotation = [](double degrees, const Vec3& axis) {
     return Eigen::AngleAxisd(Angle::degrees(degrees).radians(), axis);
   };
   Pose X = Pose::Identity();
   X.linear() =
-      (turn(pose.z, Vec3::UnitZ()) * turn(pose.x, Vec3::UnitX()) * turn(pose.y, Vec3::UnitY())).matrix();
+      (rotation(pose.z, Vec3::UnitZ()) * rotation(pose.x, Vec3::UnitX()) * rotation(pose.y, Vec3::UnitY()))
+          .matrix();
   X.translation() = Vec3(0.3, 1, -0.5) * pose.shift;
   return posed(X, mesh.vertices.view());
 }
@@ -56,14 +58,14 @@ TEST(RealJoints, EveryStateIsThatOfTheWindingNumberAtEveryPoseAboutEveryCoordina
       const RingTable table(fixed, AxisFrame(Vec3::Zero(), axis));
       for (const auto& pose : poses) {
         const Points points = posed_vertices(mobile, pose);
-        const auto hits = table.query(points);
+        const auto results = table.query(points);
         const auto expected = winding.at(points);
         std::size_t different = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
-          different += hits.state[i] != expected[i].state || hits.winding[i] != expected[i].winding;
-          inside += hits.state[i] == PointState::inside;
+          different += results.state[i] != expected[i].state || results.winding[i] != expected[i].winding;
+          inside += results.state[i] == PointState::inside;
           // A gap is negative exactly inside.
-          different += (hits.angular_gap[i] < 0) != (hits.state[i] == PointState::inside);
+          different += (results.angular_gap[i].radians() < 0) != (results.state[i] == PointState::inside);
         }
         EXPECT_EQ(different, 0u) << pair.fixed << " about " << axis.transpose() << ", flexed by " << pose.z;
       }
@@ -77,27 +79,27 @@ TEST(RealJoints, AVertexOfTheMeshItselfIsOnTheSurfaceAndItsArcsAreThoseJustBesid
   if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
   const TriMesh bone = test::read_ply(*data / "hip_libhip_m1_left/coarse/hip_bone_2442.ply");
   const RingTable table(bone, AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
-  const auto hits = table.query(bone.vertices);
+  const auto results = table.query(bone.vertices);
   const auto arcs = table.occupied_arcs(bone.vertices);
   const mesh::WindingNumber winding(bone);
-  std::size_t asked = 0;
+  std::size_t compared = 0;
   for (std::size_t i = 0; i < bone.vertices.size(); ++i) {
-    EXPECT_EQ(hits.state[i], PointState::on_surface);
-    EXPECT_EQ(hits.angular_gap[i], 0);
+    EXPECT_EQ(results.state[i], PointState::on_surface);
+    EXPECT_EQ(results.angular_gap[i].radians(), 0);
     for (int degree = 0; degree < 360; degree += 10) {
       const Angle phi = Angle::degrees(degree + 3.7);
       const Vec3 p = Eigen::AngleAxisd(phi.radians(), Vec3::UnitZ()) * bone.vertices[i];
       const auto gap = arcs.gap_at(i, phi);
-      // A circle through a vertex runs along no face; a point turned in double is off by less than 1e-12 mm.
-      if (std::abs(gap.angle) * std::hypot(p.x(), p.y()) < 1e-9) continue;
-      EXPECT_EQ(gap.angle < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
-      ++asked;
+      // A circle through a vertex runs along no face; a point rotated in double is off by less than 1e-12 mm.
+      if (std::abs(gap.angle.radians()) * std::hypot(p.x(), p.y()) < 1e-9) continue;
+      EXPECT_EQ(gap.angle.radians() < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
+      ++compared;
     }
   }
-  EXPECT_GT(asked, 40000u);
+  EXPECT_GT(compared, 40000u);
 }
 
-TEST(RealJoints, OneTurnOfTheFemurIsAnsweredByOnePass) {
+TEST(RealJoints, AFullTurnOfTheFemurIsAnsweredByOnePass) {
   const auto data = test::shared_data();
   if (!data) GTEST_SKIP() << "the real joints are not here: set CONDYLE_DATA";
   const TriMesh bone = test::read_ply(*data / "hip_libhip_m1_left/hip_bone.ply");
@@ -107,13 +109,13 @@ TEST(RealJoints, OneTurnOfTheFemurIsAnsweredByOnePass) {
   std::size_t inside = 0;
   for (int degree = 0; degree < 360; ++degree) {
     const Angle phi = Angle::degrees(degree);
-    const Eigen::AngleAxisd turn(phi.radians(), Vec3::UnitZ());
+    const Eigen::AngleAxisd rotation(phi.radians(), Vec3::UnitZ());
     for (std::size_t i = 0; i < femur.vertices.size(); ++i) {
       const auto gap = arcs.gap_at(i, phi);
-      const Vec3 p = turn * femur.vertices[i];
-      if (std::abs(gap.angle) * std::hypot(p.x(), p.y()) < 1e-9) continue;
-      EXPECT_EQ(gap.angle < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
-      inside += gap.angle < 0;
+      const Vec3 p = rotation * femur.vertices[i];
+      if (std::abs(gap.angle.radians()) * std::hypot(p.x(), p.y()) < 1e-9) continue;
+      EXPECT_EQ(gap.angle.radians() < 0, winding.at(p).state == PointState::inside) << i << " at " << degree;
+      inside += gap.angle.radians() < 0;
     }
   }
   EXPECT_GT(inside, 1000u);
@@ -126,12 +128,12 @@ TEST(RealJoints, OneThreadAndManyGiveTheSameBytes) {
   const Points points = posed_vertices(test::read_ply(*data / "hip_vhf_right/femur.ply"), {100, 30, 40, 0});
   const AxisFrame frame(Vec3::Zero(), Vec3(1, 2, -1));
   const RingTable table(bone, frame);
-  const auto hits = table.query(points);
+  const auto results = table.query(points);
   const auto arcs = table.occupied_arcs(points);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const RingTable alone(bone, frame);
-  EXPECT_EQ(hits, alone.query(points));
-  EXPECT_EQ(arcs, alone.occupied_arcs(points));
+  const RingTable single(bone, frame);
+  EXPECT_EQ(results, single.query(points));
+  EXPECT_EQ(arcs, single.occupied_arcs(points));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +13,7 @@
 #include "support/test_meshes.hpp"
 #include "tangential/about_z.hpp"
 #include "tangential/circle_oracle.hpp"
+#include "tangential/exact/circle_crossing.hpp"
 
 namespace condyle {
 namespace {
@@ -24,13 +25,13 @@ using test::infinity, test::z_axis;
 void expect_same_as_oracle(const TriMesh& mesh, const Points& points) {
   const RingTable table(mesh, z_axis);
   const auto arcs = table.occupied_arcs(points);
-  const auto hits = table.query(points);
+  const auto results = table.query(points);
   const auto windings = mesh::WindingNumber(mesh).at(points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 p = points[i];
-    EXPECT_EQ(hits.state[i], windings[i].state) << p.transpose();
+    EXPECT_EQ(results.state[i], windings[i].state) << p.transpose();
     if (windings[i].state != PointState::on_surface) {
-      EXPECT_EQ(hits.winding[i], windings[i].winding);
+      EXPECT_EQ(results.winding[i], windings[i].winding);
     }
     if (p.x() == 0 && p.y() == 0) continue;
     const auto pieces = test::circle_pieces(mesh, p);
@@ -38,10 +39,10 @@ void expect_same_as_oracle(const TriMesh& mesh, const Points& points) {
       if (piece.end - piece.begin < 1e-3) continue;
       const double middle = (piece.begin + piece.end) / 2;
       EXPECT_EQ(arcs.inside_at(i, Angle::radians(middle)), piece.winding > 0)
-          << "point " << p.transpose() << " turned by " << middle;
+          << "point " << p.transpose() << " rotated by " << middle;
     }
     for (const auto& arc : arcs.of(i)) {
-      for (const double end : {arc.begin, arc.end}) {
+      for (const double end : {arc.begin.radians(), arc.end.radians()}) {
         if (arc.enters == no_index) continue;
         double nearest = infinity;
         for (const auto& piece : pieces) {
@@ -112,7 +113,7 @@ TEST(RingTable, CrossingsOfAClosedMeshSumToZeroAndComeBackToTheAnchor) {
       if (p.x() == 0 && p.y() == 0) continue;
       const tangential::Circle circle{p, p.x() * p.x() + p.y() * p.y(), 5};
       std::vector<tangential::CircleCrossing> all;
-      tangential::TangentialWork work;
+      TangentialWork work;
       int sum = 0, outwards = 0;
       for (Index t = 0; t < mesh.triangles.size(); ++t) {
         const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
@@ -166,7 +167,7 @@ TEST(RingTable, RefiningAMeshWithoutMovingItsSurfaceChangesNoGap) {
     Points points;
     for (int i = 0; i < 40; ++i) points.push_back(point());
     // At the heights of the finer mesh's vertices, but not through them: a circle that touches the solid in
-    // one point only has an arc of no length there, and rounding tells whether it shows.
+    // one point only has an arc of no length there, and rounding decides whether it appears.
     for (std::size_t v = 0; v < finer.vertices.size(); v += 3) {
       const Vec3 p = finer.vertices[v];
       points.push_back({p.x(), 1, p.z()});
@@ -176,13 +177,13 @@ TEST(RingTable, RefiningAMeshWithoutMovingItsSurfaceChangesNoGap) {
     EXPECT_EQ(before.state, after.state);
     EXPECT_EQ(before.winding, after.winding);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (std::isinf(before.angular_gap[i])) {
-        EXPECT_EQ(before.angular_gap[i], after.angular_gap[i]);
+      if (std::isinf(before.angular_gap[i].radians())) {
+        EXPECT_EQ(before.angular_gap[i].radians(), after.angular_gap[i].radians());
         continue;
       }
       // Each errs by at most sqrt(2 e / rho), were it a touch: e = 17u * 4 mm * sqrt 2.
       const double rho = tangential::axis_radius(points[i].x(), points[i].y());
-      EXPECT_NEAR(before.angular_gap[i], after.angular_gap[i],
+      EXPECT_NEAR(before.angular_gap[i].radians(), after.angular_gap[i].radians(),
                   2 * std::sqrt(2 * 17 * 6 * core::rounding_unit / rho));
       ++finite;
     }

@@ -1,4 +1,4 @@
-#include "tangential/ring_table.hpp"
+#include "condyle/tangential.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 using test::angle_error, test::z_axis;
 
-TEST(RingTable, TouchingBodiesShareOneArc) {
+TEST(RingTable, BodiesThatShareAFaceHaveOneArc) {
   const TriMesh both = test::joined(test::box({0, 1, -1}, {2, 4, 1}), test::box({2, 1, -1}, {5, 4, 1}));
   Points points;
   points.push_back({2, -2, 0.25});
@@ -24,11 +24,12 @@ TEST(RingTable, TouchingBodiesShareOneArc) {
   // at x = 0.
   const auto arcs = RingTable(both, z_axis).occupied_arcs(points);
   ASSERT_EQ(arcs.of(0).size(), 1u);
-  EXPECT_NEAR(arcs.of(0)[0].begin, two_pi / 8 + std::atan2(1, std::sqrt(7)), angle_error(5, std::sqrt(8)));
-  EXPECT_NEAR(arcs.of(0)[0].end, two_pi / 8 + two_pi / 4, angle_error(5, std::sqrt(8)));
+  EXPECT_NEAR(arcs.of(0)[0].begin.radians(), two_pi / 8 + std::atan2(1, std::sqrt(7)),
+              angle_error(5, std::sqrt(8)));
+  EXPECT_NEAR(arcs.of(0)[0].end.radians(), two_pi / 8 + two_pi / 4, angle_error(5, std::sqrt(8)));
 }
 
-TEST(RingTable, OccupiedArcsAnswerEveryAngleAsTurningThePointsDoes) {
+TEST(RingTable, OccupiedArcsAnswerEveryAngleAsRotatingThePointsDoes) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const TriMesh mesh = test::joined(test::sphere({12, 3, 0}, 9, 3), test::socket({-10, 2, 1}, 6, 9, 3));
@@ -42,23 +43,23 @@ TEST(RingTable, OccupiedArcsAnswerEveryAngleAsTurningThePointsDoes) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (int degree = 0; degree < 360; ++degree) {
       const Angle phi = Angle::degrees(degree + 0.125);
-      const Vec3 p = test::turned(points[i], phi.radians());
+      const Vec3 p = test::rotated(points[i], phi.radians());
       const auto gap = arcs.gap_at(i, phi);
-      // A point turned in double is off by 4u of 30 mm; only nearer than that to a crossing may the two
+      // A point rotated in double is off by 4u of 30 mm; only nearer than that to a crossing may the two
       // differ.
-      if (std::abs(gap.angle) * std::hypot(p.x(), p.y()) < 1e-9) continue;
-      EXPECT_EQ(gap.angle < 0, winding.at(p).state == PointState::inside);
-      inside += gap.angle < 0;
-      // The table itself, asked about the turned point, gives the same gap: ends move by the rounding of the
-      // turn, at a graze by its root.
-      Points turned_point;
-      turned_point.push_back(p);
+      if (std::abs(gap.angle.radians()) * std::hypot(p.x(), p.y()) < 1e-9) continue;
+      EXPECT_EQ(gap.angle.radians() < 0, winding.at(p).state == PointState::inside);
+      inside += gap.angle.radians() < 0;
+      // The table itself, queried with the rotated point, gives the same gap: ends move by the rounding of the
+      // rotation, at a graze by its root.
+      Points rotated_point;
+      rotated_point.push_back(p);
       if (degree % 40 == 0) {
-        const auto hits = table.query(turned_point);
-        if (std::isinf(gap.angle)) {
-          EXPECT_EQ(hits.angular_gap[0], gap.angle);
+        const auto results = table.query(rotated_point);
+        if (std::isinf(gap.angle.radians())) {
+          EXPECT_EQ(results.angular_gap[0].radians(), gap.angle.radians());
         } else {
-          EXPECT_NEAR(hits.angular_gap[0], gap.angle, 1e-6);
+          EXPECT_NEAR(results.angular_gap[0].radians(), gap.angle.radians(), 1e-6);
         }
       }
     }
@@ -77,8 +78,8 @@ TEST(RingTable, NestedBodiesAndCavitiesHaveTheArcsOfTheirUnion) {
   EXPECT_EQ(shell.occupied_arcs(points).of(0).size(), 2u);
   EXPECT_EQ(nested.query(points).winding, (std::vector<int>{0, 2}));
   EXPECT_EQ(shell.query(points).winding, (std::vector<int>{0, 0}));
-  EXPECT_GT(shell.query(points).angular_gap[1], 0);
-  // Wound inside out there is nobody inside, whatever the angle.
+  EXPECT_GT(shell.query(points).angular_gap[1].radians(), 0);
+  // With inverted orientation no point is inside, whatever the angle.
   const RingTable inverted(test::flipped(outer), z_axis);
   EXPECT_EQ(inverted.query(points).winding, (std::vector<int>{0, -1}));
   EXPECT_TRUE(inverted.occupied_arcs(points).of(1).empty());

@@ -11,6 +11,8 @@
 #include "simd/instruction_set.hpp"
 #include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
+#include "tangential/query/circle_cells.hpp"
+#include "tangential/query/gather_candidates.hpp"
 
 namespace condyle {
 namespace {
@@ -50,13 +52,13 @@ TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {
             points.push_back(p), expected.push_back(t);
           }
         }
-        tangential::PlacedCircles circles;
-        tangential::place_circles(z_axis, lists.grid(), points, circles);
+        tangential::LocatedCircles circles;
+        tangential::locate_circles(z_axis, lists.grid(), points, circles);
         ASSERT_EQ(circles.size(), points.size()) << "shift " << shift << " scale " << scale;
-        tangential::CirclePairs pairs;
+        tangential::CandidatePairs pairs;
         std::set<std::pair<Index, Index>> found;
         for (std::size_t done = 0; done < circles.size();) {
-          done = lists.find(circles.place, done, pairs);
+          done = gather_candidates(lists, circles.cell, done, pairs);
           for (std::size_t k = 0; k < pairs.circle.size(); ++k)
             EXPECT_TRUE(found.emplace(pairs.circle[k], pairs.triangle[k]).second);
         }
@@ -75,17 +77,17 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
   const tangential::ProfileGrid& grid = all.lists.grid();
   std::mt19937 random(6);
   std::uniform_real_distribution<double> weight(0, 1);
-  std::size_t asked = 0;
+  std::size_t compared = 0;
   for (int i = 0; i < 2000; ++i) {
     const double rho = grid.rho_min + weight(random) * (grid.rho_max - grid.rho_min);
     const double z = grid.z_min + weight(random) * (grid.z_max - grid.z_min);
     Points point;
     point.push_back({rho, 0, z});
-    tangential::PlacedCircles circle;
-    tangential::place_circles(z_axis, grid, point, circle);
+    tangential::LocatedCircles circle;
+    tangential::locate_circles(z_axis, grid, point, circle);
     ASSERT_EQ(circle.size(), 1u);
-    tangential::CirclePairs pairs;
-    all.lists.find(circle.place, 0, pairs);
+    tangential::CandidatePairs pairs;
+    gather_candidates(all.lists, circle.cell, 0, pairs);
     for (const Index t : pairs.triangle) {
       double low = 1e9, high = 0, z_low = 1e9, z_high = -1e9, longest2 = 0;
       for (int k = 0; k < 3; ++k) {
@@ -102,10 +104,10 @@ TEST(RingLists, ABoxIsNoWiderThanItsTriangleByMoreThanTwoPartsOfACell) {
       EXPECT_LE(rho, high + parts * grid.rho_cell);
       EXPECT_GE(z, z_low - parts * grid.z_cell);
       EXPECT_LE(z, z_high + parts * grid.z_cell);
-      ++asked;
+      ++compared;
     }
   }
-  EXPECT_GT(asked, 2000u);
+  EXPECT_GT(compared, 2000u);
 }
 
 TEST(ProfileBoxes, TrianglesNotAcrossSectorsHaveAllCornersInOneTheSameOnEveryInstructionSet) {
@@ -136,7 +138,7 @@ TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
   std::mt19937 random(8);
   const TriMesh mesh = test::triangles_of_all_sizes(random, 2, 1);
   const Listed best = listed(mesh, 200);
-  std::vector<tangential::CirclePlace> circles;
+  std::vector<tangential::CircleCell> circles;
   for (Index cell = 0; cell < best.lists.grid().cells(); ++cell) {
     const auto list = best.lists.of(cell);
     std::set<Index> triangles_listed;
@@ -147,14 +149,14 @@ TEST(RingLists, ListsHoldTrianglesOnceAndAreFoundTheSameOnEveryInstructionSet) {
       circles.push_back({cell, z | (255 - z) << 8 | rho << 16 | (255 - rho) << 24});
     }
   }
-  tangential::CirclePairs expected;
-  best.lists.find(circles, 0, expected);
+  tangential::CandidatePairs expected;
+  gather_candidates(best.lists, circles, 0, expected);
   EXPECT_GT(expected.circle.size(), 1000u);
   for (const simd::InstructionSet& set : simd::instruction_sets()) {
     const simd::InstructionSetInUse in_use(set);
     const Listed here = listed(mesh, 200);
-    tangential::CirclePairs pairs;
-    here.lists.find(circles, 0, pairs);
+    tangential::CandidatePairs pairs;
+    gather_candidates(here.lists, circles, 0, pairs);
     const std::size_t both = std::min(pairs.circle.size(), expected.circle.size());
     EXPECT_GT(both, 1000u);
     for (std::size_t k = 0; k < both; ++k) {

@@ -38,8 +38,8 @@ std::string depth_text(const DepthQuestion& question, const TurnAxis& axis, cons
 /// Point arrays of one body: inside, winding, triangle; radial_gap_mm and ray_to_normal_deg, or
 /// tangential_depth_deg and tangential_depth_mm. None where the other mesh is open and nothing can be inside
 /// it.
-std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits);
-std::vector<MeshArray> depth_arrays(const std::optional<TangentialHits>& hits);
+std::vector<MeshArray> depth_arrays(const std::optional<RadialResults>& results);
+std::vector<MeshArray> depth_arrays(const std::optional<TangentialResults>& results);
 
 /// Cell arrays in_contact of both bodies: 1 for a triangle that is in a pair.
 struct InContact {

@@ -75,7 +75,7 @@ struct JointFile {
   LengthUnit units;  ///< of the meshes
   BodyEntry fixed, mobile;
   FrameEntry frame;
-  JointAngles rest;             ///< of the mobile mesh as it is given
+  JointAngles reference_pose;   ///< of the mobile mesh as it is given
   std::vector<Motion> motions;  ///< of the [[motion]] tables, in their order, each name once
 };
 JointFile read_joint_file(const std::filesystem::path& path);
@@ -108,7 +108,7 @@ struct LoadedJoint {
 
 /// Reads a joint file and its meshes, and places both in the joint frame (docs/joint-file.md, "Placement"):
 /// every coordinate is computed in extended precision and rounded once. Where the file asks for millimetres,
-/// a centre of 0, the standard axes and no rest pose, vertices keep every bit. Throws FileError, and
+/// a centre of 0, the standard axes and no reference pose, vertices keep every bit. Throws FileError, and
 /// MeshError where a fit finds nothing or a repair cannot be made.
 LoadedJoint read_joint(const std::filesystem::path& path);
 

@@ -11,7 +11,6 @@
 #include "condyle/joint.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"
-#include "io/result/plot_clock_face.hpp"
 
 /// What `condyle rom` found, as text for people and for programs. Every key, column, unit and sign is in
 /// docs/formats.md.
@@ -28,9 +27,9 @@ struct RomResult {
   std::vector<std::string> terms = {};
   /// One per limit where a depth was allowed, none where limits are exact.
   std::span<const DepthLimit> depths = {};
-  /// One per limit where zones were asked for, none where not.
+  /// One per limit where zones were computed, none where not.
   std::span<const std::optional<ImpingementZone>> zones = {};
-  /// Complete; null where none was asked for.
+  /// Null where none was computed.
   const MotionMap* map = nullptr;
 };
 
@@ -42,14 +41,10 @@ inline constexpr std::string_view scope_note =
 /// "contact", "end_of_range", "contact_at_start".
 std::string_view name_of(LimitReason reason) noexcept;
 
-/// What the limit promises, in one sentence.
-std::string certificate_text(const MotionLimit& limit);
+/// What is guaranteed of the limit, in one sentence.
+std::string guarantee_text(const MotionLimit& limit);
 /// The same of a limit with a depth allowed, which is searched for and not exact.
-std::string certificate_text(const DepthLimit& limit);
-
-/// Where on the socket's clock face the motions end that end in contact: the sagittal one, 12 superior and 3
-/// anterior on either side. None for a hinge.
-std::vector<ClockContact> clock_contacts(const RomResult& result);
+std::string guarantee_text(const DepthLimit& limit);
 
 /// The summary as JSON text, ending in a newline.
 std::string rom_json(const RomResult& result);

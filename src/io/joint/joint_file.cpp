@@ -135,20 +135,20 @@ FrameEntry frame_entry(io::TomlTable& file, const Lengths& lengths) {
   return frame;
 }
 
-JointAngles rest_angles(io::TomlTable& file, JointKind kind) {
-  auto table = file.table("rest");
+JointAngles reference_pose(io::TomlTable& file, JointKind kind) {
+  auto table = file.table("reference_pose");
   if (!table) return {};
   const auto angle = [&](JointAngle name) {
     return Angle::degrees(table->number(name_of(name)).value_or(0));
   };
-  const JointAngles rest{angle(JointAngle::flexion), angle(JointAngle::adduction),
+  const JointAngles pose{angle(JointAngle::flexion), angle(JointAngle::adduction),
                          angle(JointAngle::internal_rotation)};
   if (kind == JointKind::hinge)
     for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
       if (table->number(name_of(name)).value_or(0) != 0)
         table->fail(name_of(name), "a hinge turns in flexion alone");
   table->finish();
-  return rest;
+  return pose;
 }
 
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
@@ -166,7 +166,7 @@ Motion own_motion(io::TomlTable& table, JointKind kind) {
   if (table.has(vary)) table.fail(vary, "is the angle that varies: its range says where it starts");
   const auto [start, end] = table.required("range", table.pair("range"));
   if (start == end) table.fail("range", "is empty");
-  motion.sense = start < end ? TurnSense::positive : TurnSense::negative;
+  motion.sense = start < end ? RotationSense::positive : RotationSense::negative;
   motion.range = Angle::degrees(std::abs(end - start));
   for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
     const bool varies = angle == motion.vary;
@@ -226,7 +226,7 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.mobile = body_entry(file, "mobile");
   for (BodyEntry* body : {&joint.fixed, &joint.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_entry(file, Lengths(joint.units));
-  joint.rest = rest_angles(file, joint.kind);
+  joint.reference_pose = reference_pose(file, joint.kind);
   joint.motions = own_motions(file, joint.kind);
   file.finish();
   return joint;

@@ -238,9 +238,9 @@ LoadedJoint read_joint(const std::filesystem::path& path) {
   check_units(file, fixed, mobile, report);
   report.X_WF = frame_of(fixed, mobile, report);
 
-  // The mobile mesh is given at the rest angles: p_F = X_FM(rest) p_M, and so p_M = X_FM(rest)^-1 X_WF^-1
+  // The mobile mesh is given in the reference pose: p_F = X_FM(ref) p_M, and so p_M = X_FM(ref)^-1 X_WF^-1
   // p_W.
-  const Pose X_FW = report.X_WF.inverse(), X_MF = pose_at(file.side, file.rest).inverse();
+  const Pose X_FW = report.X_WF.inverse(), X_MF = pose_at(file.side, file.reference_pose).inverse();
   place(X_FW, scale_of(file.units), fixed);
   place(X_MF * X_FW, scale_of(file.units), mobile);
   for (LoadedBody* body : {&fixed, &mobile}) body->report.bounds = bounds_of(body->mesh);

@@ -83,7 +83,7 @@ std::string to_text(const LoadedJoint& loaded) {
     const char sense = joint.side == Side::right ? '+' : '-';
     out += fmt::format(", then adduction about {0}X, then internal rotation about {0}Y", sense);
   }
-  out += fmt::format("\n  {:<8} {}\n", "rest", to_text(report.file.rest));
+  out += fmt::format("\n  reference pose {}\n", to_text(report.file.reference_pose));
   out += text_of("fixed", joint.fixed, report.fixed) + text_of("mobile", joint.mobile, report.mobile);
   for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
   return out;
@@ -98,9 +98,9 @@ std::string to_json(const LoadedJoint& loaded) {
            {"units_of_meshes", report.file.units == LengthUnit::metres ? "m" : "mm"},
            {"centre_mm", json_of(report.X_WF.translation())}};
   for (const auto& [name, axis] : axes_of(report.X_WF)) out["axes"][name] = json_of(axis);
-  out["rest_deg"] = {{"flexion", report.file.rest.flexion.degrees()},
-                     {"adduction", report.file.rest.adduction.degrees()},
-                     {"internal_rotation", report.file.rest.internal_rotation.degrees()}};
+  out["reference_pose_deg"] = {{"flexion", report.file.reference_pose.flexion.degrees()},
+                               {"adduction", report.file.reference_pose.adduction.degrees()},
+                               {"internal_rotation", report.file.reference_pose.internal_rotation.degrees()}};
   out["fit"] = report.head       ? json_of(*report.head)
                : report.cylinder ? json_of(*report.cylinder, report.axis_turn)
                                  : Json();

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 
 #include "condyle/motion_map.hpp"
@@ -15,20 +14,19 @@ struct ReasonCounts {
   std::size_t operator[](LimitReason reason) const { return of[static_cast<std::size_t>(reason)]; }
 };
 
-/// What a complete map comes to.
+/// What a map comes to.
 struct MapSummary {
   ReasonCounts negative_ends, positive_ends;
   FreeVolume volume;
 };
 
 inline MapSummary summarise(const MotionMap& map) {
-  assert(map.complete());
   MapSummary summary;
-  for (const auto& point : map.points) {
-    ++summary.negative_ends.of[static_cast<std::size_t>(point->negative.reason)];
-    ++summary.positive_ends.of[static_cast<std::size_t>(point->positive.reason)];
+  for (const RotationLimits& point : map.points) {
+    ++summary.negative_ends.of[static_cast<std::size_t>(point.negative.reason)];
+    ++summary.positive_ends.of[static_cast<std::size_t>(point.positive.reason)];
   }
-  summary.volume = *free_volume(map);
+  summary.volume = free_volume(map);
   return summary;
 }
 

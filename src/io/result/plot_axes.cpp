@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr double margin = 24;      // px
@@ -120,4 +120,4 @@ void draw_left_axis(SvgCanvas& canvas, const PlotScale& y, double x_px, int step
               {.anchor = TextAnchor::middle, .turn = TextTurn::upwards});
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,7 +8,7 @@
 
 /// What all plots share: colours, scales, ticks, heading and footer.
 
-namespace condyle {
+namespace condyle::io {
 
 /// Colours that stay apart for all common kinds of colour blindness, and in grey: Okabe and Ito, Color
 /// Universal Design, 2008.
@@ -60,4 +60,4 @@ void draw_footer(SvgCanvas& canvas);
 void draw_bottom_axis(SvgCanvas& canvas, const PlotScale& x, double y_px, int steps, std::string_view label);
 void draw_left_axis(SvgCanvas& canvas, const PlotScale& y, double x_px, int steps, std::string_view label);
 
-}  // namespace condyle
+}  // namespace condyle::io

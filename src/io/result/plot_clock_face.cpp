@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr double canvas_width = 800, heading_height = 84, footer_height = 70;
@@ -147,4 +147,4 @@ std::string clock_face_plot(const PlotHeading& heading, std::span<const ClockCon
   return canvas.document();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

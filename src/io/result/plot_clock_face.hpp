@@ -6,7 +6,7 @@
 
 #include "io/result/plot_axes.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// Where a motion ends on the rim of the acetabulum.
 struct ClockContact {
@@ -26,4 +26,4 @@ std::string clock_face_plot(const PlotHeading& heading, std::span<const ClockCon
 /// within [low, high]; where there is no room for the gap, it is made smaller. `wanted` ascends.
 std::vector<double> spread_apart(std::span<const double> wanted, double gap, double low, double high);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr double canvas_width = 800, margin = 24, heading_height = 78, row_height = 32;
@@ -16,9 +16,9 @@ constexpr double value_column = 74, legend_line = 22, footer_height = 34, axis_h
 enum class End { extra_articular, articular, end_of_range, contact_at_start };
 
 End end_of(const MotionLimit& limit) noexcept {
-  switch (limit.reason) {
+  switch (limit.end.reason) {
     case LimitReason::contact:
-      return limit.articular ? End::articular : End::extra_articular;
+      return limit.end.is_articular() ? End::articular : End::extra_articular;
     case LimitReason::end_of_range:
       return End::end_of_range;
     case LimitReason::contact_at_start:
@@ -71,7 +71,7 @@ void draw_mark(SvgCanvas& canvas, End end, ScreenPoint at) {
 double longest_turn(std::span<const MotionLimit> limits) {
   double longest = 10;  // degrees: an axis of some length when nothing turns at all
   for (const MotionLimit& limit : limits) {
-    longest = std::max(longest, limit.turned.degrees());
+    longest = std::max(longest, limit.end.turned.degrees());
     if (const auto normal = normal_hip_range(limit.motion.name))
       longest = std::max(longest, normal->degrees());
   }
@@ -79,7 +79,7 @@ double longest_turn(std::span<const MotionLimit> limits) {
 }
 
 void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const PlotScale& x, double y) {
-  const double zero = x(0), end = x(limit.turned.degrees());
+  const double zero = x(0), end = x(limit.end.turned.degrees());
   canvas.text({x.px_low - 12, y + name_size / 3},
               text_within(readable_name(limit.motion.name), name_size, x.px_low - 12 - margin),
               {.size = name_size, .anchor = TextAnchor::end});
@@ -93,7 +93,7 @@ void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const PlotScale& x, d
                    {.fill = style_of(end_of(limit)).colour});
   draw_mark(canvas, end_of(limit), {end, y});
   canvas.text({canvas_width - margin, y + name_size / 3},
-              fmt::format("{:.2f}\xC2\xB0", limit.turned.degrees()),
+              fmt::format("{:.2f}\xC2\xB0", limit.end.turned.degrees()),
               {.size = name_size, .anchor = TextAnchor::end});
 }
 
@@ -159,4 +159,4 @@ std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit>
   return canvas.document();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,7 +8,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "io/result/plot_axes.hpp"
 
-namespace condyle {
+namespace condyle::io {
 
 /// How far a healthy adult hip is said to turn in the motion of this name; empty where the source has no
 /// value. American Academy of Orthopaedic Surgeons, "Joint Motion: Method of Measuring and Recording",
@@ -25,4 +25,4 @@ inline constexpr std::string_view normal_hip_range_source =
 /// degrees, with a mark for the reason and, behind the bar, the normal range where there is a source for it.
 std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits);
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -1,4 +1,4 @@
-#include "condyle/io/plot_map.hpp"
+#include "io/result/plot_map.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -8,7 +8,7 @@
 
 #include "io/result/contour_fill.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr double canvas_width = 800, canvas_height = 640;
@@ -43,7 +43,7 @@ Bands bands_for(std::span<const double> values) {
 std::vector<double> known_values(const MapPlot& map) {
   std::vector<double> values = map.values;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (map.kinds[i] == MapPointKind::contact_at_start) values[i] = none;
+    if (map.reasons[i] == LimitReason::contact_at_start) values[i] = none;
   return values;
 }
 
@@ -64,8 +64,8 @@ std::vector<Ring> on_screen(const std::vector<Ring>& rings, const PlotScale& x, 
   return out;
 }
 
-bool any_of_kind(const MapPlot& map, MapPointKind kind) {
-  return std::find(map.kinds.begin(), map.kinds.end(), kind) != map.kinds.end();
+bool any_of_reason(const MapPlot& map, LimitReason reason) {
+  return std::find(map.reasons.begin(), map.reasons.end(), reason) != map.reasons.end();
 }
 
 void draw_frame(SvgCanvas& canvas, double right_px) {
@@ -82,9 +82,9 @@ void draw_legend(SvgCanvas& canvas, const MapPlot& map, std::string_view at_star
     canvas.text({x + 32, legend_y + 1}, words, {.size = 12});
     x += 32 + text_width(words, 12) + 24;
   };
-  if (any_of_kind(map, MapPointKind::contact_at_start))
+  if (any_of_reason(map, LimitReason::contact_at_start))
     entry(palette::light_grey, at_start, "in contact at the start already");
-  if (any_of_kind(map, MapPointKind::end_of_range))
+  if (any_of_reason(map, LimitReason::end_of_range))
     entry(sequential_colour(1), at_end, "end of the range asked for, no contact");
 }
 
@@ -112,20 +112,20 @@ void draw_contours(SvgCanvas& canvas, const MapPlot& map) {
 
   canvas.rectangle({left, top}, right - left, bottom - top, {.fill = palette::light_grey});
   canvas.rectangle({left, top}, right - left, bottom - top, {.fill = at_start});
-  const io::GridField field{map.x, map.y, values};
+  const GridField field{map.x, map.y, values};
   for (int k = 0; k < bands.count; ++k) {
-    const io::ContourRegion region = io::region_at_or_above(field, bands.level(k));
+    const ContourRegion region = region_at_or_above(field, bands.level(k));
     const std::string colour = bands.colour(k);
     canvas.region(on_screen(region.rings, x, y), {.fill = colour});
     for (const Ring& line : region.lines)
       canvas.polyline(on_screen(line, x, y), {.stroke = palette::paper, .stroke_width = 0.6});
   }
-  if (any_of_kind(map, MapPointKind::end_of_range)) {
+  if (any_of_reason(map, LimitReason::end_of_range)) {
     std::vector<double> ended(values.size());
     for (std::size_t i = 0; i < ended.size(); ++i)
-      ended[i] = std::isnan(values[i]) ? none : map.kinds[i] == MapPointKind::end_of_range ? 1 : 0;
+      ended[i] = std::isnan(values[i]) ? none : map.reasons[i] == LimitReason::end_of_range ? 1 : 0;
     // Only between points that all ended so: at 1, not half way to the next point that has a contact.
-    const io::ContourRegion region = io::region_at_or_above({map.x, map.y, ended}, 1);
+    const ContourRegion region = region_at_or_above({map.x, map.y, ended}, 1);
     canvas.region(on_screen(region.rings, x, y), {.fill = at_end});
   }
   draw_frame(canvas, right);
@@ -162,10 +162,10 @@ void draw_curve(SvgCanvas& canvas, const MapPlot& map) {
   bool hollow = false, crossed = false;
   for (std::size_t i = 0; i < held.size(); ++i) {
     const double px = x(held[i]);
-    if (map.kinds[i] == MapPointKind::end_of_range) {
+    if (map.reasons[i] == LimitReason::end_of_range) {
       canvas.circle({px, y(values[i])}, 3.5, {.fill = palette::paper, .stroke = palette::blue});
       hollow = true;
-    } else if (map.kinds[i] == MapPointKind::contact_at_start) {
+    } else if (map.reasons[i] == LimitReason::contact_at_start) {
       const Ink ink{.stroke = palette::vermilion, .stroke_width = 2};
       canvas.line({px - 4, bottom - 4}, {px + 4, bottom + 4}, ink);
       canvas.line({px - 4, bottom + 4}, {px + 4, bottom - 4}, ink);
@@ -193,7 +193,7 @@ void draw_curve(SvgCanvas& canvas, const MapPlot& map) {
 
 std::string map_plot(const MapPlot& map) {
   assert(!map.x.empty() && !map.y.empty());
-  assert(map.values.size() == map.x.size() * map.y.size() && map.kinds.size() == map.values.size());
+  assert(map.values.size() == map.x.size() * map.y.size() && map.reasons.size() == map.values.size());
   SvgCanvas canvas(canvas_width, canvas_height, map.heading.joint + ": " + map.heading.subject);
   draw_heading(canvas, map.heading);
   if (map.x.size() > 1 && map.y.size() > 1)
@@ -204,4 +204,4 @@ std::string map_plot(const MapPlot& map) {
   return canvas.document();
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -93,7 +93,7 @@ std::string depth_text(const DepthQuestion& question, const RadialContact& conta
   return text;
 }
 
-std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits) {
+std::vector<MeshArray> depth_arrays(const std::optional<RadialResults>& hits) {
   if (!hits) return {};
   const std::size_t count = hits->size();
   std::vector<std::uint8_t> inside(count);
@@ -104,8 +104,8 @@ std::vector<MeshArray> depth_arrays(const std::optional<RadialHits>& hits) {
     winding[i] = hits->winding[i];
     triangle[i] = hits->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(hits->triangle[i]);
     gap[i] =
-        std::isfinite(hits->radial_gap[i]) ? hits->radial_gap[i] : std::numeric_limits<double>::quiet_NaN();
-    angle[i] = Angle::radians(hits->ray_to_normal[i]).degrees();
+        std::isfinite(hits->radial_gap_mm[i]) ? hits->radial_gap_mm[i] : std::numeric_limits<double>::quiet_NaN();
+    angle[i] = hits->ray_to_normal[i].degrees();
   }
   return {{"inside", std::move(inside)},
           {"radial_gap_mm", std::move(gap)},

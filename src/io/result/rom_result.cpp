@@ -10,6 +10,7 @@
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
+#include "io/result/clock_contacts.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/map_summary.hpp"
 
@@ -20,28 +21,16 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
 
-double degrees_of(const JointAngles& angles, JointAngle angle) noexcept {
-  switch (angle) {
-    case JointAngle::flexion:
-      return angles.flexion.degrees();
-    case JointAngle::adduction:
-      return angles.adduction.degrees();
-    case JointAngle::internal_rotation:
-      return angles.internal_rotation.degrees();
-  }
-  return 0;
-}
-
 Json angles_json(const JointAngles& angles) {
   Json json;
-  for (const JointAngle angle : all_angles) json[name_of(angle)] = degrees_of(angles, angle);
+  for (const JointAngle angle : all_angles) json[name_of(angle)] = angle_of(angles, angle).degrees();
   return json;
 }
 
 Json held_json(const Motion& motion) {
   Json json;
   for (const JointAngle angle : all_angles)
-    if (angle != motion.vary) json[name_of(angle)] = degrees_of(motion.start, angle);
+    if (angle != motion.vary) json[name_of(angle)] = angle_of(motion.start, angle).degrees();
   return json;
 }
 
@@ -77,13 +66,7 @@ Json json_of(const Vec3& p) {
 }
 
 bool ends_in_contact(const MotionLimit& limit) noexcept {
-  return limit.reason != LimitReason::end_of_range;
-}
-
-/// Direction of the contact on the socket's clock.
-std::optional<double> hour_of(const Joint& joint, const MotionLimit& limit) {
-  if (joint.kind != JointKind::ball || !limit.contact) return std::nullopt;
-  return sagittal_clock().hour_of(limit.contact->fixed_point);
+  return limit.end.reason != LimitReason::end_of_range;
 }
 
 Json nullable(const std::optional<double>& value) {
@@ -102,7 +85,7 @@ Json json_of(const BodyZone& zone) {
   };
   return {{"triangles", zone.triangles.size()},
           {"area_mm2", zone.area_mm2},
-          {"centroid_mm", zone.centroid ? json_of(*zone.centroid) : Json(nullptr)},
+          {"centroid_mm", zone.centroid_mm ? json_of(*zone.centroid_mm) : Json(nullptr)},
           {"max_radial_depth_mm", deepest(zone.radial_depth_mm)},
           {"max_tangential_depth_deg", deepest(zone.tangential_depth_deg)},
           {"max_tangential_depth_mm", deepest(zone.tangential_depth_mm)}};
@@ -125,33 +108,32 @@ Json json_of(const DepthLimit& depth) {
             {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
             {"grows", depth.depth_grows}};
   const auto& shift = depth.at_limit.shift;
-  json["centre_shift_mm"] = shift ? json_of(shift->translation) : Json(nullptr);
+  json["centre_shift_mm"] = shift ? json_of(shift->translation_mm) : Json(nullptr);
   return json;
 }
 
 /// Of the i-th motion.
 Json motion_json(const RomResult& result, std::size_t i) {
   const MotionLimit& limit = result.limits[i];
-  const auto& contact = limit.contact;
-  Json json{
-      {"name", limit.motion.name},
-      {"limit_deg", limit.turned.degrees()},
-      {"reason", name_of(limit.reason)},
-      {"articular", ends_in_contact(limit) ? Json(limit.articular) : Json(nullptr)},
-      {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
-      {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
-      {"clock_hour", nullable(hour_of(result.joint, limit))},
-      {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
-                                  {"mobile", json_of(contact->mobile_feature)}}
-                           : Json(nullptr)},
-      {"shortfall_deg", limit.shortfall.degrees()},
-      {"vary", name_of(limit.motion.vary)},
-      {"sense", limit.motion.sense == TurnSense::positive ? "positive" : "negative"},
-      {"range_deg", limit.motion.range.degrees()},
-      {"start_deg", angles_json(limit.motion.start)},
-      {"held_deg", held_json(limit.motion)},
-      {"at_limit_deg", angles_json(limit.angles_at_limit())},
-      {"certificate", result.depths.empty() ? certificate_text(limit) : certificate_text(result.depths[i])}};
+  const auto& contact = limit.end.contact;
+  Json json{{"name", limit.motion.name},
+            {"limit_deg", limit.end.turned.degrees()},
+            {"reason", name_of(limit.end.reason)},
+            {"articular", ends_in_contact(limit) ? Json(limit.end.is_articular()) : Json(nullptr)},
+            {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
+            {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
+            {"clock_hour", nullable(io::clock_hour(result.joint, limit))},
+            {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
+                                        {"mobile", json_of(contact->mobile_feature)}}
+                                 : Json(nullptr)},
+            {"error_bound_deg", limit.end.error_bound.degrees()},
+            {"vary", name_of(limit.motion.vary)},
+            {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
+            {"range_deg", limit.motion.range.degrees()},
+            {"start_deg", angles_json(limit.motion.start)},
+            {"held_deg", held_json(limit.motion)},
+            {"at_limit_deg", angles_json(limit.angles_at_limit())},
+            {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
   if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
   if (!result.zones.empty()) json["zone"] = json_of(result.zones[i]);
   return json;
@@ -204,13 +186,13 @@ std::string text_of(const std::optional<ArticularRegion>& region) {
 }
 
 std::string_view words_of(const MotionLimit& limit) noexcept {
-  switch (limit.reason) {
+  switch (limit.end.reason) {
     case LimitReason::contact:
-      return limit.articular ? "contact, articular" : "contact, extra-articular";
+      return limit.end.is_articular() ? "contact, articular" : "contact, extra-articular";
     case LimitReason::end_of_range:
       return "end of range, no contact";
     case LimitReason::contact_at_start:
-      return limit.articular ? "in contact at start, articular" : "in contact at start";
+      return limit.end.is_articular() ? "in contact at start, articular" : "in contact at start";
   }
   return "";
 }
@@ -258,43 +240,35 @@ std::string_view name_of(LimitReason reason) noexcept {
   return "contact";
 }
 
-std::string certificate_text(const MotionLimit& limit) {
-  switch (limit.reason) {
+std::string guarantee_text(const MotionLimit& limit) {
+  switch (limit.end.reason) {
     case LimitReason::contact:
       return fmt::format("free before the limit; in contact at it or past it by at most {:.2g} deg",
-                         limit.shortfall.degrees());
+                         limit.end.error_bound.degrees());
     case LimitReason::end_of_range:
       return fmt::format("free over the whole range of {:g} deg", limit.motion.range.degrees());
     case LimitReason::contact_at_start:
-      return "in contact before any turn";
+      return "in contact before any rotation";
   }
   return "";
 }
 
-std::string certificate_text(const DepthLimit& depth) {
-  switch (depth.limit.reason) {
+std::string guarantee_text(const DepthLimit& depth) {
+  switch (depth.limit.end.reason) {
     case LimitReason::contact:
       return fmt::format(
-          "searched, not exact: no deeper than allowed at the poses asked before the limit, deeper within "
+          "searched, not exact: no deeper than allowed at the poses tried before the limit, deeper within "
           "{:.2g} deg past it{}",
-          depth.limit.shortfall.degrees(),
+          depth.limit.end.error_bound.degrees(),
           depth.depth_grows ? "" : "; depth does not grow evenly here, a little further on may be as good");
     case LimitReason::end_of_range:
       return fmt::format(
-          "searched, not exact: no deeper than allowed at the poses asked over the range of {:g} deg",
+          "searched, not exact: no deeper than allowed at the poses tried over the range of {:g} deg",
           depth.limit.motion.range.degrees());
     case LimitReason::contact_at_start:
-      return "deeper than allowed before any turn";
+      return "deeper than allowed before any rotation";
   }
   return "";
-}
-
-std::vector<ClockContact> clock_contacts(const RomResult& result) {
-  std::vector<ClockContact> contacts;
-  for (const MotionLimit& limit : result.limits)
-    if (const auto hour = hour_of(result.joint, limit))
-      contacts.push_back({limit.motion.name, *hour, limit.articular});
-  return contacts;
 }
 
 std::string rom_json(const RomResult& result) {
@@ -318,14 +292,14 @@ std::string rom_text(const RomResult& result) {
       clock{Align::right, {"clock"}}, features{Align::left, {"mobile on fixed"}};
   for (const MotionLimit& limit : result.limits) {
     name.cells.push_back(limit.motion.name);
-    turned.cells.push_back(fmt::format("{:.2f}", limit.turned.degrees()));
+    turned.cells.push_back(fmt::format("{:.2f}", limit.end.turned.degrees()));
     reason.cells.emplace_back(words_of(limit));
-    const auto& contact = limit.contact;
+    const auto& contact = limit.end.contact;
     point.cells.push_back(contact ? fmt::format("({:.2f}, {:.2f}, {:.2f})", contact->fixed_point.x(),
                                                 contact->fixed_point.y(), contact->fixed_point.z())
                                   : "-");
-    const auto hour = hour_of(result.joint, limit);
-    clock.cells.push_back(hour ? clock_text(*hour) : "-");
+    const auto hour = io::clock_hour(result.joint, limit);
+    clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
     features.cells.push_back(
         contact ? fmt::format("{} on {}", text_of(contact->mobile_feature), text_of(contact->fixed_feature))
                 : "-");
@@ -342,7 +316,7 @@ std::string rom_text(const RomResult& result) {
 
 std::string rom_csv(const RomResult& result) {
   std::string text =
-      "motion,limit_deg,reason,articular,shortfall_deg,vary,sense,range_deg,"
+      "motion,limit_deg,reason,articular,error_bound_deg,vary,sense,range_deg,"
       "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
       "limit_flexion_deg,limit_adduction_deg,limit_internal_rotation_deg,"
       "contact_x_mm,contact_y_mm,contact_z_mm,"
@@ -352,13 +326,14 @@ std::string rom_csv(const RomResult& result) {
     return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
   };
   for (const MotionLimit& limit : result.limits) {
-    const auto& [motion, turned, reason, contact, articular, shortfall] = limit;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), turned.degrees(),
-                        name_of(reason), ends_in_contact(limit) ? (articular ? "1" : "0") : "",
-                        shortfall.degrees(), name_of(motion.vary),
-                        motion.sense == TurnSense::positive ? "positive" : "negative", motion.range.degrees(),
-                        angles(motion.start), angles(limit.angles_at_limit()));
-    const auto hour = hour_of(result.joint, limit);
+    const auto& [motion, end] = limit;
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), end.turned.degrees(),
+                        name_of(end.reason), ends_in_contact(limit) ? (end.is_articular() ? "1" : "0") : "",
+                        end.error_bound.degrees(), name_of(motion.vary),
+                        motion.sense == RotationSense::positive ? "positive" : "negative",
+                        motion.range.degrees(), angles(motion.start), angles(limit.angles_at_limit()));
+    const auto hour = io::clock_hour(result.joint, limit);
+    const auto& contact = end.contact;
     text += contact ? fmt::format("{},{},{},{}", point(contact->fixed_point), point(contact->mobile_point),
                                   text_of(contact->fixed_feature), text_of(contact->mobile_feature))
                     : std::string(",,,,,,,");

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 constexpr std::string_view replacement_character = "\xEF\xBF\xBD";
@@ -215,4 +215,4 @@ std::string SvgCanvas::document() const {
   return out + body_ + "</svg>\n";
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

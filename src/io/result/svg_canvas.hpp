@@ -9,7 +9,7 @@
 /// Drawings as SVG text, without a display, a font or a library: shapes and words in the order in which they
 /// are painted. The same calls give the same bytes on every machine.
 
-namespace condyle {
+namespace condyle::io {
 
 /// A place on the drawing in its own pixels: x to the right, y down, (0, 0) the upper left corner.
 struct ScreenPoint {
@@ -89,4 +89,4 @@ class SvgCanvas {
   int hatches_ = 0;
 };
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -13,7 +13,7 @@ using Views = io::BodyViews<TangentialBodySummary>;
 using Deepest = Views::Deepest<DeepestTurn>;
 
 Views views(const DepthQuestion& question, const TangentialContact& contact) {
-  const auto summary_of = [](const std::optional<TangentialHits>& hits) {
+  const auto summary_of = [](const std::optional<TangentialResults>& hits) {
     return hits ? std::optional(summarise(*hits)) : std::nullopt;
   };
   return {question, summary_of(contact.mobile_in_fixed), summary_of(contact.fixed_in_mobile)};
@@ -98,7 +98,7 @@ std::string depth_text(const DepthQuestion& question, const TurnAxis& axis,
   return text;
 }
 
-std::vector<MeshArray> depth_arrays(const std::optional<TangentialHits>& hits) {
+std::vector<MeshArray> depth_arrays(const std::optional<TangentialResults>& hits) {
   if (!hits) return {};
   const std::size_t count = hits->size();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -106,13 +106,13 @@ std::vector<MeshArray> depth_arrays(const std::optional<TangentialHits>& hits) {
   std::vector<std::int32_t> winding(count), triangle(count);
   std::vector<double> angle(count), arc(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool reached = std::isfinite(hits->angular_gap[i]);
+    const bool reached = std::isfinite(hits->angular_gap[i].radians());
     inside[i] = hits->state[i] == PointState::inside;
     winding[i] = hits->winding[i];
     triangle[i] = hits->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(hits->triangle[i]);
     // A depth is positive inside: the gap with its sign turned.
-    angle[i] = reached ? -Angle::radians(hits->angular_gap[i]).degrees() : none;
-    arc[i] = reached ? -hits->arc_gap[i] : none;
+    angle[i] = reached ? -hits->angular_gap[i].degrees() : none;
+    arc[i] = reached ? -hits->arc_gap_mm[i] : none;
   }
   return {{"inside", std::move(inside)},
           {"tangential_depth_deg", std::move(angle)},

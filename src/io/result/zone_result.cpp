@@ -34,7 +34,7 @@ MeshArray zone_cell_array(const BodyZone& zone, std::size_t triangles) {
 
 Pose zone_pose(const ImpingementZone& zone, Side side) {
   const Motion& motion = zone.limit.motion;
-  const Angle onwards = motion.sense == TurnSense::positive ? zone.past : -zone.past;
+  const Angle onwards = zone.past * sign_of(motion.sense);
   return pose_at(side, turned_by(zone.limit.angles_at_limit(), motion.vary, onwards));
 }
 

@@ -22,11 +22,11 @@ double square(double a) noexcept {
 /// end is at most half the edge away: |p|^2 >= min^2 - longest^2 / 4. In the inside of a triangle the same
 /// with the nearest corner, at most the longest edge over sqrt(3) away: a third. The roundings of the squares
 /// are at most 16 u max^2.
-double nearest(double min, double max, double longest_squared, double share) noexcept {
-  const double squared = square(min) - share * longest_squared - 16 * core::rounding_unit * square(max);
+double nearest(double min, double max, double longest_squared, double fraction) noexcept {
+  const double squared = square(min) - fraction * longest_squared - 16 * core::rounding_unit * square(max);
   return squared > 0 ? std::sqrt(squared) * (1 - relative_slack) : 0;
 }
-constexpr double edge_share = 1.0 / 4, face_share = 1.0 / 3;
+constexpr double edge_fraction = 1.0 / 4, face_fraction = 1.0 / 3;
 
 double squared_distance_xy(const Triple<double>& a, const Triple<double>& b) noexcept {
   return square(b.x - a.x) + square(b.y - a.y);
@@ -35,19 +35,19 @@ double squared_distance_xy(const Triple<double>& a, const Triple<double>& b) noe
 struct Arc {
   double start, width;
 };
-constexpr Arc whole_turn{0, two_pi};
+constexpr Arc full_turn{0, two_pi};
 
-/// From a to b the short way, in (-pi, pi].
-double short_way(double from, double to) noexcept {
-  const double way = wrapped(to - from);
-  return way > std::numbers::pi ? way - two_pi : way;
+/// Difference of two directions by the shorter arc, in (-pi, pi].
+double difference(double from, double to) noexcept {
+  const double angle = wrapped(to - from);
+  return angle > std::numbers::pi ? angle - two_pi : angle;
 }
 
-/// Covers three directions within half a turn of one another; the whole turn where they are not.
+/// Covers three directions within half a turn of one another; the full turn where they are not.
 Arc arc_of(double a, double b, double c) noexcept {
-  const double to_b = short_way(a, b), to_c = short_way(a, c);
+  const double to_b = difference(a, b), to_c = difference(a, c);
   const double low = std::min({0.0, to_b, to_c}), high = std::max({0.0, to_b, to_c});
-  if (high - low >= std::numbers::pi - opposite_slack) return whole_turn;
+  if (high - low >= std::numbers::pi - opposite_slack) return full_turn;
   return {wrapped(a + low) - angle_slack, high - low + 2 * angle_slack};
 }
 
@@ -58,7 +58,7 @@ DistanceRange distance_range(const Triple<double>& a, const Triple<double>& b,
   const auto [min, max] = std::minmax({std::sqrt(dot(a, a)), std::sqrt(dot(b, b)), std::sqrt(dot(c, c))});
   const Triple<double> ab = b - a, bc = c - b, ca = a - c;
   const double longest2 = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
-  return {nearest(min, max, longest2, face_share), max * (1 + relative_slack)};
+  return {nearest(min, max, longest2, face_fraction), max * (1 + relative_slack)};
 }
 
 CylinderPoint cylinder_point(const Triple<double>& p) noexcept {
@@ -74,8 +74,8 @@ CylinderBox box_of_vertex(const Triple<double>& p, const CylinderPoint& at) noex
           p.z,
           at.r * (1 - relative_slack),
           at.r * (1 + relative_slack),
-          on_axis ? whole_turn.start : at.theta - angle_slack,
-          on_axis ? whole_turn.width : 2 * angle_slack};
+          on_axis ? full_turn.start : at.theta - angle_slack,
+          on_axis ? full_turn.width : 2 * angle_slack};
 }
 
 CylinderBox box_of_edge(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,
@@ -84,9 +84,10 @@ CylinderBox box_of_edge(const Triple<double>& a, const CylinderPoint& at_a, cons
   const auto [r_min, r_max] = std::minmax({at_a.r, at_b.r});
   const auto [z_min, z_max] = std::minmax({a.z, b.z});
   const double flat2 = squared_distance_xy(a, b), full2 = flat2 + square(b.z - a.z);
-  const Arc arc = rho_min > 0 ? arc_of(at_a.theta, at_b.theta, at_b.theta) : whole_turn;
-  return {nearest(rho_min, rho_max, flat2, edge_share), rho_max * (1 + relative_slack), z_min,     z_max,
-          nearest(r_min, r_max, full2, edge_share),     r_max * (1 + relative_slack),   arc.start, arc.width};
+  const Arc arc = rho_min > 0 ? arc_of(at_a.theta, at_b.theta, at_b.theta) : full_turn;
+  return {
+      nearest(rho_min, rho_max, flat2, edge_fraction), rho_max * (1 + relative_slack), z_min,     z_max,
+      nearest(r_min, r_max, full2, edge_fraction),     r_max * (1 + relative_slack),   arc.start, arc.width};
 }
 
 CylinderBox box_of_triangle(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,
@@ -97,13 +98,13 @@ CylinderBox box_of_triangle(const Triple<double>& a, const CylinderPoint& at_a, 
   const auto [z_min, z_max] = std::minmax({a.z, b.z, c.z});
   const double ab = squared_distance_xy(a, b), bc = squared_distance_xy(b, c), ca = squared_distance_xy(c, a);
   const double full2 = std::max({ab + square(b.z - a.z), bc + square(c.z - b.z), ca + square(a.z - c.z)});
-  const Arc arc = rho_min > 0 ? arc_of(at_a.theta, at_b.theta, at_c.theta) : whole_turn;
-  const bool holds_axis = arc.width == whole_turn.width;
-  return {holds_axis ? 0 : nearest(rho_min, rho_max, std::max({ab, bc, ca}), edge_share),
+  const Arc arc = rho_min > 0 ? arc_of(at_a.theta, at_b.theta, at_c.theta) : full_turn;
+  const bool holds_axis = arc.width == full_turn.width;
+  return {holds_axis ? 0 : nearest(rho_min, rho_max, std::max({ab, bc, ca}), edge_fraction),
           rho_max * (1 + relative_slack),
           z_min,
           z_max,
-          nearest(r_min, r_max, full2, face_share),
+          nearest(r_min, r_max, full2, face_fraction),
           r_max * (1 + relative_slack),
           arc.start,
           arc.width};
@@ -116,8 +117,8 @@ CylinderBox box_of_box(const Triple<double>& centre, const Triple<double>& half)
   const double reach = std::sqrt(flat2) * (1 + slack) + slack * at.rho;
   const double ball = std::sqrt(flat2 + square(half.z)) * (1 + slack) + slack * at.r;
   const double lift = half.z * (1 + slack) + slack * at.r;
-  CylinderBox box{std::max(0.0, at.rho - reach), at.rho + reach, centre.z - lift,  centre.z + lift,
-                  std::max(0.0, at.r - ball),    at.r + ball,    whole_turn.start, whole_turn.width};
+  CylinderBox box{std::max(0.0, at.rho - reach), at.rho + reach, centre.z - lift, centre.z + lift,
+                  std::max(0.0, at.r - ball),    at.r + ball,    full_turn.start, full_turn.width};
   // Seen from the axis the circle covers asin(reach / rho) on either side.
   if (reach < at.rho) {
     const double half_arc = std::asin(reach / at.rho) * (1 + relative_slack) + opposite_slack;
@@ -135,7 +136,7 @@ CylinderBox hull(const CylinderBox& a, const CylinderBox& b) noexcept {
   };
   const Arc ab = from(a, b), ba = from(b, a);
   Arc arc = ab.width <= ba.width ? ab : ba;
-  if (arc.width >= two_pi) arc = whole_turn;
+  if (arc.width >= two_pi) arc = full_turn;
   return {std::min(a.rho_lo, b.rho_lo),
           std::max(a.rho_hi, b.rho_hi),
           std::min(a.z_lo, b.z_lo),

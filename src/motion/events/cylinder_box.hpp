@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/angle.hpp"
-#include "motion/events/turn_function.hpp"
+#include "condyle/first_contact.hpp"
+#include "motion/events/rotation_function.hpp"
+#include "motion/events/wrapped_angle.hpp"
 
-/// What a feature occupies around the axis, in terms that turning leaves alone or merely shifts.
+/// What a feature occupies around the axis, in terms that a rotation leaves alone or merely shifts.
 
 namespace condyle::motion {
 
@@ -28,27 +29,21 @@ struct CylinderBox {
   double z_lo, z_hi;
   double r_lo, r_hi;
   double theta;        ///< Start of the arc, within a rounding of [0, 2 pi).
-  double theta_width;  ///< In [0, 2 pi]; 2 pi where the axis passes through or touches the feature.
+  double theta_width;  ///< In [0, 2 pi]; 2 pi where the axis meets the feature.
 
-  /// Whether the two can touch at some angle.
-  bool shares_profile(const CylinderBox& b) const noexcept {
+  /// Whether the two can meet at some angle.
+  bool overlaps_profile(const CylinderBox& b) const noexcept {
     return rho_lo <= b.rho_hi && b.rho_lo <= rho_hi && z_lo <= b.z_hi && b.z_lo <= z_hi && r_lo <= b.r_hi &&
            b.r_lo <= r_hi;
   }
 };
-
-/// The angle in [0, 2 pi), for one less than a turn away from it.
-inline double wrapped(double angle) noexcept {
-  if (angle < 0) angle += two_pi;
-  return angle >= two_pi ? angle - two_pi : angle;
-}
 
 /// Whether two arcs share a direction.
 inline bool arcs_meet(const CylinderBox& a, const CylinderBox& b) noexcept {
   return wrapped(b.theta - a.theta) <= a.theta_width || wrapped(a.theta - b.theta) <= b.theta_width;
 }
 
-/// How far `ahead` is from the arc `behind` when that turns in the positive sense: 0 where they meet.
+/// How far `behind` turns in the positive sense until it reaches `ahead`: 0 where their arcs meet.
 ///
 ///   behind.theta ===== )- - gap - -> ( ===== ahead
 inline double gap_to(const CylinderBox& behind, const CylinderBox& ahead) noexcept {
@@ -56,20 +51,18 @@ inline double gap_to(const CylinderBox& behind, const CylinderBox& ahead) noexce
   return wrapped(wrapped(ahead.theta - behind.theta) - behind.theta_width);
 }
 
-enum class TurnDirection : int { positive = 1, negative = -1 };
-
-/// Lower bound on the size of any turn in the given direction that makes the two touch.
-inline double gap_in_turn(const CylinderBox& turning, const CylinderBox& resting,
-                          TurnDirection direction) noexcept {
-  return direction == TurnDirection::positive ? gap_to(turning, resting) : gap_to(resting, turning);
+/// Lower bound on the size of any rotation in the given sense that makes the two meet.
+inline double gap_in_sense(const CylinderBox& turning, const CylinderBox& resting,
+                           RotationSense sense) noexcept {
+  return sense == RotationSense::positive ? gap_to(turning, resting) : gap_to(resting, turning);
 }
 
-/// A point's place around the axis.
+/// A point's cylinder coordinates but for the height, and its distance from the origin.
 struct CylinderPoint {
   double rho, theta, r;
 };
 
-/// Bounds on the distance from the origin of anything: what turning about any axis through it leaves alone.
+/// Bounds on the distance from the origin of anything: what no rotation about an axis through it changes.
 struct DistanceRange {
   double lo, hi;
 };
@@ -82,7 +75,7 @@ CylinderPoint cylinder_point(const Triple<double>& p) noexcept;
 CylinderBox box_of_vertex(const Triple<double>& p, const CylinderPoint& at) noexcept;
 CylinderBox box_of_edge(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,
                         const CylinderPoint& at_b) noexcept;
-/// From the boxes of its three edges and the place of its corners.
+/// From its corners.
 CylinderBox box_of_triangle(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,
                             const CylinderPoint& at_b, const Triple<double>& c,
                             const CylinderPoint& at_c) noexcept;

@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "core/predicates.hpp"
-#include "motion/events/exact_touch.hpp"
+#include "motion/events/exact_event.hpp"
+#include "motion/events/wrapped_angle.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -21,11 +22,6 @@ double off_axis(const Point& a) noexcept {
   return std::abs(a.x) + std::abs(a.y);
 }
 
-double in_turn(double angle) noexcept {
-  const double positive = angle < 0 ? angle + two_pi : angle;
-  return positive >= two_pi ? positive - two_pi : positive;
-}
-
 struct Direction {
   double cosine, sine;
 };
@@ -34,7 +30,7 @@ Point turned(const Point& p, const Direction& t) noexcept {
   return {p.x * t.cosine - p.y * t.sine, p.x * t.sine + p.y * t.cosine, p.z};
 }
 
-/// Roots of a TurnFunction known to within `error` at every angle.
+/// Roots of a RotationFunction known to within `error` at every angle.
 struct BoundedRoots {
   enum class State { none, two, unclear } state = State::none;
   Direction plus{}, minus{};
@@ -50,7 +46,7 @@ constexpr double underflow = 0x1p-450;
 /// C^2 >= 16 r E, each root t of T^ has exactly one of T within h = 2 E / S: with T^(t + h) = C (1 - cos h)
 /// -+ S sin h, |T^(t +- h)| >= S sin h - r h^2 / 2 >= 1.97 E - 0.13 E > E, so T changes sign between, and the
 /// two intervals are disjoint. Between lies grazing, left to exact arithmetic.
-BoundedRoots bounded_roots(const TurnFunction<double>& T, double E) noexcept {
+BoundedRoots bounded_roots(const RotationFunction<double>& T, double E) noexcept {
   const double r2 = T.A * T.A + T.B * T.B, r = std::sqrt(r2);
   // Forming S from r and C moves a root by less than 4 u r / S: as if E were this much larger.
   const double total = E + 8 * core::rounding_unit * r + underflow;
@@ -64,69 +60,61 @@ BoundedRoots bounded_roots(const TurnFunction<double>& T, double E) noexcept {
           2 * total / S + 8 * core::rounding_unit};
 }
 
-enum class Verdict { no, yes, unclear };
+enum class Decision { no, yes, unclear };
 
 /// Rounding of the arctangent and of adding the full turn.
 constexpr double arctangent_error = 2e-15;
 
-/// The root as a touch, or nothing where exact arithmetic has to finish: too wide a bound, or next to the
+/// The root as an event, or nothing where exact arithmetic has to finish: too wide a bound, or next to the
 /// start, where the side matters.
-bool add_touch(const Direction& root, double error, Touches& touches) noexcept {
+bool add_event(const Direction& root, double error, ContactEvents& events) noexcept {
   const double total = error + arctangent_error;
-  const double angle = in_turn(std::atan2(root.sine, root.cosine));
-  if (total > worst_touch_error || std::min(angle, two_pi - angle) < 2 * worst_touch_error) return false;
-  touches.add({angle, total});
+  const double angle = wrapped(std::atan2(root.sine, root.cosine));
+  if (total > worst_event_error || std::min(angle, two_pi - angle) < 2 * worst_event_error) return false;
+  events.add({angle, total});
   return true;
 }
 
-void append(const Touches& more, Touches& touches) noexcept {
-  touches.exact_decisions += more.exact_decisions;
-  for (const Touch& t : more) touches.add(t);
+void append(const ContactEvents& more, ContactEvents& events) noexcept {
+  events.exact_decisions += more.exact_decisions;
+  for (const ContactEvent& e : more) events.add(e);
 }
 
 /// Tests one root after the other: `inside(root, error)` says whether the features reach each other there,
 /// `decide(branch, root)` decides the same exactly.
 template <class Inside, class Decide>
-Touches touches_at(const BoundedRoots& roots, const TurnWindow& window, const Inside& inside,
-                   const Decide& decide) {
-  Touches touches;
-  if (roots.state == BoundedRoots::State::none) return touches;
+ContactEvents events_at(const BoundedRoots& roots, const AngleWindow& window, const Inside& inside,
+                        const Decide& decide) {
+  ContactEvents events;
+  if (roots.state == BoundedRoots::State::none) return events;
   for (const Branch branch : {Branch::plus, Branch::minus}) {
     const Direction& root = branch == Branch::plus ? roots.plus : roots.minus;
     if (roots.state == BoundedRoots::State::two) {
       if (!window.may_hold(root.cosine, root.sine, roots.error)) continue;
-      const Verdict verdict = inside(root, roots.error);
-      if (verdict == Verdict::no) continue;
-      if (verdict == Verdict::yes && add_touch(root, roots.error, touches)) continue;
+      const Decision decision = inside(root, roots.error);
+      if (decision == Decision::no) continue;
+      if (decision == Decision::yes && add_event(root, roots.error, events)) continue;
     }
-    append(decide(branch, root), touches);
+    append(decide(branch, root), events);
   }
-  return touches;
+  return events;
 }
 
-void mirror(Touches& touches) noexcept {
-  for (int i = 0; i < touches.count; ++i) {
-    double& angle = touches.touch[static_cast<std::size_t>(i)].angle;
-    // A touch exactly at the start stays there: it is none of either direction's.
+void mirror(ContactEvents& events) noexcept {
+  for (int i = 0; i < events.count; ++i) {
+    double& angle = events.event[static_cast<std::size_t>(i)].angle;
+    // An event exactly at the start stays there: it belongs to neither sense.
     if (angle != 0) angle = two_pi - angle;
   }
 }
 
 }  // namespace
 
-Roots rotation_roots(double A, double B, double C) noexcept {
-  const double r = std::hypot(A, B);
-  if (r == 0 || std::abs(C) > r) return {};
-  const double middle = std::atan2(B, A), half = std::atan2(std::sqrt((r - C) * (r + C)), -C);
-  if (std::abs(C) == r) return {1, {in_turn(middle + half), 0}};
-  return {2, {in_turn(middle + half), in_turn(middle - half)}};
+AngleWindow::AngleWindow(double last, double side) noexcept : side_(side) {
+  last_ = last >= two_pi ? full_turn : order(std::cos(last), std::sin(last));
 }
 
-TurnWindow::TurnWindow(double last, double side) noexcept : side_(side) {
-  last_ = last >= two_pi ? whole_turn : order(std::cos(last), std::sin(last));
-}
-
-Touches vertex_meets_face(const Point& p, const Corners& face, const TurnWindow& window) {
+ContactEvents vertex_meets_face(const Point& p, const Corners& face, const AngleWindow& window) {
   const Point &a = face[0], &b = face[1], &c = face[2];
   const bool face_across_axis = a.z == b.z && b.z == c.z, on_axis = p.x == 0 && p.y == 0;
   if (face_across_axis || on_axis) return {};
@@ -140,34 +128,35 @@ Touches vertex_meets_face(const Point& p, const Corners& face, const TurnWindow&
   const auto inside = [&](const Direction& root, double error) {
     const Point x = turned(p, root);
     const double moved = off_axis(p) * (error + 4 * core::rounding_unit);
-    Verdict verdict = Verdict::yes;
+    Decision decision = Decision::yes;
     const auto side = [&](const Point& from, const Point& to) {
       const Point edge = to - from, arm = x - from;
       const double value = dot(cross(edge, arm), normal);
       const double bound = 2 * size_of(edge) * N * (moved + 16 * core::rounding_unit * size_of(arm));
       if (value < -bound) {
-        verdict = Verdict::no;
-      } else if (value <= bound && verdict == Verdict::yes) {
-        verdict = Verdict::unclear;
+        decision = Decision::no;
+      } else if (value <= bound && decision == Decision::yes) {
+        decision = Decision::unclear;
       }
-      return verdict != Verdict::no;
+      return decision != Decision::no;
     };
     if (side(a, b) && side(b, c)) side(c, a);
-    return verdict;
+    return decision;
   };
   const auto decide = [&](Branch branch, const Direction&) {
     return exact::vertex_meets_face(p, face, branch);
   };
-  return touches_at(roots, window, inside, decide);
+  return events_at(roots, window, inside, decide);
 }
 
-Touches face_meets_vertex(const Corners& face, const Point& q, const TurnWindow& window) {
-  Touches touches = vertex_meets_face(q, face, window.mirrored());
-  mirror(touches);
-  return touches;
+ContactEvents face_meets_vertex(const Corners& face, const Point& q, const AngleWindow& window) {
+  ContactEvents events = vertex_meets_face(q, face, window.mirrored());
+  mirror(events);
+  return events;
 }
 
-Touches edges_meet(const Point& a, const Point& b, const Point& c, const Point& d, const TurnWindow& window) {
+ContactEvents edges_meet(const Point& a, const Point& b, const Point& c, const Point& d,
+                         const AngleWindow& window) {
   const Point u = b - a, w = d - c;
   if (u.x == 0 && u.y == 0 && w.x == 0 && w.y == 0) return {};
   if (a.z == b.z && b.z == c.z && c.z == d.z) return exact::edges_meet_in_plane({a, b, c, d});
@@ -178,7 +167,7 @@ Touches edges_meet(const Point& a, const Point& b, const Point& c, const Point& 
   const auto roots = bounded_roots(volume_of_edges(a, u, c, w), E);
 
   // Across both edges at the root: with it, "between the ends" is a matter of sides of planes
-  // (exact_touch.cpp).
+  // (exact_event.cpp).
   const auto across_at = [&](const Direction& root) { return cross(turned(u, root), w); };
   const auto inside = [&](const Direction& root, double error) {
     const Direction back{root.cosine, -root.sine};
@@ -191,20 +180,20 @@ Touches edges_meet(const Point& a, const Point& b, const Point& c, const Point& 
       const double at_p = dot(normal, to_p), at_q = dot(normal, to_q);
       const double bound_p = 2 * size * (off_axis(p) * slip + 8 * core::rounding_unit * size_of(to_p));
       const double bound_q = 2 * size * (off_axis(q) * slip + 8 * core::rounding_unit * size_of(to_q));
-      if (std::abs(at_p) <= bound_p || std::abs(at_q) <= bound_q) return Verdict::unclear;
-      return (at_p > 0) != (at_q > 0) ? Verdict::yes : Verdict::no;
+      if (std::abs(at_p) <= bound_p || std::abs(at_q) <= bound_q) return Decision::unclear;
+      return (at_p > 0) != (at_q > 0) ? Decision::yes : Decision::no;
     };
-    const Verdict turning_ends = apart(w, across, c, turned(a, root), turned(b, root));
-    if (turning_ends == Verdict::no) return Verdict::no;
-    const Verdict resting_ends = apart(u, across_turning, a, turned(c, back), turned(d, back));
-    if (resting_ends == Verdict::no) return Verdict::no;
-    return turning_ends == resting_ends ? turning_ends : Verdict::unclear;
+    const Decision turning_ends = apart(w, across, c, turned(a, root), turned(b, root));
+    if (turning_ends == Decision::no) return Decision::no;
+    const Decision resting_ends = apart(u, across_turning, a, turned(c, back), turned(d, back));
+    if (resting_ends == Decision::no) return Decision::no;
+    return turning_ends == resting_ends ? turning_ends : Decision::unclear;
   };
   const auto decide = [&](Branch branch, const Direction& root) {
     const Point across = across_at(root);
     return exact::edges_meet({a, b, c, d}, across, turned(across, {root.cosine, -root.sine}), branch);
   };
-  return touches_at(roots, window, inside, decide);
+  return events_at(roots, window, inside, decide);
 }
 
 }  // namespace condyle::motion

@@ -10,7 +10,7 @@ namespace {
 /// Sine of one degree: nearer to the plane's normal a direction does not say where it points on the plane.
 constexpr double smallest_sine = 0.0175;
 
-/// The shell in which the femur is neck alone, in head radii.
+/// The shell in which the femur is only neck, in head radii.
 constexpr double shell_inner = 1.2, shell_outer = 1.6;
 
 /// Length of the mean direction of the shell's surface: 1 for a thin rod, 0 for a sphere. A neck of half the
@@ -52,9 +52,9 @@ std::optional<NeckAxis> find_neck_axis(const TriMesh& mobile, double head_radius
     const Vec3 a = mobile.corner(t, 0), b = mobile.corner(t, 1), c = mobile.corner(t, 2);
     const auto in_shell = [&](const Vec3& p) { return p.norm() >= inner && p.norm() <= outer; };
     if (!in_shell(a) || !in_shell(b) || !in_shell(c)) continue;
-    const double share = (b - a).cross(c - a).norm() / 2;
+    const double triangle_area = (b - a).cross(c - a).norm() / 2;
     const Vec3 middle = (a + b + c) / 3;
-    moment += share * middle, distance += share * middle.norm(), area += share;
+    moment += triangle_area * middle, distance += triangle_area * middle.norm(), area += triangle_area;
   }
   if (!(area > 0) || moment.norm() < least_one_sided * distance) return std::nullopt;
   return NeckAxis{moment.normalized()};

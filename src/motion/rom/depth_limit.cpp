@@ -3,11 +3,14 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "contact/joint_contact.hpp"
+#include "motion/rom/even_joint_space.hpp"
+#include "radial/exact/ray_scan.hpp"
 
 namespace condyle {
 namespace {
 
-/// Parts of the first too deep step that are asked before halving.
+/// Parts of the first too deep step that are tried before halving.
 constexpr int parts_of_step = 10;
 
 void check(const AllowedDepth& allowed) {
@@ -29,7 +32,7 @@ std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
   std::optional<DeepVertex> deepest;
   for (std::size_t i = 0; i < inside.size(); ++i) {
     if (inside.state[i] != PointState::inside) continue;
-    const DeepVertex at{inside.point[i], inside.triangle[i], inside.depth[i]};
+    const DeepVertex at{inside.point[i], inside.triangle[i], inside.depth_mm[i]};
     if (!deepest || std::pair(-at.depth_mm, at.vertex) < std::pair(-deepest->depth_mm, deepest->vertex))
       deepest = at;
   }
@@ -37,11 +40,10 @@ std::optional<DeepVertex> deepest_vertex(const Penetrations& inside) {
 }
 
 Angle angle_to_ray(const Vec3& v, const TriMesh& mesh, Index triangle) {
-  return Angle::radians(triangle == no_index ? 0
-                                             : radial::angle_to_normal(v, radial::cone_of(mesh, triangle)));
+  return triangle == no_index ? Angle() : radial::angle_to_normal(v, radial::cone_of(mesh, triangle));
 }
 
-/// How far along its way a search got: allowed at `free`, too deep at `deep`.
+/// How far along its motion a search got: allowed at `free`, too deep at `deep`.
 struct Bracket {
   Angle free, deep;
 };
@@ -79,8 +81,9 @@ DeepestPlace DepthRange::deepest(const JointAngles& at) const {
   Pose X = pose_at(parts_->side, at);
   DeepestPlace deepest;
   if (parts_->allowed.follow_socket) {
-    deepest.shift = even_joint_space(parts_->contact, *parts_->articular, X, *parts_->allowed.follow_socket);
-    X.pretranslate(deepest.shift->translation);
+    deepest.shift =
+        motion::even_joint_space(parts_->contact, *parts_->articular, X, *parts_->allowed.follow_socket);
+    X.pretranslate(deepest.shift->translation_mm);
   }
   const Pose X_MF = X.inverse();
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
@@ -93,14 +96,14 @@ DeepestPlace DepthRange::deepest(const JointAngles& at) const {
     const Vec3 p = mobile.vertices[m->vertex], in_fixed = posed(X, p);
     deepest.depth_mm = m->depth_mm;
     deepest.ray_to_normal = angle_to_ray(in_fixed, fixed, m->triangle);
-    deepest.place =
-        ContactPlace{{FeatureKind::face, m->triangle}, {FeatureKind::vertex, m->vertex}, in_fixed, p};
+    deepest.contact =
+        ContactWitness{{FeatureKind::face, m->triangle}, {FeatureKind::vertex, m->vertex}, in_fixed, p};
   } else if (f) {
     const Vec3 p = fixed.vertices[f->vertex], in_mobile = posed(X_MF, p);
     deepest.depth_mm = f->depth_mm;
     deepest.ray_to_normal = angle_to_ray(in_mobile, mobile, f->triangle);
-    deepest.place =
-        ContactPlace{{FeatureKind::vertex, f->vertex}, {FeatureKind::face, f->triangle}, p, in_mobile};
+    deepest.contact =
+        ContactWitness{{FeatureKind::vertex, f->vertex}, {FeatureKind::face, f->triangle}, p, in_mobile};
   }
   return deepest;
 }
@@ -108,20 +111,21 @@ DeepestPlace DepthRange::deepest(const JointAngles& at) const {
 DepthLimit DepthRange::limit(const Motion& motion) const {
   check_motion(motion, parts_->kind);
   const AllowedDepth& allowed = parts_->allowed;
-  const double sign = motion.sense == TurnSense::positive ? 1 : -1;
-  const auto at = [&](Angle turn) { return deepest(turned_by(motion.start, motion.vary, turn * sign)); };
+  const double sign = sign_of(motion.sense);
+  const auto at = [&](Angle by) { return deepest(turned_by(motion.start, motion.vary, by * sign)); };
 
   DepthLimit out;
   out.limit.motion = motion;
-  out.limit.shortfall = allowed.tolerance;
+  out.limit.end.error_bound = allowed.tolerance;
   out.at_limit = at(Angle());
   out.start_depth_mm = out.at_limit.depth_mm;
   const auto finish = [&](LimitReason reason, Angle turned) {
-    out.limit.reason = reason, out.limit.turned = turned;
+    Limit& end = out.limit.end;
+    end.reason = reason, end.turned = turned;
     if (reason == LimitReason::end_of_range) return out;
-    out.limit.contact = out.at_limit.place;
-    out.limit.articular =
-        out.limit.contact && parts_->articular && parts_->articular->holds(out.limit.contact->fixed_point);
+    end.contact = out.at_limit.contact;
+    if (end.contact)
+      end.contact->articular = parts_->articular && parts_->articular->holds(end.contact->fixed_point);
     return out;
   };
   if (out.start_depth_mm > allowed.depth_mm) return finish(LimitReason::contact_at_start, Angle());
@@ -129,16 +133,16 @@ DepthLimit DepthRange::limit(const Motion& motion) const {
   // Moves the bracket to the first of `count` equal parts whose end is too deep; false where none is.
   const auto narrow = [&](Bracket& bracket, int count, EndOfBracket end) {
     const Angle from = bracket.free, width = bracket.deep - bracket.free;
-    const int asked = end == EndOfBracket::too_deep ? count - 1 : count;
-    for (int k = 1; k <= asked; ++k) {
-      const Angle turn = k == count ? bracket.deep : from + width * (static_cast<double>(k) / count);
-      DeepestPlace place = at(turn);
+    const int tried = end == EndOfBracket::too_deep ? count - 1 : count;
+    for (int k = 1; k <= tried; ++k) {
+      const Angle by = k == count ? bracket.deep : from + width * (static_cast<double>(k) / count);
+      DeepestPlace place = at(by);
       if (end == EndOfBracket::too_deep && place.depth_mm < out.at_limit.depth_mm) out.depth_grows = false;
       if (place.depth_mm > allowed.depth_mm) {
-        bracket.deep = turn;
+        bracket.deep = by;
         return true;
       }
-      bracket.free = turn;
+      bracket.free = by;
       out.at_limit = std::move(place);
     }
     return end == EndOfBracket::too_deep;
@@ -148,7 +152,7 @@ DepthLimit DepthRange::limit(const Motion& motion) const {
   if (!narrow(bracket, steps, EndOfBracket::unknown)) return finish(LimitReason::end_of_range, motion.range);
   narrow(bracket, parts_of_step, EndOfBracket::too_deep);
   while (bracket.deep - bracket.free > allowed.tolerance) narrow(bracket, 2, EndOfBracket::too_deep);
-  if (!out.at_limit.place) out.at_limit.place = at(bracket.deep).place;
+  if (!out.at_limit.contact) out.at_limit.contact = at(bracket.deep).contact;
   return finish(LimitReason::contact, bracket.free);
 }
 

@@ -48,7 +48,7 @@ class Order {
   bool by_columns_;
 };
 
-/// Share of point i in the integral over the axis, in degrees.
+/// Weight of point i in the integral over the axis, in degrees.
 double trapezoid(const GridAxis& axis, std::size_t i) {
   const std::size_t count = axis.count();
   if (count == 1) return 0;
@@ -68,7 +68,7 @@ JointAngles MapGrid::start_of(std::size_t point) const {
 }
 
 void check_grid(const MapGrid& grid, JointKind kind) {
-  if (kind != JointKind::ball) throw UsageError("map: a hinge turns in flexion alone");
+  if (kind != JointKind::ball) throw UsageError("map: a hinge turns only in flexion");
   if (grid.row.angle == grid.column.angle || grid.vary == grid.row.angle || grid.vary == grid.column.angle)
     throw UsageError("map: two angles are held and the third is varied; one is named twice");
   for (const GridAxis* axis : {&grid.row, &grid.column}) check_axis(*axis);
@@ -88,61 +88,58 @@ void check_grid(const MapGrid& grid, JointKind kind) {
   }
 }
 
-MotionMap::MotionMap(const MapGrid& of) : grid(of) {
-  check_grid(grid, JointKind::ball);
-  points.resize(grid.size());
+SearchWork MotionMap::work() const noexcept {
+  SearchWork sum;
+  for (const RotationLimits& point : points) sum += point.work;
+  return sum;
 }
 
-std::size_t MotionMap::done() const noexcept {
-  return static_cast<std::size_t>(
-      std::count_if(points.begin(), points.end(), [](const auto& point) { return point.has_value(); }));
+MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint) {
+  return *motion_map(grid, joint, {});
 }
 
-void fill(MotionMap& map, const RangeOfMotion& joint, const MapControl& control) {
-  check_grid(map.grid, joint.kind());
-  const Order order(map.grid);
-  std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < map.points.size(); ++i)
-    if (!map.points[order.point(i)]) missing.push_back(order.point(i));
-
-  std::size_t done = map.points.size() - missing.size();
+std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
+                                    const MapControl& control) {
+  check_grid(grid, joint.kind());
+  MotionMap map{grid, std::vector<RotationLimits>(grid.size())};
+  const Order order(grid);
+  std::size_t done = 0;
   std::mutex reporting;
-  const auto report = [&](const TurnWork& work) {
+  const auto report = [&] {
     const std::scoped_lock lock(reporting);
-    map.work += work;
     ++done;
     if (control.progress) control.progress(done, map.points.size());
   };
-  core::parallel_chunks(missing.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
+  core::parallel_chunks(map.points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) {
-      const std::size_t point = missing[i];
-      TurnEnds ends = joint.ends(map.grid.vary, map.grid.start_of(point), map.grid.range);
-      map.points[point] = MapPoint{std::move(ends.negative), std::move(ends.positive)};
-      report(ends.work);
+      const std::size_t point = order.point(i);
+      map.points[point] = joint.both_limits(grid.vary, grid.start_of(point), grid.range);
+      report();
     }
   });
+  if (done < map.points.size()) return std::nullopt;
+  return map;
 }
 
-std::optional<FreeVolume> free_volume(const MotionMap& map) {
-  if (!map.complete()) return std::nullopt;
+FreeVolume free_volume(const MotionMap& map) {
   const MapGrid& grid = map.grid;
   FreeVolume volume;
   const std::size_t columns = grid.column.count();
   volume.row_area_deg2.resize(grid.row.count());
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const MapPoint& point = *map.points[i];
-    const double width = (point.negative.turned + point.positive.turned).degrees();
-    const double column_share = trapezoid(grid.column, i % columns);
-    const double share = trapezoid(grid.row, i / columns) * column_share;
+    const Limit &negative = map.points[i].negative, &positive = map.points[i].positive;
+    const double width = (negative.turned + positive.turned).degrees();
+    const double column_weight = trapezoid(grid.column, i % columns);
+    const double weight = trapezoid(grid.row, i / columns) * column_weight;
     const JointAngles at = grid.start_of(i);
-    const double low = (at.adduction - point.negative.turned).radians();
-    const double high = (at.adduction + point.positive.turned).radians();
+    const double low = (at.adduction - negative.turned).radians();
+    const double high = (at.adduction + positive.turned).radians();
     const double weighted_width = grid.vary == JointAngle::adduction
                                       ? Angle::radians(std::sin(high) - std::sin(low)).degrees()
                                       : std::cos(at.adduction.radians()) * width;
-    volume.row_area_deg2[i / columns] += width * column_share;
-    volume.plain_deg3 += width * share;
-    volume.cosine_weighted_deg3 += weighted_width * share;
+    volume.row_area_deg2[i / columns] += width * column_weight;
+    volume.plain_deg3 += width * weight;
+    volume.cosine_weighted_deg3 += weighted_width * weight;
   }
   return volume;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "motion/rom/overlap.hpp"
 #include "motion/search/path_clearance.hpp"
 
 namespace condyle {
@@ -12,7 +13,7 @@ namespace {
 /// Finer ones would run into the rounding that clearance() allows for.
 constexpr Angle finest_tolerance = Angle::degrees(1e-6);
 
-/// Clearances need not be known beyond this; a path this free takes a dozen steps per turn.
+/// Clearances need not be known beyond this; a path this free takes a dozen steps per full turn.
 constexpr double far_enough = 0.5;
 
 /// Rounding of a step's length, relative; steps are shortened by it.
@@ -29,22 +30,22 @@ void check_path(std::span<const JointAngles> waypoints, Angle tolerance, JointKi
       const double value = angle_of(waypoints[i], angle).radians();
       if (!std::isfinite(value)) throw UsageError("path: an angle is not finite");
       if (kind == JointKind::hinge && angle != JointAngle::flexion && value != 0)
-        throw UsageError("path: a hinge turns in flexion alone");
+        throw UsageError("path: a hinge turns only in flexion");
       if (i > 0 && std::abs(value - angle_of(waypoints[i - 1], angle).radians()) > two_pi)
         throw UsageError("path: an angle changes by more than a full turn between two waypoints");
     }
   }
 }
 
-JointAngles between(const JointAngles& from, const JointAngles& to, double share) noexcept {
+JointAngles between(const JointAngles& from, const JointAngles& to, double fraction) noexcept {
   JointAngles at = from;
   for (const JointAngle angle : all_angles)
-    at = turned_by(at, angle, (angle_of(to, angle) - angle_of(from, angle)) * share);
+    at = turned_by(at, angle, (angle_of(to, angle) - angle_of(from, angle)) * fraction);
   return at;
 }
 
-/// At least the length of the way that M turns.
-double most_turn(const JointAngles& from, const JointAngles& to) noexcept {
+/// At least the angle by which M turns on the way.
+double most_rotation(const JointAngles& from, const JointAngles& to) noexcept {
   const auto change = [&](JointAngle angle) {
     return std::abs((angle_of(to, angle) - angle_of(from, angle)).radians());
   };
@@ -56,22 +57,23 @@ double most_turn(const JointAngles& from, const JointAngles& to) noexcept {
 
 struct PathFinder::Parts {
   RangeOfMotion range;
-  PartsOfJoint counting;
+  motion::PartsOfJoint counting;
   motion::FeatureTree fixed, mobile;
 
   Parts(const Joint& joint, const RangeOptions& options)
       : range(joint, options),
-        counting(parts_that_count(joint, options.overlap)),
+        counting(motion::parts_that_count(joint, options.overlap)),
         fixed(counting.fixed.mesh),
         mobile(counting.mobile.mesh) {}
 
-  ContactPlace place(const motion::Clearance& nearest, const Pose& X_FM) const {
+  ContactWitness witness(const motion::Clearance& nearest, const Pose& X_FM) const {
     const Index f = counting.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
     const Index m = counting.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
     return {{FeatureKind::face, f},
             {FeatureKind::face, m},
             nearest.fixed_point,
-            posed(X_FM.inverse(), nearest.mobile_point)};
+            posed(X_FM.inverse(), nearest.mobile_point),
+            range.articular_region() && range.articular_region()->holds(nearest.fixed_point)};
   }
 };
 
@@ -85,28 +87,28 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
   check_path(waypoints, tolerance, range.kind());
   PathLimit out;
   out.at = waypoints.front();
-  const TurnEnd start = range.ends(JointAngle::flexion, out.at, {Angle(), Angle()}).positive;
+  const Limit start = range.both_limits(JointAngle::flexion, out.at, {Angle(), Angle()}).positive;
   if (start.reason == LimitReason::contact_at_start) {
-    out.reason = start.reason, out.contact = start.contact, out.articular = start.articular;
+    out.reason = start.reason, out.contact = start.contact;
     return out;
   }
   for (out.segment = 0; out.segment + 1 < waypoints.size(); ++out.segment) {
     const JointAngles &from = waypoints[out.segment], &to = waypoints[out.segment + 1];
-    const double turn = most_turn(from, to) * (1 + step_slack);
-    for (out.share = 0; out.share < 1;) {
-      out.at = between(from, to, out.share);
+    const double rotation = most_rotation(from, to) * (1 + step_slack);
+    for (out.fraction = 0; out.fraction < 1;) {
+      out.at = between(from, to, out.fraction);
       const Pose X_FM = pose_at(range.side(), out.at);
       const auto nearest = clearance(parts_->fixed, parts_->mobile, X_FM, far_enough);
       ++out.poses;
-      if (nearest && nearest->turn < tolerance.radians()) {
+      if (nearest && nearest->rotation < tolerance.radians()) {
         out.reason = LimitReason::contact;
-        out.contact = parts_->place(*nearest, X_FM);
+        out.contact = parts_->witness(*nearest, X_FM);
         out.distance_mm = nearest->distance_mm;
-        out.articular = range.articular_region() && range.articular_region()->holds(nearest->fixed_point);
         return out;
       }
-      const double free = nearest ? nearest->turn : far_enough;
-      out.share = free < turn * (1 - out.share) ? out.share + free / turn * (1 - step_slack) : 1;
+      const double free = nearest ? nearest->rotation : far_enough;
+      out.fraction =
+          free < rotation * (1 - out.fraction) ? out.fraction + free / rotation * (1 - step_slack) : 1;
     }
   }
   out.segment = waypoints.size() - 2;

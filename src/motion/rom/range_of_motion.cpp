@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "motion/rom/overlap.hpp"
 #include "motion/search/first_contact.hpp"
 
 namespace condyle {
@@ -17,14 +18,20 @@ struct CountingBody {
   motion::FeatureTree tree;
   std::vector<Index> triangle_in_whole;
 
-  explicit CountingBody(PartOfMesh part)
-      : tree(part.mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
+  explicit CountingBody(motion::PartOfMesh part)
+      : tree(std::move(part.mesh)), triangle_in_whole(std::move(part.triangle_in_whole)) {}
 
   Feature in_whole(Feature feature) const noexcept {
     if (feature.kind == FeatureKind::face) feature.id = triangle_in_whole[feature.id];
     return feature;
   }
 };
+
+/// With the bodies in each other's role.
+ContactWitness exchanged(const ContactWitness& contact) {
+  return {contact.mobile_feature, contact.fixed_feature, contact.mobile_point, contact.fixed_point,
+          contact.articular};
+}
 
 /// The axis of internal rotation as seen in M, for F turning about it: adding d to the angle turns M by d
 /// about e3, and so F, seen from M, by -d about e3, which is d about -e3.
@@ -56,7 +63,7 @@ struct RangeOfMotion::Parts {
   };
   mutable tbb::enumerable_thread_specific<Worker> workers;
 
-  Parts(const Joint& joint, PartsOfJoint counting)
+  Parts(const Joint& joint, motion::PartsOfJoint counting)
       : kind(joint.kind),
         side(joint.side),
         left_out{counting.fixed.left_out(joint.fixed.mesh), counting.mobile.left_out(joint.mobile.mesh)},
@@ -75,55 +82,53 @@ struct RangeOfMotion::Parts {
     return *worker.adduction_table;
   }
 
-  TurnEnd end_of(const Limit& limit, JointAngle vary) const {
-    TurnEnd end{Angle::radians(std::abs(limit.angle.radians())), limit.reason, {}, false, limit.shortfall};
-    if (!limit.touching) return end;
-    const TouchingFeatures& t = *limit.touching;
-    end.contact = vary == JointAngle::internal_rotation
-                      ? ContactPlace{fixed.in_whole(t.features.turning), mobile.in_whole(t.features.resting),
-                                     t.turning_point, t.resting_point}
-                      : ContactPlace{fixed.in_whole(t.features.resting), mobile.in_whole(t.features.turning),
-                                     t.resting_point, t.turning_point};
-    end.articular = articular && articular->holds(end.contact->fixed_point);
-    return end;
+  /// As the search reports it, in terms of the whole bodies and labelled.
+  void finish(Limit& limit, JointAngle vary) const {
+    if (!limit.contact) return;
+    ContactWitness& contact = *limit.contact;
+    if (vary == JointAngle::internal_rotation) contact = exchanged(contact);
+    contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
+    contact.mobile_feature = mobile.in_whole(contact.mobile_feature);
+    contact.articular = articular && articular->holds(contact.fixed_point);
   }
 };
 
 RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options)
-    : parts_(std::make_unique<Parts>(joint, parts_that_count(joint, options.overlap))) {
+    : parts_(std::make_unique<Parts>(joint, motion::parts_that_count(joint, options.overlap))) {
   parts_->articular = options.articular ? options.articular : find_articular_region(joint);
-  if (options.overlap.contact_at_rest == ContactAtRest::accept) return;
-  const TurnEnds at_rest =
-      ends(JointAngle::flexion, options.overlap.rest, {.negative = Angle(), .positive = Angle()});
-  if (at_rest.positive.reason == LimitReason::contact_at_start)
-    throw ContactAtRestError(explain_overlap(joint, options.overlap.rest));
+  const OverlapOptions& overlap = options.overlap;
+  if (overlap.reference_contact == ReferenceContact::accept) return;
+  if (!both_limits(JointAngle::flexion, overlap.reference_pose, {Angle(), Angle()}).free_at_start())
+    throw ReferenceContactError(motion::explain_overlap(joint, overlap.reference_pose));
 }
 
 RangeOfMotion::~RangeOfMotion() = default;
 
-TurnEnds RangeOfMotion::ends(JointAngle vary, const JointAngles& start, const TurnRange& range) const {
+RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& start,
+                                          const RotationRange& range) const {
   assert(kind() == JointKind::ball || vary == JointAngle::flexion);
   Parts::Worker& worker = parts_->workers.local();
   const Pose X_FM = pose_at(side(), start);
-  const auto turn = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
+  const auto search = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
     body.start_at(table.frame(), X);
     return motion::first_contact(table, body, range);
   };
-  const TurnLimits limits =
-      vary == JointAngle::internal_rotation ? turn(parts_->rotation_table, worker.fixed, X_FM.inverse())
-      : vary == JointAngle::adduction ? turn(parts_->adduction_table(worker, start), worker.mobile, X_FM)
-                                      : turn(parts_->flexion_table, worker.mobile, X_FM);
-  return {parts_->end_of(limits.negative, vary), parts_->end_of(limits.positive, vary), limits.work};
+  RotationLimits limits =
+      vary == JointAngle::internal_rotation ? search(parts_->rotation_table, worker.fixed, X_FM.inverse())
+      : vary == JointAngle::adduction ? search(parts_->adduction_table(worker, start), worker.mobile, X_FM)
+                                      : search(parts_->flexion_table, worker.mobile, X_FM);
+  parts_->finish(limits.negative, vary);
+  parts_->finish(limits.positive, vary);
+  return limits;
 }
 
 MotionLimit RangeOfMotion::limit(const Motion& motion) const {
   check_motion(motion, kind());
-  const bool grows = motion.sense == TurnSense::positive;
-  const TurnRange range{.negative = grows ? Angle() : -motion.range,
-                        .positive = grows ? motion.range : Angle()};
-  TurnEnds both = ends(motion.vary, motion.start, range);
-  TurnEnd& end = grows ? both.positive : both.negative;
-  return {motion, end.turned, end.reason, std::move(end.contact), end.articular, end.shortfall};
+  const bool grows = motion.sense == RotationSense::positive;
+  const RotationRange range{.negative = grows ? Angle() : -motion.range,
+                            .positive = grows ? motion.range : Angle()};
+  RotationLimits both = both_limits(motion.vary, motion.start, range);
+  return {motion, std::move(grows ? both.positive : both.negative)};
 }
 
 std::vector<MotionLimit> RangeOfMotion::limits(std::span<const Motion> motions) const {

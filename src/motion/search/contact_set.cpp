@@ -26,20 +26,20 @@ Vec3 turned(const Triple<double>& p, double cosine, double sine) {
   return {p.x * cosine - p.y * sine, p.x * sine + p.y * cosine, p.z};
 }
 
-bool touch_at(const Corners& turning, const Corners& resting, double angle) {
+bool in_contact_at(const Corners& turning, const Corners& resting, double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   mesh::TriangleCorners a, b;
   for (std::size_t k = 0; k < 3; ++k) a[k] = turned(turning[k], c, s), b[k] = turned(resting[k], 1, 0);
   return mesh::triangles_intersect(a, b);
 }
 
-/// Angles at which the two may touch: those that make their arcs meet.
+/// Angles at which the two may meet: those that make their arcs meet.
 core::Arc window(const CylinderBox& turning, const CylinderBox& resting) {
   const double from = resting.theta - (turning.theta + turning.theta_width);
   return arc(from, from + turning.theta_width + resting.theta_width);
 }
 
-/// The angles at which some triangle of one subtree touches the other body.
+/// The angles at which some triangle of one subtree meets the other body.
 class Collector {
  public:
   Collector(const RotationTable& resting, const RotationTable& turning)
@@ -64,7 +64,7 @@ class Collector {
  private:
   /// What lies wholly in the angles already found has nothing to add.
   bool may_add(const CylinderBox& turning, const CylinderBox& resting) const {
-    return turning.shares_profile(resting) && !found_.contains(window(turning, resting));
+    return turning.overlaps_profile(resting) && !found_.contains(window(turning, resting));
   }
 
   void push(Index turning, Index resting) {
@@ -88,27 +88,27 @@ class Collector {
     if (events_.empty()) {
       // Without an event the state never changes; a pair away from the axis is apart at some angle.
       const auto all = window(turning_.features().triangle_boxes[s], resting_.features().triangle_boxes[t]);
-      if (all.width.radians() >= two_pi && touch_at(a, b, 0)) add(arc(0, two_pi));
+      if (all.width.radians() >= two_pi && in_contact_at(a, b, 0)) add(arc(0, two_pi));
       return;
     }
     std::sort(events_.begin(), events_.end(),
-              [](const Touch& x, const Touch& y) { return x.angle < y.angle; });
+              [](const ContactEvent& x, const ContactEvent& y) { return x.angle < y.angle; });
     for (std::size_t i = 0; i < events_.size(); ++i) {
       const bool is_last = i + 1 == events_.size();
-      const Touch here = events_[i];
-      Touch next = is_last ? events_[0] : events_[i + 1];
+      const ContactEvent here = events_[i];
+      ContactEvent next = is_last ? events_[0] : events_[i + 1];
       if (is_last) next.angle += two_pi;
       const double from = here.angle - here.error, to = next.angle + next.error;
       const bool joined =
-          next.angle - here.angle < narrow_gap || touch_at(a, b, (here.angle + next.angle) / 2);
+          next.angle - here.angle < narrow_gap || in_contact_at(a, b, (here.angle + next.angle) / 2);
       add(joined ? arc(from, to) : arc(from, here.angle + here.error));
     }
   }
 
   void find_events(const Corners& a, const Corners& b) {
     events_.clear();
-    const auto keep = [&](const Touches& touches) {
-      events_.insert(events_.end(), touches.begin(), touches.end());
+    const auto keep = [&](const ContactEvents& events) {
+      events_.insert(events_.end(), events.begin(), events.end());
     };
     for (std::size_t k = 0; k < 3; ++k) {
       keep(vertex_meets_face(a[k], b));
@@ -129,7 +129,7 @@ class Collector {
   const RotationTable& resting_;
   const RotationTable& turning_;
   std::vector<NodePair> open_;
-  std::vector<Touch> events_;
+  std::vector<ContactEvent> events_;
   std::vector<core::Arc> fresh_;
   core::ArcSet found_;
 };

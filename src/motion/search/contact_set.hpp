@@ -5,21 +5,19 @@
 
 namespace condyle::motion {
 
-/// All angles of a full turn at which the surfaces of the two bodies touch.
+/// All angles of a full turn at which the surfaces of the two bodies meet.
 ///
-///        event        event                 event  event
-///   ------(=============)---------------------(======)------    one pair of triangles: the state changes at
-///   events
-///   ------(======================)------------(======)------    only, and the set is the union over all
-///   pairs
+///           event         event            event event
+///     --------(=============)----------------(=====)-------   one pair of triangles: its state changes
+///     --------(=====================)--------(=====)-------   at events only; the union over all pairs
 ///
 /// Both bodies are placed in one frame; the turning one is at angle 0 there. Ends are events of
 /// docs/mathematics.md, section 5, widened by their error bound (below 1e-12 rad): the set holds every angle
 /// of contact. Between two events of a pair one exact test of the turned and rounded triangles decides. Gaps
 /// between events of a pair below 1e-9 rad count as contact.
 ///
-/// Surfaces alone: a body turning inside the other's solid without touching is free here. Triangles of zero
-/// area meet nothing: their points belong to their neighbours. Edges that slide along each other without
+/// Only surfaces count: a body that turns inside the other's solid and does not meet its surface is free here.
+/// Triangles of zero area meet nothing: their points belong to their neighbours. Edges that slide along each other without
 /// going in (mirrored rulings of one hyperboloid) may be reported by the ends of their contact only.
 ///
 /// Threads share the work; the result does not depend on how many.

@@ -4,13 +4,14 @@
 #include <cmath>
 
 namespace condyle::motion {
+
 FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_closed()) {
   count_vertices();
   gather_edges(mesh::edges_of(mesh));
-  pieces_ = base_.one_vertex_of_each_piece();
+  component_vertices_ = base_.one_vertex_of_each_piece();
 }
 
-/// Vertices are placed in the order in which triangles first use them.
+/// The order of vertices is that in which triangles first use them.
 void FeatureTree::count_vertices() {
   vertices_before_.reserve(triangles().size() + 1);
   vertices_before_.push_back(0);

@@ -6,17 +6,18 @@
 #include "condyle/mesh.hpp"
 #include "mesh/edge_table.hpp"
 #include "mesh/triangle_tree.hpp"
-#include "motion/events/turn_function.hpp"
+#include "motion/events/rotation_function.hpp"
 
 namespace condyle::motion {
 
 /// A tree over the triangles, edges and vertices of a mesh. Built once per mesh in its own frame; good for
 /// every axis and pose.
 ///
-/// Each vertex and each edge belongs to the first triangle that has it, in the order of the tree's places:
+/// Each vertex and each edge belongs to the first triangle that has it, in tree order:
 /// nodes own ranges of all three, and a pair of leaves meets every pair of features exactly once.
 ///
-/// Vertices no triangle uses are left out: they are on no surface.
+/// A slot is the number of a triangle, edge or vertex in that order, beside its number in the mesh. Vertices no
+/// triangle uses are left out: they are on no surface.
 class FeatureTree {
  public:
   using Node = mesh::TriangleTree::Node;
@@ -30,7 +31,7 @@ class FeatureTree {
   const std::vector<Node>& nodes() const noexcept { return base_.nodes(); }
   bool empty() const noexcept { return base_.empty(); }
 
-  /// Corners and ends are places of vertices: corners in the mesh's order, ends in ascending order of the
+  /// Corners and ends are slots of vertices: corners in the mesh's order, ends in ascending order of the
   /// mesh's numbers, so that what is computed from a feature does not depend on the tree.
   const std::vector<Triangle>& triangles() const noexcept { return base_.triangles(); }
   const std::vector<std::array<Index, 2>>& edges() const noexcept { return edges_; }
@@ -45,13 +46,13 @@ class FeatureTree {
   }
 
   /// Numbers in the mesh the tree was built from.
-  Index mesh_triangle(Index place) const noexcept { return base_.mesh_triangles()[place]; }
-  Index mesh_vertex(Index place) const noexcept { return base_.mesh_vertices()[place]; }
+  Index mesh_triangle(Index slot) const noexcept { return base_.mesh_triangles()[slot]; }
+  Index mesh_vertex(Index slot) const noexcept { return base_.mesh_vertices()[slot]; }
 
-  /// Whether the mesh bounds a solid: every edge is used as often in one direction as in the other.
+  /// Whether the mesh is closed, and so has an inside.
   bool is_closed() const noexcept { return is_closed_; }
-  /// The place of one vertex of each connected piece.
-  const std::vector<Index>& pieces() const noexcept { return pieces_; }
+  /// The slot of one vertex of each connected component.
+  const std::vector<Index>& component_vertices() const noexcept { return component_vertices_; }
 
  private:
   void count_vertices();
@@ -59,8 +60,8 @@ class FeatureTree {
 
   mesh::TriangleTree base_;
   std::vector<std::array<Index, 2>> edges_;
-  std::vector<Index> edges_before_, vertices_before_;  ///< One entry per triangle, plus one.
-  std::vector<Index> pieces_;
+  std::vector<Index> edges_before_, vertices_before_;  ///< one entry per triangle, plus one
+  std::vector<Index> component_vertices_;
   bool is_closed_;
 };
 

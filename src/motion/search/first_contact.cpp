@@ -1,5 +1,7 @@
 #include "motion/search/first_contact.hpp"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -7,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "condyle/error.hpp"
 #include "motion/search/node_pairs.hpp"
 #include "motion/search/start_contact.hpp"
 
@@ -20,48 +23,40 @@ Vec3 vec3(const Point& p) noexcept {
   return {p.x, p.y, p.z};
 }
 
-/// Added to the best angle when regions are left out: more than any touch's error and the slack of all boxes,
-/// so that whether a pair is looked at never decides between pairs that touch at the same angle.
+/// Added to the best angle when regions are left out: more than any event's error and the slack of all boxes,
+/// so that whether a pair is looked at never decides between pairs that meet at the same angle.
 constexpr double keep_ties = 1e-10;
 
-/// A pair of features by places, ordered as it was found to touch.
+/// A pair of features in contact, by their slots in tree order.
 struct Found {
-  double angle;  ///< Size of the turn, less its error: never past the true one.
+  double angle;  ///< size of the rotation, less its error: never past the true one
   double error;
   FeaturePair features;
   FeatureKind turning_kind, resting_kind;
   Index turning, resting;
 };
 
-Feature vertex_feature(const FeatureTree& tree, Index place) {
-  return {FeatureKind::vertex, tree.mesh_vertex(place)};
-}
-Feature edge_feature(const FeatureTree& tree, Index place) {
-  const auto [a, b] = tree.edges()[place];
-  return {FeatureKind::edge, tree.mesh_vertex(a), tree.mesh_vertex(b)};
-}
-Feature face_feature(const FeatureTree& tree, Index place) {
-  return {FeatureKind::face, tree.mesh_triangle(place)};
-}
-
-Feature feature(const FeatureTree& tree, FeatureKind kind, Index place) {
+/// The feature in this slot, by its numbers in the mesh.
+Feature feature(const FeatureTree& tree, FeatureKind kind, Index slot) {
   switch (kind) {
     case FeatureKind::vertex:
-      return vertex_feature(tree, place);
-    case FeatureKind::edge:
-      return edge_feature(tree, place);
+      return {kind, tree.mesh_vertex(slot)};
+    case FeatureKind::edge: {
+      const auto [a, b] = tree.edges()[slot];
+      return {kind, tree.mesh_vertex(a), tree.mesh_vertex(b)};
+    }
     case FeatureKind::face:
       break;
   }
-  return face_feature(tree, place);
+  return {FeatureKind::face, tree.mesh_triangle(slot)};
 }
 
 /// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest.
 class Search {
  public:
-  Search(const RotationTable& resting, TurningBody& turning, TurnDirection direction, double range,
-         TurnWork& work)
-      : resting_(resting), turning_(turning), direction_(direction), best_angle_(range), work_(work) {
+  Search(const RotationTable& resting, TurningBody& turning, RotationSense sense, double range,
+         SearchWork& work)
+      : resting_(resting), turning_(turning), sense_(sense), best_angle_(range), work_(work) {
     narrow_window();
   }
 
@@ -89,13 +84,13 @@ class Search {
   void push(Index turning, Index resting) {
     ++work_.node_pairs;
     const CylinderBox &m = turning_.node_box(turning), &f = resting_.node_box(resting);
-    if (!m.shares_profile(f)) return;
-    const double gap = gap_in_turn(m, f, direction_);
+    if (!m.overlaps_profile(f)) return;
+    const double gap = gap_in_sense(m, f, sense_);
     if (gap <= reach_) open_.push_back({turning, resting, gap});
   }
 
   bool within_reach(const CylinderBox& turning, const CylinderBox& resting) const noexcept {
-    return turning.shares_profile(resting) && gap_in_turn(turning, resting, direction_) <= reach_;
+    return turning.overlaps_profile(resting) && gap_in_sense(turning, resting, sense_) <= reach_;
   }
 
   /// A feature is in the box of the triangle that it belongs to: most triangles of a leaf are out of reach of
@@ -147,18 +142,18 @@ class Search {
     }
   }
 
-  void record(const Touches& touches, FeatureKind turning_kind, Index turning, FeatureKind resting_kind,
+  void record(const ContactEvents& events, FeatureKind turning_kind, Index turning, FeatureKind resting_kind,
               Index resting) {
     ++work_.events;
-    work_.exact_decisions += touches.exact_decisions;
-    for (const Touch& touch : touches) {
-      const double size = direction_ == TurnDirection::positive ? touch.angle : two_pi - touch.angle;
-      const double angle = std::max(0.0, size - touch.error);
+    work_.exact_decisions += events.exact_decisions;
+    for (const ContactEvent& event : events) {
+      const double size = sense_ == RotationSense::positive ? event.angle : two_pi - event.angle;
+      const double angle = std::max(0.0, size - event.error);
       if (angle > best_angle_) continue;
       const FeaturePair features{feature(turning_.tree(), turning_kind, turning),
                                  feature(resting_.tree(), resting_kind, resting)};
       if (found_ && std::tie(found_->angle, found_->features) <= std::tie(angle, features)) continue;
-      found_ = Found{angle, touch.error, features, turning_kind, resting_kind, turning, resting};
+      found_ = Found{angle, event.error, features, turning_kind, resting_kind, turning, resting};
       best_angle_ = angle;
       narrow_window();
     }
@@ -167,16 +162,16 @@ class Search {
   void narrow_window() {
     reach_ = best_angle_ + keep_ties;
     window_ =
-        direction_ == TurnDirection::positive ? TurnWindow::forward(reach_) : TurnWindow::backward(reach_);
+        sense_ == RotationSense::positive ? AngleWindow::forward(reach_) : AngleWindow::backward(reach_);
   }
 
   const RotationTable& resting_;
   TurningBody& turning_;
-  TurnDirection direction_;
+  RotationSense sense_;
   double best_angle_;
   double reach_ = 0;
-  TurnWindow window_;
-  TurnWork& work_;
+  AngleWindow window_;
+  SearchWork& work_;
   std::vector<NodePair> open_;
   std::optional<Found> found_;
 };
@@ -194,10 +189,10 @@ Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   return a + std::clamp(s, 0.0, 1.0) * u;
 }
 
-/// Where the two features touch after the turn: as a point of either body in its own frame.
-TouchingFeatures touching(const RotationTable& resting, TurningBody& turning, const Found& found,
-                          double turn) {
-  const auto on_turning = [&](Index v) { return about_axis(vec3(turning.placed_vertex(v)), turn); };
+/// Where the two features meet after the rotation: as a point of either body in its own frame.
+ContactWitness witness(const RotationTable& resting, TurningBody& turning, const Found& found,
+                       double rotation) {
+  const auto on_turning = [&](Index v) { return about_axis(vec3(turning.placed_vertex(v)), rotation); };
   const auto on_resting = [&](Index v) { return vec3(resting.features().points[v]); };
   Vec3 m, f;
   if (found.turning_kind == FeatureKind::vertex) {
@@ -210,43 +205,43 @@ TouchingFeatures touching(const RotationTable& resting, TurningBody& turning, co
     const Vec3 a = on_turning(pa), b = on_turning(pb), c = on_resting(pc), d = on_resting(pd);
     m = nearest_to_line(a, b, c, d), f = nearest_to_line(c, d, a, b);
   }
-  return {found.features, turning.to_own(about_axis(m, -turn)), resting.frame().from_axis(f)};
+  return {found.features.resting, found.features.turning, resting.frame().from_axis(f),
+          turning.to_own(about_axis(m, -rotation))};
 }
 
-Limit limit_in(TurnDirection direction, double range, const RotationTable& resting, TurningBody& turning,
-               TurnWork& work) {
-  const double sign = static_cast<double>(direction);
+/// Without a sign, that of a zero included.
+Angle size_of(Angle range) noexcept {
+  return Angle::radians(std::abs(range.radians()));
+}
+
+Limit limit_in(RotationSense sense, Angle range, const RotationTable& resting, TurningBody& turning,
+               SearchWork& work) {
+  const Angle size = size_of(range);
   std::optional<Found> found;
-  if (range > 0) found = Search(resting, turning, direction, range, work).run();
-  if (!found) return {Angle::radians(sign * range), LimitReason::end_of_range, std::nullopt, Angle()};
-  const double turn = sign * found->angle;
-  return {Angle::radians(turn), LimitReason::contact, touching(resting, turning, *found, turn),
-          Angle::radians(2 * found->error)};
+  if (size > Angle()) found = Search(resting, turning, sense, size.radians(), work).run();
+  if (!found) return {size};
+  return {Angle::radians(found->angle), LimitReason::contact,
+          witness(resting, turning, *found, sign_of(sense) * found->angle), Angle::radians(2 * found->error)};
 }
 
-TurnLimits both(const Limit& limit, const TurnWork& work) {
+RotationLimits in_contact_at_start(const std::optional<ContactWitness>& contact, const SearchWork& work) {
+  const Limit limit{Angle(), LimitReason::contact_at_start, contact, Angle()};
   return {limit, limit, work};
 }
 
 }  // namespace
 
-TurnLimits first_contact(const RotationTable& resting, TurningBody& turning, const TurnRange& range) {
+RotationLimits first_contact(const RotationTable& resting, TurningBody& turning, const RotationRange& range) {
   assert(range.negative.radians() <= 0 && range.positive.radians() >= 0);
   assert(range.negative.radians() >= -two_pi && range.positive.radians() <= two_pi);
-  TurnWork work;
-  if (resting.tree().empty() || turning.tree().empty()) {
-    return {{range.negative, LimitReason::end_of_range, std::nullopt, Angle()},
-            {range.positive, LimitReason::end_of_range, std::nullopt, Angle()},
-            work};
-  }
-  if (const auto faces = faces_touching_at_start(resting, turning, work)) {
-    return both({Angle(), LimitReason::contact_at_start, faces, Angle()}, work);
-  }
-  if (one_inside_other_at_start(resting, turning)) {
-    return both({Angle(), LimitReason::contact_at_start, std::nullopt, Angle()}, work);
-  }
-  const Limit negative = limit_in(TurnDirection::negative, -range.negative.radians(), resting, turning, work);
-  const Limit positive = limit_in(TurnDirection::positive, range.positive.radians(), resting, turning, work);
+  SearchWork work;
+  if (resting.tree().empty() || turning.tree().empty())
+    return {{size_of(range.negative)}, {size_of(range.positive)}, work};
+  if (const auto faces = faces_in_contact_at_start(resting, turning, work))
+    return in_contact_at_start(faces, work);
+  if (one_inside_other_at_start(resting, turning)) return in_contact_at_start(std::nullopt, work);
+  const Limit negative = limit_in(RotationSense::negative, range.negative, resting, turning, work);
+  const Limit positive = limit_in(RotationSense::positive, range.positive, resting, turning, work);
   return {negative, positive, work};
 }
 
@@ -254,13 +249,41 @@ TurnLimits first_contact(const RotationTable& resting, TurningBody& turning, con
 
 namespace condyle {
 
-TurnWork& TurnWork::operator+=(const TurnWork& more) noexcept {
+SearchWork& SearchWork::operator+=(const SearchWork& more) noexcept {
   node_pairs += more.node_pairs;
   leaf_pairs += more.leaf_pairs;
   events += more.events;
   exact_decisions += more.exact_decisions;
   triangle_tests += more.triangle_tests;
   return *this;
+}
+
+struct FirstContact::Parts {
+  motion::FeatureTree fixed, mobile;
+  motion::RotationTable table;
+  mutable tbb::enumerable_thread_specific<motion::TurningBody> turning;
+
+  Parts(const Mesh& fixed_mesh, const Mesh& mobile_mesh, const AxisFrame& axis_F)
+      : fixed(fixed_mesh),
+        mobile(mobile_mesh),
+        table(fixed, axis_F),
+        turning([this] { return motion::TurningBody(mobile); }) {}
+};
+
+FirstContact::FirstContact(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F)
+    : parts_(std::make_unique<Parts>(fixed, mobile, axis_F)) {}
+
+FirstContact::~FirstContact() = default;
+FirstContact::FirstContact(FirstContact&&) noexcept = default;
+FirstContact& FirstContact::operator=(FirstContact&&) noexcept = default;
+
+RotationLimits FirstContact::limits(const Pose& X_FM, const RotationRange& range) const {
+  const double low = range.negative.radians(), high = range.positive.radians();
+  if (!(low <= 0 && low >= -two_pi && high >= 0 && high <= two_pi))
+    throw UsageError("first contact: a range goes from at most a full turn back over 0 to a full turn on");
+  motion::TurningBody& turning = parts_->turning.local();
+  turning.start_at(parts_->table.frame(), X_FM);
+  return motion::first_contact(parts_->table, turning, range);
 }
 
 }  // namespace condyle

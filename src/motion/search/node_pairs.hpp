@@ -4,7 +4,7 @@
 
 namespace condyle::motion {
 
-/// A pair of nodes still to be looked at, and the smallest turn after which they can touch.
+/// A pair of nodes still to be looked at, and the smallest rotation after which they can meet.
 struct NodePair {
   Index turning, resting;
   double gap;

@@ -47,7 +47,7 @@ Vec3 nearest_on_triangle(const Vec3& p, const Corners3& t) noexcept {
 }
 
 /// Of two segments. The nearest pair either lies inside both lines, where the connecting line is at a right
-/// angle to both, or holds an end: ends against triangles are asked for elsewhere, but an end's nearest point
+/// angle to both, or holds an end: ends against triangles are compared elsewhere, but an end's nearest point
 /// on the other segment is cheap.
 NearestPoints between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
   const Vec3 u = b - a, w = d - c, across = u.cross(w);
@@ -93,7 +93,7 @@ Radii radii_of(const Corners3& t) noexcept {
 class Search {
  public:
   Search(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM, double enough)
-      : fixed_(fixed), mobile_(mobile), X_FM_(X_FM), best_turn_(enough) {}
+      : fixed_(fixed), mobile_(mobile), X_FM_(X_FM), best_rotation_(enough) {}
 
   std::optional<Clearance> run() {
     if (fixed_.empty() || mobile_.empty()) return std::nullopt;
@@ -101,7 +101,7 @@ class Search {
     while (!open_.empty()) {
       const NodePair pair = open_.back();
       open_.pop_back();
-      if (pair.gap >= best_turn_) continue;
+      if (pair.gap >= best_rotation_) continue;
       const auto &m = mobile_.nodes()[pair.turning], &f = fixed_.nodes()[pair.resting];
       if (m.is_leaf() && f.is_leaf()) {
         compare_leaves(m, f);
@@ -119,11 +119,11 @@ class Search {
   void push(Index mobile, Index fixed) {
     const auto &m = mobile_.nodes()[mobile], &f = fixed_.nodes()[fixed];
     if (!Radii{m.nearest, m.farthest}.meet({f.nearest, f.farthest})) return;
-    const NodeBall at_rest = ball_of(m), of_fixed = ball_of(f);
-    const double apart = (posed(X_FM_, at_rest.centre) - of_fixed.centre).norm() - at_rest.radius -
+    const NodeBall of_mobile = ball_of(m), of_fixed = ball_of(f);
+    const double apart = (posed(X_FM_, of_mobile.centre) - of_fixed.centre).norm() - of_mobile.radius -
                          of_fixed.radius - rounding_mm;
-    const double turn = std::max(apart, 0.0) / m.farthest;
-    if (turn < best_turn_) open_.push_back({mobile, fixed, turn});
+    const double rotation = std::max(apart, 0.0) / m.farthest;
+    if (rotation < best_rotation_) open_.push_back({mobile, fixed, rotation});
   }
 
   Corners3 corners(const FeatureTree& tree, Index t) const {
@@ -141,17 +141,17 @@ class Search {
         if (!radii.meet(radii_of(fixed))) continue;
         const NearestPoints nearest = between_triangles(fixed, placed);
         const double distance = std::sqrt(nearest.squared_distance);
-        const double turn = std::max(distance - rounding_mm, 0.0) / radii.high;
-        if (turn >= best_turn_) continue;
-        best_turn_ = turn;
-        found_ = Clearance{turn, distance, t, s, nearest.a, nearest.b};
+        const double rotation = std::max(distance - rounding_mm, 0.0) / radii.high;
+        if (rotation >= best_rotation_) continue;
+        best_rotation_ = rotation;
+        found_ = Clearance{rotation, distance, t, s, nearest.a, nearest.b};
       }
     }
   }
 
   const FeatureTree &fixed_, &mobile_;
   const Pose& X_FM_;
-  double best_turn_;
+  double best_rotation_;
   std::vector<NodePair> open_;
   std::optional<Clearance> found_;
 };

@@ -75,7 +75,7 @@ TurningBody::TurningBody(const FeatureTree& tree)
 void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
   frame_ = frame_R;
   X_RT_ = X_RT;
-  turn_size_ = (frame_R.rotation() * X_RT.linear()).cwiseAbs();
+  rotation_size_ = (frame_R.rotation() * X_RT.linear()).cwiseAbs();
   // Two changes of frame, each three products and three sums of numbers of this size, for the centre and for
   // the point.
   const double size = 3 * extent_ + X_RT.translation().lpNorm<1>() + frame_R.point().lpNorm<1>();
@@ -108,7 +108,7 @@ const CylinderBox& TurningBody::node_box(Index i) {
   } else {
     const auto vec3 = [](const std::array<float, 4>& v) { return Vec3(v[0], v[1], v[2]); };
     const Vec3 centre = frame_.to_axis(posed(X_RT_, vec3(node.centre)));
-    const Vec3 half = turn_size_ * vec3(node.half) + Vec3::Constant(posing_slack_);
+    const Vec3 half = rotation_size_ * vec3(node.half) + Vec3::Constant(posing_slack_);
     box = box_of_box(triple(centre), triple(half));
     box.r_lo = std::max(box.r_lo, node.nearest - origins_apart_);
     box.r_hi = std::min(box.r_hi, node.farthest + origins_apart_);

@@ -9,18 +9,18 @@
 #include "motion/events/rotation_event.hpp"
 #include "motion/search/feature_tree.hpp"
 
-/// The two bodies of a turn about one axis. In coordinates (distance from the axis, height, direction) a turn
+/// The two bodies of a rotation about one axis. In coordinates (distance from the axis, height, direction) it
 /// only shifts the direction, so both trees of features carry boxes in those coordinates, and "what can be
 /// met, and after which angle at the earliest" is a comparison of boxes.
 ///
 /// The table differs from the ring table of the tangential method (docs/mathematics.md, section 4), which
-/// lists triangles by cells of the profile: there one vertex asks for its whole circle; here whole regions of
+/// lists triangles by cells of the profile: there one vertex needs its whole circle; here whole regions of
 /// both bodies are compared first, and most of the circle is never looked at.
 
 namespace condyle::motion {
 
-/// Points and boxes of a feature tree about an axis, numbered by places. Room for all is made at once and not
-/// written to before it is needed: a body that turns seldom needs much of it.
+/// Points and boxes of a feature tree about an axis, by slots. Memory for all is taken at once and not written
+/// to before it is needed: a body that turns seldom needs much of it.
 struct CylinderFeatures {
   std::unique_ptr<Triple<double>[]> points;
   std::unique_ptr<CylinderPoint[]> at;
@@ -45,8 +45,8 @@ struct CylinderFeatures {
   }
 };
 
-/// A body placed about one axis, all boxes ready: for the one that rests, built once, then asked from many
-/// start poses and many threads.
+/// A body placed about one axis, all boxes ready: for the one that rests, built once and then used from many
+/// start poses and by many threads.
 class RotationTable {
  public:
   /// The frame is given in the coordinates X_RT takes the mesh to: its own, or those of the other body. A
@@ -66,7 +66,7 @@ class RotationTable {
   CylinderFeatures features_;
 };
 
-/// The body that turns, at the pose from which it starts. Boxes are made when first asked for, so that a new
+/// The body that turns, at the pose from which it starts. Boxes are made when first needed, so that a new
 /// pose costs only what the search looks at. One per thread.
 class TurningBody {
  public:
@@ -84,7 +84,7 @@ class TurningBody {
   const CylinderBox& node_box(Index node);
   /// All features, the triangles of this leaf and their corners being ready.
   const CylinderFeatures& leaf_features(Index node);
-  /// Those that have been asked for.
+  /// Those that are ready so far.
   const CylinderFeatures& features() const noexcept { return features_; }
   const Triple<double>& placed_vertex(Index vertex) {
     place_vertex(vertex);
@@ -98,7 +98,7 @@ class TurningBody {
   AxisFrame frame_;
   Pose X_RT_ = Pose::Identity();
   /// Sizes of the entries of the rotation from the body's own frame to that of the axis.
-  Eigen::Matrix3d turn_size_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d rotation_size_ = Eigen::Matrix3d::Zero();
   /// More than posing a box's centre and the points in it may have rounded them apart, in mm.
   double posing_slack_ = 0;
   /// No point is farther from the origin of the axis frame than from that of its own frame by more than this,

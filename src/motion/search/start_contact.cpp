@@ -62,11 +62,11 @@ mesh::TriangleCorners corners_of(const FeatureTree& tree, const CylinderFeatures
 
 }  // namespace
 
-std::optional<TouchingFeatures> faces_touching_at_start(const RotationTable& resting, TurningBody& turning,
-                                                        TurnWork& work) {
+std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable& resting, TurningBody& turning,
+                                                        SearchWork& work) {
   const FeatureTree &mt = turning.tree(), &ft = resting.tree();
   const auto near_now = [](const CylinderBox& a, const CylinderBox& b) {
-    return a.shares_profile(b) && arcs_meet(a, b);
+    return a.overlaps_profile(b) && arcs_meet(a, b);
   };
   std::vector<NodePair> open;
   const auto push = [&](Index m, Index f) {
@@ -90,10 +90,10 @@ std::optional<TouchingFeatures> faces_touching_at_start(const RotationTable& res
         const auto a = corners_of(mt, mf, s), b = corners_of(ft, ff, t);
         if (!mesh::triangles_intersect(a, b)) continue;
         const Vec3 p = common_point(a, b);
-        return TouchingFeatures{
-            {{FeatureKind::face, mt.mesh_triangle(s)}, {FeatureKind::face, ft.mesh_triangle(t)}},
-            turning.to_own(p),
-            resting.frame().from_axis(p)};
+        return ContactWitness{{FeatureKind::face, ft.mesh_triangle(t)},
+                              {FeatureKind::face, mt.mesh_triangle(s)},
+                              resting.frame().from_axis(p),
+                              turning.to_own(p)};
       }
     }
   }
@@ -106,8 +106,10 @@ bool one_inside_other_at_start(const RotationTable& resting, TurningBody& turnin
   const auto inside_turning = [&](Index v) {
     return winding_number(turning, resting.features().points[v]) > 0;
   };
-  return (ft.is_closed() && std::any_of(mt.pieces().begin(), mt.pieces().end(), inside_resting)) ||
-         (mt.is_closed() && std::any_of(ft.pieces().begin(), ft.pieces().end(), inside_turning));
+  return (ft.is_closed() &&
+          std::any_of(mt.component_vertices().begin(), mt.component_vertices().end(), inside_resting)) ||
+         (mt.is_closed() &&
+          std::any_of(ft.component_vertices().begin(), ft.component_vertices().end(), inside_turning));
 }
 
 }  // namespace condyle::motion

@@ -5,16 +5,16 @@
 #include "condyle/first_contact.hpp"
 #include "motion/search/rotation_table.hpp"
 
-/// Whether two bodies are in contact before any turn.
+/// Whether two bodies are in contact before any rotation.
 
 namespace condyle::motion {
 
-/// A pair of faces that share a point at the start, or nothing. Exact: touching counts.
-std::optional<TouchingFeatures> faces_touching_at_start(const RotationTable& resting, TurningBody& turning,
-                                                        TurnWork& work);
+/// A pair of faces that have a point in common at the start, or nothing. Exact.
+std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable& resting, TurningBody& turning,
+                                                        SearchWork& work);
 
-/// Whether a connected piece of one closed body is inside the other's solid. Asked where the surfaces do not
-/// touch: a piece is then inside with every vertex or with none.
+/// Whether a connected component of one body is inside the other's solid, for surfaces that do not meet: a
+/// component is then inside with every vertex or with none.
 bool one_inside_other_at_start(const RotationTable& resting, TurningBody& turning);
 
 }  // namespace condyle::motion

@@ -20,13 +20,6 @@ struct CellOverlap {
   double min_radius, max_radius;
 };
 
-/// Which of the two maps from directions to cells.
-enum class DirectionMapKind {
-  cartesian,  ///< the paper's: (x/R, y/R, sign z), N x N x 2 cells, uneven near z = 0
-  cube,       ///< the largest |component| picks one of six faces, the others divided by it are the cell
-              ///< coordinates
-};
-
 /// The paper's normalised Cartesian map: a direction d = v / |v| falls into cell (d.x, d.y) of an N x N grid
 /// over [-1, 1]^2, one grid for d.z >= 0 and one for d.z < 0.
 ///

@@ -52,9 +52,9 @@ double distance_along_ray(const Vec3& v, const Cone& t) {
   return relative * radius;
 }
 
-double angle_to_normal(const Vec3& v, const Cone& t) noexcept {
+Angle angle_to_normal(const Vec3& v, const Cone& t) noexcept {
   const Vec3 normal = (t.b - t.a).cross(t.c - t.a);
-  return std::atan2(v.cross(normal).norm(), std::abs(v.dot(normal)));
+  return Angle::radians(std::atan2(v.cross(normal).norm(), std::abs(v.dot(normal))));
 }
 
 RayScan::RayScan(const TriMesh& mesh, int winding_at_centre)
@@ -86,27 +86,21 @@ PointState RayScan::collected_state() const noexcept {
                                   : PointState::outside;
 }
 
-RayScan::Neighbours RayScan::skins() {
+RayScan::Neighbours RayScan::boundary_crossings() {
   std::sort(crossings_.begin(), crossings_.end());
-  Neighbours skins;
+  Neighbours nearest;
   int w = winding_at_centre_;
   for (const auto& crossing : crossings_) {
     const bool was_inside = w > 0;
     w -= static_cast<int>(crossing.outwards);
     if (was_inside == (w > 0)) continue;
     if (crossing.before_point) {
-      skins.before = crossing.triangle;
-    } else if (skins.after == no_index) {
-      skins.after = crossing.triangle;
+      nearest.before = crossing.triangle;
+    } else if (nearest.after == no_index) {
+      nearest.after = crossing.triangle;
     }
   }
-  return skins;
-}
-
-PointState RayScan::state(const Vec3& v, std::span<const Index> triangles) {
-  if (v == Vec3::Zero()) return winding_at_centre_ > 0 ? PointState::inside : PointState::outside;
-  collect(v, triangles);
-  return collected_state();
+  return nearest;
 }
 
 RayAnswer RayScan::answer(const Vec3& v, std::span<const Index> triangles) {
@@ -125,7 +119,7 @@ RayAnswer RayScan::answer(const Vec3& v, std::span<const Index> triangles) {
     answer.gap = 0;
     return answer;
   }
-  const auto [before, after] = skins();
+  const auto [before, after] = boundary_crossings();
   const auto distance = [&](Index t) {
     return t == no_index ? infinity : std::abs(distance_along_ray(v, cone_of(mesh_, t)));
   };

@@ -3,15 +3,11 @@
 #include <span>
 #include <vector>
 
-#include "condyle/mesh.hpp"
-#include "condyle/point_state.hpp"
+#include "condyle/radial.hpp"
 #include "core/predicates.hpp"
 #include "radial/exact/direction_map.hpp"
 
 namespace condyle::radial {
-
-/// Which way along its ray a vertex reaches the surface that its gap or depth is measured to.
-enum class RayDirection : std::uint8_t { towards_centre, away_from_centre };
 
 inline Cone cone_of(const TriMesh& mesh, Index triangle) {
   return {mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)};
@@ -21,10 +17,10 @@ inline Cone cone_of(const TriMesh& mesh, Index triangle) {
 /// within 1e-12 of |v|, whatever the angle at which the ray meets the surface.
 double distance_along_ray(const Vec3& v, const Cone& t);
 
-/// Between the ray through v and the triangle's normal, radians in [0, pi/2].
-double angle_to_normal(const Vec3& v, const Cone& t) noexcept;
+/// Between the ray through v and the triangle's normal, 0 to a right angle.
+Angle angle_to_normal(const Vec3& v, const Cone& t) noexcept;
 
-/// What the ray from the centre through one point tells: one element of RadialHits.
+/// What the ray from the centre through one point tells: one element of RadialResults.
 struct RayAnswer {
   PointState state;
   int winding;
@@ -42,8 +38,6 @@ class RayScan {
 
   /// All triangles that the ray through v can meet are to be among those given, each once.
   RayAnswer answer(const Vec3& v, std::span<const Index> triangles);
-  /// Its state alone.
-  PointState state(const Vec3& v, std::span<const Index> triangles);
 
  private:
   struct Crossing {
@@ -59,8 +53,8 @@ class RayScan {
       return a.triangle < b.triangle;
     }
   };
-  /// Where the solid's skin is crossed on each side of the point, counting several skins by winding number:
-  /// the last change between w <= 0 and w > 0 before the point and the first after it. no_index where there
+  /// Where the solid's boundary is crossed on each side of the point, overlapping solids counted by winding
+  /// number: the last change between w <= 0 and w > 0 before the point and the first after it. no_index where there
   /// is none.
   struct Neighbours {
     Index before = no_index, after = no_index;
@@ -70,7 +64,7 @@ class RayScan {
   /// Winding number of the point (of its side towards the centre, where it is on the surface).
   int winding() const noexcept;
   PointState collected_state() const noexcept;
-  Neighbours skins();
+  Neighbours boundary_crossings();
 
   const TriMesh& mesh_;
   int winding_at_centre_;

@@ -126,16 +126,15 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const CubePlace& place, Ints
 /// Margins: 2^-15 of squared radii and 2^-10 of the cap with a hundredth of a cell cover the floats here,
 /// those of the points later, and a rotation that is one to 1e-6.
 ///
-/// `turn` is a chord that the block may still turn by. Blocks from `block` on, one to a lane.
+/// Blocks from `block` on, one to a lane.
 template <bool translated>
 HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
-                                 std::size_t block, float turn) {
+                                 std::size_t block) {
   const auto& r = pose.rotation;
   const auto one = hn::Set(d, 1.0f), distance = hn::Set(d, pose.distance);
   const float finest_cells = 0.5f * static_cast<float>(cube.cells_per_side);
   const auto x = hn::LoadU(d, blocks.axis_x + block), y = hn::LoadU(d, blocks.axis_y + block);
-  const auto z = hn::LoadU(d, blocks.axis_z + block),
-             chord = hn::Add(hn::LoadU(d, blocks.chord + block), hn::Set(d, turn));
+  const auto z = hn::LoadU(d, blocks.axis_z + block), chord = hn::LoadU(d, blocks.chord + block);
   auto ax = dot(x, y, z, r[0], r[1], r[2]), ay = dot(x, y, z, r[3], r[4], r[5]);
   auto az = dot(x, y, z, r[6], r[7], r[8]);
   const auto nearest = hn::LoadU(d, blocks.nearest + block), furthest = hn::LoadU(d, blocks.furthest + block);
@@ -188,7 +187,7 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
   std::size_t count = 0;
   for (std::size_t i = 0; i < parent_count * 16; i += hn::Lanes(d)) {
     const std::size_t block = std::size_t{16} * parents[i / 16] + i % 16;
-    const auto near = hn::And(are_near<translated>(cube, blocks, pose, block, 0),
+    const auto near = hn::And(are_near<translated>(cube, blocks, pose, block),
                               hn::FirstN(du, blocks.count - std::min(block, blocks.count)));
     const auto number = numbers_from(du, block);
     store_compacted(du, number, near, found + count);
@@ -222,10 +221,8 @@ HWY_INLINE Words relevant_code(const CubeView& cube, Floats squared, Words entry
   return hn::BitCast(du, radius_code(cube.scale, hn::Mul(limit, hn::Set(d, 1 + 0x1p-12f))));
 }
 
-template <bool remembering>
-HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory* memory,
-                            NearPoints& found) {
+void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
+                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
   const auto& r = pose.rotation;
   const auto& t = pose.translation;
   const int finest = cube.cells_per_side;
@@ -237,7 +234,6 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
       const std::size_t ahead = std::size_t{16} * blocks[i + 4];
       hwy::Prefetch(points.x + ahead), hwy::Prefetch(points.y + ahead), hwy::Prefetch(points.z + ahead);
     }
-    [[maybe_unused]] bool stays_free = true;
     for (std::size_t at = first; at < first + 16; at += hn::Lanes(d)) {
       const auto px = hn::LoadU(d, points.x + at), py = hn::LoadU(d, points.y + at),
                  pz = hn::LoadU(d, points.z + at);
@@ -256,11 +252,6 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
       if (HWY_UNLIKELY(first + 16 > points.size)) {
         near = hn::And(near, hn::FirstN(du, points.size - std::min(at, points.size)));
       }
-      if constexpr (remembering) {
-        const auto index = pyramid_index(cube, place, hn::Set(di, memory->step[blocks[i]]));
-        const auto around = hn::GatherIndex(du, cube.pyramid, index);
-        stays_free &= hn::AllFalse(du, radii_meet(around, reach_word(code, code)));
-      }
       if (hn::AllFalse(du, near)) continue;
       const auto u_part = hn::And(u, part_mask), w_part = hn::And(w, part_mask);
       const auto box =
@@ -276,46 +267,8 @@ HWY_INLINE void near_points(const CubeView& cube, const PointColumns& points, co
       store_compacted(du, numbers_from(du, at), near, found.point.data() + count);
       count += hn::CountTrue(du, near);
     }
-    if constexpr (remembering) {
-      // Next time a longer respite is tried after one that was granted, a shorter one otherwise.
-      std::uint8_t& step = memory->step[blocks[i]];
-      memory->free_until[blocks[i]] = stays_free ? memory->turned + memory->reach[step] : -1.0f;
-      const int next = stays_free ? std::min(step + 1, memory->steps - 1) : std::max(step - 1, 0);
-      step = static_cast<std::uint8_t>(next);
-    }
   }
   found.count = count;
-}
-
-void near_points_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                     const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
-  near_points<false>(cube, points, pose, blocks, block_count, nullptr, found);
-}
-
-void near_points_remembered_any(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                                const std::uint32_t* blocks, std::size_t block_count,
-                                const BlockMemory& memory, NearPoints& found) {
-  near_points<true>(cube, points, pose, blocks, block_count, &memory, found);
-}
-
-std::size_t blocks_to_ask_any(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
-                              const BlockMemory& memory, std::size_t first, std::size_t last,
-                              std::uint32_t* found) {
-  const auto turned = hn::Set(d, memory.turned);
-  std::size_t count = 0;
-  for (std::size_t block = first; block < last; block += hn::Lanes(d)) {
-    const auto free_until = hn::LoadU(d, memory.free_until + block);
-    const auto due = hn::And(hn::RebindMask(du, hn::Lt(free_until, turned)), hn::FirstN(du, last - block));
-    if (hn::AllFalse(du, due)) continue;
-    const auto near = are_near<false>(cube, blocks, pose, block, memory.stride);
-    const auto freed = hn::RebindMask(d, hn::AndNot(near, due));
-    hn::StoreU(hn::IfThenElse(freed, hn::Add(turned, hn::Set(d, memory.stride)), free_until), d,
-               memory.free_until + block);
-    const auto asked = hn::And(due, near);
-    store_compacted(du, numbers_from(du, block), asked, found + count);
-    count += hn::CountTrue(du, asked);
-  }
-  return count;
 }
 
 }  // namespace
@@ -327,8 +280,6 @@ namespace condyle::radial {
 
 HWY_EXPORT(near_blocks_any);
 HWY_EXPORT(near_points_any);
-HWY_EXPORT(near_points_remembered_any);
-HWY_EXPORT(blocks_to_ask_any);
 
 std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
                         const std::uint32_t* parents, std::size_t parent_count, std::uint32_t* found) {
@@ -338,18 +289,6 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
 void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found) {
   HWY_DYNAMIC_DISPATCH(near_points_any)(cube, points, pose, blocks, block_count, found);
-}
-
-std::size_t blocks_to_ask(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
-                          const BlockMemory& memory, std::size_t first, std::size_t last,
-                          std::uint32_t* found) {
-  return HWY_DYNAMIC_DISPATCH(blocks_to_ask_any)(cube, blocks, pose, memory, first, last, found);
-}
-
-void near_points_remembered(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory& memory,
-                            NearPoints& found) {
-  HWY_DYNAMIC_DISPATCH(near_points_remembered_any)(cube, points, pose, blocks, block_count, memory, found);
 }
 
 }  // namespace condyle::radial

@@ -49,29 +49,6 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
 void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found);
 
-/// What is remembered of blocks along a motion, which has turned by so much.
-struct BlockMemory {
-  float turned;
-  float* free_until;   ///< of each block; with room for a vector beyond the last
-  std::uint8_t* step;  ///< of the pyramid, at which each block is asked next
-  const float* reach;  ///< of each step
-  int steps;
-  float stride;  ///< for which a whole block is let go at once, where it is that far from the surface
-};
-
-/// Blocks of [first, last) that are not free any more, nor free again for a stride as blocks. `first` is a
-/// multiple of 16.
-std::size_t blocks_to_ask(const CubeView& cube, const BlockColumns& blocks, const FloatPose& pose,
-                          const BlockMemory& memory, std::size_t first, std::size_t last,
-                          std::uint32_t* found);
-
-/// near_points() that also remembers which blocks are free, and for how long: those of which no point is
-/// within the radii of the pyramid's entries, that is, of the surface within their reach. For rotations about
-/// the centre.
-void near_points_remembered(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
-                            const std::uint32_t* blocks, std::size_t block_count, const BlockMemory& memory,
-                            NearPoints& found);
-
 /// Triangles of one cell whose octagons hold a point with that box, in the order of the list. `found` has
 /// room for the list and a vector. Returns how many.
 std::size_t triangles_holding(const CubeView& cube, std::uint32_t cell, std::uint32_t box,

@@ -2,7 +2,7 @@
 
 #include "condyle/pose.hpp"
 #include "radial/query/penetration_passes.hpp"
-#include "radial/query/sorted_points.hpp"
+#include "radial/query/point_blocks.hpp"
 
 namespace condyle::radial {
 
@@ -19,7 +19,7 @@ struct PenetrationSearch {
 /// The pose about the points' own centre.
 FloatPose float_pose(const Pose& X, const Vec3& centre);
 
-PointColumns points_of(const SortedPoints& points);
-BlockColumns blocks_of(const SortedPoints& points, std::size_t level);
+PointColumns points_of(const PointBlocks& points);
+BlockColumns blocks_of(const PointBlocks& points, std::size_t level);
 
 }  // namespace condyle::radial

@@ -7,13 +7,14 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "tangential/query/places-inl.hpp"
+#include "simd/lane_numbers-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::tangential::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace simd = simd::HWY_NAMESPACE;
 
 using D = hn::CappedTag<float, 16>;
 constexpr D d;
@@ -61,19 +62,19 @@ void cells_any(const BoxScale::Axis& rho, const BoxScale::Axis& z, Index columns
     const auto two_rows = hn::And(is_small, hn::Eq(up.more, one));
     const auto lower = hn::Add(hn::Mul(up.first, hn::Set(du, columns)), across.first);
     const auto upper = hn::Add(lower, hn::Set(du, columns));
-    const auto put = [&](std::size_t k, Chosen own, Words cell, Words box_rho, Words box_z) {
-      BoxCells::Column& column = out.column[k];
-      hn::Store(cell, du, column.cell.data() + i);
-      hn::Store(hn::Or(box_z, hn::ShiftLeft<16>(box_rho)), du, column.box.data() + i);
-      counts[k] += store_places(du, own, i, column.own.data() + counts[k]);
+    const auto put = [&](std::size_t k, Chosen in_use, Words cell, Words box_rho, Words box_z) {
+      BoxCells::Corner& corner = out.corner[k];
+      hn::Store(cell, du, corner.cell.data() + i);
+      hn::Store(hn::Or(box_z, hn::ShiftLeft<16>(box_rho)), du, corner.box.data() + i);
+      counts[k] += simd::store_lane_numbers(du, in_use, i, corner.in_use.data() + counts[k]);
     };
     put(0, is_small, lower, across.box_in_first, up.box_in_first);
     put(1, two_columns, hn::Add(lower, one), across.box_in_last, up.box_in_first);
     put(2, two_rows, upper, across.box_in_first, up.box_in_last);
     put(3, hn::And(two_columns, two_rows), hn::Add(upper, one), across.box_in_last, up.box_in_last);
-    large_count += store_places(du, is_large, i, out.large.data() + large_count);
+    large_count += simd::store_lane_numbers(du, is_large, i, out.large.data() + large_count);
   }
-  for (std::size_t k = 0; k < counts.size(); ++k) out.column[k].count = counts[k];
+  for (std::size_t k = 0; k < counts.size(); ++k) out.corner[k].count = counts[k];
   out.large_count = large_count;
 }
 

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "tangential/build/cell_box.hpp"
 #include "tangential/build/profile_boxes.hpp"
-#include "tangential/exact/profile.hpp"
-#include "tangential/query/circle_places.hpp"
+#include "tangential/build/profile_raster.hpp"
 
 namespace condyle::tangential {
 
@@ -37,19 +37,18 @@ struct BoxSides {
 /// Some triangles and the cells that their boxes meet.
 struct BoxCells {
   static constexpr std::size_t most = 256;
-  /// Vectors are stored whole.
-  static constexpr std::size_t room = most + 16;
-  using Places = std::array<Index, room>;
+  /// With padding: vectors are stored whole.
+  using Slots = std::array<Index, most + 16>;
 
-  /// For each place in the batch a cell, and the box within it.
-  struct Column {
+  /// For each slot of the batch, which is one triangle, a cell and the box within it.
+  struct Corner {
     alignas(64) std::array<Index, most> cell, box;
-    Places own;  ///< Those that have this cell, ascending.
+    Slots in_use;  ///< Slots of the triangles that have this cell, ascending.
     std::size_t count;
   };
   /// Of boxes of at most two by two cells: the first, that beside it, that above it, and that above both.
-  std::array<Column, 4> column;
-  Places large;  ///< Of boxes that meet more cells: they have none of these.
+  std::array<Corner, 4> corner;
+  Slots large;  ///< Of boxes that meet more cells: these have none of the above.
   std::size_t large_count;
 };
 
@@ -79,7 +78,7 @@ class BoxScale {
   Index columns_;
 };
 
-/// visit(row, column) for the cells in which a triangle is listed: those that its box meets, of a box of many
+/// visit(row, column) for the cells in which a triangle is entered: those that its box meets, of a box of many
 /// cells those that it meets itself.
 template <class Visit>
 void for_each_cell(const ProfileGrid& grid, const BoxSides& sides, const Vec3& a, const Vec3& b,

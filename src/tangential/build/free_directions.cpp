@@ -2,19 +2,23 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+
+#include "tangential/build/box_cells.hpp"
+#include "tangential/exact/circle_crossing.hpp"
 
 namespace condyle::tangential {
 namespace {
 
 using Directions = FreeDirections::Directions;
 
-/// By the sectors of a triangle's corners; one more bit than there are directions where they do not tell.
-constexpr std::uint16_t untold = 0x100;
+/// By the sectors of a triangle's corners; one more bit than there are directions where these do not decide.
+constexpr std::uint16_t undecided = 0x100;
 constexpr std::array<std::uint16_t, 256> directions_between = [] {
   std::array<std::uint16_t, 256> table{};
-  table.fill(untold);
+  table.fill(undecided);
   // From the widest angle to the narrowest: `width` sectors from sector `first` on.
   for (unsigned width = 4; width > 0; --width) {
     for (unsigned first = 0; first < 8; ++first) {
@@ -86,7 +90,7 @@ class Patches {
     const auto [low, high] = std::minmax({root(a), root(b)});
     parent_[high] = low;
     at_border_[low] = at_border_[low] || at_border_[high];
-    // Short ways to the root for whoever asks next.
+    // Short paths to the root for later calls.
     parent_[a] = parent_[b] = low;
   }
 
@@ -97,7 +101,7 @@ class Patches {
 
 }  // namespace
 
-/// With s the distance from the line of a direction and its opposite, signed, and c how far along it: all
+/// With s the signed distance from the line of a direction and its opposite, and c the distance along it: all
 /// corners beyond `apart` on one side, which is clearance times the largest radius, keep every point of the
 /// triangle that far away in angle; all corners behind the axis keep it a quarter turn away.
 Directions FreeDirections::near(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
@@ -106,14 +110,14 @@ Directions FreeDirections::near(const Vec3& a, const Vec3& b, const Vec3& c) noe
   const double apart = 1.5 * clearance * std::sqrt(std::max({rho2(a), rho2(b), rho2(c)}));
   // From one corner to another s and c change by no more than |dx| + |dy|: most triangles are between two
   // directions with all they have.
-  const auto way = [](const Vec3& p, const Vec3& q) {
+  const auto change = [](const Vec3& p, const Vec3& q) {
     return std::abs(q.x() - p.x()) + std::abs(q.y() - p.y());
   };
   const double nearest = std::min(std::min(std::abs(a.x()), std::abs(a.y())),
                                   std::min(std::abs(a.x() - a.y()), std::abs(a.x() + a.y())));
-  if (nearest > 1.01 * std::max(way(a, b), way(a, c)) + apart) return 0;
+  if (nearest > 1.01 * std::max(change(a, b), change(a, c)) + apart) return 0;
   unsigned directions = 0;
-  const auto look = [&](int direction, const auto& s, const auto& along) {
+  const auto test_line = [&](int direction, const auto& s, const auto& along) {
     const std::array<double, 3> side = {s(a), s(b), s(c)};
     const auto [low, high] = std::minmax({side[0], side[1], side[2]});
     if (low > apart || high < -apart) return;
@@ -121,20 +125,20 @@ Directions FreeDirections::near(const Vec3& a, const Vec3& b, const Vec3& c) noe
     if (std::max({on[0], on[1], on[2]}) >= -apart) directions |= 1u << direction;
     if (std::min({on[0], on[1], on[2]}) <= apart) directions |= 1u << (direction + count / 2);
   };
-  look(
+  test_line(
       0, [](const Vec3& p) { return p.y(); }, [](const Vec3& p) { return p.x(); });
-  look(
+  test_line(
       1, [](const Vec3& p) { return p.y() - p.x(); }, [](const Vec3& p) { return p.x() + p.y(); });
-  look(
+  test_line(
       2, [](const Vec3& p) { return -p.x(); }, [](const Vec3& p) { return p.y(); });
-  look(
+  test_line(
       3, [](const Vec3& p) { return -p.x() - p.y(); }, [](const Vec3& p) { return p.y() - p.x(); });
   return static_cast<Directions>(directions);
 }
 
 std::optional<FreeDirections::Directions> FreeDirections::between(Sectors sectors) noexcept {
   const std::uint16_t directions = directions_between[sectors];
-  if (directions == untold) return std::nullopt;
+  if (directions == undecided) return std::nullopt;
   return static_cast<Directions>(directions);
 }
 
@@ -157,8 +161,8 @@ FreeDirections::FreeDirections(const ProfileGrid& grid, const std::vector<Direct
     anchor_[cell] = {static_cast<std::int8_t>(direction), static_cast<std::int8_t>(winding)};
     --open;
   };
-  // A direction costs a walk over all cells, and one or two leave next to nothing to do: where that is less
-  // than a walk, each cell is asked about by itself.
+  // A direction costs a pass over all cells, and one or two leave next to nothing to do: where that is less
+  // than a pass, each cell gets a winding number of its own.
   int direction = 0;
   for (; direction < count && open * cells_per_winding >= grid.cells(); ++direction) {
     const Patches patches(grid, taken, direction);
@@ -175,6 +179,44 @@ FreeDirections::FreeDirections(const ProfileGrid& grid, const std::vector<Direct
       if ((taken[cell] >> k & 1) == 0) set(cell, k, winding_in_middle(k, cell));
     }
   }
+}
+
+/// Triangles with all corners in one sector are near no direction; few others are left.
+FreeDirections find_free_directions(const AxisVertices& vertices, std::span<const Triangle> triangles,
+                                    const ProfileBoxes& boxes, const ProfileGrid& grid, double scale) {
+  const auto& sector = vertices.sector;
+  const auto corner = [&](Index v) -> const Vec3& { return vertices.exact[v].at; };
+  const BoxScale box_scale(grid, vertices.units_per_mm);
+  std::vector<Directions> taken(grid.cells(), 0);
+  std::array<std::vector<Index>, FreeDirections::count> near;
+  std::size_t count = 0;
+  for (const Index t : boxes.across_sectors) {
+    const auto& [a, b, c] = triangles[t];
+    if ((sector[a] & sector[b] & sector[c]) != 0) continue;
+    ++count;
+    const bool clear = sector[a] != 0 && sector[b] != 0 && sector[c] != 0;
+    const auto between = clear ? FreeDirections::between(sector[a] | sector[b] | sector[c]) : std::nullopt;
+    const Directions directions = between ? *between : FreeDirections::near(corner(a), corner(b), corner(c));
+    if (directions == 0) continue;
+    for_each_cell(grid, box_scale.sides(boxes, t), corner(a), corner(b), corner(c),
+                  [&](Index row, Index column) { taken[grid.cell(row, column)] |= directions; });
+    for (unsigned left = directions; left != 0; left &= left - 1)
+      near[static_cast<std::size_t>(std::countr_zero(left))].push_back(t);
+  }
+  // In a direction free in the cell of that radius and height: along the ray outwards.
+  const auto winding_at = [&](int direction, double rho, double z) {
+    const double angle = FreeDirections::angle_of(direction).radians();
+    const Circle circle = circle_through(Vec3(rho * std::cos(angle), rho * std::sin(angle), z), scale);
+    TangentialWork work;
+    int winding = 0;
+    for (const Index t : near[static_cast<std::size_t>(direction)]) {
+      const auto& [a, b, c] = triangles[t];
+      winding += outward_crossing(circle, {&corner(a), &corner(b), &corner(c)}, work);
+    }
+    return winding;
+  };
+  // Two triangles of a direction cost as much as one cell; there are as many directions as these are near to.
+  return {grid, taken, winding_at, std::max<std::size_t>(1, count / (2 * near.size()))};
 }
 
 }  // namespace condyle::tangential

@@ -3,23 +3,25 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "condyle/angle.hpp"
-#include "tangential/exact/profile.hpp"
+#include "tangential/build/profile_boxes.hpp"
+#include "tangential/build/profile_grid.hpp"
 
 namespace condyle::tangential {
 
-/// Directions about the axis in which a ring holds no surface, and the winding number there: what tells how
-/// often the solid goes round any other point of that ring, by the crossings in between alone.
+/// Directions about the axis in which a ring holds no surface, and the winding number there. The winding
+/// number of any other point of that ring then follows from the crossings in between.
 ///
-///            surface                 eight half-planes from the axis, an eighth of a turn apart. In a cell
-///            of
-///        \   ~~~ |  /                the profile that no triangle meets near such a half-plane, the winding
-///          \   ~~|~                  number over the cell's part of the half-plane is one number; and the
-///     ------ axis ------- free       same number as in the next cell, where that is free in this direction
-///          /     |  \                too. So one number holds for each connected patch of free cells, and it
-///        /       |    \              is 0 for a patch that reaches the border of the profile.
+///            surface
+///       \    ~~~ |   /            Eight half-planes from the axis, an eighth of a turn apart. In a cell of the
+///         \    ~~|~/              profile that no triangle meets near such a half-plane, the winding number
+///           \    | /              over the cell's part of the half-plane is one number; and the same number
+///     -------- axis ----- free    as in the next cell, where that is free in this direction too. So one number
+///           /    |  \             holds for each connected patch of free cells, and it is 0 for a patch that
+///         /      |    \           reaches the border of the profile.
 class FreeDirections {
  public:
   /// One bit per direction.
@@ -31,7 +33,7 @@ class FreeDirections {
 
   static constexpr Angle angle_of(int direction) noexcept { return Angle::radians(two_pi / 8 * direction); }
 
-  /// Directions which the triangle comes near.
+  /// Directions near the triangle: it may come within the clearance of them.
   static Directions near(const Vec3& a, const Vec3& b, const Vec3& c) noexcept;
 
   /// Eighths of a turn between the directions, sector k from direction k to the next: one bit each.
@@ -42,27 +44,31 @@ class FreeDirections {
   static std::optional<Directions> between(Sectors sectors) noexcept;
 
   struct Anchor {
-    std::int8_t direction = none;  ///< Or `none`, where each is taken or the winding number is huge.
+    /// `none` where each is taken, or the winding number does not fit.
+    std::int8_t direction = none;
     std::int8_t winding = 0;
   };
   static constexpr std::int8_t none = -1;
 
-  /// Winding number at a radius and height in a direction that is free there.
+  /// Winding number at a radius and height, in mm, in a direction that is free there.
   using WindingAt = std::function<int(int direction, double rho, double z)>;
 
   FreeDirections() = default;
-  /// `taken` has for each cell the directions that its triangles come near; a winding number costs about as
-  /// much as to look at so many cells.
+  /// `taken` has for each cell the directions that its triangles come near. A winding number costs about as
+  /// much as visiting `cells_per_winding` cells.
   FreeDirections(const ProfileGrid& grid, const std::vector<Directions>& taken, const WindingAt& winding_at,
                  std::size_t cells_per_winding);
 
   Anchor of(std::size_t cell) const noexcept { return anchor_[cell]; }
-  /// Asks memory for what is of this cell.
-  void fetch(std::size_t cell) const noexcept { __builtin_prefetch(&anchor_[cell]); }
+  void prefetch(std::size_t cell) const noexcept { __builtin_prefetch(&anchor_[cell]); }
   std::size_t bytes() const noexcept { return anchor_.size() * sizeof(Anchor); }
 
  private:
   std::vector<Anchor> anchor_;
 };
+
+/// Those of a mesh. `scale` is at least every |x|, |y| of its triangles, in mm.
+FreeDirections find_free_directions(const AxisVertices& vertices, std::span<const Triangle> triangles,
+                                    const ProfileBoxes& boxes, const ProfileGrid& grid, double scale);
 
 }  // namespace condyle::tangential

@@ -32,30 +32,21 @@ struct Sectors {
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "tangential/query/places-inl.hpp"
+#include "simd/axis_rotation-inl.hpp"
+#include "simd/lane_numbers-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::tangential::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace simd = simd::HWY_NAMESPACE;
 
-/// Places as many vertices as there are lanes, from `first` on.
+/// As many vertices as there are lanes, from `first` on.
 template <class D>
-HWY_INLINE void place_some(D d, const PointsView& vertices, const AxisFrame& frame, std::size_t first,
-                           AxisVertices& out) {
-  const auto from_axis_point = [&](std::span<const double> values, double origin) {
-    return hn::Sub(hn::LoadU(d, values.data() + first), hn::Set(d, origin));
-  };
-  const auto px = from_axis_point(vertices.x, frame.point().x()),
-             py = from_axis_point(vertices.y, frame.point().y()),
-             pz = from_axis_point(vertices.z, frame.point().z());
-  // As AxisFrame::to_axis.
-  const auto row = [&](int i) {
-    const auto times = [&](hn::Vec<D> p, int k) { return hn::Mul(hn::Set(d, frame.rotation()(i, k)), p); };
-    return hn::Add(hn::Add(times(px, 0), times(py, 1)), times(pz, 2));
-  };
-  const auto x = row(0), y = row(1), z = row(2);
+HWY_INLINE void transform_some(D d, const PointsView& vertices, const AxisFrame& frame, std::size_t first,
+                               AxisVertices& out) {
+  const auto [x, y, z] = simd::to_axis(d, frame, vertices, first);
   hn::StoreInterleaved4(x, y, z, hn::Zero(d), d, out.exact[first].at.data());
 
   const hn::Rebind<float, D> df;
@@ -82,7 +73,7 @@ HWY_INLINE void place_some(D d, const PointsView& vertices, const AxisFrame& fra
 }
 
 /// Largest absolute value.
-double reach_any(std::span<const double> values) {
+double largest_magnitude_any(std::span<const double> values) {
   constexpr hn::CappedTag<double, 8> d8;
   auto most = hn::Zero(d8);
   std::size_t i = 0;
@@ -93,17 +84,17 @@ double reach_any(std::span<const double> values) {
   return reach;
 }
 
-void place_any(const PointsView& vertices, const AxisFrame& frame, AxisVertices& out) {
+void transform_any(const PointsView& vertices, const AxisFrame& frame, AxisVertices& out) {
   constexpr hn::CappedTag<double, 8> d8;
   std::size_t i = 0;
-  for (; i + hn::Lanes(d8) <= vertices.size(); i += hn::Lanes(d8)) place_some(d8, vertices, frame, i, out);
-  for (; i < vertices.size(); ++i) place_some(hn::CappedTag<double, 1>(), vertices, frame, i, out);
+  for (; i + hn::Lanes(d8) <= vertices.size(); i += hn::Lanes(d8))
+    transform_some(d8, vertices, frame, i, out);
+  for (; i < vertices.size(); ++i) transform_some(hn::CappedTag<double, 1>(), vertices, frame, i, out);
 }
 
 using D = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<D>;
 constexpr D d;
-constexpr hn::RebindToUnsigned<D> du;
 constexpr std::size_t most_lanes = hn::MaxLanes(d);
 
 /// Least and greatest of the corners of as many triangles as a vector has lanes, value by value.
@@ -180,8 +171,7 @@ void boxes_any(std::span<const ProfileVertex> vertices, std::span<const Triangle
     };
     scale = hn::Max(scale, hn::Max(reach(e.x_low, e.x_high), reach(e.y_low, e.y_high)));
     const auto across = hn::AndNot(within_sector(e), hn::FirstN(d, count));
-    across_count +=
-        store_places(du, hn::RebindMask(du, across), first, out.across_sectors.data() + across_count);
+    across_count += simd::store_lane_numbers(d, across, first, out.across_sectors.data() + across_count);
   }
   out.across_sectors.resize(across_count);
   out.rho_min = hn::GetLane(hn::MinOfLanes(d, rho_min)),
@@ -197,8 +187,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace condyle::tangential {
 
-HWY_EXPORT(reach_any);
-HWY_EXPORT(place_any);
+HWY_EXPORT(largest_magnitude_any);
+HWY_EXPORT(transform_any);
 HWY_EXPORT(boxes_any);
 
 AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame) {
@@ -206,12 +196,12 @@ AxisVertices vertices_in_axis_frame(PointsView vertices, const AxisFrame& frame)
   const std::size_t count = vertices.size();
   out.exact.resize(count), out.rounded.resize(count), out.sector.resize(count);
   const auto reach_of = [](std::span<const double> values) {
-    return HWY_DYNAMIC_DISPATCH(reach_any)(values);
+    return HWY_DYNAMIC_DISPATCH(largest_magnitude_any)(values);
   };
   const double reach =
       reach_of(vertices.x) + reach_of(vertices.y) + reach_of(vertices.z) + frame.point().cwiseAbs().sum();
   out.units_per_mm = reach > 0 ? std::exp2(std::min(-std::ilogb(reach), 1000)) : 1;
-  HWY_DYNAMIC_DISPATCH(place_any)(vertices, frame, out);
+  HWY_DYNAMIC_DISPATCH(transform_any)(vertices, frame, out);
   return out;
 }
 

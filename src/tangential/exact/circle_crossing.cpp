@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "condyle/angle.hpp"
+#include "tangential/exact/arctangent.hpp"
 #include "tangential/exact/circle_predicates.hpp"
-#include "tangential/query/arctangent.hpp"
 
 namespace condyle::tangential {
 namespace {
@@ -20,31 +20,31 @@ CircleCut::End cut_end(const Vec3& lower, const Vec3& upper, double height) noex
 
 /// The triangle cut at the circle's height; none where it lies above or below.
 ///
-/// Corner k alone on its side is followed, counter-clockwise seen from outside, by k + 1 and k + 2. With k
-/// above, the cut from edge (k, k + 1) to edge (k, k + 2) has the outside on its right; with k below it is
-/// the other way round.
+/// Corner k, the apex, is the only one on its side; counter-clockwise seen from outside k + 1 and k + 2 follow
+/// it. With the apex above, the cut from edge (k, k + 1) to edge (k, k + 2) has the outside on its right; with
+/// it below, the other way round.
 std::optional<CircleCut> cut_at_height(const Circle& circle, const TriangleRef& t) noexcept {
   const double h = circle.point.z();
   const std::array<bool, 3> above = {t[0]->z() >= h, t[1]->z() >= h, t[2]->z() >= h};
   const int count = above[0] + above[1] + above[2];
   if (count == 0 || count == 3) return std::nullopt;
-  const bool alone_above = count == 1;
-  const std::size_t k = above[0] == alone_above ? 0 : above[1] == alone_above ? 1 : 2;
-  const Vec3 &alone = *t[k], &next = *t[(k + 1) % 3], &last = *t[(k + 2) % 3];
-  if (alone_above) return CircleCut{cut_end(next, alone, h), cut_end(last, alone, h), t};
-  return CircleCut{cut_end(alone, last, h), cut_end(alone, next, h), t};
+  const bool apex_above = count == 1;
+  const std::size_t k = above[0] == apex_above ? 0 : above[1] == apex_above ? 1 : 2;
+  const Vec3 &apex = *t[k], &next = *t[(k + 1) % 3], &last = *t[(k + 2) % 3];
+  if (apex_above) return CircleCut{cut_end(next, apex, h), cut_end(last, apex, h), t};
+  return CircleCut{cut_end(apex, last, h), cut_end(apex, next, h), t};
 }
 
-/// Where the cut stands to the ray from the axis through the (little ahead) point.
+/// How the cut lies to the ray from the axis through the point, which is infinitely little ahead.
 struct AcrossRay {
   core::Sign p, q;    ///< Sides of its ends: positive ahead.
   bool on_near_side;  ///< It crosses that ray, and not the opposite one.
-  bool within;        ///< Where it crosses it is nearer to the axis than the point.
+  bool within;        ///< Where it crosses, it is nearer to the axis than the point.
 };
 
 /// The cut meets the line through axis and point at one point m. With s the side (of the triangle's plane,
-/// which is the side of the cut) of the centre and v that of the point, m lies on the point's side of the
-/// axis iff the centre sees p and q turn the right way, and nearer than the point iff s and v are opposite.
+/// which is the side of the cut) of the centre and v that of the point, m lies on the point's side of the axis
+/// iff s is the side of p, and nearer than the point iff s and v are opposite.
 AcrossRay across_ray(const Circle& circle, const CircleCut& cut, TangentialWork& work) {
   AcrossRay across{side_of_end(circle, cut.p, work), side_of_end(circle, cut.q, work), false, false};
   if (across.p == across.q) return across;
@@ -65,7 +65,7 @@ double angle_to(const Circle& circle, double x, double y, std::optional<core::Si
   const Vec3& v = circle.point;
   const double angle = arctangent(v.x() * y - v.y() * x, v.x() * x + v.y() * y);
   constexpr double least = std::numeric_limits<double>::min();
-  // Beyond a quarter turn the other way round is as near: sides only matter close to the point.
+  // Sides only matter close to the point: beyond a quarter turn the angle is far from 0 either way.
   if (std::abs(angle) > two_pi / 4) return angle;
   if (side == core::Sign::positive) return std::max(angle, least);
   if (side == core::Sign::negative) return std::min(angle, -least);
@@ -76,8 +76,8 @@ double angle_to(const Circle& circle, double x, double y, std::optional<core::Si
 ///
 /// |inside + t (outside - inside)|^2 = rho^2 with |inside| < rho: one root t > 0, from whichever form does
 /// not subtract. Taken from the end inside, so that coincident cuts walked both ways give the same bits.
-std::pair<double, double> way_out(const Circle& circle, double in_x, double in_y, double out_x,
-                                  double out_y) noexcept {
+std::pair<double, double> crossing_point(const Circle& circle, double in_x, double in_y, double out_x,
+                                         double out_y) noexcept {
   const double dx = out_x - in_x, dy = out_y - in_y;
   const double a = dx * dx + dy * dy, b = in_x * dx + in_y * dy;
   const double c = std::min(0.0, (in_x * in_x + in_y * in_y) - circle.squared_radius);
@@ -89,10 +89,9 @@ std::pair<double, double> way_out(const Circle& circle, double in_x, double in_y
 
 }  // namespace
 
-TangentialWork& TangentialWork::operator+=(const TangentialWork& other) noexcept {
-  points += other.points, candidates += other.candidates, tried += other.tried, crossings += other.crossings;
-  exact_decisions += other.exact_decisions;
-  return *this;
+Circle circle_through(const Vec3& point, double scale) noexcept {
+  return {point, point.x() * point.x() + point.y() * point.y(),
+          std::max({scale, std::abs(point.x()), std::abs(point.y())})};
 }
 
 void add_crossings(const Circle& circle, const TriangleRef& triangle, Index number,
@@ -104,7 +103,7 @@ void add_crossings(const Circle& circle, const TriangleRef& triangle, Index numb
   if (p_inside != q_inside) {
     const AcrossRay across = across_ray(circle, *cut, work);
     const CircleCut::End &in = p_inside ? cut->p : cut->q, &away = p_inside ? cut->q : cut->p;
-    const auto [x, y] = way_out(circle, in.x, in.y, away.x, away.y);
+    const auto [x, y] = crossing_point(circle, in.x, in.y, away.x, away.y);
     std::optional<core::Sign> side;
     if (across.p == across.q) {
       side = across.p;
@@ -122,16 +121,16 @@ void add_crossings(const Circle& circle, const TriangleRef& triangle, Index numb
   const double t =
       squared_length > 0 ? std::clamp(-(cut->p.x * dx + cut->p.y * dy) / squared_length, 0.0, 1.0) : 0;
   const double foot_x = cut->p.x + t * dx, foot_y = cut->p.y + t * dy;
-  const auto [first_x, first_y] = way_out(circle, foot_x, foot_y, cut->p.x, cut->p.y);
-  const auto [second_x, second_y] = way_out(circle, foot_x, foot_y, cut->q.x, cut->q.y);
+  const auto [first_x, first_y] = crossing_point(circle, foot_x, foot_y, cut->p.x, cut->p.y);
+  const auto [second_x, second_y] = crossing_point(circle, foot_x, foot_y, cut->q.x, cut->q.y);
   std::optional<core::Sign> first_side, second_side;
   if (across.p == across.q) {
     first_side = second_side = across.p;
   } else if (across.on_near_side && across.within) {
     first_side = across.p, second_side = across.q;
   } else if (across.on_near_side) {
-    // The whole chord lies on one side of the ray; which, its middle tells. Were that wrong by rounding,
-    // entry and exit would still be neighbours in the order, so no other arc is touched.
+    // The whole chord lies on one side of the ray: that of its middle. Were that wrong by rounding, entry and
+    // exit would still be neighbours in the order, so no other arc would change.
     first_side = second_side = circle.point.x() * foot_y - circle.point.y() * foot_x > 0
                                    ? core::Sign::positive
                                    : core::Sign::negative;

@@ -2,14 +2,14 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "condyle/angle.hpp"
 #include "condyle/points.hpp"
+#include "condyle/tangential.hpp"
 #include "core/predicates.hpp"
 
-/// Where the circle of a turning point meets a triangle: docs/mathematics.md, section 4. Everything here is
+/// Where the circle of a rotating point meets a triangle: docs/mathematics.md, section 4. Everything here is
 /// in the axis frame.
 
 namespace condyle::tangential {
@@ -19,8 +19,8 @@ enum class Passage : signed char { leaves = -1, enters = 1 };
 
 /// One crossing of a point's circle with a triangle.
 struct CircleCrossing {
-  double angle;  ///< Radians from the point, in [-pi, pi], not 0: positive ahead (counter-clockwise),
-                 ///< negative behind.
+  /// Radians from the point, in [-pi, pi], not 0: positive ahead (counter-clockwise), negative behind.
+  double angle;
   Passage passage;
   Index triangle;
 
@@ -38,35 +38,27 @@ struct CircleCrossing {
   }
 };
 
-/// Counts of what a query did; the same for any number of threads.
-struct TangentialWork {
-  std::size_t points = 0;           ///< Points asked about.
-  std::size_t candidates = 0;       ///< Triangles in their cells.
-  std::size_t tried = 0;            ///< Of those, triangles whose box holds the circle.
-  std::size_t crossings = 0;        ///< Crossings found.
-  std::size_t exact_decisions = 0;  ///< Signs that double arithmetic left open, of the circle's own.
-
-  TangentialWork& operator+=(const TangentialWork& other) noexcept;
-  friend bool operator==(const TangentialWork&, const TangentialWork&) = default;
-};
-
 /// The circle of a point about z, infinitely little smaller and lower than it is: a vertex at its height
-/// counts as above it, an end exactly on it as outside, and the point itself stands infinitely little ahead.
+/// counts as above it, an end exactly on it as outside, and the point itself is infinitely little ahead.
 /// One shift for all triangles: around a closed mesh entries and exits then alternate along every cut, and
 /// sum to zero.
 struct Circle {
   Vec3 point;
   double squared_radius;
-  double scale;  ///< At least every |x|, |y| of the triangles and of the point: bounds of rounding are in its
-                 ///< units.
+  /// At least every |x|, |y| of the triangles and of the point: bounds of rounding are in its units.
+  double scale;
+
   Vec3 centre() const noexcept { return {0, 0, point.z()}; }
 };
 
-/// A triangle whose corners are somewhere else.
+/// The circle of a point; `scale` of the triangles only.
+Circle circle_through(const Vec3& point, double scale) noexcept;
+
+/// A triangle whose corners are stored elsewhere.
 using TriangleRef = std::array<const Vec3*, 3>;
 
-/// The piece of a triangle at the circle's height, walked from p to q with the solid on its left (seen from
-/// +z).
+/// The segment in which a triangle meets the plane at the circle's height, from p to q with the solid on its
+/// left (seen from +z).
 ///
 ///          upper         upper
 ///            |             |          solid: beyond the page
@@ -94,8 +86,8 @@ struct CircleCut {
 void add_crossings(const Circle& circle, const TriangleRef& triangle, Index number,
                    std::vector<CircleCrossing>& out, TangentialWork& work);
 
-/// What the ray from the point away from the axis, at its height, says about the solid behind this triangle:
-/// +1 where it leaves the solid there, -1 where it enters, 0 where they do not meet. Summed over all
+/// How the ray from the point away from the axis, at its height, crosses this triangle: +1 where it leaves the
+/// solid there, -1 where it enters, 0 where they do not meet. Summed over all
 /// triangles: the winding number of the infinitely little shifted point, also where the point itself is on
 /// the surface.
 int outward_crossing(const Circle& circle, const TriangleRef& triangle, TangentialWork& work);

@@ -32,8 +32,8 @@ bool exact_has_chord(const Circle& circle, const CircleCut& cut) {
   // (q - p) times both denominators.
   const Integer x = p.w * q.x - q.w * p.x, y = p.w * q.y - q.w * p.y;
   if (p.x * x + p.y * y >= 0 || q.x * x + q.y * y <= 0) return false;
-  const Integer turn = p.x * q.y - p.y * q.x;
-  return turn * turn < (n[12] * n[12] + n[13] * n[13]) * (x * x + y * y);
+  const Integer cross = p.x * q.y - p.y * q.x;
+  return cross * cross < (n[12] * n[12] + n[13] * n[13]) * (x * x + y * y);
 }
 
 }  // namespace
@@ -56,11 +56,11 @@ bool has_chord(const Circle& circle, const CircleCut& cut, TangentialWork& work)
   if (at_p > dot_bound || at_q < -dot_bound) return false;
   // rho^2 |q - p|^2 (2 M^2, and 8 M^2 off by 208u M^2) and (p x q)^2 (4 M^4, of 2 M^2 off by 52u M^2): 416u +
   // 208u, and at most 150u M^4 for the products.
-  const double turn = p.x * q.y - p.y * q.x;
-  const double room = circle.squared_radius * (dx * dx + dy * dy) - turn * turn;
-  const double room_bound = 1024 * core::rounding_unit * squared_scale * squared_scale;
-  if (room < -room_bound) return false;
-  if (at_p < -dot_bound && at_q > dot_bound && room > room_bound) return true;
+  const double cross = p.x * q.y - p.y * q.x;
+  const double discriminant = circle.squared_radius * (dx * dx + dy * dy) - cross * cross;
+  const double discriminant_bound = 1024 * core::rounding_unit * squared_scale * squared_scale;
+  if (discriminant < -discriminant_bound) return false;
+  if (at_p < -dot_bound && at_q > dot_bound && discriminant > discriminant_bound) return true;
   ++work.exact_decisions;
   return exact_has_chord(circle, cut);
 }

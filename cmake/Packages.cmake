@@ -1,0 +1,32 @@
+# Debian packages, one for each part that cmake --install knows: docs/install.md. The libraries are static, so there is no
+# package of a runtime.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME condyle)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "The Condyle authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_SOURCE_DIR}/out/packages)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_COMPONENTS_ALL command development documentation)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+
+set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME condyle)
+set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_COMMAND_DESCRIPTION "The command condyle: contact of the bones of a joint, its depth, and how far the joint turns.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcondyle-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev, libhwy-dev, libfmt-dev, libtomlplusplus-dev")
+# condyle::io only, and a gigabyte of packages.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS libvtk9-dev)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers, for find_package(condyle) and pkg-config.")
+
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME condyle-doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "The API page and every other page: /usr/share/doc/condyle-doc/api/index.html.")
+
+include(CPack)

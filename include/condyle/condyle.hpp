@@ -1,0 +1,46 @@
+#pragma once
+
+/// The whole core, in reading order. Files (condyle/io) and the parametric hip (condyle/sample) are libraries of their
+/// own and are included one by one.
+
+// In reading order, not in the alphabet's.
+// clang-format off
+
+// What everything is made of.
+#include "condyle/points.hpp"
+#include "condyle/angle.hpp"
+#include "condyle/pose.hpp"
+#include "condyle/error.hpp"
+
+// Surfaces.
+#include "condyle/mesh.hpp"
+#include "condyle/length_unit.hpp"
+#include "condyle/inspect.hpp"
+#include "condyle/repair.hpp"
+
+// Joints.
+#include "condyle/joint_coordinates.hpp"
+#include "condyle/joint_frame.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/fit_sphere.hpp"
+#include "condyle/fit_cylinder.hpp"
+
+// One pose.
+#include "condyle/point_state.hpp"
+#include "condyle/radial.hpp"
+#include "condyle/axis_frame.hpp"
+#include "condyle/tangential.hpp"
+
+// Motions.
+#include "condyle/first_contact.hpp"
+#include "condyle/articular_centre.hpp"
+#include "condyle/articular_region.hpp"
+#include "condyle/overlap_options.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "condyle/clock_face.hpp"
+#include "condyle/motion_map.hpp"
+#include "condyle/depth_limit.hpp"
+#include "condyle/path_limit.hpp"
+#include "condyle/impingement_zone.hpp"
+
+#include "condyle/version.hpp"

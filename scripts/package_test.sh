@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Installs the packages of out/packages on a bare Debian 12 in a folder of its own, with what they ask for from Debian, and
+# runs what they bring. The bare system is kept in build/bare.tar for the next time. Needs root.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+if [ "$(id -u)" -ne 0 ]; then exec sudo "$0" "$@"; fi
+work=$(mktemp -d)
+trap 'umount "$work/root/proc" 2>/dev/null || true; rm -rf --one-file-system "$work"' EXIT
+root=$work/root
+
+mirror=${DEBIAN_MIRROR:-http://deb.debian.org/debian}
+if [ ! -e build/bare.tar ]; then
+  debootstrap --variant=minbase bookworm "$root" "$mirror" >"$work/debootstrap.txt" ||
+    { tail "$work/debootstrap.txt" >&2; exit 1; }
+  tar -C "$root" -cf build/bare.tar .
+else
+  mkdir "$root"
+  tar -C "$root" -xf build/bare.tar
+fi
+# How this machine reaches the mirror.
+cp -a /etc/apt/apt.conf.d "$root/etc/apt/"
+cp /etc/resolv.conf "$root/etc/"
+mkdir "$root/packages"
+cp out/packages/*.deb "$root/packages/"
+mount -t proc proc "$root/proc" 2>/dev/null || true
+
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root DEBIAN_FRONTEND=noninteractive \
+  ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} "$@"; }
+install() { inside apt-get install -y -qq --no-install-recommends "$@" >"$work/apt.txt" 2>&1 ||
+  { tail -20 "$work/apt.txt" >&2; exit 1; }; }
+
+inside apt-get update -qq
+install "/$(cd "$root" && ls ./packages/condyle_*.deb)" "/$(cd "$root" && ls ./packages/condyle-doc_*.deb)"
+inside condyle --version
+inside condyle sample hip --out /tmp/sample >/dev/null
+inside condyle depth /tmp/sample/hip.toml --pose "flexion=130" | head -3
+test -e "$root/usr/share/doc/condyle-doc/api/index.html"

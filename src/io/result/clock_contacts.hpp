@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "condyle/io/rom_result.hpp"
+#include "io/result/plot_clock_face.hpp"
+
+namespace condyle::io {
+
+/// Direction of the limit's contact on the socket's clock, the sagittal one: 12 superior and 3 anterior on
+/// either side. None for a hinge and without contact.
+std::optional<double> clock_hour(const Joint& joint, const MotionLimit& limit);
+
+/// Where on that clock the motions end that end in contact.
+std::vector<ClockContact> clock_contacts(const RomResult& result);
+
+}  // namespace condyle::io

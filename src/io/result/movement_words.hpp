@@ -1,0 +1,22 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "condyle/io/map_result.hpp"
+
+namespace condyle::io {
+
+/// Blanks for underscores.
+inline std::string spaced(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+inline std::string movement_words(JointAngle angle, RotationSense sense) {
+  return spaced(movement_name(angle, sense));
+}
+
+}  // namespace condyle::io

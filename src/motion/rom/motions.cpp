@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "condyle/range_of_motion.hpp"
+
+namespace condyle {
+namespace {
+
+constexpr auto flexion = JointAngle::flexion, adduction = JointAngle::adduction,
+               rotation = JointAngle::internal_rotation;
+constexpr auto positive = RotationSense::positive, negative = RotationSense::negative;
+
+constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
+  return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
+}
+
+constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
+
+}  // namespace
+
+std::vector<Motion> hip_motions() {
+  const auto half = Angle::degrees(180), quarter = Angle::degrees(90), third = Angle::degrees(120);
+  return {
+      {"flexion", flexion, positive, at(0), half},
+      {"extension", flexion, negative, at(0), quarter},
+      {"abduction", adduction, negative, at(0), quarter},
+      {"adduction", adduction, positive, at(0), quarter},
+      {"internal_rotation", rotation, positive, at(0), third},
+      {"external_rotation", rotation, negative, at(0), third},
+      {"abduction_at_90_flexion", adduction, negative, at(90), quarter},
+      {"adduction_at_90_flexion", adduction, positive, at(90), quarter},
+      {"internal_rotation_at_90_flexion", rotation, positive, at(90), third},
+      {"external_rotation_at_90_flexion", rotation, negative, at(90), third},
+      {"fadir", rotation, positive, at(90, 15), third},
+      {"faber", rotation, negative, at(45, -45), third},
+  };
+}
+
+std::vector<Motion> hinge_motions() {
+  return {
+      {"flexion", flexion, positive, at(0), Angle::degrees(180)},
+      {"extension", flexion, negative, at(0), Angle::degrees(180)},
+  };
+}
+
+std::vector<Motion> built_in_motions(JointKind kind) {
+  return kind == JointKind::ball ? hip_motions() : hinge_motions();
+}
+
+std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own) {
+  for (const Motion& motion : own) {
+    const auto known = std::find_if(built_in.begin(), built_in.end(),
+                                    [&](const Motion& other) { return other.name == motion.name; });
+    if (known == built_in.end())
+      built_in.push_back(motion);
+    else
+      *known = motion;
+  }
+  return built_in;
+}
+
+const Motion& motion_named(std::span<const Motion> motions, std::string_view name) {
+  const auto found =
+      std::find_if(motions.begin(), motions.end(), [&](const Motion& motion) { return motion.name == name; });
+  if (found != motions.end()) return *found;
+  std::string names;
+  for (const Motion& motion : motions) names += (names.empty() ? "" : ", ") + motion.name;
+  throw UsageError("unknown motion \"" + std::string(name) + "\"; there are " + names);
+}
+
+void check_motion(const Motion& motion, JointKind kind) {
+  const auto fail = [&](const char* what) { throw UsageError("motion \"" + motion.name + "\": " + what); };
+  const double range = motion.range.radians();
+  if (!(range > 0)) fail("the range is empty");
+  if (!(range <= two_pi)) fail("the range is more than a full turn");
+  for (const JointAngle angle : all_angles) {
+    const double start = angle_of(motion.start, angle).radians();
+    if (!std::isfinite(start)) fail("an angle is not finite");
+    if (kind == JointKind::hinge && angle != JointAngle::flexion && (start != 0 || motion.vary == angle))
+      fail("a hinge turns only in flexion");
+  }
+}
+
+Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept {
+  switch (angle) {
+    case JointAngle::flexion:
+      return angles.flexion;
+    case JointAngle::adduction:
+      return angles.adduction;
+    case JointAngle::internal_rotation:
+      break;
+  }
+  return angles.internal_rotation;
+}
+
+JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept {
+  Angle& changed = angle == JointAngle::flexion     ? from.flexion
+                   : angle == JointAngle::adduction ? from.adduction
+                                                    : from.internal_rotation;
+  changed = changed + by;
+  return from;
+}
+
+JointAngles MotionLimit::angles_at_limit() const noexcept {
+  return turned_by(motion.start, motion.vary, end.turned * sign_of(motion.sense));
+}
+
+}  // namespace condyle

@@ -1,0 +1,125 @@
+#include "motion/rom/overlap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "condyle/error.hpp"
+#include "contact/joint_contact.hpp"
+#include "contact/radial_summary.hpp"
+
+namespace condyle::motion {
+namespace {
+
+/// One entry per triangle; bytes, because threads never share them and vector<bool> is slow to scan.
+using Marks = std::vector<unsigned char>;
+
+PartOfMesh without(const Mesh& mesh, const Marks& left_out, const std::string& body) {
+  const TriMesh& whole = mesh;
+  TriMesh part{whole.vertices, {}};
+  std::vector<Index> triangle_in_whole;
+  part.triangles.reserve(whole.triangles.size()), triangle_in_whole.reserve(whole.triangles.size());
+  for (Index t = 0; t < whole.triangles.size(); ++t) {
+    if (left_out[t]) continue;
+    part.triangles.push_back(whole.triangles[t]);
+    triangle_in_whole.push_back(t);
+  }
+  if (part.triangles.empty() && !whole.triangles.empty())
+    throw MeshError(body + ": every triangle is left out: nothing remains that could meet the other body");
+  if (part.triangles.size() == whole.triangles.size()) return {mesh, std::move(triangle_in_whole)};
+  return {std::move(part), std::move(triangle_in_whole)};
+}
+
+void mark_inside(const TriMesh& mesh, const ArticularRegion& region, Marks& marks) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    if (region.holds(mesh.corner(t, 0)) && region.holds(mesh.corner(t, 1)) && region.holds(mesh.corner(t, 2)))
+      marks[t] = 1;
+}
+
+void mark_neighbours(const TriMesh& mesh, int rings, Marks& marks) {
+  Marks vertex_marks(mesh.vertices.size());
+  for (int ring = 0; ring < rings; ++ring) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      if (marks[t])
+        for (const Index v : mesh.triangles[t]) vertex_marks[v] = 1;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      for (const Index v : mesh.triangles[t])
+        if (vertex_marks[v]) marks[t] = 1;
+  }
+}
+
+void check(const ArticularRegion& region) {
+  if (!(region.radius_mm > 0) || !std::isfinite(region.radius_mm))
+    throw UsageError("region to leave out: the radius must be above 0 mm");
+  if (!region.cone) return;
+  if (!region.cone->axis.allFinite() || region.cone->axis.isZero(0))
+    throw UsageError("region to leave out: the cone's axis has no direction");
+  if (!(region.cone->half_angle.radians() > 0))
+    throw UsageError("region to leave out: the cone's half angle must be above 0 degrees");
+}
+
+std::string number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g", value);
+  return text.data();
+}
+
+/// Where one body's vertices are deepest in the other.
+std::string deepest(const Body& body, const Body& other, const RadialBodySummary& summary) {
+  const Vec3 p = body.mesh.vertices()[summary.deepest->vertex];
+  return body.name + " vertex " + std::to_string(summary.deepest->vertex) + " at (" + number(p.x()) + ", " +
+         number(p.y()) + ", " + number(p.z()) + ") mm is " + number(summary.deepest->depth_mm) +
+         " mm inside " + other.name + " along its ray, " + number(summary.deepest->shortest_way_out_mm) +
+         " mm from its surface";
+}
+
+}  // namespace
+
+PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options) {
+  const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
+  Marks of_fixed(fixed.triangles().size()), of_mobile(mobile.triangles().size());
+  if (options.leave_out_reference_contacts) {
+    const int rings = options.leave_out_reference_contacts->rings;
+    if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
+    const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.side, options.reference_pose));
+    for (const TrianglePair& pair : pairs) of_fixed[pair.fixed] = of_mobile[pair.mobile] = 1;
+    mark_neighbours(fixed, rings, of_fixed);
+    mark_neighbours(mobile, rings, of_mobile);
+  }
+  if (options.leave_out_region) {
+    check(*options.leave_out_region);
+    mark_inside(fixed, *options.leave_out_region, of_fixed);
+    if (!options.leave_out_region->cone) mark_inside(mobile, *options.leave_out_region, of_mobile);
+  }
+  return {without(fixed, of_fixed, joint.fixed.name), without(mobile, of_mobile, joint.mobile.name)};
+}
+
+std::string explain_overlap(const Joint& joint, const JointAngles& at) {
+  const JointContact bodies(joint.fixed.mesh, joint.mobile.mesh);
+  const Pose X_FM = pose_at(joint.side, at);
+  const RadialContact contact = bodies.radial(X_FM);
+  const RadialSummary summary = summarise(bodies, X_FM, contact);
+  std::string text = joint.mobile.name + " and " + joint.fixed.name +
+                     " are in contact in the reference pose: " + std::to_string(contact.pairs.size()) +
+                     " pairs of triangles meet";
+  const RadialBodySummary mobile = summary.mobile.value_or(RadialBodySummary{});
+  const RadialBodySummary fixed = summary.fixed.value_or(RadialBodySummary{});
+  const double mobile_depth = mobile.deepest ? mobile.deepest->depth_mm : 0;
+  const double fixed_depth = fixed.deepest ? fixed.deepest->depth_mm : 0;
+  if (mobile.deepest && mobile_depth >= fixed_depth) {
+    text += "; " + deepest(joint.mobile, joint.fixed, mobile);
+  } else if (fixed.deepest) {
+    text += "; " + deepest(joint.fixed, joint.mobile, fixed);
+  } else if (!contact.pairs.empty()) {
+    const Vec3 p = joint.fixed.mesh.corner(contact.pairs.front().fixed, 0);
+    const bool told = contact.mobile_in_fixed && contact.fixed_in_mobile;
+    text += (told ? "; no vertex is inside, first at " : "; an open mesh has no depth, first at ") +
+            joint.fixed.name + " triangle " + std::to_string(contact.pairs.front().fixed) + " at (" +
+            number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") mm";
+  }
+  return text +
+         ". Allow a radial depth, leave out the articular region, leave out the contacts in the reference "
+         "pose, state another reference pose, or accept contact at the start";
+}
+
+}  // namespace condyle::motion

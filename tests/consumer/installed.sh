@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Installs a build, as it is, into an empty prefix; configures, builds and runs the consumer against it, and its main
+# program once more by pkg-config alone.
+# Usage: installed.sh BUILD_FOLDER COMPILER BUILD_TYPE WORK_FOLDER
+set -euo pipefail
+build=$1 compiler=$2 build_type=$3 work=$4
+here=$(cd "$(dirname "$0")" && pwd)
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+fail() { echo "$*" >&2; exit 1; }
+says() { "$1" | tee /dev/stderr | grep -qx "$2" || fail "$1 must say: $2"; }
+
+for component in development command documentation; do
+  cmake --install "$build" --prefix prefix --component "$component" >/dev/null
+done
+# Nothing of a build folder or of the sources is needed, or known.
+if grep -rlF "$(cd "$here/../.." && pwd)" prefix/lib*/cmake prefix/lib*/pkgconfig; then fail "these name the source folder"; fi
+prefix/bin/condyle --version
+
+cmake -S "$here" -B installed -G Ninja -DCMAKE_PREFIX_PATH="$PWD/prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+  -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="${CONSUMER_FLAGS:-}" >configure.txt || fail "$(cat configure.txt)"
+cmake --build installed >build.txt || fail "$(cat build.txt)"
+says installed/consumer "flexion ends at 30.000 degrees"
+says installed/consumer_of_files "773 vertices"
+
+# A version that is not this one is refused.
+sed 's/condyle 0\.1/condyle 0.99/' "$here/CMakeLists.txt" >CMakeLists.txt
+cp "$here"/*.cpp .
+if cmake -S . -B other_version -G Ninja -DCMAKE_PREFIX_PATH="$PWD/prefix" >/dev/null 2>&1; then fail "0.99 was found"; fi
+
+PKG_CONFIG_PATH=$(dirname "$(find "$PWD/prefix" -name condyle.pc)")
+export PKG_CONFIG_PATH
+# shellcheck disable=SC2046,SC2086
+"$compiler" ${CONSUMER_FLAGS:-} main.cpp -o by_pkg_config $(pkg-config --cflags --libs condyle)
+says ./by_pkg_config "flexion ends at 30.000 degrees"
