@@ -41,10 +41,12 @@ struct BoundaryLoop {
 struct MeshComponent {
   Index first_triangle = 0;
   std::size_t triangles = 0;
-  bool closed = true;        ///< No boundary, no non-manifold edge, one winding.
-  std::optional<int> genus;  ///< Number of handles, where closed; a vertex counts once for each of its fans.
-  std::optional<double>
-      signed_volume;  ///< Where closed; negative when wound inside out, as the skin of a cavity is.
+  /// Every edge is used as often in one direction as in the other.
+  bool closed = true;
+  /// Number of handles, where closed and without non-manifold edges; a vertex counts once for each of its fans.
+  std::optional<int> genus;
+  /// Where closed; negative when inverted, as the boundary of a cavity is.
+  std::optional<double> signed_volume;
 };
 
 struct BoundingBox {
@@ -70,17 +72,28 @@ struct LikelyUnit {
 struct MeshReport {
   std::size_t vertices = 0, triangles = 0;
 
-  Finding<Edge> boundary_edges;  ///< One triangle.
+  /// One triangle.
+  Finding<Edge> boundary_edges;
   Finding<BoundaryLoop> boundary_loops;
-  Finding<Edge> non_manifold_edges;  ///< Three triangles or more.
-  Finding<Index>
-      non_manifold_vertices;  ///< Its triangles, joined over the edges they share, are more than one fan.
-  Finding<Edge> inconsistent_edges;  ///< Two triangles that run along it in one direction: wound differently.
-  Finding<Index> duplicate_triangles;    ///< Has the three vertices of an earlier one, in any order.
-  Finding<Index> degenerate_triangles;   ///< A vertex twice, or an area of exactly zero.
-  Finding<Index> unreferenced_vertices;  ///< In no triangle.
-  Finding<Index> duplicate_vertices;     ///< Has the coordinates of an earlier one, -0 being +0.
-  Finding<Index> inverted_components;    ///< Closed, with negative volume; numbers in `components`.
+  /// Three triangles or more.
+  Finding<Edge> non_manifold_edges;
+  /// Its triangles, joined over the edges they share, are more than one fan.
+  Finding<Index> non_manifold_vertices;
+  /// Two triangles that run along it in one direction: wound differently.
+  Finding<Edge> inconsistent_edges;
+  /// Used more often in one direction than in the other: all boundary and inconsistent edges, and those
+  /// non-manifold ones that keep the mesh from being closed.
+  Finding<Edge> unbalanced_edges;
+  /// Has the three vertices of an earlier one, in any order.
+  Finding<Index> duplicate_triangles;
+  /// A vertex twice, or an area of exactly zero.
+  Finding<Index> degenerate_triangles;
+  /// In no triangle.
+  Finding<Index> unreferenced_vertices;
+  /// Has the coordinates of an earlier one, -0 being +0.
+  Finding<Index> duplicate_vertices;
+  /// Closed, with negative volume; numbers in `components`.
+  Finding<Index> inverted_components;
 
   std::vector<MeshComponent> components;  ///< By first triangle.
 
@@ -90,16 +103,17 @@ struct MeshReport {
   EdgeLengths edge_lengths{0, 0, 0};
   LikelyUnit likely_unit;
 
-  /// Fit for a winding number: the surface bounds a solid, if perhaps inside out. Neither self-intersections
-  /// nor non-manifold vertices matter to that.
-  bool is_closed() const noexcept {
-    return !components.empty() && boundary_edges.count == 0 && non_manifold_edges.count == 0 &&
-           inconsistent_edges.count == 0;
-  }
+  /// As Mesh::is_closed: every edge is used as often in one direction as in the other. The surface then has an
+  /// inside, if perhaps an inverted one. Neither self-intersections nor non-manifold edges and vertices matter
+  /// to that.
+  bool is_closed() const noexcept { return unbalanced_edges.count == 0; }
 };
 
 /// Looks at everything once, in n log n.
-MeshReport inspect(const TriMesh& mesh);
+MeshReport inspect(const Mesh& mesh);
+
+/// The report's guess of the unit, without the rest of it. Linear.
+LikelyUnit likely_unit(const TriMesh& mesh);
 
 /// The first boundary loop in words, for the message that refuses an open mesh: "an open boundary of 14 edges
 /// near (12.1, -3, 44.9), from vertex 812 (the first of 3)". Empty for a mesh without boundary.

@@ -10,6 +10,12 @@
 
 namespace condyle {
 
+class Mesh;
+namespace mesh {
+class EdgeTable;
+const EdgeTable& edges_of(const Mesh& mesh);
+}  // namespace mesh
+
 /// Three vertex numbers, counter-clockwise seen from outside the solid.
 using Triangle = std::array<Index, 3>;
 
@@ -60,6 +66,8 @@ class Mesh {
 
  private:
   struct Checked;
+  friend const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh);
+
   std::shared_ptr<const Checked> checked_;
 };
 

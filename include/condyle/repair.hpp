@@ -22,10 +22,10 @@ std::size_t weld_exactly(TriMesh& mesh);
 /// Drops vertices no triangle uses; the order of the others stays. Returns how many went.
 std::size_t drop_unreferenced_vertices(TriMesh& mesh);
 
-/// Turns a mesh that is wholly inside out, by exchanging the last two corners of every triangle: each
-/// component closed and of negative volume. Returns the number of triangles turned: all, or none where no
-/// component is inside out. Raises MeshError where that cannot be told (open, not wound consistently) or
-/// where only some components are inside out: these may be the skins of cavities, which are wound that way.
-std::size_t flip_if_inside_out(TriMesh& mesh);
+/// Turns a mesh of inverted orientation, by exchanging the last two corners of every triangle: each component
+/// closed and of negative volume. Returns the number of triangles turned: all, or none where no component is
+/// inverted. Raises MeshError where that cannot be told (not closed) or where only some components are
+/// inverted: these may be the boundaries of cavities, which are wound that way.
+std::size_t flip_inverted(TriMesh& mesh);
 
 }  // namespace condyle

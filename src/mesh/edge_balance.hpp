@@ -7,17 +7,28 @@
 
 namespace condyle::mesh {
 
-/// The first directed edge (from, to), in the order of triangles, that is used more often in one direction
-/// than in the other, or none. A mesh without one bounds a solid in the sense of the winding number: rays
-/// cross it as often inwards as outwards. This asks less than being a closed manifold, and exactly as much as
-/// a winding number needs.
+/// The first directed edge, in the order of triangles, that is used more often than its opposite, or none. A
+/// mesh without one bounds a solid in the sense of the winding number: rays cross it as often inwards as
+/// outwards. This asks less than being a closed manifold, and exactly as much as a winding number needs.
 ///
-/// Linear in the number of triangles for a closed mesh; n log n otherwise.
-std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh);
+/// What `Mesh` asks where it is made: everybody else asks the Mesh. Decides as EdgeTable does, without
+/// building one for a closed mesh.
+///
+/// Vertices are fewer than 2^31. Linear in the number of triangles for a closed mesh; n log n otherwise.
+std::optional<DirectedEdge> first_unbalanced_edge(const TriMesh& mesh);
 
 /// Raises MeshError naming that edge: without an inside there is no winding number; what can still be
 /// computed is said.
-[[noreturn]] void refuse_unbalanced(const std::pair<Index, Index>& edge);
 [[noreturn]] void refuse_unbalanced(const DirectedEdge& edge);
+
+/// As above, by (from, to).
+inline std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
+  const auto edge = first_unbalanced_edge(mesh);
+  return edge ? std::optional(std::pair{edge->from, edge->to}) : std::nullopt;
+}
+template <class Pair>
+[[noreturn]] void refuse_unbalanced(const Pair& edge) {
+  refuse_unbalanced(DirectedEdge{edge.first, edge.second});
+}
 
 }  // namespace condyle::mesh

@@ -2,23 +2,27 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
-#include <span>
+#include <iterator>
+#include <ranges>
 #include <utility>
 
 #include "condyle/repair.hpp"
 #include "core/predicates.hpp"
+#include "mesh/disjoint_sets.hpp"
+#include "mesh/edge_table.hpp"
+#include "mesh/enclosed_volume.hpp"
 
 namespace condyle {
 namespace {
 
-// Half-edge 3t + k runs along side k of triangle t, from corner k to corner k + 1. "Corner 3t + k" is corner
-// k.
-using HalfEdge = Index;
+using mesh::DisjointSets;
+using mesh::HalfEdge;
+using mesh::names_a_vertex_twice;
+
+// "Corner 3t + k" is corner k of triangle t.
 
 Index from(const TriMesh& mesh, HalfEdge h) {
   return mesh.triangles[h / 3][h % 3];
@@ -30,91 +34,26 @@ HalfEdge next(HalfEdge h) {
   return h % 3 == 2 ? h - 2 : h + 1;
 }
 
-bool names_a_vertex_twice(const Triangle& t) {
-  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
+/// The edges that triangles with three different vertices have.
+struct Edges {
+  const TriMesh& mesh;
+  const mesh::EdgeTable& table;
 
-/// Half-edges gathered by the edge they lie on: edge i owns half_edge[offset[i], offset[i + 1]), ascending.
-/// Edges come in the order of their first half-edges.
-struct EdgeTable {
-  std::vector<HalfEdge> half_edge;
-  std::vector<std::size_t> offset;
-
-  std::size_t size() const { return offset.size() - 1; }
-  std::span<const HalfEdge> operator[](std::size_t i) const {
-    return std::span(half_edge).subspan(offset[i], offset[i + 1] - offset[i]);
+  /// Half-edges along an edge, ascending.
+  auto uses(Index edge) const {
+    return table.half_edges(edge) |
+           std::views::filter([this](HalfEdge h) { return !names_a_vertex_twice(mesh.triangles[h / 3]); });
   }
-};
 
-EdgeTable edges_of(const TriMesh& mesh) {
-  struct Entry {
-    std::pair<Index, Index> ends;
-    HalfEdge h;
-    auto operator<=>(const Entry&) const = default;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(3 * mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (names_a_vertex_twice(mesh.triangles[t])) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto h = static_cast<HalfEdge>(3 * t + k);
-      entries.push_back({std::minmax(Index{from(mesh, h)}, Index{to(mesh, h)}), h});
+  /// visit(edge, its first half-edge), in the order of first half-edges: that of the file.
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
+      if (names_a_vertex_twice(mesh.triangles[h / 3])) continue;
+      const Index edge = table.edge_of(h);
+      if (uses(edge).front() == h) visit(edge, h);
     }
   }
-  std::sort(entries.begin(), entries.end());
-
-  // Groups of equal ends, then the groups by their first half-edge: the order of the file, not of the sort.
-  std::vector<std::pair<std::size_t, std::size_t>> groups;
-  for (std::size_t first = 0, last = 0; first < entries.size(); first = last) {
-    while (last < entries.size() && entries[last].ends == entries[first].ends) ++last;
-    groups.emplace_back(first, last);
-  }
-  std::sort(groups.begin(), groups.end(),
-            [&](const auto& a, const auto& b) { return entries[a.first].h < entries[b.first].h; });
-
-  EdgeTable table;
-  table.half_edge.reserve(entries.size());
-  table.offset.reserve(groups.size() + 1);
-  table.offset.push_back(0);
-  for (const auto& [first, last] : groups) {
-    for (std::size_t i = first; i < last; ++i) table.half_edge.push_back(entries[i].h);
-    table.offset.push_back(table.half_edge.size());
-  }
-  return table;
-}
-
-/// Disjoint sets with path halving; the smallest member represents its set.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-
-  Index find(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = find(a), b = find(b);
-    if (a != b) parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
-/// A sum that carries its rounding errors along (Neumaier): as good as one in twice the precision.
-class CompensatedSum {
- public:
-  void add(double value) {
-    const double sum = sum_ + value;
-    error_ += std::abs(sum_) >= std::abs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
-    sum_ = sum;
-  }
-  double value() const { return sum_ + error_; }
-
- private:
-  double sum_ = 0, error_ = 0;
 };
 
 bool has_no_area(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -160,41 +99,28 @@ void find_bad_triangles(const TriMesh& mesh, MeshReport& report) {
   for (const Index t : duplicates) report.duplicate_triangles.add(t);
 }
 
-enum class EdgeKind { sound, boundary, non_manifold, inconsistent };
-
-EdgeKind kind_of(const TriMesh& mesh, std::span<const HalfEdge> edge) {
-  if (edge.size() == 1) return EdgeKind::boundary;
-  if (edge.size() > 2) return EdgeKind::non_manifold;
-  return from(mesh, edge[0]) == from(mesh, edge[1]) ? EdgeKind::inconsistent : EdgeKind::sound;
+void find_bad_edges(const Edges& edges, MeshReport& report) {
+  edges.for_each([&](Index e, HalfEdge first) {
+    const Edge edge{from(edges.mesh, first), to(edges.mesh, first)};
+    auto uses = edges.uses(e);
+    const auto count = std::ranges::distance(uses);
+    if (count == 1) report.boundary_edges.add(edge);
+    if (count == 2 && from(edges.mesh, *std::next(uses.begin())) == edge.from)
+      report.inconsistent_edges.add(edge);
+    if (count > 2) report.non_manifold_edges.add(edge);
+    if (edges.table.balance(edges.mesh, e) != 0) report.unbalanced_edges.add(edge);
+  });
 }
 
-void find_bad_edges(const TriMesh& mesh, const EdgeTable& edges, MeshReport& report) {
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const Edge edge{from(mesh, edges[e][0]), to(mesh, edges[e][0])};
-    switch (kind_of(mesh, edges[e])) {
-      case EdgeKind::sound:
-        break;
-      case EdgeKind::boundary:
-        report.boundary_edges.add(edge);
-        break;
-      case EdgeKind::non_manifold:
-        report.non_manifold_edges.add(edge);
-        break;
-      case EdgeKind::inconsistent:
-        report.inconsistent_edges.add(edge);
-        break;
-    }
-  }
-}
-
-void find_boundary_loops(const TriMesh& mesh, const EdgeTable& edges, MeshReport& report) {
+void find_boundary_loops(const Edges& edges, MeshReport& report) {
+  const TriMesh& mesh = edges.mesh;
   DisjointSets connected(mesh.vertices.size());
   std::vector<HalfEdge> boundary;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (edges[e].size() != 1) continue;
-    boundary.push_back(edges[e][0]);
-    connected.join(from(mesh, boundary.back()), to(mesh, boundary.back()));
-  }
+  edges.for_each([&](Index e, HalfEdge first) {
+    if (std::ranges::distance(edges.uses(e)) != 1) return;
+    boundary.push_back(first);
+    connected.join(from(mesh, first), to(mesh, first));
+  });
   std::vector<Index> loop_of(mesh.vertices.size(), no_index);  // by the vertex that represents it
   std::vector<BoundaryLoop> loops;
   for (const HalfEdge h : boundary) {
@@ -214,16 +140,16 @@ void find_boundary_loops(const TriMesh& mesh, const EdgeTable& edges, MeshReport
 }
 
 /// Corners about a vertex, joined over the edges their triangles share: one set is one fan.
-DisjointSets fans_of(const TriMesh& mesh, const EdgeTable& edges) {
+DisjointSets fans_of(const Edges& edges) {
+  const TriMesh& mesh = edges.mesh;
   DisjointSets fans(3 * mesh.triangles.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const HalfEdge first = edges[e][0];
-    for (const HalfEdge other : edges[e].subspan(1)) {
+  edges.for_each([&](Index e, HalfEdge first) {
+    for (const HalfEdge other : edges.uses(e)) {
       const bool same_direction = from(mesh, first) == from(mesh, other);
       fans.join(first, same_direction ? other : next(other));
       fans.join(next(first), same_direction ? next(other) : other);
     }
-  }
+  });
   return fans;
 }
 
@@ -238,42 +164,40 @@ void find_non_manifold_vertices(const TriMesh& mesh, DisjointSets& fans, MeshRep
   }
 }
 
-/// Signed volume of the tetrahedra from the box's centre to each triangle: there the terms are small, and a
-/// mesh far from the origin loses nothing. Genus by Euler: vertices - edges + triangles = 2 - 2 genus, edges
-/// = 3/2 triangles.
-void measure_components(const TriMesh& mesh, const EdgeTable& edges, DisjointSets& fans, MeshReport& report) {
-  DisjointSets connected(mesh.triangles.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const HalfEdge h : edges[e].subspan(1)) connected.join(edges[e][0] / 3, h / 3);
-  }
+/// Genus by Euler: vertices - edges + triangles = 2 - 2 genus, edges = 3/2 triangles.
+void measure_components(const Edges& edges, DisjointSets& fans, MeshReport& report) {
+  const TriMesh& mesh = edges.mesh;
+  const auto in_table = edges.table.components();
+  // Those that consist of triangles without sides have no number in the report.
+  std::vector<Index> number(in_table.first_triangle.size(), no_index);
+  const auto component_of = [&](Index triangle) { return number[in_table.of_triangle[triangle]]; };
   const Vec3 centre = (report.bounds.low + report.bounds.high) / 2;
-  std::vector<Index> component_of(mesh.triangles.size(), no_index);
   std::vector<std::int64_t> vertices;
-  std::vector<CompensatedSum> volume;
+  std::vector<mesh::CompensatedSum> volume;
+  std::vector<bool> manifold;
   auto& components = report.components;
   for (Index t = 0; t < mesh.triangles.size(); ++t) {
     if (names_a_vertex_twice(mesh.triangles[t])) continue;
-    const Index root = connected.find(t);
-    if (root == t) {
-      component_of[t] = static_cast<Index>(components.size());
+    if (component_of(t) == no_index) {
+      number[in_table.of_triangle[t]] = static_cast<Index>(components.size());
       components.emplace_back().first_triangle = t;
-      vertices.push_back(0);
-      volume.emplace_back();
+      vertices.push_back(0), volume.emplace_back(), manifold.push_back(true);
     }
-    const Index c = component_of[t] = component_of[root];
+    const Index c = component_of(t);
     ++components[c].triangles;
-    const Vec3 p = mesh.corner(t, 0) - centre, q = mesh.corner(t, 1) - centre, r = mesh.corner(t, 2) - centre;
-    volume[c].add(p.dot(q.cross(r)) / 6);
+    volume[c].add(mesh::volume_below(mesh, t, centre));
     for (Index corner = 3 * t; corner < 3 * t + 3; ++corner) vertices[c] += fans.find(corner) == corner;
   }
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    if (kind_of(mesh, edges[e]) != EdgeKind::sound) components[component_of[edges[e][0] / 3]].closed = false;
-  }
-  CompensatedSum total;
+  edges.for_each([&](Index e, HalfEdge first) {
+    const Index c = component_of(first / 3);
+    if (edges.table.balance(mesh, e) != 0) components[c].closed = false;
+    if (std::ranges::distance(edges.uses(e)) != 2) manifold[c] = false;
+  });
+  mesh::CompensatedSum total;
   for (std::size_t c = 0; c < components.size(); ++c) {
     if (!components[c].closed) continue;
     const auto triangles = static_cast<std::int64_t>(components[c].triangles);
-    components[c].genus = static_cast<int>((2 - (vertices[c] - triangles / 2)) / 2);
+    if (manifold[c]) components[c].genus = static_cast<int>((2 - (vertices[c] - triangles / 2)) / 2);
     components[c].signed_volume = volume[c].value();
     if (volume[c].value() < 0) report.inverted_components.add(static_cast<Index>(c));
     total.add(volume[c].value());
@@ -281,24 +205,21 @@ void measure_components(const TriMesh& mesh, const EdgeTable& edges, DisjointSet
   if (report.is_closed()) report.signed_volume = total.value();
 }
 
-void measure_surface(const TriMesh& mesh, const EdgeTable& edges, MeshReport& report) {
-  if (mesh.triangles.empty()) return;
-  report.bounds = {mesh.corner(0, 0), mesh.corner(0, 0)};
-  CompensatedSum area;
+void measure_surface(const Edges& edges, MeshReport& report) {
+  const TriMesh& mesh = edges.mesh;
+  report.bounds = mesh::bounds_of_surface(mesh);
+  mesh::CompensatedSum area;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    report.bounds.low = report.bounds.low.cwiseMin(a).cwiseMin(b).cwiseMin(c);
-    report.bounds.high = report.bounds.high.cwiseMax(a).cwiseMax(b).cwiseMax(c);
     area.add((b - a).cross(c - a).norm() / 2);
   }
   report.area = area.value();
 
-  if (edges.size() == 0) return;
-  std::vector<double> lengths(edges.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const HalfEdge h = edges[e][0];
-    lengths[e] = (mesh.vertices[to(mesh, h)] - mesh.vertices[from(mesh, h)]).norm();
-  }
+  std::vector<double> lengths;
+  edges.for_each([&](Index, HalfEdge h) {
+    lengths.push_back((mesh.vertices[to(mesh, h)] - mesh.vertices[from(mesh, h)]).norm());
+  });
+  if (lengths.empty()) return;
   const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
   std::nth_element(lengths.begin(), middle, lengths.end());
   const auto [shortest, longest] = std::minmax_element(lengths.begin(), lengths.end());
@@ -317,7 +238,7 @@ std::string in_short(double value) {
 /// Human bones and their cartilages, whole or in part, span 20 mm (a wedge of meniscus) to 1 m (a tall man's
 /// femur is half of that). The two ranges touch nowhere, so a surface of either unit is never taken for the
 /// other; a smaller or larger object is simply not guessed.
-LikelyUnit likely_unit(double diagonal) {
+LikelyUnit likely_unit_of_size(double diagonal) {
   constexpr double shortest_mm = 20, longest_mm = 1000, mm_per_m = 1000;
   const std::string size = "the bounding box is " + in_short(diagonal) + " across";
   if (diagonal >= shortest_mm && diagonal <= longest_mm) {
@@ -331,22 +252,25 @@ LikelyUnit likely_unit(double diagonal) {
 
 }  // namespace
 
-MeshReport inspect(const TriMesh& mesh) {
-  assert(mesh.triangles.size() < no_index / 3 && "half-edges are counted in an Index");
+LikelyUnit likely_unit(const TriMesh& mesh) {
+  return likely_unit_of_size(mesh::bounds_of_surface(mesh).diagonal());
+}
+
+MeshReport inspect(const Mesh& mesh) {
   MeshReport report;
-  report.vertices = mesh.vertices.size();
-  report.triangles = mesh.triangles.size();
-  const EdgeTable edges = edges_of(mesh);
-  DisjointSets fans = fans_of(mesh, edges);
+  report.vertices = mesh.vertices().size();
+  report.triangles = mesh.triangles().size();
+  const Edges edges{mesh, mesh::edges_of(mesh)};
+  DisjointSets fans = fans_of(edges);
 
   find_bad_vertices(mesh, report);
   find_bad_triangles(mesh, report);
-  find_bad_edges(mesh, edges, report);
-  find_boundary_loops(mesh, edges, report);
+  find_bad_edges(edges, report);
+  find_boundary_loops(edges, report);
   find_non_manifold_vertices(mesh, fans, report);
-  measure_surface(mesh, edges, report);
-  measure_components(mesh, edges, fans, report);
-  report.likely_unit = likely_unit(report.bounds.diagonal());
+  measure_surface(edges, report);
+  measure_components(edges, fans, report);
+  report.likely_unit = likely_unit_of_size(report.bounds.diagonal());
   return report;
 }
 

@@ -1,21 +1,24 @@
 #include "condyle/mesh.hpp"
 
 #include <cmath>
+#include <mutex>
 #include <string>
 #include <utility>
 
 #include "condyle/error.hpp"
 #include "mesh/edge_balance.hpp"
+#include "mesh/edge_table.hpp"
 
 namespace condyle {
 namespace {
 
-/// Vertex and triangle numbers are of 32 bits, and the edge table needs one of them.
-constexpr std::size_t most_elements = std::size_t{1} << 31;
+/// Vertex numbers are of 32 bits, of which the check for closedness needs one; half-edges, three per triangle,
+/// are numbered in 32 bits too.
+constexpr std::size_t most_vertices = std::size_t{1} << 31, most_triangles = no_index / 3;
 
-void check_size(const char* what, std::size_t count) {
-  if (count >= most_elements)
-    throw MeshError(std::to_string(count) + " " + what + ", not fewer than " + std::to_string(most_elements));
+void check_size(const char* what, std::size_t count, std::size_t most) {
+  if (count >= most)
+    throw MeshError(std::to_string(count) + " " + what + ", not fewer than " + std::to_string(most));
 }
 
 void check_vertices(const Points& points) {
@@ -23,7 +26,7 @@ void check_vertices(const Points& points) {
     throw MeshError("coordinates are " + std::to_string(points.x.size()) + " x, " +
                     std::to_string(points.y.size()) + " y and " + std::to_string(points.z.size()) +
                     " z, not as many of each");
-  check_size("vertices", points.size());
+  check_size("vertices", points.size(), most_vertices);
   for (std::size_t v = 0; v < points.size(); ++v) {
     // One sum of zeros, or one NaN.
     if (!std::isfinite((points.x[v] * 0 + points.y[v] * 0) + points.z[v] * 0))
@@ -32,7 +35,7 @@ void check_vertices(const Points& points) {
 }
 
 void check_triangles(const TriMesh& mesh) {
-  check_size("triangles", mesh.triangles.size());
+  check_size("triangles", mesh.triangles.size(), most_triangles);
   const std::size_t count = mesh.vertices.size();
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const Index v : mesh.triangles[t]) {
@@ -48,14 +51,15 @@ void check_triangles(const TriMesh& mesh) {
 struct Mesh::Checked {
   TriMesh arrays;
   std::optional<DirectedEdge> unbalanced_edge;
+  mutable std::once_flag edges_built = {};
+  mutable std::optional<mesh::EdgeTable> edges = {};
 };
 
 Mesh::Mesh(TriMesh arrays) {
   check_vertices(arrays.vertices);
   check_triangles(arrays);
-  std::optional<DirectedEdge> unbalanced;
-  if (const auto edge = mesh::unbalanced_edge(arrays)) unbalanced = {edge->first, edge->second};
-  checked_ = std::make_shared<const Checked>(Checked{std::move(arrays), unbalanced});
+  const auto unbalanced = mesh::first_unbalanced_edge(arrays);
+  checked_ = std::shared_ptr<const Checked>(new Checked{std::move(arrays), unbalanced});
 }
 
 const TriMesh& Mesh::arrays() const noexcept {
@@ -64,6 +68,12 @@ const TriMesh& Mesh::arrays() const noexcept {
 
 const std::optional<DirectedEdge>& Mesh::unbalanced_edge() const noexcept {
   return checked_->unbalanced_edge;
+}
+
+const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh) {
+  const Mesh::Checked& checked = *mesh.checked_;
+  std::call_once(checked.edges_built, [&] { checked.edges.emplace(checked.arrays); });
+  return *checked.edges;
 }
 
 }  // namespace condyle

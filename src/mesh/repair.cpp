@@ -77,25 +77,25 @@ std::size_t drop_unreferenced_vertices(TriMesh& mesh) {
   return before - mesh.vertices.size();
 }
 
-std::size_t flip_if_inside_out(TriMesh& mesh) {
+std::size_t flip_inverted(TriMesh& mesh) {
   const MeshReport report = inspect(mesh);
-  if (!report.is_closed()) {
+  if (!report.is_closed() || report.components.empty()) {
     const std::string why =
         report.boundary_edges.count > 0 ? "it has " + describe_boundary(report)
-        : report.non_manifold_edges.count > 0
-            ? "it has " + in_words(report.non_manifold_edges.count, "non-manifold edge")
         : report.inconsistent_edges.count > 0
             ? "neighbours are wound differently at " + in_words(report.inconsistent_edges.count, "edge")
+        : report.unbalanced_edges.count > 0
+            ? "it has " + in_words(report.unbalanced_edges.count, "unbalanced non-manifold edge")
             : "it has no surface";
-    throw MeshError("cannot tell whether the mesh is inside out: " + why);
+    throw MeshError("cannot tell whether the mesh is inverted: " + why);
   }
   const std::size_t inverted = report.inverted_components.count;
   if (inverted == 0) return 0;
   if (inverted < report.components.size()) {
     throw MeshError(in_words(inverted, "component") + " of " + std::to_string(report.components.size()) +
-                    " inside out, the first with triangle " +
+                    " inverted, the first with triangle " +
                     std::to_string(report.components[*report.inverted_components.first].first_triangle) +
-                    ": not turned, as the skin of a cavity is wound that way");
+                    ": not turned, as the boundary of a cavity is wound that way");
   }
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh.triangles.size();

@@ -2,24 +2,23 @@
 
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
-#include "mesh/edge_balance.hpp"
+#include "mesh/enclosed_volume.hpp"
 
 namespace condyle::mesh {
 
-void require_solid(const TriMesh& mesh, const std::string& name) {
-  const MeshReport report = inspect(mesh);
-  if (const auto edge = unbalanced_edge(mesh)) {
+void require_solid(const Mesh& mesh, const std::string& name) {
+  if (const auto& edge = mesh.unbalanced_edge()) {
+    const MeshReport report = inspect(mesh);
     const std::string where = report.boundary_edges.count > 0
                                   ? describe_boundary(report)
                                   : "triangles wound against each other at the edge from vertex " +
-                                        std::to_string(edge->first) + " to vertex " +
-                                        std::to_string(edge->second);
+                                        std::to_string(edge->from) + " to vertex " + std::to_string(edge->to);
     throw MeshError(name + ": " + where +
                     ": the mesh has no inside; intersecting triangle pairs can still be computed");
   }
-  if (report.signed_volume && *report.signed_volume < 0) {
-    throw MeshError(name + ": wound inside out, its volume is negative; the repair flip_inverted turns it");
-  }
+  if (enclosed_volume(mesh) < 0)
+    throw MeshError(name +
+                    ": inverted orientation, its volume is negative; the repair flip_inverted turns it");
 }
 
 }  // namespace condyle::mesh

@@ -6,10 +6,10 @@
 
 namespace condyle::mesh {
 
-/// Raises MeshError where a mesh does not bound a solid, or bounds it inside out, so that nothing could ever
-/// be inside it. One line: `name`, which boundary or edge, what can still be computed, which repair helps.
+/// Raises MeshError where a mesh does not bound a solid, or is inverted, so that nothing could ever be inside
+/// it. One line: `name`, which boundary or edge, what can still be computed, which repair helps.
 ///
-/// n log n.
-void require_solid(const TriMesh& mesh, const std::string& name);
+/// Linear for a solid; n log n where it refuses an open mesh.
+void require_solid(const Mesh& mesh, const std::string& name);
 
 }  // namespace condyle::mesh

@@ -1,35 +1,15 @@
 #include "mesh/subdivide.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include "core/parallel.hpp"
+#include "mesh/edge_table.hpp"
 
 namespace condyle::mesh {
-namespace {
-
-using Edge = std::pair<Index, Index>;
-
-/// Each edge once, smaller vertex first, ascending.
-std::vector<Edge> edges_of(const TriMesh& mesh) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * mesh.triangles.size());
-  for (const auto& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) edges.push_back(std::minmax(t[k], t[(k + 1) % 3]));
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
-
-}  // namespace
-
 TriMesh subdivided(const TriMesh& mesh) {
   return subdivided(mesh, [](const Vec3& midpoint) { return midpoint; });
 }
 
 TriMesh subdivided(const TriMesh& mesh, const std::function<Vec3(const Vec3&)>& place) {
-  const std::vector<Edge> edges = edges_of(mesh);
+  const EdgeTable edges(mesh);
   const std::size_t old_count = mesh.vertices.size();
 
   TriMesh finer;
@@ -38,18 +18,19 @@ TriMesh subdivided(const TriMesh& mesh, const std::function<Vec3(const Vec3&)>& 
   constexpr std::size_t grain = 256;
   core::parallel_chunks(edges.size(), grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t e = first; e < last; ++e) {
-      const Vec3 midpoint = (mesh.vertices[edges[e].first] + mesh.vertices[edges[e].second]) / 2;
+      const Vec3 midpoint = (mesh.vertices[edges.ends(e)[0]] + mesh.vertices[edges.ends(e)[1]]) / 2;
       finer.vertices.set(old_count + e, place(midpoint));
     }
   });
 
-  const auto middle = [&](Index a, Index b) {
-    const auto at = std::lower_bound(edges.begin(), edges.end(), Edge(std::minmax(a, b)));
-    return static_cast<Index>(old_count + static_cast<std::size_t>(at - edges.begin()));
+  const auto middle = [&](HalfEdge h) {
+    const Index edge = edges.edge_of(h);
+    return edge == no_index ? mesh.triangles[h / 3][h % 3] : static_cast<Index>(old_count + edge);
   };
   finer.triangles.reserve(4 * mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+  for (HalfEdge side = 0; side < 3 * mesh.triangles.size(); side += 3) {
+    const auto [a, b, c] = mesh.triangles[side / 3];
+    const Index ab = middle(side), bc = middle(side + 1), ca = middle(side + 2);
     finer.triangles.insert(finer.triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
   }
   return finer;

@@ -154,7 +154,7 @@ TEST_F(SampleJoint, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
 
 TEST_F(SampleJoint, AMeshInsideOutIsRefusedWithItsRepair) {
   write_mesh(folder / "sample/femur.ply", flipped(read_mesh(folder / "sample/femur.ply").mesh));
-  expect_refused(4, "depth sample/hip.toml", "femur.ply: wound inside out");
+  expect_refused(4, "depth sample/hip.toml", "femur.ply: inverted orientation");
   edit_joint("mesh = \"femur.ply\"", "mesh = \"femur.ply\"\nrepair = [\"flip_inverted\"]");
   EXPECT_FALSE(answer("depth sample/hip.toml")["in_contact"]);
 }

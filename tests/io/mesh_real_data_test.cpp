@@ -167,7 +167,7 @@ TEST(RealMeshes, TheMirroredBonesAreInsideOutAndCarryOtherBonesVertices) {
   EXPECT_EQ(report.likely_unit.unit, LengthUnit::metres);
 
   EXPECT_EQ(drop_unreferenced_vertices(femur), 7547u);
-  EXPECT_EQ(flip_if_inside_out(femur), femur.triangles.size());
+  EXPECT_EQ(flip_inverted(femur), femur.triangles.size());
   const auto repaired = inspect(femur);
   EXPECT_EQ(repaired.unreferenced_vertices.count, 0u);
   EXPECT_EQ(repaired.inverted_components.count, 0u);

@@ -168,7 +168,7 @@ TEST(Inspect, ATriangleWoundTheOtherWayIsInconsistentOnItsThreeEdges) {
   EXPECT_NE(std::find(turned.begin(), turned.end(), first.to), turned.end());
 }
 
-TEST(Inspect, AMeshInsideOutHasNegativeVolume) {
+TEST(Inspect, AMeshOfInvertedOrientationHasNegativeVolume) {
   const auto report = inspect(test::flipped(test::box({0, 0, 0}, {1, 2, 3})));
   EXPECT_TRUE(report.is_closed());
   EXPECT_EQ(report.signed_volume, -6);
@@ -249,21 +249,40 @@ TEST(Inspect, TheUnitIsGuessedFromTheSizeOfABone) {
   EXPECT_EQ(unit_of(450).reason, "the bounding box is 450 across: a bone in millimetres");
 }
 
-TEST(Inspect, AMeshWithoutTrianglesIsNotClosed) {
+TEST(Inspect, AMeshWithoutTrianglesIsClosedAndEnclosesNothing) {
   const auto report = inspect(mesh_of({{1, 2, 3}}, {}));
-  EXPECT_FALSE(report.is_closed());
+  EXPECT_TRUE(report.is_closed());
+  EXPECT_EQ(report.signed_volume, 0);
   EXPECT_EQ(report.unreferenced_vertices.count, 1u);
   EXPECT_TRUE(report.components.empty());
 }
 
+TEST(Inspect, TwoSolidsThatShareAnEdgeAreOneClosedComponentWithoutGenus) {
+  TriMesh two = test::joined(test::box({0, 0, 0}, {1, 1, 1}), test::box({1, 1, 0}, {2, 2, 1}));
+  for (auto& triangle : two.triangles) {
+    std::replace(triangle.begin(), triangle.end(), Index{8}, Index{3});
+    std::replace(triangle.begin(), triangle.end(), Index{12}, Index{7});
+  }
+  const auto report = inspect(two);
+  EXPECT_TRUE(report.is_closed());
+  EXPECT_EQ(report.non_manifold_edges.count, 1u);
+  EXPECT_EQ(report.unbalanced_edges.count, 0u);
+  EXPECT_EQ(report.signed_volume, 2);
+  ASSERT_EQ(report.components.size(), 1u);
+  EXPECT_TRUE(report.components[0].closed);
+  EXPECT_EQ(report.components[0].genus, std::nullopt);
+  EXPECT_EQ(report.components[0].signed_volume, 2);
+}
+
 /// The obvious version: maps and sets, straight from the definitions.
 struct ObviousCounts {
-  std::size_t boundary = 0, non_manifold = 0, inconsistent = 0, fans_too_many = 0, loops = 0, components = 0;
+  std::size_t boundary = 0, non_manifold = 0, inconsistent = 0, unbalanced = 0, fans_too_many = 0, loops = 0,
+              components = 0;
   auto operator<=>(const ObviousCounts&) const = default;
 };
 
 template <class Node>
-std::size_t connected_pieces(const std::set<Node>& nodes, const std::set<std::pair<Node, Node>>& links) {
+std::size_t connected_components(const std::set<Node>& nodes, const std::set<std::pair<Node, Node>>& links) {
   std::map<Node, Node> colour;
   for (const Node& node : nodes) colour[node] = node;
   for (bool changed = true; changed;) {
@@ -299,17 +318,20 @@ ObviousCounts obvious_counts(const TriMesh& mesh) {
     counts.boundary += on.size() == 1;
     counts.non_manifold += on.size() > 2;
     counts.inconsistent += on.size() == 2 && on[0].second == on[1].second;
+    const auto ascending =
+        std::count_if(on.begin(), on.end(), [&](const auto& side) { return side.second == edge.first; });
+    counts.unbalanced += 2 * static_cast<std::size_t>(ascending) != on.size();
     for (const auto& [t, from] : on) neighbours.insert({on[0].first, t});
   }
-  counts.loops = connected_pieces(rim_vertices, rim);
-  counts.components = connected_pieces(triangles, neighbours);
+  counts.loops = connected_components(rim_vertices, rim);
+  counts.components = connected_components(triangles, neighbours);
   for (const auto& [v, around] : about) {
     std::set<std::pair<Index, Index>> links;
     for (const auto& [edge, on] : sides) {
       if (edge.first != v && edge.second != v) continue;
       for (const auto& [t, from] : on) links.insert({on[0].first, t});
     }
-    counts.fans_too_many += connected_pieces(around, links) > 1;
+    counts.fans_too_many += connected_components(around, links) > 1;
   }
   return counts;
 }
@@ -328,10 +350,12 @@ TEST(Inspect, RandomTangledMeshesAreCountedAsTheDefinitionsSay) {
       mesh.triangles.push_back({any(), any(), any()});
     }
     const auto report = inspect(mesh);
-    const ObviousCounts found{report.boundary_edges.count,     report.non_manifold_edges.count,
-                              report.inconsistent_edges.count, report.non_manifold_vertices.count,
-                              report.boundary_loops.count,     report.components.size()};
+    const ObviousCounts found{
+        report.boundary_edges.count,   report.non_manifold_edges.count,    report.inconsistent_edges.count,
+        report.unbalanced_edges.count, report.non_manifold_vertices.count, report.boundary_loops.count,
+        report.components.size()};
     ASSERT_EQ(found, obvious_counts(mesh)) << "round " << round;
+    EXPECT_EQ(report.is_closed(), Mesh(mesh).is_closed());
   }
 }
 

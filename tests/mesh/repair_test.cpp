@@ -36,7 +36,7 @@ std::vector<Vec3> corners_of(const TriMesh& mesh) {
 std::string complaint(TriMesh mesh) {
   const TriMesh before = mesh;
   try {
-    flip_if_inside_out(mesh);
+    flip_inverted(mesh);
   } catch (const MeshError& error) {
     EXPECT_EQ(mesh, before);
     return error.what();
@@ -92,41 +92,55 @@ TEST(DropUnreferencedVertices, KeepsTheSurfaceAndTheOrder) {
   EXPECT_EQ(drop_unreferenced_vertices(mesh), 0u);
 }
 
-TEST(FlipIfInsideOut, TurnsAMeshThatIsWhollyInsideOut) {
+TEST(FlipInverted, TurnsAMeshOfInvertedOrientation) {
   const TriMesh good = test::torus(30, 8, 24, 12);
   TriMesh mesh = test::flipped(good);
-  EXPECT_EQ(flip_if_inside_out(mesh), good.triangles.size());
+  EXPECT_EQ(flip_inverted(mesh), good.triangles.size());
   EXPECT_EQ(mesh, good);
-  EXPECT_EQ(flip_if_inside_out(mesh), 0u);
+  EXPECT_EQ(flip_inverted(mesh), 0u);
   EXPECT_EQ(mesh, good);
 }
 
-TEST(FlipIfInsideOut, TurnsSeveralSolidsOnlyTogether) {
+TEST(FlipInverted, TurnsSeveralSolidsOnlyTogether) {
   const TriMesh a = test::box({0, 0, 0}, {1, 1, 1}), b = test::box({5, 0, 0}, {6, 1, 1});
   TriMesh both = test::flipped(test::joined(a, b));
-  EXPECT_EQ(flip_if_inside_out(both), 24u);
+  EXPECT_EQ(flip_inverted(both), 24u);
   EXPECT_EQ(both, test::joined(a, b));
-  EXPECT_EQ(complaint(test::joined(a, test::flipped(b))),
-            "1 component of 2 inside out, the first with triangle 12: not turned, as the skin of a cavity is "
-            "wound that way");
+  EXPECT_EQ(
+      complaint(test::joined(a, test::flipped(b))),
+      "1 component of 2 inverted, the first with triangle 12: not turned, as the boundary of a cavity is "
+      "wound that way");
 }
 
-TEST(FlipIfInsideOut, RefusesWhatHasNoInside) {
+TEST(FlipInverted, RefusesWhatHasNoInside) {
   TriMesh open = test::flipped(test::box({0, 0, 0}, {1, 1, 1}));
   open.triangles.pop_back();
   EXPECT_EQ(complaint(open).rfind(
-                "cannot tell whether the mesh is inside out: it has an open boundary of 3 edges near ", 0),
+                "cannot tell whether the mesh is inverted: it has an open boundary of 3 edges near ", 0),
             0u);
 
   TriMesh mixed = test::box({0, 0, 0}, {1, 1, 1});
   std::swap(mixed.triangles[0][1], mixed.triangles[0][2]);
   EXPECT_EQ(complaint(mixed),
-            "cannot tell whether the mesh is inside out: neighbours are wound differently at 3 edges");
+            "cannot tell whether the mesh is inverted: neighbours are wound differently at 3 edges");
 
   TriMesh doubled = test::box({0, 0, 0}, {1, 1, 1});
   doubled.triangles.insert(doubled.triangles.end(), doubled.triangles.begin(),
                            doubled.triangles.begin() + 12);
-  EXPECT_EQ(complaint(doubled), "cannot tell whether the mesh is inside out: it has 18 non-manifold edges");
+  doubled.triangles.push_back(doubled.triangles[3]);
+  doubled.triangles.push_back(doubled.triangles[3]);
+  EXPECT_EQ(complaint(doubled),
+            "cannot tell whether the mesh is inverted: it has 3 unbalanced non-manifold edges");
+}
+
+TEST(FlipInverted, TurnsASurfaceThatIsThereTwice) {
+  TriMesh doubled = test::box({0, 0, 0}, {1, 1, 1});
+  doubled.triangles.insert(doubled.triangles.end(), doubled.triangles.begin(),
+                           doubled.triangles.begin() + 12);
+  TriMesh mesh = test::flipped(doubled);
+  EXPECT_EQ(flip_inverted(doubled), 0u);
+  EXPECT_EQ(flip_inverted(mesh), 24u);
+  EXPECT_EQ(mesh, doubled);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(RequireSolid, InconsistentWindingIsRefusedByFileAndEdge) {
             std::string::npos);
 }
 
-TEST(RequireSolid, AMeshInsideOutIsRefusedWithItsRepair) {
+TEST(RequireSolid, AnInvertedMeshIsRefusedWithItsRepair) {
   EXPECT_NE(refusal(test::flipped(test::sphere({0, 0, 0}, 1, 1))).find("flip_inverted"), std::string::npos);
 }
 

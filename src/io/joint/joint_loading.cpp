@@ -34,7 +34,7 @@ LoadedBody load(const BodyEntry& entry) {
   }
   body.report.vertices = body.mesh.vertices.size();
   body.report.triangles = body.mesh.triangles.size();
-  body.likely_unit = inspect(body.mesh).likely_unit;
+  body.likely_unit = likely_unit(body.mesh);
   return body;
 }
 
@@ -205,7 +205,7 @@ std::vector<RepairDone> repair_mesh(TriMesh& mesh, const std::vector<Repair>& re
         case Repair::flip_inverted:
           break;
       }
-      return flip_if_inside_out(mesh);
+      return flip_inverted(mesh);
     }();
     done.push_back({repair, count});
   }

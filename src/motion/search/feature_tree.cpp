@@ -4,42 +4,10 @@
 #include <cmath>
 
 namespace condyle::motion {
-namespace {
-
-/// Every edge once, found again by its end in the lower slot.
-///   offset_     0        3  ...    one entry per vertex, plus one
-///   higher_    | a b . | d ...     as many entries as edges may come, those found so far first
-class KnownEdges {
- public:
-  KnownEdges(const std::vector<Triangle>& triangles, std::size_t vertices)
-      : offset_(vertices + 1, 0), count_(vertices, 0) {
-    for (const auto& [a, b, c] : triangles) {
-      for (const Index low : {std::min(a, b), std::min(b, c), std::min(c, a)}) ++offset_[low + 1];
-    }
-    for (std::size_t v = 1; v < offset_.size(); ++v) offset_[v] += offset_[v - 1];
-    higher_.resize(offset_.back());
-  }
-
-  /// Whether the edge was not known yet; now it is.
-  bool insert(Index from, Index to) noexcept {
-    const auto [low, high] = std::minmax(from, to);
-    Index* const begin = higher_.data() + offset_[low];
-    Index* const end = begin + count_[low];
-    if (std::find(begin, end, high) != end) return false;
-    *end = high;
-    ++count_[low];
-    return true;
-  }
-
- private:
-  std::vector<Index> offset_, count_, higher_;
-};
-
-}  // namespace
 
 FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_closed()) {
   count_vertices();
-  gather_edges();
+  gather_edges(mesh::edges_of(mesh));
   component_vertices_ = base_.one_vertex_of_each_piece();
 }
 
@@ -51,15 +19,18 @@ void FeatureTree::count_vertices() {
     vertices_before_.push_back(std::max({vertices_before_.back(), a + 1, b + 1, c + 1}));
 }
 
-void FeatureTree::gather_edges() {
-  KnownEdges known(triangles(), vertices().size());
-  edges_.reserve(3 * triangles().size() / 2);
+void FeatureTree::gather_edges(const mesh::EdgeTable& table) {
+  std::vector<bool> met(table.size(), false);
+  edges_.reserve(table.size());
   edges_before_.reserve(triangles().size() + 1);
   edges_before_.push_back(0);
-  for (const auto& [a, b, c] : triangles()) {
-    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+  for (Index t = 0; t < triangles().size(); ++t) {
+    for (Index k = 0; k < 3; ++k) {
+      const Index edge = table.edge_of(3 * mesh_triangle(t) + k);
       // A side without length is its vertex.
-      if (from == to || !known.insert(from, to)) continue;
+      if (edge == no_index || met[edge]) continue;
+      met[edge] = true;
+      const Index from = triangles()[t][k], to = triangles()[t][(k + 1) % 3];
       const bool ascending = mesh_vertex(from) < mesh_vertex(to);
       edges_.push_back({ascending ? from : to, ascending ? to : from});
     }

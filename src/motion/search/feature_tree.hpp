@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "condyle/mesh.hpp"
+#include "mesh/edge_table.hpp"
 #include "mesh/triangle_tree.hpp"
 #include "motion/events/rotation_function.hpp"
 
@@ -55,7 +56,7 @@ class FeatureTree {
 
  private:
   void count_vertices();
-  void gather_edges();
+  void gather_edges(const mesh::EdgeTable& table);
 
   mesh::TriangleTree base_;
   std::vector<std::array<Index, 2>> edges_;

@@ -1,0 +1,26 @@
+#include "mesh/enclosed_volume.hpp"
+
+namespace condyle::mesh {
+
+BoundingBox bounds_of_surface(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return {Vec3::Zero(), Vec3::Zero()};
+  BoundingBox bounds{mesh.corner(0, 0), mesh.corner(0, 0)};
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    bounds.low = bounds.low.cwiseMin(a).cwiseMin(b).cwiseMin(c);
+    bounds.high = bounds.high.cwiseMax(a).cwiseMax(b).cwiseMax(c);
+  }
+  return bounds;
+}
+
+double enclosed_volume(const TriMesh& mesh) {
+  const BoundingBox bounds = bounds_of_surface(mesh);
+  const Vec3 centre = (bounds.low + bounds.high) / 2;
+  CompensatedSum volume;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!names_a_vertex_twice(mesh.triangles[t])) volume.add(volume_below(mesh, t, centre));
+  }
+  return volume.value();
+}
+
+}  // namespace condyle::mesh
