@@ -58,8 +58,8 @@ class ZoneFinder {
   /// were found with parts left out.
   std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
 
+  /// In M; empty where it was not given and no neck was found.
   const std::optional<NeckAxis>& neck() const noexcept;
-  const ClockFace& socket_clock() const noexcept;
 
  private:
   struct Parts;

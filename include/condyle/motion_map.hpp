@@ -85,8 +85,8 @@ std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& jo
 /// adduction = +-90 degrees flexion and internal rotation turn about nearly one line. A small change of the
 /// angles turns M by omega = e1 df + e2 da + e3 dr, and the volume that these three vectors span,
 /// |e1 . (e2 x e3)| = |e1 x e3| = cos(adduction), is what a box da df dr holds of the invariant (Haar)
-/// measure, which does not depend on how rotations are written down. Weighted by it the volume is the same in any
-/// joint coordinate system; the whole of rotations, flexion and internal rotation over a full turn and
+/// measure, which does not depend on how rotations are written down. Weighted by it the volume is the same in
+/// any joint coordinate system; the whole of rotations, flexion and internal rotation over a full turn and
 /// adduction over a half, has 360 * 360 * 360 / pi deg^3.
 struct FreeVolume {
   double plain_deg3 = 0;

@@ -31,7 +31,8 @@ constexpr double pitch = two_pi / teeth;
 /// Fraction of the pitch a tooth takes, of the wheel and of the ring, and where the ring's teeth begin.
 constexpr double wheel_tooth = 0.25, ring_tooth = 0.3, ring_start = 0.45;
 
-/// Corners of a toothed outline: in each pitch from `start` for `fraction` of it at radius `tooth`, the rest at `gap`.
+/// Corners of a toothed outline: in each pitch from `start` for `fraction` of it at radius `tooth`, the rest at
+/// `gap`.
 std::vector<Eigen::Vector2d> toothed(double start, double fraction, double tooth, double gap) {
   std::vector<Eigen::Vector2d> outline;
   const auto corner = [&](double pitches, double radius) {

@@ -66,7 +66,7 @@ TEST(DepthLimit, WithNothingAllowedIsTheExactLimit) {
   EXPECT_NEAR(found.limit.end.turned.degrees(), exact.end.turned.degrees(), 1e-3);
 }
 
-TEST(DepthLimit, TellsWhereTheStartIsTooDeepOrTheRangeEndsFirst) {
+TEST(DepthLimit, ReportsWhereTheStartIsTooDeepOrTheRangeEndsFirst) {
   const Joint joint = spike_and_wall();
   Motion late = flexion();
   late.start.flexion = Angle::degrees(limit_deg(1));

@@ -190,7 +190,7 @@ TEST(Inside, TheOtherBodyIsContactAtTheStartThoughNoSurfacesTouch) {
   }
 }
 
-TEST(Inside, OnePieceAmongSeveralCountsAndACavityDoesNot) {
+TEST(Inside, OneComponentAmongSeveralCountsAndACavityDoesNot) {
   const TriMesh room = joined(sphere(Vec3::Zero(), 20, 2), flipped(sphere(Vec3::Zero(), 10, 2)));
   const TriMesh small = box({2, 0, 0}, {3, 1, 1});
   EXPECT_EQ(limits({small, room}).positive.reason, LimitReason::end_of_range);

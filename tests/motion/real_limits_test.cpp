@@ -104,8 +104,8 @@ TEST_P(RealHipLimits, FindTheNeckWhereAnatomyHasIt) {
   EXPECT_GT(d.z() * (joint_.side == Side::right ? 1 : -1), 0.4) << "lateral";
 }
 
-/// Segmented without care for contact: 47 pairs of triangles meet in the reference pose (the data's own table), and the hip
-/// bone is open.
+/// Segmented without care for contact: 47 pairs of triangles meet in the reference pose (the data's own table),
+/// and the hip bone is open.
 TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
   const auto data = test::shared_data();
   if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";

@@ -179,13 +179,4 @@ ContourRegion region_at_or_above(const GridField& field, double level) {
   return region;
 }
 
-double signed_area(std::span<const ScreenPoint> ring) noexcept {
-  // About the first point, so that a ring far from the origin keeps its digits.
-  double twice = 0;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i)
-    twice += (ring[i].x - ring[0].x) * (ring[i + 1].y - ring[0].y) -
-             (ring[i].y - ring[0].y) * (ring[i + 1].x - ring[0].x);
-  return twice / 2;
-}
-
 }  // namespace condyle::io

@@ -38,7 +38,4 @@ struct ContourRegion {
 /// A value equal to the level counts as above it.
 ContourRegion region_at_or_above(const GridField& field, double level);
 
-/// Signed area of a ring: positive counter-clockwise with y up.
-double signed_area(std::span<const ScreenPoint> ring) noexcept;
-
 }  // namespace condyle::io

@@ -53,14 +53,6 @@ Arc arc_of(double a, double b, double c) noexcept {
 
 }  // namespace
 
-DistanceRange distance_range(const Triple<double>& a, const Triple<double>& b,
-                             const Triple<double>& c) noexcept {
-  const auto [min, max] = std::minmax({std::sqrt(dot(a, a)), std::sqrt(dot(b, b)), std::sqrt(dot(c, c))});
-  const Triple<double> ab = b - a, bc = c - b, ca = a - c;
-  const double longest2 = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
-  return {nearest(min, max, longest2, face_fraction), max * (1 + relative_slack)};
-}
-
 CylinderPoint cylinder_point(const Triple<double>& p) noexcept {
   const double rho2 = square(p.x) + square(p.y);
   return {std::sqrt(rho2), wrapped(std::atan2(p.y, p.x)), std::sqrt(rho2 + square(p.z))};

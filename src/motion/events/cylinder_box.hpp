@@ -62,15 +62,6 @@ struct CylinderPoint {
   double rho, theta, r;
 };
 
-/// Bounds on the distance from the origin of anything: what no rotation about an axis through it changes.
-struct DistanceRange {
-  double lo, hi;
-};
-
-/// Of a triangle.
-DistanceRange distance_range(const Triple<double>& a, const Triple<double>& b,
-                             const Triple<double>& c) noexcept;
-
 CylinderPoint cylinder_point(const Triple<double>& p) noexcept;
 CylinderBox box_of_vertex(const Triple<double>& p, const CylinderPoint& at) noexcept;
 CylinderBox box_of_edge(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,

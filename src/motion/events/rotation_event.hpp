@@ -10,8 +10,8 @@
 /// Contact events: the angles at which features of a turning body meet features of a resting one
 /// (docs/mathematics.md, section 5).
 ///
-/// Everything here is in the axis frame: the axis is z, the rotation is R(t) about it, coordinates at t = 0. The
-/// given doubles are taken as exact. Whether two features meet at a root is decided exactly, always: first
+/// Everything here is in the axis frame: the axis is z, the rotation is R(t) about it, coordinates at t = 0.
+/// The given doubles are taken as exact. Whether two features meet at a root is decided exactly, always: first
 /// in double with an error bound, and where that is too close to call, in integers. No contact is missed and
 /// none is invented.
 

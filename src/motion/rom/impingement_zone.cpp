@@ -73,9 +73,6 @@ ZoneFinder& ZoneFinder::operator=(ZoneFinder&&) noexcept = default;
 const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
   return parts_->neck;
 }
-const ClockFace& ZoneFinder::socket_clock() const noexcept {
-  return parts_->socket_clock;
-}
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;

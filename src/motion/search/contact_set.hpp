@@ -17,8 +17,9 @@ namespace condyle::motion {
 /// between events of a pair below 1e-9 rad count as contact.
 ///
 /// Only surfaces count: a body that turns inside the other's solid and does not meet its surface is free here.
-/// Triangles of zero area meet nothing: their points belong to their neighbours. Edges that slide along each other without
-/// going in (mirrored rulings of one hyperboloid) may be reported by the ends of their contact only.
+/// Triangles of zero area meet nothing: their points belong to their neighbours. Edges that slide along each
+/// other without going in (mirrored rulings of one hyperboloid) may be reported by the ends of their contact
+/// only.
 ///
 /// Threads share the work; the result does not depend on how many.
 core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turning);
