@@ -80,15 +80,24 @@ std::string mutated(std::string bytes, const std::string& other, Random& random)
   return bytes;
 }
 
-class MutatedFiles : public testing::TestWithParam<std::vector<test::MeshBytes> (*)(const TriMesh&)> {};
+/// The files of one format that are mutated.
+struct Seeds {
+  const char* format;
+  std::vector<test::MeshBytes> (*files)(const TriMesh&);
+};
+void PrintTo(const Seeds& seeds, std::ostream* out) {
+  *out << seeds.format;
+}
+
+class MutatedFiles : public testing::TestWithParam<Seeds> {};
 
 TEST_P(MutatedFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
   constexpr int mutations = 20000;
-  // Bytes of memory asked for at once, per byte of the file: a number of two characters becomes eight bytes,
+  // Bytes of memory requested at once, per byte of the file: a number of two characters becomes eight bytes,
   // a vector grows by doubling, and deflate shortens up to 1032 times, for a number of a byte that becomes
   // eight. Beside it what libraries take for themselves.
   constexpr std::size_t largest_growth = 8 * 1032, slack = 1 << 20;
-  const auto files = GetParam()(test::box({0, 0, 0}, {30, 20.5, 10.25}));
+  const auto files = GetParam().files(test::box({0, 0, 0}, {30, 20.5, 10.25}));
   Random random(20240229);
   for (int i = 0; i < mutations; ++i) {
     const auto& file = files[below(random, files.size())];
@@ -101,11 +110,11 @@ TEST_P(MutatedFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Stl, MutatedFiles, testing::Values(test::stl_files));
-INSTANTIATE_TEST_SUITE_P(Obj, MutatedFiles, testing::Values(test::obj_files));
-INSTANTIATE_TEST_SUITE_P(Ply, MutatedFiles, testing::Values(test::ply_files));
-INSTANTIATE_TEST_SUITE_P(Vtp, MutatedFiles, testing::Values(test::vtp_files));
-INSTANTIATE_TEST_SUITE_P(LegacyVtk, MutatedFiles, testing::Values(test::legacy_vtk_files));
+INSTANTIATE_TEST_SUITE_P(Formats, MutatedFiles,
+                         testing::Values(Seeds{"Stl", test::stl_files}, Seeds{"Obj", test::obj_files},
+                                         Seeds{"Ply", test::ply_files}, Seeds{"Vtp", test::vtp_files},
+                                         Seeds{"LegacyVtk", test::legacy_vtk_files}),
+                         [](const auto& info) { return info.param.format; });
 
 }  // namespace
 }  // namespace condyle
