@@ -5,7 +5,7 @@
 
 #include "condyle/mesh.hpp"
 
-/// Repairs that lose nothing: the surface is the same set of points before and after. Each is asked for by
+/// Repairs that lose nothing: the surface is the same set of points before and after. Each is requested by
 /// name, changes the mesh in place and says what it did. Whatever would need a guess (filling holes, dropping
 /// triangles, moving vertices) is not here.
 
@@ -22,10 +22,22 @@ std::size_t weld_exactly(TriMesh& mesh);
 /// Drops vertices no triangle uses; the order of the others stays. Returns how many went.
 std::size_t drop_unreferenced_vertices(TriMesh& mesh);
 
-/// Turns a mesh that is wholly inside out, by exchanging the last two corners of every triangle: each
-/// component closed and of negative volume. Returns the number of triangles turned: all, or none where no
-/// component is inside out. Raises MeshError where that cannot be told (open, not wound consistently) or
-/// where only some components are inside out: these may be the skins of cavities, which are wound that way.
+/// Flips a mesh of wholly inverted orientation (each component closed and of negative volume) by exchanging
+/// the last two corners of every triangle. Returns the number of triangles flipped: all, or none where no
+/// component is inverted. Raises MeshError where that cannot be decided (open, not wound consistently) or
+/// where only some components are inverted: these may bound cavities, whose surfaces are wound that way.
 std::size_t flip_if_inside_out(TriMesh& mesh);
+
+/// The three as values, for lists of them.
+enum class Repair { weld, drop_unreferenced, flip_inverted };
+
+/// A repair that was made: how many vertices went, or triangles were flipped.
+struct RepairDone {
+  Repair repair;
+  std::size_t count;
+};
+
+/// Makes the repairs in this order. Raises MeshError where one cannot be made.
+std::vector<RepairDone> repair_mesh(TriMesh& mesh, const std::vector<Repair>& repairs);
 
 }  // namespace condyle

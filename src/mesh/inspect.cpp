@@ -281,14 +281,25 @@ void measure_components(const TriMesh& mesh, const EdgeTable& edges, DisjointSet
   if (report.is_closed()) report.signed_volume = total.value();
 }
 
+/// The bounds of the triangles; zero for none.
+BoundingBox surface_bounds(const TriMesh& mesh) {
+  if (mesh.triangles.empty()) return {Vec3::Zero(), Vec3::Zero()};
+  BoundingBox box{mesh.corner(0, 0), mesh.corner(0, 0)};
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const Index v : triangle) {
+      box.low = box.low.cwiseMin(mesh.vertices[v]);
+      box.high = box.high.cwiseMax(mesh.vertices[v]);
+    }
+  }
+  return box;
+}
+
 void measure_surface(const TriMesh& mesh, const EdgeTable& edges, MeshReport& report) {
   if (mesh.triangles.empty()) return;
-  report.bounds = {mesh.corner(0, 0), mesh.corner(0, 0)};
+  report.bounds = surface_bounds(mesh);
   CompensatedSum area;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    report.bounds.low = report.bounds.low.cwiseMin(a).cwiseMin(b).cwiseMin(c);
-    report.bounds.high = report.bounds.high.cwiseMax(a).cwiseMax(b).cwiseMax(c);
     area.add((b - a).cross(c - a).norm() / 2);
   }
   report.area = area.value();
@@ -317,7 +328,7 @@ std::string in_short(double value) {
 /// Human bones and their cartilages, whole or in part, span 20 mm (a wedge of meniscus) to 1 m (a tall man's
 /// femur is half of that). The two ranges touch nowhere, so a surface of either unit is never taken for the
 /// other; a smaller or larger object is simply not guessed.
-LikelyUnit likely_unit(double diagonal) {
+LikelyUnit likely_unit_of_size(double diagonal) {
   constexpr double shortest_mm = 20, longest_mm = 1000, mm_per_m = 1000;
   const std::string size = "the bounding box is " + in_short(diagonal) + " across";
   if (diagonal >= shortest_mm && diagonal <= longest_mm) {
@@ -330,6 +341,10 @@ LikelyUnit likely_unit(double diagonal) {
 }
 
 }  // namespace
+
+LikelyUnit likely_unit(const TriMesh& mesh) {
+  return likely_unit_of_size(surface_bounds(mesh).diagonal());
+}
 
 MeshReport inspect(const TriMesh& mesh) {
   assert(mesh.triangles.size() < no_index / 3 && "half-edges are counted in an Index");
@@ -346,7 +361,7 @@ MeshReport inspect(const TriMesh& mesh) {
   find_non_manifold_vertices(mesh, fans, report);
   measure_surface(mesh, edges, report);
   measure_components(mesh, edges, fans, report);
-  report.likely_unit = likely_unit(report.bounds.diagonal());
+  report.likely_unit = likely_unit_of_size(report.bounds.diagonal());
   return report;
 }
 

@@ -26,6 +26,9 @@ struct PublishedFit {
   Vec3 centre;
   double radius, rms;
 };
+void PrintTo(const PublishedFit& fit, std::ostream* out) {
+  *out << fit.mesh;
+}
 constexpr double centre_tolerance = 0.25;  // mm: half the largest rms residual
 constexpr double radius_tolerance = 0.25;
 
