@@ -5,9 +5,8 @@
 #include <string>
 
 #include "answer.hpp"
-#include "condyle/io/joint_file.hpp"
-#include "condyle/io/report_text.hpp"
-#include "verbs.hpp"
+#include "commands.hpp"
+#include "condyle/io/frame_result.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -25,14 +24,14 @@ void run(const Options& options) {
 }  // namespace
 
 void add_frame(CLI::App& app) {
-  auto* verb =
+  auto* command =
       app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
-  verb->footer("Example: condyle frame right_hip.toml --json");
+  command->footer("Example: condyle frame right_hip.toml --json");
   auto options = std::make_shared<Options>();
-  verb->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  verb->add_flag_callback(
+  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
-  verb->callback([options] { run(*options); });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace condyle::cli

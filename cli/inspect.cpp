@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "commands.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/inspection_result.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/output_folder.hpp"
-#include "condyle/io/report_text.hpp"
-#include "verbs.hpp"
+#include "condyle/io/repair_text.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -44,16 +45,9 @@ void run(const Options& options) {
   std::vector<MeshInspection> inspections;
   std::vector<TriMesh> repaired;
   for (const std::string& path : options.meshes) {
-    MeshFile file = read_mesh(path);
-    MeshInspection inspection{path, file.welded_vertices, {}, {}};
-    try {
-      inspection.repairs = repair_mesh(file.mesh, repairs);
-    } catch (const MeshError& error) {
-      throw MeshError(path + ": " + error.what());
-    }
-    inspection.report = inspect(file.mesh);
-    inspections.push_back(std::move(inspection));
-    if (!options.out.empty()) repaired.push_back(std::move(file.mesh));
+    InspectedMesh inspected = inspect_file(path, repairs);
+    inspections.push_back(std::move(inspected.inspection));
+    if (!options.out.empty()) repaired.push_back(std::move(inspected.mesh));
   }
   if (!options.out.empty()) {
     OutputFolder out(options.out);
@@ -67,20 +61,21 @@ void run(const Options& options) {
 }  // namespace
 
 void add_inspect(CLI::App& app) {
-  auto* verb = app.add_subcommand("inspect", "Tell what is so and what is wrong with meshes");
-  verb->footer(
+  auto* command = app.add_subcommand("inspect", "Report what meshes are and what is wrong with them");
+  command->footer(
       "Example: condyle inspect femur.ply hip_bone.ply\n"
       "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired");
   auto options = std::make_shared<Options>();
-  verb->add_option("MESH", options->meshes, "Mesh files: .stl, .obj, .ply, .vtp or .vtk")->required();
-  verb->add_option("--repair", options->repairs,
+  command->add_option("MESH", options->meshes, "Mesh files: .stl, .obj, .ply, .vtp or .vtk")->required();
+  command
+      ->add_option("--repair", options->repairs,
                    "Repairs that lose nothing, in this order: weld, drop_unreferenced, flip_inverted")
       ->delimiter(',')
       ->allow_extra_args(false);
-  verb->add_option("--out", options->out, "Folder to write the meshes to, as read and repaired, as .ply");
-  verb->add_flag_callback(
+  command->add_option("--out", options->out, "Folder to write the meshes to, as read and repaired, as .ply");
+  command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
-  verb->callback([options] { run(*options); });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace condyle::cli

@@ -13,11 +13,11 @@
 #include <string>
 
 #include "answer.hpp"
+#include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/overlap_options.hpp"
 #include "condyle/version.hpp"
 #include "interrupt.hpp"
-#include "verbs.hpp"
 
 namespace {
 
@@ -53,22 +53,22 @@ int fail(ExitCode code, std::string message) {
   return code;
 }
 
-/// What is wrong with the command line, with the verbs there are where none of them was given.
+/// What is wrong with the command line, with the commands there are where none was given.
 std::string describe(const CLI::ParseError& error, const CLI::App& app) {
   if (!app.get_subcommands().empty()) return app.get_subcommands().front()->get_name() + ": " + error.what();
-  std::string verbs;
-  for (const CLI::App* verb : app.get_subcommands(nullptr))
-    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  std::string commands;
+  for (const CLI::App* command : app.get_subcommands(nullptr))
+    commands += (commands.empty() ? "" : ", ") + command->get_name();
   const auto unknown = app.remaining();
-  if (!unknown.empty()) return fmt::format("unknown verb '{}'; there are {}", unknown.front(), verbs);
+  if (!unknown.empty()) return fmt::format("unknown command '{}'; there are {}", unknown.front(), commands);
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
-    return fmt::format("a verb is needed: {}", verbs);
+    return fmt::format("a command is needed: {}", commands);
   return error.what();
 }
 
 int run(int argc, char** argv) {
   CLI::App app(
-      "Condyle tells where the bones of a joint run into each other, how deep, and along which direction.",
+      "Condyle computes where the bones of a joint run into each other, how deep, and along which direction.",
       "condyle");
   app.set_version_flag("--version", "condyle " + std::string(condyle::version));
   app.require_subcommand(1);
@@ -93,8 +93,8 @@ int run(int argc, char** argv) {
 
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& asked) {  // --help or --version
-    const bool version = dynamic_cast<const CLI::CallForVersion*>(&asked) != nullptr;
+  } catch (const CLI::Success& request) {  // --help or --version
+    const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
     cli::print(version ? app.version() + "\n" : app.help());
   } catch (const CLI::ParseError& error) {
     return fail(bad_usage, describe(error, app));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "commands.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/error.hpp"
 #include "condyle/impingement_zone.hpp"
@@ -21,7 +22,6 @@
 #include "condyle/io/rom_result.hpp"
 #include "condyle/motion_map.hpp"
 #include "map.hpp"
-#include "verbs.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -141,7 +141,7 @@ void run(const Options& options) {
   const std::vector<Motion> motions = chosen_motions(
       with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
-  const RangeOptions asked = range_options(options, loaded.report.file.reference_pose);
+  const RangeOptions asked = range_options(options, loaded.report.file.joint.reference_pose);
   std::optional<ZoneFinder> finder;
   if (options.past_deg) finder.emplace(joint, ZoneOptions{.past = Angle::degrees(*options.past_deg)});
   // A folder that cannot be written to is reported before the work, not after it.

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "answer.hpp"
+#include "commands.hpp"
 #include "condyle/io/sample_files.hpp"
-#include "verbs.hpp"
 
 namespace condyle::cli {
 namespace {
 
-/// What both verbs have.
+/// Options of both commands.
 struct Options {
   HipParameters hip;
   int scenario = 0;
@@ -83,15 +83,15 @@ struct Count {
   std::size_t& triangles;
 };
 
-void add_resolution(CLI::App& verb, int& scenario, int first, const char* help, const Count& fixed,
+void add_resolution(CLI::App& command, int& scenario, int first, const char* help, const Count& fixed,
                     const Count& mobile) {
   scenario = first;
   const int last = first + 3;
-  auto* by_scenario = verb.add_option("--scenario", scenario, help)
+  auto* by_scenario = command.add_option("--scenario", scenario, help)
                           ->check(CLI::Range(first, last))
                           ->option_text(fmt::format("{}..{} ({})", first, last, first));
   const auto add_count = [&](const Count& count) {
-    return verb.add_option(count.option, count.triangles, "Exact number of triangles instead")
+    return command.add_option(count.option, count.triangles, "Exact number of triangles instead")
         ->excludes(by_scenario);
   };
   auto *of_mobile = add_count(mobile), *of_fixed = add_count(fixed);
@@ -99,70 +99,74 @@ void add_resolution(CLI::App& verb, int& scenario, int first, const char* help, 
   of_fixed->needs(of_mobile);
 }
 
-void add_side(CLI::App& verb, Side& side) {
-  verb.add_option_function<std::string>(
+void add_side(CLI::App& command, Side& side) {
+  command
+      .add_option_function<std::string>(
           "--side", [&side](const std::string& name) { side = name == "left" ? Side::left : Side::right; },
           "Side of the body; a left hip is the mirrored right one")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left (right)");
 }
 
-void add_measures(CLI::App& verb, HipParameters& hip) {
-  add_length(verb, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
-  add_length(verb, "--joint-space", hip.joint_space_mm, "Bony joint space");
-  add_angle(verb, "--neck-shaft-angle", hip.neck_shaft_angle, "Between the axes of neck and shaft");
-  add_angle(verb, "--anteversion", hip.femoral_anteversion, "Of the femoral neck");
-  add_length(verb, "--neck-radius", hip.neck_radius_mm, "Half the narrowest front-to-back width of the neck");
-  add_length(verb, "--neck-length", hip.neck_length_mm, "From the head's centre to the shaft's axis");
-  add_length(verb, "--shaft-length", hip.shaft_length_mm, "From the neck's axis to the lower end");
-  verb.add_option_function<double>(
+void add_measures(CLI::App& command, HipParameters& hip) {
+  add_length(command, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
+  add_length(command, "--joint-space", hip.joint_space_mm, "Bony joint space");
+  add_angle(command, "--neck-shaft-angle", hip.neck_shaft_angle, "Between the axes of neck and shaft");
+  add_angle(command, "--anteversion", hip.femoral_anteversion, "Of the femoral neck");
+  add_length(command, "--neck-radius", hip.neck_radius_mm,
+             "Half the narrowest front-to-back width of the neck");
+  add_length(command, "--neck-length", hip.neck_length_mm, "From the head's centre to the shaft's axis");
+  add_length(command, "--shaft-length", hip.shaft_length_mm, "From the neck's axis to the lower end");
+  command
+      .add_option_function<double>(
           "--alpha-angle", [&hip](double degrees) { hip.alpha_angle = Angle::degrees(degrees); },
           "Alpha angle of a cam at half past one around the neck, up to 90; no cam if not given")
       ->option_text("DEG");
-  add_angle(verb, "--acetabular-inclination", hip.acetabular_inclination,
+  add_angle(command, "--acetabular-inclination", hip.acetabular_inclination,
             "Of the socket's opening, from the vertical");
-  add_angle(verb, "--acetabular-version", hip.acetabular_version,
+  add_angle(command, "--acetabular-version", hip.acetabular_version,
             "Of the socket's opening, forward of lateral");
-  add_angle(verb, "--centre-edge-angle", hip.lateral_centre_edge_angle, "Lateral coverage of the head");
+  add_angle(command, "--centre-edge-angle", hip.lateral_centre_edge_angle, "Lateral coverage of the head");
 }
 
 void add_hip(CLI::App& sample) {
-  auto* verb = sample.add_subcommand("hip", "A hip: hip bone, femur and joint file");
-  verb->footer(
+  auto* command = sample.add_subcommand("hip", "A hip: hip bone, femur and joint file");
+  command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle sample hip --scenario 2 --neck-shaft-angle 135 --side left --out valgus");
   auto options = std::make_shared<HipOptions>();
-  verb->add_option("--out", options->out, "Folder for hip_bone.ply, femur.ply and hip.toml")->required();
-  add_resolution(*verb, options->scenario, 1,
+  command->add_option("--out", options->out, "Folder for hip_bone.ply, femur.ply and hip.toml")->required();
+  add_resolution(*command, options->scenario, 1,
                  "Resolution: 1 is 1542 and 2442 triangles (femur, hip bone), each next four times as many",
                  {"--hip-bone-triangles", options->hip_bone_triangles},
                  {"--femur-triangles", options->femur_triangles});
-  add_side(*verb, options->side);
-  add_measures(*verb, options->hip);
-  verb->callback([options] { run(*options); });
+  add_side(*command, options->side);
+  add_measures(*command, options->hip);
+  command->callback([options] { run(*options); });
 }
 
 void add_cartilages(CLI::App& sample) {
-  auto* verb = sample.add_subcommand("cartilages", "Cartilages and labrum of that hip, and joint file");
-  verb->footer(
+  auto* command = sample.add_subcommand("cartilages", "Cartilages and labrum of that hip, and joint file");
+  command->footer(
       "Example: condyle sample cartilages --out cartilages\n"
       "         condyle sample cartilages --scenario 6 --clearance -0.3 --out overlapping");
   auto options = std::make_shared<CartilageOptions>();
-  verb->add_option("--out", options->out,
+  command
+      ->add_option("--out", options->out,
                    "Folder for acetabular_cartilage.ply, femoral_cartilage.ply and cartilages.toml")
       ->required();
-  add_resolution(*verb, options->scenario, 5,
+  add_resolution(*command, options->scenario, 5,
                  "Resolution: 2824 and 2876 triangles (femoral, acetabular), 4338 and 4222, 7734 and 7870, "
                  "17294 and 14824",
                  {"--acetabular-triangles", options->acetabular_triangles},
                  {"--femoral-triangles", options->femoral_triangles});
-  add_side(*verb, options->side);
-  add_length(*verb, "--clearance", options->cartilage.clearance_mm,
+  add_side(*command, options->side);
+  add_length(*command, "--clearance", options->cartilage.clearance_mm,
              "Gap between the articular spheres; negative: overlap");
-  add_length(*verb, "--femoral-thickness", options->cartilage.femoral_thickness_mm,
+  add_length(*command, "--femoral-thickness", options->cartilage.femoral_thickness_mm,
              "Of the femoral cartilage; the acetabular one fills what is left of the joint space");
-  add_measures(*verb, options->hip);
-  verb->callback([options] { run(*options); });
+  add_measures(*command, options->hip);
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace

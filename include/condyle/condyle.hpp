@@ -22,8 +22,8 @@
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/joint_frame.hpp"
 #include "condyle/joint.hpp"
-#include "condyle/fit_sphere.hpp"
-#include "condyle/fit_cylinder.hpp"
+#include "condyle/fit.hpp"
+#include "condyle/make_joint.hpp"
 
 // One pose.
 #include "condyle/point_state.hpp"

@@ -115,6 +115,9 @@ MeshReport inspect(const Mesh& mesh);
 /// The report's guess of the unit, without the rest of it. Linear.
 LikelyUnit likely_unit(const TriMesh& mesh);
 
+/// The report's guess of the unit, without the rest of it. Linear.
+LikelyUnit likely_unit(const TriMesh& mesh);
+
 /// The first boundary loop in words, for the message that refuses an open mesh: "an open boundary of 14 edges
 /// near (12.1, -3, 44.9), from vertex 812 (the first of 3)". Empty for a mesh without boundary.
 std::string describe_boundary(const MeshReport& report);

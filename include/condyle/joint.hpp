@@ -13,7 +13,7 @@ struct Body {
   Mesh mesh;
 };
 
-/// Two bodies and how one turns in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
+/// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh
 /// is the one of zero angles: pose_at(side, angles) brings it to any other.
 struct Joint {

@@ -6,7 +6,7 @@
 /// The clinical angles of a joint and the poses they name: docs/mathematics.md, section 1.
 ///
 /// The joint frame has its origin at the joint centre, X anterior, Y superior, Z to the subject's right, on
-/// both sides of the body. A right joint turns by
+/// both sides of the body. A right joint rotates by
 ///
 ///     R_FM = R_z(flexion) R_x(adduction) R_y(internal rotation)
 ///
@@ -15,14 +15,13 @@
 ///
 ///     flexion            > 0 brings the mobile body forwards     e1 = Z, fixed in F
 ///     adduction          > 0 brings it towards the midline       e2, the common perpendicular of e1 and e3
-///     internal rotation  > 0 turns its front to the midline      e3 = Y of M (right) or -Y of M (left),
-///     fixed in M
+///     internal rotation  > 0 brings its front to the midline     e3 = Y (right) or -Y (left), fixed in M
 
 namespace condyle {
 
 enum class Side { right, left };
 
-/// A ball turns in all three angles about its centre; a hinge in flexion alone, about its Z axis.
+/// A ball rotates in all three angles about its centre; a hinge in flexion only, about its Z axis.
 enum class JointKind { ball, hinge };
 
 enum class JointAngle { flexion, adduction, internal_rotation };
@@ -40,13 +39,13 @@ struct JointAngles {
 Pose pose_at(Side side, const JointAngles& angles) noexcept;
 
 /// The angles of a pose: flexion and internal rotation in (-180, 180], adduction in [-90, 90] degrees. Only
-/// the rotation is read. At adduction = +-90 degrees (to rounding) flexion and internal rotation turn about
-/// one line and only their sum or difference is told by the pose: internal rotation is then given as 0.
+/// the rotation is read. At adduction = +-90 degrees (to rounding) flexion and internal rotation are about
+/// one line and the pose fixes only their sum or difference: internal rotation is then given as 0.
 /// pose_at() of the answer is the rotation again to rounding, there and everywhere.
 JointAngles angles_at(Side side, const Pose& X_FM) noexcept;
 
-/// The unit axis in F about which the mobile body turns when one angle grows and the other two are held:
-/// turning M counter-clockwise about it by d is adding d to that angle.
+/// The unit axis in F about which the mobile body rotates when one angle grows and the other two are held:
+/// rotating M counter-clockwise about it by d is adding d to that angle.
 ///
 ///     flexion            e1 = Z                          whatever the angles
 ///     adduction          e2 = R(flexion) (+-X)           depends on flexion

@@ -32,7 +32,7 @@ struct AxisErrors {
 AxisErrors axis_errors(const Vec3& anterior, const Vec3& superior) noexcept;
 
 /// A joint frame from its centre and two directions. Both must be unit vectors at a right angle within
-/// axis_tolerance; what rounding left is then removed by scaling both and turning each by half of the angle
+/// axis_tolerance; what rounding left is then removed by scaling both and rotating each by half of the angle
 /// they were off. Orthonormal input is used as it is, bit for bit. Throws UsageError, saying by how much the
 /// directions are off.
 Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& superior);

@@ -47,8 +47,8 @@ struct DirectedEdge {
 class Mesh {
  public:
   /// Checks the arrays, which are taken over. Raises MeshError naming the first bad element ("triangle 812
-  /// uses vertex 40991 of 40000"). Not explicit: whatever asks for a Mesh checks what it is given. Linear for a
-  /// closed mesh.
+  /// uses vertex 40991 of 40000"). Not explicit: whatever asks for a Mesh checks what it is given. Linear for
+  /// a closed mesh.
   Mesh(TriMesh arrays);
 
   const TriMesh& arrays() const noexcept;
@@ -62,12 +62,17 @@ class Mesh {
   /// The first directed edge, in the order of triangles, that is used more often than its opposite.
   const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
 
+  /// The same triangles on vertices elsewhere: whether it is closed needs no second look. Raises MeshError
+  /// where there are not as many of them or a coordinate is not finite.
+  Mesh moved_to(Points vertices) const;
+
   operator const TriMesh&() const noexcept { return arrays(); }
 
  private:
   struct Checked;
   friend const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh);
 
+  explicit Mesh(std::shared_ptr<const Checked> checked) noexcept;
   std::shared_ptr<const Checked> checked_;
 };
 

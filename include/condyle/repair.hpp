@@ -5,7 +5,7 @@
 
 #include "condyle/mesh.hpp"
 
-/// Repairs that lose nothing: the surface is the same set of points before and after. Each is asked for by
+/// Repairs that lose nothing: the surface is the same set of points before and after. Each is requested by
 /// name, changes the mesh in place and says what it did. Whatever would need a guess (filling holes, dropping
 /// triangles, moving vertices) is not here.
 
@@ -27,5 +27,17 @@ std::size_t drop_unreferenced_vertices(TriMesh& mesh);
 /// inverted. Raises MeshError where that cannot be told (not closed) or where only some components are
 /// inverted: these may be the boundaries of cavities, which are wound that way.
 std::size_t flip_inverted(TriMesh& mesh);
+
+/// The three as values, for lists of them.
+enum class Repair { weld, drop_unreferenced, flip_inverted };
+
+/// A repair that was made: how many vertices went, or triangles were flipped.
+struct RepairDone {
+  Repair repair;
+  std::size_t count;
+};
+
+/// Makes the repairs in this order. Raises MeshError where one cannot be made.
+std::vector<RepairDone> repair_mesh(TriMesh& mesh, const std::vector<Repair>& repairs);
 
 }  // namespace condyle

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "condyle/error.hpp"
-#include "condyle/fit_cylinder.hpp"
+#include "condyle/fit.hpp"
 #include "kinematics/surface_points.hpp"
 
 namespace condyle {

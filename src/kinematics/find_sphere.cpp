@@ -9,7 +9,7 @@
 #include <unordered_map>
 
 #include "condyle/error.hpp"
-#include "condyle/fit_sphere.hpp"
+#include "condyle/fit.hpp"
 #include "kinematics/surface_points.hpp"
 
 namespace condyle {
@@ -88,11 +88,11 @@ struct CellHash {
 ///         | |   neck: goes elsewhere
 std::vector<Candidate> votes(const std::vector<kinematics::SurfacePoint>& points, double inwards,
                              double radius) {
-  struct Tally {
+  struct CellSum {
     double area = 0;
     Vec3 weighted = Vec3::Zero();
   };
-  std::unordered_map<Cell, Tally, CellHash> cells;
+  std::unordered_map<Cell, CellSum, CellHash> cells;
   const double side = cell_in_radii * radius, whole = 4 * std::numbers::pi * radius * radius;
   // Positions relative to one vertex keep cell numbers small wherever the mesh lies.
   const Vec3 origin = points.front().position;
@@ -103,14 +103,14 @@ std::vector<Candidate> votes(const std::vector<kinematics::SurfacePoint>& points
     const Cell cell{static_cast<std::int32_t>(std::floor(scaled.x())),
                     static_cast<std::int32_t>(std::floor(scaled.y())),
                     static_cast<std::int32_t>(std::floor(scaled.z()))};
-    Tally& tally = cells[cell];
+    CellSum& sum = cells[cell];
     const double area = std::min(p.area, largest_vote * whole);
-    tally.area += area;
-    tally.weighted += area * centre;
+    sum.area += area;
+    sum.weighted += area * centre;
   }
   std::vector<Candidate> out;
-  for (const auto& [cell, tally] : cells) {
-    const Candidate candidate{{tally.weighted / tally.area, radius}, tally.area / whole};
+  for (const auto& [cell, sum] : cells) {
+    const Candidate candidate{{sum.weighted / sum.area, radius}, sum.area / whole};
     if (candidate.sphere.centre.allFinite()) out.push_back(candidate);
   }
   return out;
@@ -242,7 +242,8 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
     message << "no spherical " << (search.part == SphericalPart::head ? "head" : "socket")
             << " with a radius from " << search.smallest_radius << " to " << search.largest_radius
             << " mm among " << points.size() << " vertices";
-    if (search.part == SphericalPart::head) message << " (a mesh wound inside out has sockets for heads)";
+    if (search.part == SphericalPart::head)
+      message << " (a mesh of inverted orientation has sockets for heads)";
     throw MeshError(message.str());
   }
   const auto best = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {

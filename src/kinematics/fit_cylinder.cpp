@@ -1,4 +1,4 @@
-#include "condyle/fit_cylinder.hpp"
+#include "condyle/fit.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -56,8 +56,8 @@ double sum_of_squares(PointsView points, std::span<const Index> vertices, const 
 ///
 ///     d distance / d shift = -u.e          d distance / d tilt = -t u.e
 ///
-/// and the radius is the mean distance, so every row is taken less the mean row. Tilts are in units of 1 /
-/// extent, so that all four unknowns are lengths.
+/// and the radius is the mean distance, so every row is taken less the mean row. Tilts are in units of
+/// 1 / extent, so that all four unknowns are lengths.
 Vec4 axis_step(PointsView points, std::span<const Index> vertices, const Axis& axis, double extent) {
   const auto [e1, e2] = across(axis.direction);
   const auto row_of = [&, e1 = e1, e2 = e2](Index v, double& distance) -> Vec4 {

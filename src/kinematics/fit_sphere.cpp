@@ -1,4 +1,4 @@
-#include "condyle/fit_sphere.hpp"
+#include "condyle/fit.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 using Mat3 = Eigen::Matrix3d;
 
 /// Ratio of the smallest to the largest variance of the points below which they are a plane: for a cap of a
-/// sphere it is about (height / width)^2 / 5, and a cap this flat (1e-4 of its width high) tells its radius
+/// sphere it is about (height / width)^2 / 5, and a cap this flat (1e-4 of its width high) gives its radius
 /// to no digit once its coordinates were rounded to float.
 constexpr double flat = 1e-9;
 

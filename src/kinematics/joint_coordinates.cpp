@@ -57,8 +57,8 @@ Pose pose_at(Side side, const JointAngles& angles) noexcept {
 
 JointAngles angles_at(Side side, const Pose& X_FM) noexcept {
   const auto& R = X_FM.matrix();
-  // Column 1 is (-sf ca, cf ca, sa) and row 2 is (-ca sr, sa, ca cr). With f known, row 0 of R_z(-f) R =
-  // R_x(a) R_y(r) is (cr, 0, sr): well conditioned even where f itself is not, so that the three always
+  // Column 1 is (-sf ca, cf ca, sa) and row 2 is (-ca sr, sa, ca cr). With f known, row 0 of
+  // R_z(-f) R = R_x(a) R_y(r) is (cr, 0, sr): well conditioned even where f itself is not, so that the three always
   // reproduce R.
   const double ca = std::sqrt(R(0, 1) * R(0, 1) + R(1, 1) * R(1, 1));
   const Angle adduction = angle_of(R(2, 1), ca);

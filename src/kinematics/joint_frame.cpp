@@ -63,9 +63,9 @@ Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& super
   Vec3 x = anterior.normalized(), y = superior.normalized();
   for (int step = 0; step < 2; ++step) {
     const double half = x.dot(y) / 2;
-    const Vec3 turned = (x - half * y).normalized();
+    const Vec3 rotated = (x - half * y).normalized();
     y = (y - half * x).normalized();
-    x = turned;
+    x = rotated;
   }
   return frame(centre, x, y, x.cross(y));
 }

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "condyle/fit_sphere.hpp"
+#include "condyle/fit.hpp"
 
 /// What the searches for spherical and cylindrical parts read of a mesh: its vertices with normals and areas.
 
@@ -29,7 +29,7 @@ std::vector<Index> largest_connected_part(const TriMesh& mesh, const std::vector
 /// The mesh's numbers of some of the points.
 std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const std::vector<Index>& chosen);
 
-/// 1.4826 times the median magnitude: the standard deviation of a normal distribution, told by the better
+/// 1.4826 times the median magnitude: the standard deviation of a normal distribution, given by the better
 /// half of the residuals and deaf to the rest.
 double robust_deviation(std::vector<double> residuals);
 

@@ -62,6 +62,17 @@ Mesh::Mesh(TriMesh arrays) {
   checked_ = std::shared_ptr<const Checked>(new Checked{std::move(arrays), unbalanced});
 }
 
+Mesh::Mesh(std::shared_ptr<const Checked> checked) noexcept : checked_(std::move(checked)) {}
+
+Mesh Mesh::moved_to(Points vertices) const {
+  check_vertices(vertices);
+  if (vertices.size() != arrays().vertices.size())
+    throw MeshError(std::to_string(vertices.size()) + " vertices in place of " +
+                    std::to_string(arrays().vertices.size()));
+  return Mesh(std::shared_ptr<const Checked>(
+      new Checked{{std::move(vertices), arrays().triangles}, checked_->unbalanced_edge}));
+}
+
 const TriMesh& Mesh::arrays() const noexcept {
   return checked_->arrays;
 }

@@ -101,4 +101,23 @@ std::size_t flip_inverted(TriMesh& mesh) {
   return mesh.triangles.size();
 }
 
+std::vector<RepairDone> repair_mesh(TriMesh& mesh, const std::vector<Repair>& repairs) {
+  std::vector<RepairDone> done;
+  for (const Repair repair : repairs) {
+    const auto count = [&] {
+      switch (repair) {
+        case Repair::weld:
+          return weld_exactly(mesh);
+        case Repair::drop_unreferenced:
+          return drop_unreferenced_vertices(mesh);
+        case Repair::flip_inverted:
+          break;
+      }
+      return flip_inverted(mesh);
+    }();
+    done.push_back({repair, count});
+  }
+  return done;
+}
+
 }  // namespace condyle

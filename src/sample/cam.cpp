@@ -31,8 +31,8 @@ FieldValue Cam::operator()(const Vec3& p) const noexcept {
 }
 
 std::array<Ball, 3> Cam::places() const noexcept {
-  const Eigen::AngleAxisd turn(sweep.radians(), neck);
-  return {bump, {turn * bump.centre, bump.radius}, {turn.inverse() * bump.centre, bump.radius}};
+  const Eigen::AngleAxisd rotation(sweep.radians(), neck);
+  return {bump, {rotation * bump.centre, bump.radius}, {rotation.inverse() * bump.centre, bump.radius}};
 }
 
 FieldValue Cam::seam(const Vec3& p) const noexcept {

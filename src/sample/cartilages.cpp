@@ -61,7 +61,7 @@ CartilageCounts counts(const CartilageResolution& resolution, const Cartilage& a
         return {14824, 17294};
     }
   }
-  if (const auto* asked = std::get_if<CartilageCounts>(&resolution)) return *asked;
+  if (const auto* counts = std::get_if<CartilageCounts>(&resolution)) return *counts;
   const double edge = std::get<EdgeLength>(resolution).mm;
   sample::require_range("edge_length_mm", edge, 0.3, 3, "mm");
   return {sample::triangles_for(acetabular.solid, acetabular_meshing, edge),

@@ -23,7 +23,7 @@ constexpr double nominal_head_radius = 24;
 constexpr Angle nominal_anteversion = Angle::degrees(15);
 
 /// Room around the balls for filled seams, mm at the nominal size.
-constexpr double room_around = 10;
+constexpr double margin_around = 10;
 
 /// The pieces of one femur, blended in this order.
 struct FemurPieces {
@@ -58,7 +58,7 @@ Vec3 across_neck(const FemurAxes& axes) noexcept {
 FemurPieces femur_without_cam(const HipParameters& hip) {
   const FemurAxes axes = femur_axes(hip);
   const double scale = hip.head_radius_mm / nominal_head_radius;
-  // The trochanters turn about the shaft with the neck: torsion takes place below them.
+  // The trochanters rotate about the shaft with the neck: torsion takes place below them.
   const double torsion = (hip.femoral_anteversion - nominal_anteversion).radians();
   const Vec3 anterior = std::cos(torsion) * Vec3::UnitX() + std::sin(torsion) * axes.lateral;
   const Vec3 lateral = std::cos(torsion) * axes.lateral - std::sin(torsion) * Vec3::UnitX();
@@ -130,13 +130,14 @@ Cam cam_leaving_at(const HipParameters& hip, Angle alpha, FemurPieces femur) {
 }  // namespace
 
 FemurAxes femur_axes(const HipParameters& hip) noexcept {
-  const double lean = shaft_lean.radians(), turn = hip.femoral_anteversion.radians();
+  const double lean = shaft_lean.radians(), anteversion = hip.femoral_anteversion.radians();
   const double bend = std::numbers::pi - hip.neck_shaft_angle.radians();
   FemurAxes axes;
   axes.distal = Vec3(0, -std::cos(lean), -std::sin(lean));
   axes.lateral = Vec3(0, -std::sin(lean), std::cos(lean));
-  axes.neck = std::sin(bend) * (std::cos(turn) * axes.lateral - std::sin(turn) * Vec3::UnitX()) +
-              std::cos(bend) * axes.distal;
+  axes.neck =
+      std::sin(bend) * (std::cos(anteversion) * axes.lateral - std::sin(anteversion) * Vec3::UnitX()) +
+      std::cos(bend) * axes.distal;
   axes.foot = hip.neck_length_mm * axes.neck;
   return axes;
 }
@@ -171,8 +172,8 @@ Solid femur_shape(const HipParameters& hip) {
                                      femur.greater_back,
                                      femur.lesser};
   const Box box = box_around(balls);
-  const Vec3 room = Vec3::Constant(room_around * femur.scale);
-  return {femur, {box.low - room, box.high + room}, details};
+  const Vec3 margin = Vec3::Constant(margin_around * femur.scale);
+  return {femur, {box.low - margin, box.high + margin}, details};
 }
 
 }  // namespace condyle::sample

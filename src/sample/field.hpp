@@ -41,7 +41,7 @@ struct Circle {
   double radius;
 };
 
-/// A solid, a box around it with some room to spare, and the places with details smaller than elsewhere.
+/// A solid, a box around it with some margin, and the places with details smaller than elsewhere.
 struct Solid {
   Field field;
   Box box;

@@ -50,7 +50,7 @@ TriangleCounts counts(const Resolution& resolution, const Solid& hip_bone, const
     const int level = static_cast<int>(*scenario) - 1;
     return {std::size_t{2442} << 2 * level, std::size_t{1542} << 2 * level};
   }
-  if (const auto* asked = std::get_if<TriangleCounts>(&resolution)) return *asked;
+  if (const auto* counts = std::get_if<TriangleCounts>(&resolution)) return *counts;
   const double edge = std::get<EdgeLength>(resolution).mm;
   sample::require_range("edge_length_mm", edge, 0.3, 9, "mm");
   return {sample::triangles_for(hip_bone, hip_bone_meshing, edge),

@@ -16,10 +16,10 @@ constexpr double nominal_socket_radius = 27.5;
 constexpr double socket_wall = 8;
 
 /// Width over which the edge between socket and rim is rounded, mm at the nominal size.
-constexpr double room_seam = 4;
+constexpr double rim_seam = 4;
 
-/// Room around the skeleton's sheet and ring for tips, seams and the socket's rim, mm at the nominal size.
-constexpr double room_around = 20;
+/// Margin around the skeleton's sheet and ring for tips, seams and the socket's rim, mm at the nominal size.
+constexpr double margin_around = 20;
 
 /// Control balls {x, y, z}, radius of the ilium, drawn after the proportions of adult hip bones.
 constexpr std::size_t ilium_balls = 22;
@@ -96,10 +96,10 @@ struct HipBonePieces {
     const Ball around_rim = {Vec3::Zero(), shell.radius + 4 * scale};
     const FieldValue beyond_rim = half_space(-socket.opening, -socket.rim_offset, p);
     bone = without(bone, common(ball(around_rim, p), beyond_rim, 4 * scale), 6 * scale);
-    // The head's room, open outwards: a bar from the centre along the opening keeps the way of the neck free.
-    const Ball room = {Vec3::Zero(), socket.radius};
-    const Ball way_out = {3 * socket.radius * socket.opening, socket.radius};
-    bone = without(bone, bar(room, way_out, p), room_seam * scale);
+    // The head's cavity, open outwards: a bar from the centre along the opening keeps the neck's place free.
+    const Ball cavity = {Vec3::Zero(), socket.radius};
+    const Ball outside = {3 * socket.radius * socket.opening, socket.radius};
+    bone = without(bone, bar(cavity, outside, p), rim_seam * scale);
     return without(bone, bar(notch_start, notch_end, p), 7 * scale);
   }
 };
@@ -116,9 +116,9 @@ Socket socket_of(const HipParameters& hip) noexcept {
   const Vec3 down(0.15, -1, 0);
   socket.notch = (down - down.dot(socket.opening) * socket.opening).normalized();
   // The edge is where a radiograph shows it: in the middle of the rounded seam between socket and rim. There
-  // the rim is sunk by x below its plane: with seam s and depth s / 2 into it, x = s h^2 / 4 where h = 1 - (s
-  // / 2 - x) / s, hence x^2 - 3 s x + s^2 / 4 = 0.
-  const double seam = room_seam * socket.radius / nominal_socket_radius;
+  // the rim is sunk by x below its plane: with seam s and depth s / 2 into it,
+  //     x = s h^2 / 4 where h = 1 - (s / 2 - x) / s, hence x^2 - 3 s x + s^2 / 4 = 0.
+  const double seam = rim_seam * socket.radius / nominal_socket_radius;
   const double sunk = (1.5 - std::numbers::sqrt2) * seam;
   const Vec3 roof = (socket.radius + seam / 2) * Vec3(0, std::cos(edge), std::sin(edge));
   socket.rim_offset = roof.dot(socket.opening) + sunk;
@@ -135,8 +135,8 @@ Solid hip_bone_shape(const HipParameters& hip) {
   bone.notch_end = {level + 1.6 * bone.socket.radius * notch, 10 * bone.scale};
 
   const Box sheet = box_around(bone.ilium_sheet.balls()), ring = box_around(bone.ring.balls());
-  const Vec3 room = Vec3::Constant(room_around);
-  const Vec3 low = sheet.low.cwiseMin(ring.low) - room, high = sheet.high.cwiseMax(ring.high) + room;
+  const Vec3 margin = Vec3::Constant(margin_around);
+  const Vec3 low = sheet.low.cwiseMin(ring.low) - margin, high = sheet.high.cwiseMax(ring.high) + margin;
   const Ball& tip = ischial_spine.back();
   const Ball lips = {level + 1.2 * bone.socket.radius * notch, 12 * bone.scale};
   return {bone,

@@ -12,8 +12,7 @@ namespace condyle::sample {
 ///          /         |
 ///         (     O    |--->  opening
 ///          \         |
-///            ` - _ .       rim plane: p . opening = rim_offset, behind the centre where the cover is less
-///            than half
+///            ` - _ .       rim plane: p . opening = rim_offset, behind the centre where it covers less than half
 struct Socket {
   double radius = 0;
   Vec3 opening = Vec3::UnitZ();

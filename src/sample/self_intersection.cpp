@@ -13,8 +13,8 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-/// Sign of the turn a, b, c after dropping coordinate `axis`.
-core::Sign turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) noexcept {
+/// Orientation of a, b, c after dropping coordinate `axis`.
+core::Sign orientation(const Vec3& a, const Vec3& b, const Vec3& c, int axis) noexcept {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   return core::orientation_2d(a[u], a[v], b[u], b[v], c[u], c[v]);
 }
@@ -22,15 +22,15 @@ core::Sign turn(const Vec3& a, const Vec3& b, const Vec3& c, int axis) noexcept 
 /// An axis along which the triangle does not look like a line.
 int viewing_axis(const Corners& t) noexcept {
   for (int axis = 0; axis < 2; ++axis) {
-    if (turn(t[0], t[1], t[2], axis) != core::Sign::zero) return axis;
+    if (orientation(t[0], t[1], t[2], axis) != core::Sign::zero) return axis;
   }
   return 2;
 }
 
-/// Closed segments in one plane, seen along `axis`.
+/// Closed segments in one plane, projected along `axis`.
 bool coplanar_segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s, int axis) noexcept {
-  const core::Sign pq_r = turn(p, q, r, axis), pq_s = turn(p, q, s, axis);
-  const core::Sign rs_p = turn(r, s, p, axis), rs_q = turn(r, s, q, axis);
+  const core::Sign pq_r = orientation(p, q, r, axis), pq_s = orientation(p, q, s, axis);
+  const core::Sign rs_p = orientation(r, s, p, axis), rs_q = orientation(r, s, q, axis);
   if (pq_r == core::Sign::zero && pq_s == core::Sign::zero) {
     // On one line: they meet where their intervals do, in every coordinate.
     for (int k = 0; k < 3; ++k) {
@@ -45,8 +45,8 @@ bool coplanar_segments_meet(const Vec3& p, const Vec3& q, const Vec3& r, const V
 /// A closed segment in the plane of a closed triangle.
 bool coplanar_segment_meets(const Vec3& p, const Vec3& q, const Corners& t) noexcept {
   const int axis = viewing_axis(t);
-  const core::Sign side[3] = {turn(t[0], t[1], p, axis), turn(t[1], t[2], p, axis),
-                              turn(t[2], t[0], p, axis)};
+  const core::Sign side[3] = {orientation(t[0], t[1], p, axis), orientation(t[1], t[2], p, axis),
+                              orientation(t[2], t[0], p, axis)};
   const bool has_left = std::find(side, side + 3, core::Sign::positive) != side + 3;
   const bool has_right = std::find(side, side + 3, core::Sign::negative) != side + 3;
   if (!(has_left && has_right)) return true;
@@ -90,7 +90,7 @@ bool fans_meet(const Corners& s, const Corners& t) noexcept {
 bool folded(const Corners& s, const Vec3& other) noexcept {
   if (core::orientation(s[0], s[1], s[2], other) != core::Sign::zero) return false;
   const int axis = viewing_axis(s);
-  return turn(s[0], s[1], s[2], axis) == turn(s[0], s[1], other, axis);
+  return orientation(s[0], s[1], s[2], axis) == orientation(s[0], s[1], other, axis);
 }
 
 bool meet_beyond_shared(const TriMesh& mesh, Index i, Index j) {

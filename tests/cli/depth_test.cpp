@@ -20,9 +20,9 @@ constexpr const char* deep = "--pose \"flexion=130 internal_rotation=20\"";
 const JointAngles deep_angles{Angle::degrees(130), {}, Angle::degrees(20)};
 
 /// The sample hip as `condyle sample hip` writes it, in the folder `sample`: made once, copied for each test.
-class SampleJoint : public ::testing::Test {
+class SampleJointCommand : public ::testing::Test {
  protected:
-  SampleJoint() {
+  SampleJointCommand() {
     static const TemporaryFolder once;
     static const Ran made_once = run_condyle(once.path(), "sample hip --out sample");
     made = made_once;
@@ -51,7 +51,7 @@ class SampleJoint : public ::testing::Test {
   Ran made;
 };
 
-TEST_F(SampleJoint, IsWrittenWithTheCountsOfItsScenario) {
+TEST_F(SampleJointCommand, IsWrittenWithTheCountsOfItsScenario) {
   EXPECT_EQ(made.exit_code, 0) << made.err;
   const TriMesh femur = read_mesh(folder / "sample/femur.ply").mesh;
   const TriMesh hip_bone = read_mesh(folder / "sample/hip_bone.ply").mesh;
@@ -61,7 +61,7 @@ TEST_F(SampleJoint, IsWrittenWithTheCountsOfItsScenario) {
   EXPECT_EQ(hip_bone.triangles.size(), 2442u);
 }
 
-TEST_F(SampleJoint, DepthIsWhatTheLibraryFinds) {
+TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {
   const Json json = answer(std::string("depth sample/hip.toml ") + deep);
   const JointContact joint(read_mesh(folder / "sample/hip_bone.ply").mesh,
                            read_mesh(folder / "sample/femur.ply").mesh);
@@ -82,7 +82,7 @@ TEST_F(SampleJoint, DepthIsWhatTheLibraryFinds) {
   EXPECT_GT(json["min_gap_mm"], 0);
 }
 
-TEST_F(SampleJoint, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
+TEST_F(SampleJointCommand, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
   const Json json = answer("depth sample/hip.toml");
   EXPECT_FALSE(json["in_contact"]);
   EXPECT_EQ(json["mobile_vertices_inside"], 0);
@@ -95,7 +95,7 @@ TEST_F(SampleJoint, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
   EXPECT_LT(json["min_gap_mm"], 3.6);
 }
 
-TEST_F(SampleJoint, TheTangentialMethodGivesAnglesAndArcs) {
+TEST_F(SampleJointCommand, TheTangentialMethodGivesAnglesAndArcs) {
   for (const char* about : {"flexion", "adduction", "internal_rotation"}) {
     const Json radial = answer(std::string("depth sample/hip.toml ") + deep);
     const Json json =
@@ -112,7 +112,7 @@ TEST_F(SampleJoint, TheTangentialMethodGivesAnglesAndArcs) {
   }
 }
 
-TEST_F(SampleJoint, ResultsAreWrittenTogether) {
+TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
   const Ran ran = run(std::string("depth sample/hip.toml --json --out deep ") + deep);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json json = Json::parse(ran.out);
@@ -140,7 +140,7 @@ TEST_F(SampleJoint, ResultsAreWrittenTogether) {
   }
 }
 
-TEST_F(SampleJoint, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
+TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
   TriMesh open = read_mesh(folder / "sample/hip_bone.ply").mesh;
   open.triangles.erase(open.triangles.begin() + 100);
   write_mesh(folder / "sample/hip_bone.ply", open);
@@ -152,14 +152,14 @@ TEST_F(SampleJoint, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
   EXPECT_GT(json["triangle_pairs"], 0);
 }
 
-TEST_F(SampleJoint, AMeshInsideOutIsRefusedWithItsRepair) {
+TEST_F(SampleJointCommand, AMeshOfInvertedOrientationIsRefusedWithItsRepair) {
   write_mesh(folder / "sample/femur.ply", flipped(read_mesh(folder / "sample/femur.ply").mesh));
   expect_refused(4, "depth sample/hip.toml", "femur.ply: inverted orientation");
   edit_joint("mesh = \"femur.ply\"", "mesh = \"femur.ply\"\nrepair = [\"flip_inverted\"]");
   EXPECT_FALSE(answer("depth sample/hip.toml")["in_contact"]);
 }
 
-TEST_F(SampleJoint, ACentreOnTheSurfaceIsRefused) {
+TEST_F(SampleJointCommand, ACentreOnTheSurfaceIsRefused) {
   const Vec3 vertex = read_mesh(folder / "sample/hip_bone.ply").mesh.vertices[7];
   edit_joint("centre = [0.0, 0.0, 0.0]",
              "centre = [" + std::to_string(vertex.x()) + ", " + std::to_string(vertex.y()) + ", 0.0]");
@@ -170,7 +170,7 @@ TEST_F(SampleJoint, ACentreOnTheSurfaceIsRefused) {
   expect_refused(4, "depth sample/hip.toml", "the joint centre lies on the surface, in triangle ");
 }
 
-TEST_F(SampleJoint, WrongUsageEndsWithTwo) {
+TEST_F(SampleJointCommand, WrongUsageEndsWithTwo) {
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=90 twist=3\"", "unknown angle 'twist'");
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=ninety\"", "flexion='ninety' is not a number");
   expect_refused(2, "depth sample/hip.toml --method normal", "--method");
@@ -186,12 +186,12 @@ TEST_F(SampleJoint, WrongUsageEndsWithTwo) {
   expect_refused(2, "sample cartilages --out other --clearance 2", "clearance_mm is 2, must be -0.5 to 1 mm");
 }
 
-TEST_F(SampleJoint, AnUnwritableFolderEndsWithThree) {
+TEST_F(SampleJointCommand, AnUnwritableFolderEndsWithThree) {
   expect_refused(3, "depth sample/hip.toml --out sample/femur.ply", "femur.ply");
   expect_refused(3, "sample hip --out /proc/condyle", "/proc/condyle");
 }
 
-TEST_F(SampleJoint, TenMetresFromTheOriginTheAnswersAreTheSame) {
+TEST_F(SampleJointCommand, TenMetresFromTheOriginTheAnswersAreTheSame) {
   const Json near = answer(std::string("depth sample/hip.toml ") + deep);
   const Vec3 away(10000, -10000, 10000);
   for (const char* name : {"sample/hip_bone.ply", "sample/femur.ply"}) {
@@ -211,12 +211,12 @@ TEST_F(SampleJoint, TenMetresFromTheOriginTheAnswersAreTheSame) {
   EXPECT_NEAR(near["max_radial_depth_mm"], far["max_radial_depth_mm"], 8 * 0x1p-40 / cosine);
 }
 
-TEST_F(SampleJoint, AMissingMeshEndsWithThree) {
+TEST_F(SampleJointCommand, AMissingMeshEndsWithThree) {
   fs::remove(folder / "sample/femur.ply");
   expect_refused(3, "depth sample/hip.toml --out result", "femur.ply");
 }
 
-TEST_F(SampleJoint, TheSameParametersGiveTheSameBytes) {
+TEST_F(SampleJointCommand, TheSameParametersGiveTheSameBytes) {
   ASSERT_EQ(run("sample hip --out again --threads 1").exit_code, 0);
   for (const char* name : {"femur.ply", "hip_bone.ply", "hip.toml"}) {
     const auto bytes = [&](const char* in) {
@@ -227,7 +227,7 @@ TEST_F(SampleJoint, TheSameParametersGiveTheSameBytes) {
   }
 }
 
-TEST_F(SampleJoint, ALeftHipIsTheMirroredRightOne) {
+TEST_F(SampleJointCommand, ALeftHipIsTheMirroredRightOne) {
   ASSERT_EQ(run("sample hip --side left --out left").exit_code, 0);
   const Json right = answer(std::string("depth sample/hip.toml ") + deep),
              left = answer(std::string("depth left/hip.toml ") + deep);
@@ -238,10 +238,10 @@ TEST_F(SampleJoint, ALeftHipIsTheMirroredRightOne) {
   }
 }
 
-/// The examples in the help of the verbs, run as they stand, in their order.
-TEST_F(SampleJoint, TheExamplesOfHelpWork) {
-  for (const char* verb : {"sample hip", "sample cartilages", "depth"}) {
-    const std::string help = run(std::string(verb) + " --help").out;
+/// The examples in the help of the commands, run as they stand, in their order.
+TEST_F(SampleJointCommand, TheExamplesOfHelpWork) {
+  for (const char* command : {"sample hip", "sample cartilages", "depth"}) {
+    const std::string help = run(std::string(command) + " --help").out;
     std::size_t examples = 0;
     for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
          ++at) {

@@ -40,7 +40,7 @@ TEST(SampleCartilagesJoint, HasTheMeshesThatTheLibraryMakes) {
   EXPECT_EQ(read_mesh(made().folder / "made/femoral_cartilage.ply").mesh, expected.femoral);
 }
 
-TEST(SampleCartilagesJoint, IsFreeByTheClearanceAndStaysSoHoweverFarItTurns) {
+TEST(SampleCartilagesJoint, IsFreeByTheClearanceAndStaysSoHoweverFarItRotates) {
   const Json depth = answer("depth made/cartilages.toml");
   EXPECT_EQ(depth["side"], "left");
   EXPECT_FALSE(depth["in_contact"]);

@@ -4,7 +4,7 @@
 
 namespace condyle::test {
 
-/// Bytes of the largest piece of memory this program has asked operator new for since this was last set to 0.
+/// Bytes of the largest block of memory that this program has requested from operator new since this was last set to 0.
 /// For programs of one thread.
 extern std::size_t largest_allocation;
 

@@ -91,7 +91,7 @@ class MutatedMeshFiles : public testing::TestWithParam<Writer> {};
 
 TEST_P(MutatedMeshFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
   constexpr int mutations = 20000;
-  // Bytes of memory asked for at once, per byte of the file: a number of two characters becomes eight bytes,
+  // Bytes of memory requested at once, per byte of the file: a number of two characters becomes eight bytes,
   // a vector grows by doubling, and deflate shortens up to 1032 times, for a number of a byte that becomes
   // eight. Beside it what libraries take for themselves.
   constexpr std::size_t largest_growth = 8 * 1032, slack = 1 << 20;

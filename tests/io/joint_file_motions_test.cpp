@@ -66,7 +66,7 @@ TEST_F(JointFileMotions, NeedNotBeThere) {
   EXPECT_TRUE(read("").motions.empty());
 }
 
-TEST_F(JointFileMotions, OfAHingeTurnInFlexionAlone) {
+TEST_F(JointFileMotions, OfAHingeRotateInFlexionOnly) {
   EXPECT_EQ(read("[[motion]]\nname = \"a\"\nvary = \"flexion\"\nrange = [0, 9]\nadduction = 0\n", "hinge")
                 .motions.size(),
             1u);

@@ -53,7 +53,7 @@ TriMesh femur_like() {
                       test::box({-10, -400, -10}, {10, -40, 10}));
 }
 
-class JointFileTest : public ::testing::Test {
+class ReadJoint : public ::testing::Test {
  protected:
   void SetUp() override {
     write_mesh(folder / "hip_bone.ply", pelvis_like());
@@ -83,7 +83,7 @@ class JointFileTest : public ::testing::Test {
   const TemporaryFolder folder;
 };
 
-TEST_F(JointFileTest, StandardPlacementKeepsEveryBit) {
+TEST_F(ReadJoint, StandardPlacementKeepsEveryBit) {
   const auto [joint, report] = read(plain);
   const TriMesh fixed = pelvis_like(), mobile = femur_like();
   EXPECT_EQ(joint.fixed.mesh, fixed);
@@ -99,13 +99,35 @@ TEST_F(JointFileTest, StandardPlacementKeepsEveryBit) {
   EXPECT_TRUE(report.notes.empty()) << report.notes.front();
 }
 
-TEST_F(JointFileTest, MetresBecomeMillimetres) {
+TEST_F(ReadJoint, AJointMadeByHandIsTheSameBitForBit) {
+  std::string text =
+      replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\"\nfit_within = { centre = [0, 0, 0], radius = 30 }");
+  text = replaced(replaced(text, "[1.0, 0.0, 0.0]", "[0.8, 0.0, 0.6]"), "\"right\"", "\"left\"");
+  const auto [by_file, report] = read(text + "[reference_pose]\nflexion = 20\nadduction = -10\n");
+
+  JointDescription description{.name = "right hip", .kind = JointKind::ball, .side = Side::left};
+  description.frame.centre = CentreFit{.body = BodyRole::mobile, .within = Sphere{{0, 0, 0}, 30}};
+  description.frame.axes = FrameDirections{{0.8, 0, 0.6}, {0, 1, 0}};
+  description.reference_pose = {Angle::degrees(20), Angle::degrees(-10), {}};
+  const auto [by_hand, placement] =
+      make_joint(description, {"hip bone", pelvis_like()}, {"femur", femur_like()});
+
+  EXPECT_EQ(by_file.fixed.mesh.arrays(), by_hand.fixed.mesh.arrays());
+  EXPECT_EQ(by_file.mobile.mesh.arrays(), by_hand.mobile.mesh.arrays());
+  EXPECT_EQ(by_file.name, by_hand.name);
+  EXPECT_EQ(by_file.mobile.name, by_hand.mobile.name);
+  EXPECT_EQ(by_file.side, by_hand.side);
+  EXPECT_EQ(report.placement.X_WF.matrix(), placement.X_WF.matrix());
+  EXPECT_EQ(report.notes, placement.notes);
+}
+
+TEST_F(ReadJoint, MetresBecomeMillimetres) {
   write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
   write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const auto [joint, report] =
       read(replaced(replaced(plain, "\"mm\"", "\"m\""), "[0.0, 0.0, 0.0]", "[0.001, 0.002, -0.003]"));
   const Vec3 centre(1, 2, -3);
-  EXPECT_TRUE(report.X_WF.translation().isApprox(centre, 4 * core::rounding_unit));
+  EXPECT_TRUE(report.placement.X_WF.translation().isApprox(centre, 4 * core::rounding_unit));
   const TriMesh expected = femur_like();
   for (std::size_t v = 0; v < expected.vertices.size(); ++v)
     // The test's own scaling, that of the file and the centre's: u each, of at most 400 mm.
@@ -114,7 +136,7 @@ TEST_F(JointFileTest, MetresBecomeMillimetres) {
   EXPECT_EQ(report.notes.size(), 1u);
 }
 
-TEST_F(JointFileTest, ACentreIsSubtractedWithOneRounding) {
+TEST_F(ReadJoint, ACentreIsSubtractedWithOneRounding) {
   const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "[0.1, -0.2, 0.3]"));
   const TriMesh expected = femur_like();
   for (std::size_t v = 0; v < expected.vertices.size(); ++v) {
@@ -124,7 +146,7 @@ TEST_F(JointFileTest, ACentreIsSubtractedWithOneRounding) {
   }
 }
 
-TEST_F(JointFileTest, AScannersFrameIsTurnedToTheJointsWithoutRounding) {
+TEST_F(ReadJoint, AScannersFrameBecomesTheJointsWithoutRounding) {
   // Left, posterior, superior: anterior is -y, superior z, and right -x.
   const auto [joint, report] =
       read(replaced(replaced(plain, "[1.0, 0.0, 0.0]", "[0, -1, 0]"), "[0.0, 1.0, 0.0]", "[0, 0, 1]"));
@@ -135,14 +157,14 @@ TEST_F(JointFileTest, AScannersFrameIsTurnedToTheJointsWithoutRounding) {
   }
 }
 
-TEST_F(JointFileTest, AReferencePoseIsTakenOffTheMobileMeshOnly) {
+TEST_F(ReadJoint, AReferencePoseIsTakenOffTheMobileMeshOnly) {
   for (const auto& [name, side] : {std::pair{"right", Side::right}, std::pair{"left", Side::left}}) {
     const JointAngles reference{Angle::degrees(20), Angle::degrees(-10), Angle::degrees(5)};
     const auto [joint, report] =
         read(replaced(plain, "\"right\"", "\"" + std::string(name) + "\"") +
              "[reference_pose]\nflexion = 20\nadduction = -10.0\ninternal_rotation = 5\n");
     EXPECT_EQ(joint.fixed.mesh, pelvis_like());
-    EXPECT_EQ(report.file.reference_pose, reference);
+    EXPECT_EQ(report.file.joint.reference_pose, reference);
     // In the reference pose the mesh is again where the file has it: two rotations with a few u of 400 mm each.
     const TriMesh given = femur_like(), back = posed(pose_at(side, reference), joint.mobile.mesh);
     for (std::size_t v = 0; v < given.vertices.size(); ++v)
@@ -150,23 +172,23 @@ TEST_F(JointFileTest, AReferencePoseIsTakenOffTheMobileMeshOnly) {
   }
 }
 
-TEST_F(JointFileTest, AFittedCentreIsThatOfTheHeadAndIsReported) {
+TEST_F(ReadJoint, AFittedCentreIsThatOfTheHeadAndIsReported) {
   const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\""));
-  ASSERT_TRUE(report.head);
+  ASSERT_TRUE(report.placement.sphere);
   // Vertices of 24 mm rounded to double lie on the sphere: see the tests of the fit.
-  EXPECT_LE((report.X_WF.translation() - Vec3(1.0 / 3, 0, 2.0 / 3)).norm(), 1e-12);
-  EXPECT_NEAR(report.head->fit.sphere.radius, 24, 1e-12);
+  EXPECT_LE((report.placement.X_WF.translation() - Vec3(1.0 / 3, 0, 2.0 / 3)).norm(), 1e-12);
+  EXPECT_NEAR(report.placement.sphere->fit.sphere.radius, 24, 1e-12);
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_TRUE(report.notes[0].starts_with("centre fitted: sphere of radius 24.000 mm")) << report.notes[0];
 }
 
-TEST_F(JointFileTest, ASocketCanBeFittedInstead) {
+TEST_F(ReadJoint, ASocketCanBeFittedInstead) {
   const auto [joint, report] = read(replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\"\nfit_body = \"fixed\""));
-  ASSERT_TRUE(report.head);
-  EXPECT_NEAR(report.head->fit.sphere.radius, 26, 1e-12);
+  ASSERT_TRUE(report.placement.sphere);
+  EXPECT_NEAR(report.placement.sphere->fit.sphere.radius, 26, 1e-12);
 }
 
-TEST_F(JointFileTest, AFitThatFindsNothingIsAMeshErrorWithFileAndKey) {
+TEST_F(ReadJoint, AFitThatFindsNothingIsAMeshErrorWithFileAndKey) {
   const auto path = write(
       replaced(plain, "[0.0, 0.0, 0.0]", "\"fit\"\nfit_within = { centre = [0, -300, 0], radius = 20 }"));
   try {
@@ -179,10 +201,10 @@ TEST_F(JointFileTest, AFitThatFindsNothingIsAMeshErrorWithFileAndKey) {
   }
 }
 
-TEST_F(JointFileTest, LandmarksGiveTheAxes) {
+TEST_F(ReadJoint, LandmarksGiveTheAxes) {
   const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
   const auto at = [&](std::string_view landmarks) {
-    return read(replaced(plain, axes, "[frame.landmarks]\n" + std::string(landmarks))).report.X_WF;
+    return read(replaced(plain, axes, "[frame.landmarks]\n" + std::string(landmarks))).report.placement.X_WF;
   };
   const auto isb =
       at("right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\nright_psis = [-150, 0, 45]\nleft_psis = [-150, "
@@ -198,10 +220,10 @@ TEST_F(JointFileTest, LandmarksGiveTheAxes) {
                              "[frame.landmarks]\nmedial_epicondyle = [0, -400, -40]\nlateral_epicondyle = "
                              "[0, -400, 40]\nhip_centre = [0, 0, 0]\n"),
                     "centre = [0.0, 0.0, 0.0]\n", ""));
-  EXPECT_TRUE(knee.report.X_WF.translation() == Vec3(0, -400, 0));
+  EXPECT_TRUE(knee.report.placement.X_WF.translation() == Vec3(0, -400, 0));
 }
 
-TEST_F(JointFileTest, ACentreIsAlsoTakenInTheFilesUnits) {
+TEST_F(ReadJoint, ACentreIsAlsoTakenInTheFilesUnits) {
   const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
   write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
   write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
@@ -210,10 +232,11 @@ TEST_F(JointFileTest, ACentreIsAlsoTakenInTheFilesUnits) {
           plain, axes,
           "[frame.landmarks]\nmedial_epicondyle = [0, -0.4, -0.04]\nlateral_epicondyle = [0, -0.4, 0.04]\n"),
       "\"mm\"", "\"m\""));
-  EXPECT_TRUE(femur.report.X_WF.matrix().isApprox(Pose::Identity().matrix(), 8 * core::rounding_unit));
+  EXPECT_TRUE(
+      femur.report.placement.X_WF.matrix().isApprox(Pose::Identity().matrix(), 8 * core::rounding_unit));
 }
 
-TEST_F(JointFileTest, RepairsAreMadeInOrderAndReported) {
+TEST_F(ReadJoint, RepairsAreMadeInOrderAndReported) {
   TriMesh dirty = test::flipped(femur_like());
   dirty.vertices.push_back({500, 0, 0});
   write_mesh(folder / "femur.ply", dirty);
@@ -227,14 +250,14 @@ TEST_F(JointFileTest, RepairsAreMadeInOrderAndReported) {
   EXPECT_EQ(report.notes.size(), 2u);
 }
 
-TEST_F(JointFileTest, MeshesInContradictingUnitsAreRefusedNamingBoth) {
+TEST_F(ReadJoint, MeshesInContradictingUnitsAreRefusedNamingBoth) {
   write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const std::string message = refusal(plain);
   EXPECT_NE(message.find("hip_bone.ply looks like millimetres"), message.npos) << message;
   EXPECT_NE(message.find("femur.ply like metres"), message.npos) << message;
 }
 
-TEST_F(JointFileTest, AUnitThatDoesNotFitTheMeshesIsSaidButFollowed) {
+TEST_F(ReadJoint, AUnitThatDoesNotFitTheMeshesIsReportedButFollowed) {
   write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
   write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const auto [joint, report] = read(plain);
@@ -244,7 +267,7 @@ TEST_F(JointFileTest, AUnitThatDoesNotFitTheMeshesIsSaidButFollowed) {
       << report.notes[1];
 }
 
-TEST_F(JointFileTest, EveryRequiredKeyIsAskedForByName) {
+TEST_F(ReadJoint, AMissingKeyIsNamed) {
   for (const auto& [line, message] : {
            std::pair{"condyle = 1\n", "condyle: is missing"},
            std::pair{"name = \"right hip\"\n", "name: is missing"},
@@ -263,7 +286,7 @@ TEST_F(JointFileTest, EveryRequiredKeyIsAskedForByName) {
   EXPECT_TRUE(refusal("condyle = 1\n").ends_with("name: is missing"));
 }
 
-TEST_F(JointFileTest, WrongTypesAndWordsAreNamedWithTheirLine) {
+TEST_F(ReadJoint, WrongTypesAndWordsAreNamedWithTheirLine) {
   EXPECT_EQ(refusal_of("condyle = 1", "condyle = 2"),
             "line 1: condyle: format version 2 is not known; this is version 1");
   EXPECT_EQ(refusal_of("condyle = 1", "condyle = 1.0"),
@@ -289,7 +312,7 @@ TEST_F(JointFileTest, WrongTypesAndWordsAreNamedWithTheirLine) {
       "line 12: mobile.repair: unknown repair \"fill\"; there are weld, drop_unreferenced and flip_inverted");
 }
 
-TEST_F(JointFileTest, UnknownKeysAreRefusedEverywhere) {
+TEST_F(ReadJoint, UnknownKeysAreRefusedEverywhere) {
   EXPECT_EQ(refusal_of("[frame]\n", "[frame]\ncenter = 5\n").substr(0, 34),
             "line 13: frame.center: unknown key");
   EXPECT_EQ(refusal_of("units", "unit = 1\nunits").substr(0, 25), "line 5: unit: unknown key");
@@ -299,7 +322,7 @@ TEST_F(JointFileTest, UnknownKeysAreRefusedEverywhere) {
             "line 17: reference_pose.flex: unknown ke");
 }
 
-TEST_F(JointFileTest, KeysThatContradictEachOtherAreRefused) {
+TEST_F(ReadJoint, KeysThatContradictEachOtherAreRefused) {
   EXPECT_NE(refusal_of("[frame]",
                        "[frame.landmarks]\nmedial_epicondyle = [0, -400, -40]\nlateral_epicondyle = [0, "
                        "-400, 40]\n[frame]"),
@@ -308,33 +331,33 @@ TEST_F(JointFileTest, KeysThatContradictEachOtherAreRefused) {
   EXPECT_NE(refusal_of("\"ball\"", "\"hinge\"\n[reference_pose]\nadduction = 5\n"), "accepted");
 }
 
-TEST_F(JointFileTest, OneSidesSpinesAskForTheOtherSides) {
+TEST_F(ReadJoint, OneSidesSpinesRequireTheOtherSides) {
   const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
   EXPECT_TRUE(refusal_of(axes, "[frame.landmarks]\nright_asis = [0, 0, 120]\nright_psis = [-150, 0, 45]\n")
                   .ends_with("frame.landmarks.left_asis: is missing"));
 }
 
-TEST_F(JointFileTest, AxesThatAreNotOrthonormalAreRefusedSayingByHowMuch) {
+TEST_F(ReadJoint, AxesThatAreNotOrthonormalAreRefusedSayingByHowMuch) {
   EXPECT_EQ(refusal_of("[0.0, 1.0, 0.0]", "[0.6, 0.8, 0.0]"),
             "frame: anterior and superior are 53.1301 degrees apart, not 90 (off by 36.8699)");
   EXPECT_EQ(refusal_of("[0.0, 1.0, 0.0]", "[0.0, 0.0, 0.0]"), "frame: superior has length 0, not 1");
 }
 
-TEST_F(JointFileTest, AxesWithSixDecimalsAreMadeOrthonormalAndThatIsReported) {
+TEST_F(ReadJoint, AxesWithSixDecimalsAreMadeOrthonormalAndThatIsReported) {
   const auto [joint, report] = read(replaced(replaced(plain, "[1.0, 0.0, 0.0]", "[0.866025, 0.5, 0.0]"),
                                              "[0.0, 1.0, 0.0]", "[-0.5, 0.866025, 0.0]"));
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_TRUE(report.notes[0].starts_with("axes made orthonormal")) << report.notes[0];
 }
 
-TEST_F(JointFileTest, WhatIsNotTomlIsRefusedWithItsLine) {
+TEST_F(ReadJoint, WhatIsNotTomlIsRefusedWithItsLine) {
   EXPECT_TRUE(refusal_of("kind = \"ball\"", "kind = ball").starts_with("line 3: not TOML: "));
   EXPECT_TRUE(refusal_of("side", "kind = \"ball\"\nside").starts_with("line 4: not TOML: "));
   EXPECT_TRUE(refusal(std::string_view("\xff\xfe\0\x01", 4)).starts_with("line 1: not TOML: "));
   EXPECT_TRUE(refusal("").ends_with("condyle: is missing"));
 }
 
-TEST_F(JointFileTest, MissingFilesAreNamed) {
+TEST_F(ReadJoint, MissingFilesAreNamed) {
   EXPECT_THROW(read_joint(folder / "none.toml"), FileError);
   EXPECT_THROW(read_joint(folder.path()), FileError);
   const auto path = write(replaced(plain, "\"femur.ply\"", "\"none.ply\""));
@@ -347,7 +370,7 @@ TEST_F(JointFileTest, MissingFilesAreNamed) {
   }
 }
 
-TEST_F(JointFileTest, CoordinatesThatOverflowInMillimetresAreRefused) {
+TEST_F(ReadJoint, CoordinatesThatOverflowInMillimetresAreRefused) {
   TriMesh huge = femur_like();
   huge.vertices.x[7] = 1e307;
   write_mesh(folder / "femur.ply", huge);

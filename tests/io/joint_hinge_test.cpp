@@ -14,7 +14,7 @@ namespace {
 using test::TemporaryFolder;
 
 /// A hinge whose mobile body is a tube, tilted by 5 degrees from Z, beside a box.
-class HingeTest : public ::testing::Test {
+class ReadHinge : public ::testing::Test {
  protected:
   void SetUp() override {
     write_mesh(folder / "ulna.ply", test::box({-30, -40, -50}, {60, -100, 50}));
@@ -35,15 +35,15 @@ class HingeTest : public ::testing::Test {
 
 constexpr const char* standard_axes = "anterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n";
 
-TEST_F(HingeTest, AFittedAxisTurnsTheFrameToItAndSaysByHowMuch) {
+TEST_F(ReadHinge, AFittedAxisRotatesTheFrameToItAndReportsByHowMuch) {
   const auto [joint, report] = read("centre = \"fit\"\n" + std::string(standard_axes));
-  ASSERT_TRUE(report.cylinder);
-  // The tube's vertices carry u of some 40 mm; over its 60 mm the axis turns by that at most.
-  EXPECT_NEAR(report.axis_turn.degrees(), 5, 1e-10);
-  EXPECT_NEAR(report.cylinder->cylinder.radius, 12, 1e-11);
-  EXPECT_LE((report.X_WF.linear() - X.linear()).cwiseAbs().maxCoeff(), 1e-12);
-  // In the joint frame the tube turns about Z: every vertex of its wall is 12 mm from it.
-  for (const Index v : report.cylinder->vertices) {
+  ASSERT_TRUE(report.placement.cylinder);
+  // The tube's vertices carry u of some 40 mm; over its 60 mm the axis tilts by that at most.
+  EXPECT_NEAR(report.placement.axis_rotation.degrees(), 5, 1e-10);
+  EXPECT_NEAR(report.placement.cylinder->cylinder.radius, 12, 1e-11);
+  EXPECT_LE((report.placement.X_WF.linear() - X.linear()).cwiseAbs().maxCoeff(), 1e-12);
+  // In the joint frame the tube lies about Z: every vertex of its wall is 12 mm from it.
+  for (const Index v : report.placement.cylinder->vertices) {
     const Vec3 p = joint.mobile.mesh.vertices()[v];
     EXPECT_NEAR(std::hypot(p.x(), p.y()), 12, 1e-11);
   }
@@ -52,19 +52,19 @@ TEST_F(HingeTest, AFittedAxisTurnsTheFrameToItAndSaysByHowMuch) {
       << report.notes.back();
 }
 
-TEST_F(HingeTest, NamesLeftOutAreTheBodiesRoles) {
+TEST_F(ReadHinge, NamesLeftOutAreTheBodiesRoles) {
   const auto [joint, report] = read("centre = [0, 0, 0]\n" + std::string(standard_axes));
   EXPECT_EQ(joint.kind, JointKind::hinge);
   EXPECT_EQ(joint.fixed.name, "fixed");
   EXPECT_EQ(joint.mobile.name, "mobile");
 }
 
-TEST_F(HingeTest, AnAxisFarFromTheGivenOneIsRefused) {
+TEST_F(ReadHinge, AnAxisFarFromTheGivenOneIsRefused) {
   // Axes with Z along the tube's radius: right = (0, 0, 1) x ... is perpendicular to the fitted axis.
   EXPECT_THROW(read("centre = \"fit\"\nanterior = [0, 1, 0]\nsuperior = [0, 0, 1]\n"), MeshError);
 }
 
-TEST_F(HingeTest, NoCylinderIsAMeshError) {
+TEST_F(ReadHinge, NoCylinderIsAMeshError) {
   EXPECT_THROW(read("centre = \"fit\"\nfit_body = \"fixed\"\n" + std::string(standard_axes)), MeshError);
 }
 

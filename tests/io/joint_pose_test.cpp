@@ -32,7 +32,7 @@ TEST(PoseText, AnglesLeftOutAreZero) {
   EXPECT_EQ(parse_pose("adduction=5.5", JointKind::ball), degrees(0, 5.5, 0));
 }
 
-TEST(PoseText, ExtensionAbductionAndExternalRotationTurnTheSign) {
+TEST(PoseText, ExtensionAbductionAndExternalRotationHaveTheOppositeSign) {
   EXPECT_EQ(parse_pose("extension=15 abduction=40 external_rotation=-30", JointKind::ball),
             degrees(-15, -40, 30));
 }
@@ -55,10 +55,10 @@ TEST(PoseText, RefusalsAreShortAndOnOneLine) {
   EXPECT_EQ(refusal("a\x01\x02=5").find('\x01'), std::string::npos);
 }
 
-TEST(PoseText, AHingeTurnsInFlexionAlone) {
+TEST(PoseText, AHingeRotatesInFlexionOnly) {
   EXPECT_EQ(parse_pose("flexion=30 adduction=0", JointKind::hinge), degrees(30, 0, 0));
   EXPECT_EQ(refusal("flexion=30 adduction=1", JointKind::hinge),
-            "pose: a hinge turns in flexion alone, not in adduction");
+            "pose: a hinge rotates in flexion only, not in adduction");
 }
 
 RC_GTEST_PROP(PoseText, WhatIsWrittenReadsBack, ()) {

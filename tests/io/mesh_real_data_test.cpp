@@ -155,7 +155,7 @@ TEST(RealMeshes, TheDirtyFemurIsAsStatedAfterTheExactWeld) {
   EXPECT_EQ(inspect(read.mesh).duplicate_vertices.count, 0u);
 }
 
-TEST(RealMeshes, TheMirroredBonesAreInsideOutAndCarryOtherBonesVertices) {
+TEST(RealMeshes, TheMirroredBonesAreInvertedAndCarryOtherBonesVertices) {
   SKIP_WITHOUT_DATA();
   const auto folder = data_folder() / "hip_vhf_right/dirty";
   auto femur = read_mesh(folder / "FemurL_source.obj").mesh;

@@ -7,8 +7,7 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/error.hpp"
-#include "condyle/fit_cylinder.hpp"
-#include "condyle/fit_sphere.hpp"
+#include "condyle/fit.hpp"
 #include "core/predicates.hpp"
 #include "support/test_meshes.hpp"
 #include "support/tube.hpp"
@@ -21,8 +20,8 @@ Points cap(const Vec3& centre, double radius, double lowest, int count) {
   Points points;
   for (int i = 0; i < count; ++i) {
     const double y = 1 - (1 - lowest) * (i + 0.5) / count, across = std::sqrt(1 - y * y);
-    const double turn = i * std::numbers::pi * (3 - std::sqrt(5));
-    points.push_back(centre + radius * Vec3(across * std::cos(turn), y, across * std::sin(turn)));
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5));
+    points.push_back(centre + radius * Vec3(across * std::cos(angle), y, across * std::sin(angle)));
   }
   return points;
 }
@@ -85,7 +84,7 @@ TEST(FitSphere, IsStationaryUnderGeometricLeastSquares) {
   EXPECT_GT(fit.rms_residual, 0.1);
 }
 
-TEST(FitSphere, TellsTheResidualsOfKnownOffsets) {
+TEST(FitSphere, ReportsTheResidualsOfKnownOffsets) {
   // A whole sphere with every second point moved out and in by 0.1 in opposite pairs: the sphere stays,
   // residuals are 0.1.
   Points points;
@@ -104,7 +103,7 @@ TEST(FitSphere, TellsTheResidualsOfKnownOffsets) {
   EXPECT_EQ(fit.vertices, all_of(points));
 }
 
-TEST(FitSphere, UsesTheNamedVerticesAlone) {
+TEST(FitSphere, UsesOnlyTheNamedVertices) {
   Points points = cap({5, 5, 5}, 20, -1, 100);
   const auto sphere = all_of(points);
   points.push_back({1000, 0, 0});
@@ -129,8 +128,8 @@ TEST(FitCylinder, IsExactOnExactCylindersFromADisturbedStart) {
     Points points;
     for (int i = 0; i < 20; ++i)
       for (int k = 0; k < 20; ++k) {
-        const double turn = arc * i / 20;
-        points.push_back(foot + (k - 7) * 2.0 * axis + 15 * (std::cos(turn) * e1 + std::sin(turn) * e2));
+        const double angle = arc * i / 20;
+        points.push_back(foot + (k - 7) * 2.0 * axis + 15 * (std::cos(angle) * e1 + std::sin(angle) * e2));
       }
     const Cylinder start{foot + Vec3(1, -1, 0.5), (axis + Vec3(0.1, -0.05, 0)).normalized(), 12};
     const auto fit = fit_cylinder(points, all_of(points), start);
@@ -168,7 +167,7 @@ TEST(FindSphere, AHeadOnALongNeckIsFoundAmongBoxes) {
   EXPECT_GE(patch.coverage, 0.99);
 }
 
-TEST(FindSphere, ASocketIsFoundWhereSocketsAreAskedForAndItsOutsideWhereHeadsAre) {
+TEST(FindSphere, ASocketIsFoundWhereSocketsAreSearchedAndItsOutsideWhereHeadsAre) {
   const TriMesh socket = test::socket({1, 2, 3}, 25, 30, 4);
   const auto inner = find_sphere(socket, {.part = SphericalPart::socket});
   EXPECT_NEAR(inner.fit.sphere.radius, 25, exact_fit_tolerance(40, 1));
@@ -177,7 +176,7 @@ TEST(FindSphere, ASocketIsFoundWhereSocketsAreAskedForAndItsOutsideWhereHeadsAre
   EXPECT_NEAR(outer.fit.sphere.radius, 30, exact_fit_tolerance(40, 1));
 }
 
-TEST(FindSphere, AnInsideOutHeadIsNotTakenForAHead) {
+TEST(FindSphere, AHeadOfInvertedOrientationIsNotTakenForAHead) {
   const TriMesh head = test::flipped(test::sphere({0, 0, 0}, 24, 4));
   EXPECT_THROW(find_sphere(head), MeshError);
   EXPECT_NO_THROW(find_sphere(head, {.part = SphericalPart::socket}));
@@ -191,7 +190,7 @@ TEST(FindSphere, SearchesOnlyInsideTheBallItIsGiven) {
               exact_fit_tolerance(24, 2));
 }
 
-TEST(FindSphere, RadiiOutsideTheAskedRangeAreNotFound) {
+TEST(FindSphere, RadiiOutsideTheSearchedRangeAreNotFound) {
   const TriMesh ball = test::sphere({0, 0, 0}, 24, 4);
   EXPECT_THROW(find_sphere(ball, {.largest_radius = 20}), MeshError);
   EXPECT_THROW(find_sphere(ball, {.smallest_radius = 28}), MeshError);

@@ -16,7 +16,7 @@ JointAngles degrees(double flexion, double adduction, double rotation) {
   return {Angle::degrees(flexion), Angle::degrees(adduction), Angle::degrees(rotation)};
 }
 
-/// The same pose from three turns about single axes, as the definition reads.
+/// The same pose from three rotations about single axes, as the definition reads.
 Pose by_definition(Side side, const JointAngles& a) {
   const double s = side == Side::right ? 1 : -1;
   return Pose(Eigen::AngleAxisd(a.flexion.radians(), Vec3::UnitZ()) *
@@ -112,7 +112,7 @@ TEST(JointCoordinates, AdductionBringsTheKneeToTheMidlineOnBothSides) {
   EXPECT_EQ(posed(pose_at(Side::left, degrees(0, 90, 0)), Vec3(0, -400, 0)), Vec3(0, 0, 400));
 }
 
-TEST(JointCoordinates, InternalRotationTurnsTheFrontToTheMidlineOnBothSides) {
+TEST(JointCoordinates, InternalRotationBringsTheFrontToTheMidlineOnBothSides) {
   EXPECT_EQ(posed(pose_at(Side::right, degrees(0, 0, 90)), Vec3(30, 0, 0)), Vec3(0, 0, -30));
   EXPECT_EQ(posed(pose_at(Side::left, degrees(0, 0, 90)), Vec3(30, 0, 0)), Vec3(0, 0, 30));
 }
@@ -122,7 +122,7 @@ TEST(JointCoordinates, ALeftJointIsTheMirrorImageOfARightOne) {
   for (int f = -150; f <= 150; f += 50)
     for (int a = -90; a <= 90; a += 30)
       for (int r = -150; r <= 150; r += 50) {
-        // Flexion turns about Z in either, which mirroring in Z leaves; the other two axes are mirrored.
+        // Flexion is about Z in either, which mirroring in Z leaves; the other two axes are mirrored.
         const Eigen::Matrix3d right = pose_at(Side::right, degrees(f, a, r)).linear();
         const Eigen::Matrix3d left = pose_at(Side::left, degrees(f, a, r)).linear();
         EXPECT_TRUE(left == mirror * right * mirror);
@@ -156,10 +156,10 @@ TEST(JointCoordinates, PosesJustBesideTheGimbalPoseAreReproduced) {
           }
 }
 
-TEST(JointCoordinates, AtTheGimbalPoseTheWholeTurnIsGivenToFlexion) {
+TEST(JointCoordinates, AtTheGimbalPoseTheWholeRotationIsGivenToFlexion) {
   for (const Side side : sides)
     for (const double pole : {-90.0, 90.0}) {
-      // At +90 of a right joint the pose tells f + r, at -90 f - r; of a left one, where rotation is negated,
+      // At +90 of a right joint the pose fixes f + r, at -90 f - r; of a left one, where rotation is negated,
       // the same.
       const JointAngles back = angles_at(side, pose_at(side, degrees(20, pole, 30)));
       EXPECT_EQ(back.internal_rotation.radians(), 0);
@@ -175,34 +175,34 @@ TEST(JointCoordinates, AHalfTurnIsGivenAs180NotAsMinus180) {
   }
 }
 
-TEST(JointCoordinates, AnglesReadTheRotationAlone) {
+TEST(JointCoordinates, AnglesReadTheRotationOnly) {
   Pose X = pose_at(Side::left, degrees(40, -20, 10));
   const JointAngles before = angles_at(Side::left, X);
   X.translation() = Vec3(1, 2, 3);
   EXPECT_EQ(angles_at(Side::left, X), before);
 }
 
-/// Adding d to one angle is turning the posed body by d about that angle's axis.
-TEST(JointCoordinates, AnAxisIsTheOneAboutWhichItsAngleTurns) {
-  const double turns[] = {0.5, -120, 1e-3};
+/// Adding d to one angle is rotating the posed body by d about that angle's axis.
+TEST(JointCoordinates, AnAxisIsTheOneAboutWhichItsAngleRotates) {
+  const double rotations[] = {0.5, -120, 1e-3};
   for (const Side side : sides)
     for (int f = -180; f <= 180; f += 45)
       for (int a = -90; a <= 90; a += 30)
         for (int r = -180; r <= 180; r += 45)
-          for (const double turn : turns) {
+          for (const double rotation : rotations) {
             const JointAngles at = degrees(f, a, r);
             JointAngles moved[3] = {at, at, at};
-            moved[0].flexion = at.flexion + Angle::degrees(turn);
-            moved[1].adduction = at.adduction + Angle::degrees(turn);
-            moved[2].internal_rotation = at.internal_rotation + Angle::degrees(turn);
+            moved[0].flexion = at.flexion + Angle::degrees(rotation);
+            moved[1].adduction = at.adduction + Angle::degrees(rotation);
+            moved[2].internal_rotation = at.internal_rotation + Angle::degrees(rotation);
             for (const auto angle :
                  {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
               const Vec3 axis = axis_of(angle, side, at);
               EXPECT_NEAR(axis.norm(), 1, pose_tolerance);
-              const Pose turned(Eigen::AngleAxisd(Angle::degrees(turn).radians(), axis) *
-                                pose_at(side, at).linear());
+              const Pose rotated(Eigen::AngleAxisd(Angle::degrees(rotation).radians(), axis) *
+                                 pose_at(side, at).linear());
               // Rounding of the sum of two angles of up to 2 pi adds 4u.
-              EXPECT_LE(largest_difference(turned, pose_at(side, moved[static_cast<int>(angle)])),
+              EXPECT_LE(largest_difference(rotated, pose_at(side, moved[static_cast<int>(angle)])),
                         definition_tolerance + 4 * core::rounding_unit);
             }
           }

@@ -42,7 +42,7 @@ TEST(JointFrame, AScannersAxesAreTakenBitForBitWithRightAsTheirProduct) {
   EXPECT_TRUE(X.linear().col(2) == -Vec3::UnitX());
 }
 
-TEST(JointFrame, DirectionsWithSixDecimalsAreMadeOrthonormalTurningBothAlike) {
+TEST(JointFrame, DirectionsWithSixDecimalsAreMadeOrthonormalRotatingBothAlike) {
   const Vec3 anterior(0.866025, 0.5, 0), superior(-0.5, 0.866025, 0);
   const Pose X = frame_from_axes(Vec3::Zero(), anterior, superior);
   expect_rotation(X);
@@ -92,7 +92,7 @@ TEST(JointFrame, ThePelvicFrameOfAnUprightPelvisIsTheStandardOne) {
   EXPECT_TRUE(X.translation() == centre);
 }
 
-RC_GTEST_PROP(JointFrame, FramesFromLandmarksTurnWithTheLandmarks, ()) {
+RC_GTEST_PROP(JointFrame, FramesFromLandmarksRotateWithTheLandmarks, ()) {
   const auto number = [] { return *rc::gen::inRange(-1000, 1001) * 1e-3; };
   const Eigen::Vector4d q(number(), number(), number(), number());
   RC_PRE(q.norm() > 0.1);

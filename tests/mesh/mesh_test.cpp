@@ -105,5 +105,20 @@ static_assert(std::is_same_v<decltype(std::declval<Mesh&>().vertices()), const P
 static_assert(std::is_same_v<decltype(std::declval<Mesh&>().triangles()), const std::vector<Triangle>&>);
 static_assert(!std::is_convertible_v<Mesh&, TriMesh&>);
 
+TEST(Mesh, MovedToOtherVerticesStaysClosedOrOpen) {
+  const Mesh closed(test::sphere({1, 2, 3}, 24, 2));
+  TriMesh open_arrays = closed;
+  open_arrays.triangles.pop_back();
+  const Mesh open = open_arrays;
+  const Points shifted = posed(Pose(Eigen::Translation3d(1, 2, 3)), closed.vertices().view());
+  EXPECT_TRUE(closed.moved_to(shifted).is_closed());
+  EXPECT_EQ(open.moved_to(shifted).unbalanced_edge(), open.unbalanced_edge());
+  EXPECT_EQ(closed.moved_to(shifted).arrays(), (TriMesh{shifted, closed.triangles()}));
+  EXPECT_THROW(closed.moved_to({}), MeshError);
+  Points infinite = shifted;
+  infinite.x[2] = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(closed.moved_to(infinite), MeshError);
+}
+
 }  // namespace
 }  // namespace condyle

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "condyle/contact.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint.hpp"
-#include "condyle/contact.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
 
@@ -18,35 +19,40 @@ struct DepthQuestion {
   Pose X_FM;
 };
 
-/// A turning axis, by its joint angle and as a direction in F.
-struct TurnAxis {
+/// A rotation axis, by its joint angle and as a direction in F.
+struct RotationAxis {
   JointAngle about;
   Vec3 direction_F;
 };
 
-/// The summary as JSON text, ending in a newline.
-std::string depth_json(const DepthQuestion& question, const RadialContact& contact,
-                       const RadialSummary& summary);
-std::string depth_json(const DepthQuestion& question, const TurnAxis& axis, const TangentialContact& contact);
-
-/// The summary for people, a few lines.
-std::string depth_text(const DepthQuestion& question, const RadialContact& contact,
-                       const RadialSummary& summary);
-std::string depth_text(const DepthQuestion& question, const TurnAxis& axis, const TangentialContact& contact);
-
-/// Point arrays of one body: inside, winding, triangle; radial_gap_mm and ray_to_normal_deg, or
-/// tangential_depth_deg and tangential_depth_mm. None where the other mesh is open and nothing can be inside
-/// it.
-std::vector<MeshArray> depth_arrays(const std::optional<RadialResults>& results);
-std::vector<MeshArray> depth_arrays(const std::optional<TangentialResults>& results);
-
-/// Cell arrays in_contact of both bodies: 1 for a triangle that is in a pair.
-struct InContact {
-  MeshArray fixed, mobile;
+/// Point arrays of one body (none where the other mesh is open: nothing can be inside it) and its cell array
+/// in_contact, 1 for a triangle that is in a pair.
+struct DepthArrays {
+  std::vector<MeshArray> points;
+  MeshArray in_contact;
 };
-InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs);
 
-/// Colliding triangle pairs as CSV text with a header line.
-std::string pairs_csv(const std::vector<TrianglePair>& pairs);
+/// An answer in every form in which it is given.
+struct DepthResult {
+  std::string text;   ///< the summary for people, a few lines
+  std::string json;   ///< the summary for programs, a whole document
+  std::string pairs;  ///< intersecting triangle pairs, CSV with a header line
+  DepthArrays fixed, mobile;
+};
+
+/// The radial depths of one pose: point arrays inside, radial_gap_mm, triangle, winding and
+/// ray_to_normal_deg.
+DepthResult depth_result(const DepthQuestion& question, const RadialContact& contact,
+                         const RadialSummary& summary);
+
+/// The tangential depths about one axis: point arrays inside, tangential_depth_deg, tangential_depth_mm,
+/// triangle and winding.
+DepthResult depth_result(const DepthQuestion& question, const RotationAxis& axis,
+                         const TangentialContact& contact);
+
+/// Writes fixed.vtp and mobile.vtp (both in the fixed body's joint frame), pairs.csv and depth.json into a
+/// folder, all or none. Throws FileError.
+void write_depth(const std::filesystem::path& folder, const DepthQuestion& question,
+                 const DepthResult& result);
 
 }  // namespace condyle

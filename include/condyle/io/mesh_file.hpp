@@ -20,9 +20,9 @@ namespace condyle {
 
 /// A mesh as its file has it, in the file's own unit: a mesh file does not say which one that is.
 struct MeshFile {
-  TriMesh mesh;  ///< Every index in range, every coordinate finite, at least one triangle.
-  std::size_t welded_vertices =
-      0;  ///< STL only: corners that were merged with an earlier one, bit for bit the same.
+  TriMesh mesh;  ///< every index in range, every coordinate finite, at least one triangle
+  /// STL only: duplicate corners that were merged with an earlier one.
+  std::size_t welded_vertices = 0;
 };
 
 enum class MeshFormat { stl, obj, ply, vtp, vtk };

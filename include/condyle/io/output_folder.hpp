@@ -20,10 +20,10 @@ class OutputFolder {
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
 
-  /// Where to write the file that will have this name. One name, no folders in it, each asked for once.
+  /// Where to write the file that will have this name. One name, no folders in it, each requested once.
   std::filesystem::path file(std::string_view name);
 
-  /// Moves every file to its name, in the order they were asked for, and returns the names with the folder.
+  /// Moves every file to its name, in the order they were requested, and returns the names with the folder.
   std::vector<std::filesystem::path> commit();
 
  private:

@@ -9,7 +9,7 @@ namespace condyle {
 
 /// Reads a pose as people write it: "flexion=90 adduction=-10 internal_rotation=20", in degrees, in any
 /// order, separated by spaces or commas. Angles left out are 0; the empty text is the neutral pose.
-/// `extension`, `abduction` and `external_rotation` are the same angles with the sign turned. Throws
+/// `extension`, `abduction` and `external_rotation` are the same angles with the opposite sign. Throws
 /// UsageError on unknown names, on an angle given twice under either name, on anything that is not a finite
 /// number, and on a hinge for angles other than flexion other than 0.
 JointAngles parse_pose(std::string_view text, JointKind kind);

@@ -33,11 +33,6 @@ struct RomResult {
   const MotionMap* map = nullptr;
 };
 
-/// The scope of every result, written into each.
-inline constexpr std::string_view scope_note =
-    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
-    "device";
-
 /// "contact", "end_of_range", "contact_at_start".
 std::string_view name_of(LimitReason reason) noexcept;
 

@@ -2,7 +2,7 @@
 
 namespace condyle {
 
-/// The cartilages of the sample hip. They lie on the bones, without room between: the joint space is the sum
+/// The cartilages of the sample hip. They lie on the bones, without a gap between: the joint space is the sum
 /// of femoral thickness, clearance and acetabular thickness.
 struct CartilageParameters {
   /// Gap between the two articular surfaces, spheres about the hip centre; below zero they overlap by so

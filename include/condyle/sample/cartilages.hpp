@@ -40,13 +40,13 @@ struct SampleCartilages {
 /// 1e-9 mm. Flat triangles bring the meshes nearer to each other by no more than the acetabular ones sag:
 /// about r^2 / (2 R), with r their circumradius and R that of the sphere; less than 0.1 mm at the defaults.
 ///
-/// Bones and cartilages share surfaces, but not triangles: each cuts into the other by what they sag,
-/// tenths of a millimetre at the coarsest. A cam is bone, and stands out through the cartilage. Same
+/// Bones and cartilages have surfaces in common, but not triangles: each cuts into the other by what they
+/// sag, tenths of a millimetre at the coarsest. A cam is bone, and stands out through the cartilage. Same
 /// parameters, same bytes, on any number of threads. Raises UsageError as sample_hip() does.
 SampleCartilages sample_cartilages(const HipParameters& hip, const CartilageParameters& cartilage,
                                    const CartilageResolution& resolution);
 
-/// The other side: Z negated, triangles turned so that they face outwards again.
+/// The other side: Z negated, triangles flipped so that they face outwards again.
 SampleCartilages mirrored(const SampleCartilages& cartilages);
 
 }  // namespace condyle

@@ -43,7 +43,7 @@ struct SampleHip {
 /// parameters together make impossible.
 SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution);
 
-/// The other side: Z negated, triangles turned so that they face outwards again.
+/// The other side: Z negated, triangles flipped so that they face outwards again.
 TriMesh mirrored(const TriMesh& mesh);
 SampleHip mirrored(const SampleHip& hip);
 

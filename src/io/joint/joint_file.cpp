@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/io/repair_text.hpp"
 #include "condyle/io/whole_file.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/toml_table.hpp"
@@ -16,8 +16,6 @@ namespace condyle {
 namespace {
 
 using io::TomlTable;
-
-constexpr std::array<std::string_view, 3> repair_names{"weld", "drop_unreferenced", "flip_inverted"};
 
 toml::table parsed(const std::filesystem::path& path) {
   try {
@@ -77,8 +75,9 @@ CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
   return fit;
 }
 
-/// The landmarks present decide which frame is meant; every set is refused unless it is complete and alone.
-void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameEntry& frame) {
+/// The landmarks present decide which frame is meant; every set is refused unless it is complete and nothing
+/// else is there.
+void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameDescription& frame) {
   const auto point = [&](std::string_view key) { return lengths.required_point(landmarks, key); };
   if (landmarks.has("medial_epicondyle") || landmarks.has("lateral_epicondyle")) {
     const Vec3 medial = point("medial_epicondyle"), lateral = point("lateral_epicondyle");
@@ -87,7 +86,7 @@ void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameEntry
     else
       frame.axes = FemurLandmarks{medial, lateral};
   } else {
-    // One side's spines do not fix where the midline is: both sides are asked for by name.
+    // One side's spines do not fix where the midline is: both sides are required by name.
     const Vec3 right = point("right_asis"), left = point("left_asis");
     if (landmarks.has("pubic_symphysis"))
       frame.axes = AnteriorPelvicPlane{right, left, point("pubic_symphysis")};
@@ -97,7 +96,7 @@ void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameEntry
   landmarks.finish();
 }
 
-void read_axes(io::TomlTable& table, const Lengths& lengths, FrameEntry& frame) {
+void read_axes(io::TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
   if (auto landmarks = table.table("landmarks")) {
     for (const auto key : {"anterior", "superior"})
       if (table.has(key)) table.fail(key, "frame.landmarks gives the axes already: leave one of the two out");
@@ -108,7 +107,7 @@ void read_axes(io::TomlTable& table, const Lengths& lengths, FrameEntry& frame) 
   frame.axes = FrameDirections{table.required("anterior", anterior), table.required("superior", superior)};
 }
 
-void read_centre(io::TomlTable& table, const Lengths& lengths, FrameEntry& frame) {
+void read_centre(io::TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
   if (std::holds_alternative<TransepicondylarAxis>(frame.axes)) {
     if (table.has("centre"))
       table.fail("centre", "with hip_centre the epicondyles give the centre: leave it out");
@@ -126,9 +125,9 @@ void read_centre(io::TomlTable& table, const Lengths& lengths, FrameEntry& frame
   }
 }
 
-FrameEntry frame_entry(io::TomlTable& file, const Lengths& lengths) {
+FrameDescription frame_description(io::TomlTable& file, const Lengths& lengths) {
   io::TomlTable table = file.required("frame", file.table("frame"));
-  FrameEntry frame;
+  FrameDescription frame;
   read_axes(table, lengths, frame);
   read_centre(table, lengths, frame);
   table.finish();
@@ -146,13 +145,13 @@ JointAngles reference_pose(io::TomlTable& file, JointKind kind) {
   if (kind == JointKind::hinge)
     for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
       if (table->number(name_of(name)).value_or(0) != 0)
-        table->fail(name_of(name), "a hinge turns in flexion alone");
+        table->fail(name_of(name), "a hinge rotates in flexion only");
   table->finish();
   return pose;
 }
 
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
-/// by its order which way it turns.
+/// by its order which way it goes.
 Motion own_motion(io::TomlTable& table, JointKind kind) {
   Motion motion;
   motion.name = table.required("name", table.text("name"));
@@ -172,7 +171,7 @@ Motion own_motion(io::TomlTable& table, JointKind kind) {
     const bool varies = angle == motion.vary;
     const double held = varies ? start : table.number(name_of(angle)).value_or(0);
     if (kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
-      table.fail(varies ? "vary" : name_of(angle), "a hinge turns in flexion alone");
+      table.fail(varies ? "vary" : name_of(angle), "a hinge rotates in flexion only");
     motion.start = turned_by(motion.start, angle, Angle::degrees(held));
   }
   table.finish();
@@ -197,18 +196,6 @@ std::vector<Motion> own_motions(io::TomlTable& file, JointKind kind) {
 
 }  // namespace
 
-Repair repair_named(std::string_view name) {
-  const auto found = std::find(repair_names.begin(), repair_names.end(), name);
-  if (found == repair_names.end())
-    throw UsageError(
-        fmt::format("unknown repair \"{}\"; there are weld, drop_unreferenced and flip_inverted", name));
-  return static_cast<Repair>(found - repair_names.begin());
-}
-
-std::string_view name_of(Repair repair) noexcept {
-  return repair_names[static_cast<std::size_t>(repair)];
-}
-
 JointFile read_joint_file(const std::filesystem::path& path) {
   const toml::table root = parsed(path);
   io::TomlTable file(path, root, "");
@@ -216,20 +203,21 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   if (const auto version = file.required("condyle", file.integer("condyle")); version != io::format_version)
     file.fail("condyle",
               fmt::format("format version {} is not known; this is version {}", version, io::format_version));
-  JointFile joint;
-  joint.path = path;
+  JointFile out;
+  JointDescription& joint = out.joint;
+  out.path = path;
   joint.name = file.required("name", file.text("name"));
   joint.kind = file.required_word("kind", {"ball", "hinge"}) == 0 ? JointKind::ball : JointKind::hinge;
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
-  joint.fixed = body_entry(file, "fixed");
-  joint.mobile = body_entry(file, "mobile");
-  for (BodyEntry* body : {&joint.fixed, &joint.mobile}) body->mesh = path.parent_path() / body->mesh;
-  joint.frame = frame_entry(file, Lengths(joint.units));
+  out.fixed = body_entry(file, "fixed");
+  out.mobile = body_entry(file, "mobile");
+  for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
+  joint.frame = frame_description(file, Lengths(joint.units));
   joint.reference_pose = reference_pose(file, joint.kind);
-  joint.motions = own_motions(file, joint.kind);
+  out.motions = own_motions(file, joint.kind);
   file.finish();
-  return joint;
+  return out;
 }
 
 }  // namespace condyle

@@ -35,7 +35,7 @@ const AngleName& angle_name(std::string_view name) {
     if (known.name == name) return known;
   throw UsageError(
       fmt::format("pose: unknown angle {}; there are flexion, adduction and internal_rotation, and "
-                  "extension, abduction and external_rotation with the sign turned",
+                  "extension, abduction and external_rotation with the opposite sign",
                   io::quoted(name)));
 }
 
@@ -69,7 +69,7 @@ JointAngles parse_pose(std::string_view text, JointKind kind) {
   if (kind == JointKind::hinge)
     for (const JointAngle angle : {JointAngle::adduction, JointAngle::internal_rotation})
       if (degrees[static_cast<std::size_t>(angle)].value_or(0) != 0)
-        throw UsageError(fmt::format("pose: a hinge turns in flexion alone, not in {}", name_of(angle)));
+        throw UsageError(fmt::format("pose: a hinge rotates in flexion only, not in {}", name_of(angle)));
   const auto angle = [&](JointAngle a) {
     return Angle::degrees(degrees[static_cast<std::size_t>(a)].value_or(0));
   };

@@ -56,7 +56,7 @@ void TomlTable::fail(std::string_view key, std::string_view what) const {
 }
 
 const toml::node* TomlTable::find(std::string_view key) {
-  asked_.emplace(key);
+  known_.emplace(key);
   return table_->get(key);
 }
 
@@ -153,8 +153,8 @@ std::size_t TomlTable::required_word(std::string_view key, std::initializer_list
 
 void TomlTable::finish() const {
   for (const auto& [key, node] : *table_)
-    if (!asked_.contains(key.str()))
-      fail(key.str(), fmt::format("unknown key; known here: {}", fmt::join(asked_, ", ")));
+    if (!known_.contains(key.str()))
+      fail(key.str(), fmt::format("unknown key; known here: {}", fmt::join(known_, ", ")));
 }
 
 }  // namespace condyle::io

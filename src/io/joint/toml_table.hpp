@@ -15,8 +15,8 @@
 
 namespace condyle::io {
 
-/// One table of a TOML file, read key by key with errors that name file, line and key. Every reader takes
-/// note of its key; finish() then refuses keys nobody asked for, so that a misspelt one is not silently left
+/// One table of a TOML file, read key by key with errors that name file, line and key. Every reader notes
+/// its key; finish() then refuses keys that nobody read, so that a misspelt one is not silently left
 /// out.
 class TomlTable {
  public:
@@ -63,7 +63,7 @@ class TomlTable {
   const std::filesystem::path* path_;
   const toml::table* table_;
   std::string name_;
-  std::set<std::string, std::less<>> asked_;
+  std::set<std::string, std::less<>> known_;
 };
 
 }  // namespace condyle::io

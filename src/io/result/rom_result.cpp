@@ -5,19 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/clock_contacts.hpp"
 #include "io/result/csv_field.hpp"
+#include "io/result/json.hpp"
 #include "io/result/map_summary.hpp"
 
 namespace condyle {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
 constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
 
@@ -282,8 +282,8 @@ std::string rom_json(const RomResult& result) {
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);
-  json["scope"] = scope_note;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  json["scope"] = io::scope_note;
+  return io::document(json);
 }
 
 std::string rom_text(const RomResult& result) {
@@ -311,7 +311,7 @@ std::string rom_text(const RomResult& result) {
   for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
   text += table_text(std::array{name, turned, reason, clock, point, features});
   if (result.map) text += map_text(*result.map);
-  return text + fmt::format("  {}\n", scope_note);
+  return text + fmt::format("  {}\n", io::scope_note);
 }
 
 std::string rom_csv(const RomResult& result) {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "condyle/fit_sphere.hpp"
+#include "condyle/fit.hpp"
 
 namespace condyle {
 namespace {

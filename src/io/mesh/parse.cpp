@@ -1,9 +1,9 @@
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
 #include <algorithm>
 #include <cassert>
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 constexpr std::size_t longest_quote = 40;  // characters: enough to find the place, short enough for one line
@@ -89,4 +89,4 @@ void check_are_triangles(std::span<const std::int64_t> ends, const Source& sourc
   }
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

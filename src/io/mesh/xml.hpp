@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 
 struct XmlTag {
   enum class Kind { open, close, empty };  ///< <a>, </a>, <a/>
@@ -50,4 +50,4 @@ class XmlCursor {
   bool begun_ = false;
 };
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

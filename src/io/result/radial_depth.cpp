@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/result/depth_result_parts.hpp"
+#include "io/result/depth_parts.hpp"
 
 namespace condyle {
 namespace {
@@ -40,10 +40,8 @@ io::Json body_json(const io::BodyView<RadialBodySummary>& view) {
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
 
-}  // namespace
-
-std::string depth_json(const DepthQuestion& question, const RadialContact& contact,
-                       const RadialSummary& summary) {
+std::string json_of(const DepthQuestion& question, const RadialContact& contact,
+                    const RadialSummary& summary) {
   const Views bodies = views(question, summary);
   const auto deepest = deepest_of(bodies), facing = deepest_facing_of(bodies);
   io::Json json = io::depth_header(question, "radial");
@@ -53,17 +51,16 @@ std::string depth_json(const DepthQuestion& question, const RadialContact& conta
   io::add_deepest(json, deepest);
   json["deepest_ray_to_normal_deg"] =
       deepest ? io::Json(deepest->vertex.ray_to_normal.degrees()) : io::Json(nullptr);
-  json["deepest_shortest_way_out_mm"] =
-      deepest ? io::Json(deepest->vertex.shortest_exit_mm) : io::Json(nullptr);
+  json["deepest_shortest_exit_mm"] = deepest ? io::Json(deepest->vertex.shortest_exit_mm) : io::Json(nullptr);
   json["depth_to_read"] = deepest ? io::Json(name_of(deepest->vertex.applies())) : io::Json(nullptr);
   json["min_gap_mm"] = io::nullable(bodies.least(&RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = io::scope_note;
-  return json.dump(2) + "\n";
+  return io::document(json);
 }
 
-std::string depth_text(const DepthQuestion& question, const RadialContact& contact,
-                       const RadialSummary& summary) {
+std::string text_of(const DepthQuestion& question, const RadialContact& contact,
+                    const RadialSummary& summary) {
   const Views bodies = views(question, summary);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
   for (const auto* view : bodies.both()) {
@@ -78,8 +75,7 @@ std::string depth_text(const DepthQuestion& question, const RadialContact& conta
     if (deepest->vertex.applies() == DepthKind::tangential) {
       text += fmt::format(
           "  there it is a length along the bone, not a depth: the nearest surface is {:.3f} mm away; read "
-          "the "
-          "tangential depth (--method tangential)\n",
+          "the tangential depth (--method tangential)\n",
           deepest->vertex.shortest_exit_mm);
       if (const auto facing = deepest_facing_of(bodies)) {
         text += fmt::format("  deepest where the surface faces the ray: {:.3f} mm, vertex {} of {}\n",
@@ -93,25 +89,37 @@ std::string depth_text(const DepthQuestion& question, const RadialContact& conta
   return text;
 }
 
-std::vector<MeshArray> depth_arrays(const std::optional<RadialResults>& hits) {
-  if (!hits) return {};
-  const std::size_t count = hits->size();
+std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results) {
+  if (!results) return {};
+  const std::size_t count = results->size();
   std::vector<std::uint8_t> inside(count);
   std::vector<std::int32_t> winding(count), triangle(count);
   std::vector<double> gap(count), angle(count);
   for (std::size_t i = 0; i < count; ++i) {
-    inside[i] = hits->state[i] == PointState::inside;
-    winding[i] = hits->winding[i];
-    triangle[i] = hits->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(hits->triangle[i]);
-    gap[i] =
-        std::isfinite(hits->radial_gap_mm[i]) ? hits->radial_gap_mm[i] : std::numeric_limits<double>::quiet_NaN();
-    angle[i] = hits->ray_to_normal[i].degrees();
+    inside[i] = results->state[i] == PointState::inside;
+    winding[i] = results->winding[i];
+    triangle[i] = results->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(results->triangle[i]);
+    gap[i] = std::isfinite(results->radial_gap_mm[i]) ? results->radial_gap_mm[i]
+                                                      : std::numeric_limits<double>::quiet_NaN();
+    angle[i] = results->ray_to_normal[i].degrees();
   }
   return {{"inside", std::move(inside)},
           {"radial_gap_mm", std::move(gap)},
           {"triangle", std::move(triangle)},
           {"winding", std::move(winding)},
           {"ray_to_normal_deg", std::move(angle)}};
+}
+
+}  // namespace
+
+DepthResult depth_result(const DepthQuestion& question, const RadialContact& contact,
+                         const RadialSummary& summary) {
+  return {text_of(question, contact, summary), json_of(question, contact, summary),
+          io::pairs_csv(contact.pairs),
+          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile), contact.pairs,
+                        &TrianglePair::fixed),
+          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed), contact.pairs,
+                        &TrianglePair::mobile)};
 }
 
 }  // namespace condyle

@@ -107,8 +107,8 @@ TEST_F(Command, FrameAnswersInTextAndJson) {
 }
 
 TEST_F(Command, WrongUsageEndsWithTwo) {
-  expect_refused(2, "", "a verb is needed: inspect, frame");
-  expect_refused(2, "inspekt femur.ply", "unknown verb 'inspekt'");
+  expect_refused(2, "", "a command is needed: inspect, frame");
+  expect_refused(2, "inspekt femur.ply", "unknown command 'inspekt'");
   expect_refused(2, "inspect", "MESH is required");
   expect_refused(2, "frame", "JOINT is required");
   expect_refused(2, "frame right_hip.toml --jsn", "--jsn");
@@ -178,10 +178,10 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
   EXPECT_TRUE(run("--version").out.starts_with("condyle "));
 }
 
-/// The examples in the help of every verb, run as they stand.
+/// The examples in the help of every command, run as they stand.
 TEST_F(Command, TheExamplesOfHelpWork) {
-  for (const char* verb : {"inspect", "frame"}) {
-    const std::string help = run(std::string(verb) + " --help").out;
+  for (const char* command : {"inspect", "frame"}) {
+    const std::string help = run(std::string(command) + " --help").out;
     std::size_t examples = 0;
     for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
          ++at) {

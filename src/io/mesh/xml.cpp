@@ -1,8 +1,8 @@
-#include "io/mesh/mesh_file_xml.hpp"
+#include "io/mesh/xml.hpp"
 
 #include <algorithm>
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 
 std::optional<std::string_view> XmlTag::find(std::string_view attribute) const {
   for (const auto& [key, value] : attributes) {
@@ -109,4 +109,4 @@ void XmlCursor::follow(const XmlTag& tag) {
   open_.pop_back();
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
 /// Arrays of numbers as VTK's XML files hold them: text, base64 or raw bytes, plain or in compressed blocks.
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 
 enum class VtkType { i8, u8, i16, u16, i32, u32, i64, u64, f32, f64 };
 
@@ -67,10 +67,10 @@ struct VtkArray {
 };
 
 /// The array's numbers. There must be `count` of them: a length in the file that differs is refused before
-/// memory is asked for.
+/// memory is allocated.
 std::vector<double> read_coordinates(const VtkArray& array, const VtkEncoding& encoding, std::uint64_t count,
                                      const Source& source);
 std::vector<std::int64_t> read_integers(const VtkArray& array, const VtkEncoding& encoding,
                                         std::uint64_t count, const Source& source);
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

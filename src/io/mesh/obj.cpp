@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <iterator>
 
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 /// Statements that neither make nor move a polygon: texture, normals, names, materials, lines, points,
@@ -98,4 +98,4 @@ RawMesh read_obj(const Source& source) {
   return raw;
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

@@ -1,22 +1,21 @@
+#include "condyle/io/frame_result.hpp"
+
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/report_text.hpp"
+#include "condyle/io/repair_text.hpp"
+#include "io/result/json.hpp"
 
 namespace condyle {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
 std::string text_of(const Vec3& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z());
-}
-Json json_of(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
 }
 
 /// The frame's axes by their anatomical names.
@@ -25,8 +24,8 @@ std::array<std::pair<const char*, Vec3>, 3> axes_of(const Pose& X_WF) {
   return {{{"anterior", m.col(0)}, {"superior", m.col(1)}, {"right", m.col(2)}}};
 }
 
-std::string text_of(const char* role, const Body& body, const BodyReport& report) {
-  const auto &low = report.bounds.low, &high = report.bounds.high;
+std::string text_of(const char* role, const Body& body, const BodyReport& report, const BoundingBox& bounds) {
+  const auto& [low, high] = bounds;
   return fmt::format(
       "  {:<8} {}: {}, {} vertices, {} triangles\n"
       "           x {:.3f} .. {:.3f}, y {:.3f} .. {:.3f}, z {:.3f} .. {:.3f} mm\n",
@@ -34,7 +33,7 @@ std::string text_of(const char* role, const Body& body, const BodyReport& report
       high.y(), low.z(), high.z());
 }
 
-Json json_of(const Body& body, const BodyReport& report) {
+Json json_of(const Body& body, const BodyReport& report, const BoundingBox& bounds) {
   Json repairs = Json::array();
   for (const RepairDone& done : report.repairs)
     repairs.push_back({{"repair", name_of(done.repair)}, {"count", done.count}});
@@ -44,7 +43,7 @@ Json json_of(const Body& body, const BodyReport& report) {
           {"triangles", report.triangles},
           {"welded_vertices", report.welded_vertices},
           {"repairs", std::move(repairs)},
-          {"bounds_mm", {{"low", json_of(report.bounds.low)}, {"high", json_of(report.bounds.high)}}}};
+          {"bounds_mm", {{"low", io::numbers(bounds.low)}, {"high", io::numbers(bounds.high)}}}};
 }
 
 Json json_of(const SphericalPatch& head) {
@@ -57,13 +56,13 @@ Json json_of(const SphericalPatch& head) {
           {"vertices", head.fit.vertices}};
 }
 
-Json json_of(const CylinderFit& fit, Angle axis_turn) {
+Json json_of(const CylinderFit& fit, Angle axis_rotation) {
   return {{"shape", "cylinder"},
           {"radius_mm", fit.cylinder.radius},
-          {"direction", json_of(fit.cylinder.direction)},
+          {"direction", io::numbers(fit.cylinder.direction)},
           {"rms_residual_mm", fit.rms_residual},
           {"largest_residual_mm", fit.largest_residual},
-          {"axis_turn_deg", axis_turn.degrees()},
+          {"axis_rotation_deg", axis_rotation.degrees()},
           {"vertex_count", fit.vertices.size()},
           {"vertices", fit.vertices}};
 }
@@ -72,42 +71,46 @@ Json json_of(const CylinderFit& fit, Angle axis_turn) {
 
 std::string to_text(const LoadedJoint& loaded) {
   const auto& [joint, report] = loaded;
+  const JointPlacement& placement = report.placement;
   std::string out =
       fmt::format("{}: {} joint, {} side\n", joint.name, name_of(joint.kind), name_of(joint.side));
-  out +=
-      fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre", text_of(report.X_WF.translation()));
-  for (const auto& [name, axis] : axes_of(report.X_WF))
+  out += fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre",
+                     text_of(placement.X_WF.translation()));
+  for (const auto& [name, axis] : axes_of(placement.X_WF))
     out += fmt::format("  {:<8} {}\n", name, text_of(axis));
   out += fmt::format("  {:<8} flexion about Z", "angles");
   if (joint.kind == JointKind::ball) {
     const char sense = joint.side == Side::right ? '+' : '-';
     out += fmt::format(", then adduction about {0}X, then internal rotation about {0}Y", sense);
   }
-  out += fmt::format("\n  reference pose {}\n", to_text(report.file.reference_pose));
-  out += text_of("fixed", joint.fixed, report.fixed) + text_of("mobile", joint.mobile, report.mobile);
+  out += fmt::format("\n  reference pose {}\n", to_text(report.file.joint.reference_pose));
+  out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
+         text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
   for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
   return out;
 }
 
 std::string to_json(const LoadedJoint& loaded) {
   const auto& [joint, report] = loaded;
+  const JointPlacement& placement = report.placement;
   Json out{{"file", report.file.path.string()},
            {"name", joint.name},
            {"kind", name_of(joint.kind)},
            {"side", name_of(joint.side)},
-           {"units_of_meshes", report.file.units == LengthUnit::metres ? "m" : "mm"},
-           {"centre_mm", json_of(report.X_WF.translation())}};
-  for (const auto& [name, axis] : axes_of(report.X_WF)) out["axes"][name] = json_of(axis);
-  out["reference_pose_deg"] = {{"flexion", report.file.reference_pose.flexion.degrees()},
-                               {"adduction", report.file.reference_pose.adduction.degrees()},
-                               {"internal_rotation", report.file.reference_pose.internal_rotation.degrees()}};
-  out["fit"] = report.head       ? json_of(*report.head)
-               : report.cylinder ? json_of(*report.cylinder, report.axis_turn)
-                                 : Json();
-  out["fixed"] = json_of(joint.fixed, report.fixed);
-  out["mobile"] = json_of(joint.mobile, report.mobile);
+           {"units_of_meshes", report.file.joint.units == LengthUnit::metres ? "m" : "mm"},
+           {"centre_mm", io::numbers(placement.X_WF.translation())}};
+  for (const auto& [name, axis] : axes_of(placement.X_WF)) out["axes"][name] = io::numbers(axis);
+  const JointAngles& reference = report.file.joint.reference_pose;
+  out["reference_pose_deg"] = {{"flexion", reference.flexion.degrees()},
+                               {"adduction", reference.adduction.degrees()},
+                               {"internal_rotation", reference.internal_rotation.degrees()}};
+  out["fit"] = placement.sphere     ? json_of(*placement.sphere)
+               : placement.cylinder ? json_of(*placement.cylinder, placement.axis_rotation)
+                                    : Json();
+  out["fixed"] = json_of(joint.fixed, report.fixed, placement.fixed.bounds);
+  out["mobile"] = json_of(joint.mobile, report.mobile, placement.mobile.bounds);
   out["notes"] = report.notes;
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return io::document(out);
 }
 
 }  // namespace condyle

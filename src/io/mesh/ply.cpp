@@ -3,9 +3,9 @@
 #include <optional>
 #include <utility>
 
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
@@ -243,7 +243,7 @@ void skip_element(const Element& element, Values& values, const Source& source) 
 }
 
 Points read_vertices(const Element& element, Values& values, const Source& source) {
-  std::array<bool, 3> seen = {};
+  std::array<bool, 3> found = {};
   std::vector<std::size_t> axis;  // by property; 3 is none
   for (const auto& property : element.properties) {
     const std::string_view name = property.name;
@@ -252,10 +252,10 @@ Points read_vertices(const Element& element, Values& values, const Source& sourc
     if (property.count_type || !is_floating(property.type)) {
       source.fail(fmt::format("header: vertex property '{}' should be a float or a double", name));
     }
-    if (std::exchange(seen[axis.back()], true))
+    if (std::exchange(found[axis.back()], true))
       source.fail(fmt::format("header: vertex property '{}' twice", name));
   }
-  if (seen != std::array{true, true, true}) source.fail("header: a vertex needs the properties x, y and z");
+  if (found != std::array{true, true, true}) source.fail("header: a vertex needs the properties x, y and z");
 
   Points points;
   points.reserve(element.count);
@@ -328,4 +328,4 @@ RawMesh read_ply(const Source& source) {
   return raw;
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

@@ -1,9 +1,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 constexpr std::size_t header_size = 80, count_size = 4;
@@ -21,7 +21,7 @@ std::uint64_t binary_size(std::uint32_t triangles) {
 }
 
 /// Text begins with "solid", but so do the headers of some binary files. A file of exactly the size that its
-/// count asks for is binary; otherwise one with a zero byte is a binary file gone wrong, for text has none.
+/// count implies is binary; otherwise one with a zero byte is a binary file gone wrong, for text has none.
 bool is_text(const Source& source) {
   const auto& bytes = source.bytes;
   if (bytes.size() >= header_size + count_size && bytes.size() == binary_size(announced_triangles(source)))
@@ -102,4 +102,4 @@ RawMesh read_stl(const Source& source) {
   return is_text(source) ? read_text(source) : read_binary(source);
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

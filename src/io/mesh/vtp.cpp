@@ -5,11 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "io/mesh/mesh_file_parse.hpp"
-#include "io/mesh/mesh_file_vtk_array.hpp"
-#include "io/mesh/mesh_file_xml.hpp"
+#include "io/mesh/parse.hpp"
+#include "io/mesh/vtk_array.hpp"
+#include "io/mesh/xml.hpp"
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 constexpr std::string_view end_of_file = "</VTKFile>";
@@ -221,4 +221,4 @@ RawMesh read_vtp(const Source& source) {
   return mesh_from(*piece, encoding, appended, source);
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

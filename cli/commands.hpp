@@ -2,9 +2,9 @@
 
 #include <CLI/App.hpp>
 
-/// One verb per file: its options, then read, one library call, one writer. A verb runs as the callback of
-/// its subcommand and ends by throwing where it cannot answer; main() turns errors into a line and an exit
-/// code.
+/// One command per file: its options, then read, one library call, one writer. A command runs as the
+/// callback of its subcommand and ends by throwing where it cannot answer; main() turns errors into a line and
+/// an exit code.
 
 namespace condyle::cli {
 

@@ -8,16 +8,16 @@
 #include "condyle/error.hpp"
 #include "condyle/io/whole_file.hpp"
 #include "condyle/repair.hpp"
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
 namespace condyle {
 namespace {
 
-using io::mesh_file::RawMesh;
-using io::mesh_file::Source;
+using io::RawMesh;
+using io::Source;
 
 MeshFormat format_of(const std::filesystem::path& path) {
-  const auto extension = io::mesh_file::lower_case(path.extension().string());
+  const auto extension = io::lower_case(path.extension().string());
   if (extension == ".stl") return MeshFormat::stl;
   if (extension == ".obj") return MeshFormat::obj;
   if (extension == ".ply") return MeshFormat::ply;
@@ -30,17 +30,17 @@ MeshFormat format_of(const std::filesystem::path& path) {
 RawMesh read_raw(const Source& source, MeshFormat format) {
   switch (format) {
     case MeshFormat::stl:
-      return io::mesh_file::read_stl(source);
+      return io::read_stl(source);
     case MeshFormat::obj:
-      return io::mesh_file::read_obj(source);
+      return io::read_obj(source);
     case MeshFormat::ply:
-      return io::mesh_file::read_ply(source);
+      return io::read_ply(source);
     case MeshFormat::vtp:
-      return io::mesh_file::read_vtp(source);
+      return io::read_vtp(source);
     case MeshFormat::vtk:
       break;
   }
-  return io::mesh_file::read_legacy_vtk(source);
+  return io::read_legacy_vtk(source);
 }
 
 /// What TriMesh promises, held against the file; this is the one place where it is.

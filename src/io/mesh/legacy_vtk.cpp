@@ -3,10 +3,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "io/mesh/mesh_file_parse.hpp"
-#include "io/mesh/mesh_file_vtk_array.hpp"
+#include "io/mesh/parse.hpp"
+#include "io/mesh/vtk_array.hpp"
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 struct TypeName {
@@ -171,7 +171,7 @@ class Reader {
     text_.fail(in_quotes(word) + " is no type of numbers that is read");
   }
 
-  /// So many numbers. No memory is asked for before the file is known to have the bytes.
+  /// So many numbers. No memory is allocated before the file is known to have the bytes.
   template <class Out>
   std::vector<Out> numbers(VtkType type, std::uint64_t count, std::string_view what) {
     return with_type(type, [&](auto zero) { return numbers_of<decltype(zero), Out>(count, what); });
@@ -183,8 +183,8 @@ class Reader {
       text_.fail(fmt::format("{}: should be of an integer type", what));
     } else {
       if (!is_text_ && count > 0) text_.rest_of_line();
-      const std::size_t room = is_text_ ? (text_.remaining() + 1) / 2 : text_.remaining() / sizeof(T);
-      if (count > room)
+      const std::size_t most = is_text_ ? (text_.remaining() + 1) / 2 : text_.remaining() / sizeof(T);
+      if (count > most)
         source_.fail(fmt::format("{}: {} numbers announced, the file ends before", what, count));
       std::vector<Out> values;
       values.reserve(count);
@@ -215,4 +215,4 @@ RawMesh read_legacy_vtk(const Source& source) {
   return Reader(source).read();
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

@@ -21,10 +21,10 @@
 
 /// What the mesh readers have in common. They are our own, every format: VTK's drop digits of a double (STL,
 /// OBJ, PLY readers keep floats), merge with tolerances, read past a truncation and print, and believe any
-/// count a header gives. Here no byte is read past the end, no memory is asked for before the bytes that
+/// count a header gives. Here no byte is read past the end, no memory is allocated before the bytes that
 /// justify it are known to be there, and the first bad element has a name.
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 
 /// A mesh as a file states it: numbers neither checked nor narrowed yet.
 struct RawMesh {
@@ -40,7 +40,7 @@ struct Source {
   [[noreturn]] void fail(std::string_view what) const { throw FileError(fmt::format("{}: {}", name, what)); }
 };
 
-/// A piece of a file made fit for a message: in quotes, short, on one line.
+/// A part of a file made fit for a message: in quotes, short, on one line.
 std::string in_quotes(std::string_view text);
 
 /// ASCII only, whatever the locale.
@@ -143,4 +143,4 @@ RawMesh read_ply(const Source& source);
 RawMesh read_vtp(const Source& source);
 RawMesh read_legacy_vtk(const Source& source);
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

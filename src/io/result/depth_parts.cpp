@@ -1,4 +1,4 @@
-#include "io/result/depth_result_parts.hpp"
+#include "io/result/depth_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -14,10 +14,6 @@ Json pose_json(const Pose& X) {
 }
 
 }  // namespace
-
-Json numbers(const Vec3& p) {
-  return {p.x(), p.y(), p.z()};
-}
 
 Json depth_header(const DepthQuestion& question, const char* method) {
   const auto& [joint, angles, X_FM] = question;
@@ -57,15 +53,11 @@ std::string open_line(const Body& body) {
   return fmt::format("  {}: no answer, the other mesh is open and has no inside\n", body.name);
 }
 
-}  // namespace condyle::io
-
-namespace condyle {
-
-InContact contact_arrays(const Joint& joint, const std::vector<TrianglePair>& pairs) {
-  std::vector<std::uint8_t> fixed(joint.fixed.mesh.triangles().size()),
-      mobile(joint.mobile.mesh.triangles().size());
-  for (const auto& pair : pairs) fixed[pair.fixed] = 1, mobile[pair.mobile] = 1;
-  return {{"in_contact", std::move(fixed)}, {"in_contact", std::move(mobile)}};
+DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
+                      Index TrianglePair::*triangle) {
+  std::vector<std::uint8_t> in_contact(body.mesh.triangles().size());
+  for (const TrianglePair& pair : pairs) in_contact[pair.*triangle] = 1;
+  return {std::move(points), {"in_contact", std::move(in_contact)}};
 }
 
 std::string pairs_csv(const std::vector<TrianglePair>& pairs) {
@@ -74,4 +66,4 @@ std::string pairs_csv(const std::vector<TrianglePair>& pairs) {
   return text;
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -1,4 +1,4 @@
-#include "io/mesh/mesh_file_vtk_array.hpp"
+#include "io/mesh/vtk_array.hpp"
 
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <limits>
 
-namespace condyle::io::mesh_file {
+namespace condyle::io {
 namespace {
 
 /// Deflate shortens at most 1032 times, LZ4 255 times: a block that claims to have been more is not believed,
-/// and no memory is asked for.
+/// and no memory is allocated.
 constexpr std::uint64_t largest_ratio = 1032;
 
 [[noreturn]] void fail(const Source& source, const VtkArray& array, std::string_view what) {
@@ -213,4 +213,4 @@ std::vector<std::int64_t> read_integers(const VtkArray& array, const VtkEncoding
   });
 }
 
-}  // namespace condyle::io::mesh_file
+}  // namespace condyle::io

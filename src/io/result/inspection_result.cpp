@@ -1,13 +1,18 @@
+#include "condyle/io/inspection_result.hpp"
+
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "condyle/io/report_text.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/repair_text.hpp"
+#include "io/result/json.hpp"
 
 namespace condyle {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
 std::string text_of(Index element) {
   return fmt::format("{}", element);
@@ -26,15 +31,12 @@ Json json_of(Index element) {
 Json json_of(const Edge& edge) {
   return {edge.from, edge.to};
 }
-Json json_of(const Vec3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 Json json_of(const BoundaryLoop& loop) {
-  return {{"edges", loop.edges}, {"first_edge", json_of(loop.first)}, {"centre", json_of(loop.centre)}};
+  return {{"edges", loop.edges}, {"first_edge", json_of(loop.first)}, {"centre", io::numbers(loop.centre)}};
 }
 
-/// Calls visit(key, words, finding) for every defect a report counts: both forms list the same ones in one
-/// order.
+/// Calls visit(key, words, finding) for every defect that a report counts: both forms list the same ones in
+/// the same order.
 template <class Visit>
 void for_each_finding(const MeshReport& r, const Visit& visit) {
   visit("boundary_edges", "boundary edges", r.boundary_edges);
@@ -42,7 +44,7 @@ void for_each_finding(const MeshReport& r, const Visit& visit) {
   visit("non_manifold_edges", "non-manifold edges", r.non_manifold_edges);
   visit("non_manifold_vertices", "non-manifold vertices", r.non_manifold_vertices);
   visit("inconsistent_edges", "edges with inconsistent winding", r.inconsistent_edges);
-  visit("inverted_components", "components wound inside out", r.inverted_components);
+  visit("inverted_components", "components of inverted orientation", r.inverted_components);
   visit("duplicate_triangles", "duplicate triangles", r.duplicate_triangles);
   visit("degenerate_triangles", "degenerate triangles", r.degenerate_triangles);
   visit("duplicate_vertices", "duplicate vertices", r.duplicate_vertices);
@@ -63,8 +65,7 @@ void append(std::string& out, const MeshInspection& mesh) {
   const MeshReport& r = mesh.report;
   out += fmt::format("{}\n  {} vertices, {} triangles, {}\n", mesh.path.string(), r.vertices, r.triangles,
                      r.is_closed() ? "closed" : "not closed");
-  if (mesh.welded_vertices > 0)
-    out += fmt::format("  {} equal corners read as one vertex each\n", mesh.welded_vertices);
+  if (mesh.welded_vertices > 0) out += fmt::format("  merged {} duplicate vertices\n", mesh.welded_vertices);
   for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", condyle::describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
@@ -107,7 +108,7 @@ Json json_of(const MeshInspection& mesh) {
   });
   out["components"] = Json::array();
   for (const MeshComponent& component : r.components) out["components"].push_back(json_of(component));
-  out["bounds"] = {{"low", json_of(r.bounds.low)}, {"high", json_of(r.bounds.high)}};
+  out["bounds"] = {{"low", io::numbers(r.bounds.low)}, {"high", io::numbers(r.bounds.high)}};
   out["area"] = r.area;
   out["signed_volume"] = r.signed_volume ? Json(*r.signed_volume) : Json();
   out["edge_lengths"] = {{"shortest", r.edge_lengths.shortest},
@@ -121,6 +122,18 @@ Json json_of(const MeshInspection& mesh) {
 
 }  // namespace
 
+InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs) {
+  MeshFile file = read_mesh(path);
+  MeshInspection inspection{path, file.welded_vertices, {}, {}};
+  try {
+    inspection.repairs = repair_mesh(file.mesh, repairs);
+  } catch (const MeshError& error) {
+    throw MeshError(path.string() + ": " + error.what());
+  }
+  inspection.report = inspect(file.mesh);
+  return {std::move(file.mesh), std::move(inspection)};
+}
+
 std::string to_text(std::span<const MeshInspection> meshes) {
   std::string out;
   for (const MeshInspection& mesh : meshes) append(out, mesh);
@@ -130,7 +143,7 @@ std::string to_text(std::span<const MeshInspection> meshes) {
 std::string to_json(std::span<const MeshInspection> meshes) {
   Json out{{"meshes", Json::array()}};
   for (const MeshInspection& mesh : meshes) out["meshes"].push_back(json_of(mesh));
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return io::document(out);
 }
 
 }  // namespace condyle

@@ -1,30 +1,15 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
 #include "condyle/io/depth_result.hpp"
-#include "condyle/contact.hpp"
+#include "io/result/json.hpp"
 
 /// What the results of both methods have in common.
 
 namespace condyle::io {
-
-using Json = nlohmann::ordered_json;
-
-inline constexpr const char* scope_note =
-    "osseous contact of the meshes given; soft tissue is not modelled; research software, not a medical "
-    "device";
-
-/// An empty answer is null, never a number that could be read as one.
-template <class Value>
-Json nullable(const std::optional<Value>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json numbers(const Vec3& p);
 
 /// The question and the answers that do not depend on the method.
 Json depth_header(const DepthQuestion& question, const char* method);
@@ -109,6 +94,13 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
 
 /// "at (17.97, 20.65, 8.54) mm".
 std::string place_text(const Vec3& p);
+
+/// Point arrays of one body, with those of its triangles marked that are in a pair.
+DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
+                      Index TrianglePair::*triangle);
+
+/// Intersecting triangle pairs as CSV text with a header line.
+std::string pairs_csv(const std::vector<TrianglePair>& pairs);
 
 /// Why a body has no figures; one line.
 std::string open_line(const Body& body);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "condyle/io/pose_text.hpp"
-#include "io/result/depth_result_parts.hpp"
+#include "io/result/depth_parts.hpp"
 
 namespace condyle {
 namespace {
@@ -13,8 +13,8 @@ using Views = io::BodyViews<TangentialBodySummary>;
 using Deepest = Views::Deepest<DeepestRotation>;
 
 Views views(const DepthQuestion& question, const TangentialContact& contact) {
-  const auto summary_of = [](const std::optional<TangentialResults>& hits) {
-    return hits ? std::optional(summarise(*hits)) : std::nullopt;
+  const auto summary_of = [](const std::optional<TangentialResults>& results) {
+    return results ? std::optional(summarise(*results)) : std::nullopt;
   };
   return {question, summary_of(contact.mobile_in_fixed), summary_of(contact.fixed_in_mobile)};
 }
@@ -37,7 +37,7 @@ io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
   return {{"vertices", view.body.mesh.vertices().size()},
           {"vertices_inside", summary.vertices_inside},
           {"vertices_on_surface", summary.vertices_on_surface},
-          {"vertices_without_way_out", summary.without_exit},
+          {"vertices_without_exit", summary.without_exit},
           {"max_tangential_depth_deg", summary.largest_angle ? summary.largest_angle->depth.degrees() : 0.0},
           {"max_tangential_depth_mm", summary.deepest ? summary.deepest->depth_mm : 0.0},
           {"deepest_vertex", summary.deepest ? io::Json(summary.deepest->vertex) : io::Json(nullptr)},
@@ -45,17 +45,15 @@ io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
 
-std::string deepest_line(const char* what, const TurnAxis& axis, const Deepest& deepest) {
+std::string deepest_line(const char* what, const RotationAxis& axis, const Deepest& deepest) {
   return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
                      deepest.vertex.depth_mm, name_of(axis.about), deepest.vertex.depth.degrees(),
                      deepest.vertex.vertex, deepest.view->body.name,
                      io::place_text(deepest.view->in_fixed_frame(deepest.vertex.vertex)));
 }
 
-}  // namespace
-
-std::string depth_json(const DepthQuestion& question, const TurnAxis& axis,
-                       const TangentialContact& contact) {
+std::string json_of(const DepthQuestion& question, const RotationAxis& axis,
+                    const TangentialContact& contact) {
   const Views bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
   io::Json json = io::depth_header(question, "tangential");
@@ -69,11 +67,11 @@ std::string depth_json(const DepthQuestion& question, const TurnAxis& axis,
   json["min_gap_mm"] = io::nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = io::scope_note;
-  return json.dump(2) + "\n";
+  return io::document(json);
 }
 
-std::string depth_text(const DepthQuestion& question, const TurnAxis& axis,
-                       const TangentialContact& contact) {
+std::string text_of(const DepthQuestion& question, const RotationAxis& axis,
+                    const TangentialContact& contact) {
   const Views bodies = views(question, contact);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
   for (const auto* view : bodies.both()) {
@@ -93,32 +91,43 @@ std::string depth_text(const DepthQuestion& question, const TurnAxis& axis,
     text += deepest_line("largest angle", axis, *furthest);
   }
   if (const auto gap = bodies.least(&TangentialBodySummary::min_gap)) {
-    text += fmt::format("  smallest gap by turning: {:.3f} deg\n", gap->degrees());
+    text += fmt::format("  smallest gap by rotating: {:.3f} deg\n", gap->degrees());
   }
   return text;
 }
 
-std::vector<MeshArray> depth_arrays(const std::optional<TangentialResults>& hits) {
-  if (!hits) return {};
-  const std::size_t count = hits->size();
+std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results) {
+  if (!results) return {};
+  const std::size_t count = results->size();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::uint8_t> inside(count);
   std::vector<std::int32_t> winding(count), triangle(count);
   std::vector<double> angle(count), arc(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const bool reached = std::isfinite(hits->angular_gap[i].radians());
-    inside[i] = hits->state[i] == PointState::inside;
-    winding[i] = hits->winding[i];
-    triangle[i] = hits->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(hits->triangle[i]);
-    // A depth is positive inside: the gap with its sign turned.
-    angle[i] = reached ? -hits->angular_gap[i].degrees() : none;
-    arc[i] = reached ? -hits->arc_gap_mm[i] : none;
+    const bool reached = std::isfinite(results->angular_gap[i].radians());
+    inside[i] = results->state[i] == PointState::inside;
+    winding[i] = results->winding[i];
+    triangle[i] = results->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(results->triangle[i]);
+    // A depth is positive inside: the negative gap.
+    angle[i] = reached ? -results->angular_gap[i].degrees() : none;
+    arc[i] = reached ? -results->arc_gap_mm[i] : none;
   }
   return {{"inside", std::move(inside)},
           {"tangential_depth_deg", std::move(angle)},
           {"tangential_depth_mm", std::move(arc)},
           {"triangle", std::move(triangle)},
           {"winding", std::move(winding)}};
+}
+
+}  // namespace
+
+DepthResult depth_result(const DepthQuestion& question, const RotationAxis& axis,
+                         const TangentialContact& contact) {
+  return {text_of(question, axis, contact), json_of(question, axis, contact), io::pairs_csv(contact.pairs),
+          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile), contact.pairs,
+                        &TrianglePair::fixed),
+          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed), contact.pairs,
+                        &TrianglePair::mobile)};
 }
 
 }  // namespace condyle

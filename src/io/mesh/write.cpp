@@ -23,7 +23,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/whole_file.hpp"
-#include "io/mesh/mesh_file_parse.hpp"
+#include "io/mesh/parse.hpp"
 
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written as the machine has the numbers");
@@ -162,7 +162,7 @@ void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
 }
 
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
-  const auto extension = io::mesh_file::lower_case(path.extension().string());
+  const auto extension = io::lower_case(path.extension().string());
   if (extension == ".ply") {
     write_ply(path, mesh);
   } else if (extension == ".vtp") {

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+
+/// The centre of a ball joint, from the surface of its head or socket, and the axis of a hinge, from the
+/// surface that rotates about it.
+
+namespace condyle {
+
+struct Sphere {
+  Vec3 centre;
+  double radius;
+};
+
+struct SphereFit {
+  Sphere sphere;
+  double rms_residual;          ///< of |vertex - centre| - radius, mm
+  double largest_residual;      ///< its largest magnitude, mm
+  std::vector<Index> vertices;  ///< used, ascending
+};
+
+/// The sphere that minimises the sum of squared distances of these points to it. Throws MeshError where fewer
+/// than four points, or points (nearly) in one plane, leave it undetermined.
+SphereFit fit_sphere(PointsView points, std::span<const Index> vertices);
+SphereFit fit_sphere(PointsView points);
+
+/// Which side of the sphere the solid is on: inside (a head) or outside (a socket). Told by the winding: in a
+/// mesh of inverted orientation, heads are sockets.
+enum class SphericalPart { head, socket };
+
+/// Where a spherical part is looked for. Lengths in mm.
+struct SphereSearch {
+  SphericalPart part = SphericalPart::head;
+  double smallest_radius = 10;  ///< heads of children's femora and of adult humeri lie well inside
+  double largest_radius = 45;
+  std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered
+};
+
+/// A spherical part of a surface.
+struct SphericalPatch {
+  SphereFit fit;
+  double coverage;  ///< its area over that of the whole sphere; a femoral head has 0.6 to 0.8
+};
+
+/// The spherical part of a surface that covers most of its sphere: found without a hint, fitted only to the
+/// vertices of that part. Deterministic. Throws MeshError where no part of the surface is spherical: at
+/// least a tenth of a sphere, spread in all directions (no strip, as where a sphere touches a cylinder from
+/// inside), 12 vertices or more.
+SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search = {});
+
+struct Cylinder {
+  Vec3 point;      ///< on the axis, nearest the centroid of the vertices used
+  Vec3 direction;  ///< unit; of its two senses the one whose largest component is positive
+  double radius;
+};
+
+struct CylinderFit {
+  Cylinder cylinder;
+  double rms_residual;          ///< of the distance to the axis minus the radius, mm
+  double largest_residual;      ///< its largest magnitude, mm
+  std::vector<Index> vertices;  ///< used, ascending
+};
+
+/// The cylinder near `start` that minimises the sum of squared distances of these points to it. Throws
+/// MeshError where the points leave it undetermined (fewer than five, or all on one line or plane).
+CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, const Cylinder& start);
+
+/// Where a cylindrical part is looked for. Lengths in mm.
+struct CylinderSearch {
+  double smallest_radius = 5;
+  double largest_radius = 45;
+  std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered
+};
+
+/// The cylindrical part of a surface that has most area for its radius squared (the angle around the axis
+/// times the length in radii, so that a long and full one wins): found without a hint, fitted only to the
+/// vertices of that part. On a whole long bone that is its shaft: limit the search to the condyles to get
+/// those. Deterministic. Throws MeshError where no part of the surface is cylindrical.
+CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search = {});
+
+}  // namespace condyle

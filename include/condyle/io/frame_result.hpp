@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "condyle/io/joint_file.hpp"
+
+/// What `condyle frame` shows: how a joint was made of its file. Keys of the JSON are listed in
+/// docs/joint-file.md.
+
+namespace condyle {
+
+/// For people, and for programs: whole documents that end with a newline.
+std::string to_text(const LoadedJoint& joint);
+std::string to_json(const LoadedJoint& joint);
+
+}  // namespace condyle

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/inspect.hpp"
+#include "condyle/repair.hpp"
+
+/// What `condyle inspect` found. Keys of the JSON are listed in docs/mesh-files.md.
+
+namespace condyle {
+
+/// One inspected mesh file.
+struct MeshInspection {
+  std::filesystem::path path;
+  std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
+  std::vector<RepairDone> repairs;
+  MeshReport report;  ///< after the repairs
+};
+
+struct InspectedMesh {
+  TriMesh mesh;  ///< as read and repaired
+  MeshInspection inspection;
+};
+
+/// Reads a mesh, makes the repairs in their order and inspects what came of it. Throws FileError, and
+/// MeshError where a repair cannot be made.
+InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs);
+
+/// For people, and for programs: whole documents that end with a newline.
+std::string to_text(std::span<const MeshInspection> meshes);
+std::string to_json(std::span<const MeshInspection> meshes);
+
+}  // namespace condyle

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "condyle/repair.hpp"
+
+/// Repairs by the names that joint files and the command line give them.
+
+namespace condyle {
+
+/// The repair of that name; throws UsageError with the names there are.
+Repair repair_named(std::string_view name);
+std::string_view name_of(Repair repair) noexcept;
+
+/// "weld: merged 12 duplicate vertices", for reports.
+std::string describe(const RepairDone& done);
+
+}  // namespace condyle

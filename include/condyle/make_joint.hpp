@@ -1,0 +1,96 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "condyle/angle.hpp"
+#include "condyle/fit.hpp"
+#include "condyle/inspect.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/joint_frame.hpp"
+#include "condyle/length_unit.hpp"
+
+/// A joint from two meshes as a segmentation gives them, both in one frame W and in one unit: where the joint
+/// frame F lies in W is given by directions, landmarks or a fit, and both meshes are placed in it.
+///
+///     JointDescription right_hip{.name = "right hip", .kind = JointKind::ball, .side = Side::right};
+///     right_hip.frame.centre = CentreFit{};  // the centre of the femoral head
+///     const auto [joint, placement] = make_joint(right_hip, {"hip bone", hip_bone}, {"femur", femur});
+
+namespace condyle {
+
+enum class BodyRole { fixed, mobile };
+
+/// The axes of a joint frame as unit vectors in W: orthonormal within axis_tolerance or refused.
+struct FrameDirections {
+  Vec3 anterior = Vec3::UnitX();
+  Vec3 superior = Vec3::UnitY();
+};
+
+/// The centre of a ball is that of the sphere fitted to its head (mobile) or its socket (fixed); the axis
+/// of a hinge is that of the cylinder fitted to the body.
+struct CentreFit {
+  BodyRole body = BodyRole::mobile;
+  std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered; mm, in W
+};
+
+/// Where a joint frame lies in W; lengths in mm, whatever the unit of the meshes.
+struct FrameDescription {
+  /// Not read where the axes are a TransepicondylarAxis, which gives the centre too; else nothing means the
+  /// origin of W.
+  std::variant<std::monostate, Vec3, CentreFit> centre = {};
+  std::variant<FrameDirections, PelvisLandmarks, AnteriorPelvicPlane, FemurLandmarks, TransepicondylarAxis>
+      axes = {};
+};
+
+/// All that makes a joint of two meshes.
+struct JointDescription {
+  std::string name;
+  JointKind kind = JointKind::ball;
+  Side side = Side::right;
+  LengthUnit units = LengthUnit::millimetres;  ///< of both meshes
+  FrameDescription frame = {};
+  JointAngles reference_pose = {};  ///< the pose in which the mobile mesh is given
+};
+
+/// What became of a mesh on its way into the joint.
+struct BodyPlacement {
+  LikelyUnit likely_unit;  ///< what its size suggests; followed is what the description says
+  BoundingBox bounds;      ///< of all its vertices, in the joint frame at zero angles, mm
+};
+
+/// How the meshes came into the joint frame, for checking.
+struct JointPlacement {
+  Pose X_WF;                             ///< the joint frame in W, mm
+  std::optional<SphericalPatch> sphere;  ///< the fit that gave the centre of a ball
+  std::optional<CylinderFit> cylinder;   ///< the fit that gave the axis of a hinge
+  Angle axis_rotation;                   ///< from the Z axis of the description to the fitted one
+  AxisErrors axis_errors{0, 0, 0};       ///< of the directions as given; removed
+  BodyPlacement fixed, mobile;
+  std::vector<std::string> notes;  ///< one line each: which axes were corrected, what was fitted
+};
+
+struct PlacedJoint {
+  Joint joint;
+  JointPlacement placement;
+};
+
+/// Places both bodies, whose meshes are in W, in the joint frame:
+///
+///     p_F = X_WF^-1 p_W                        fixed vertices
+///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices
+///
+/// Each coordinate, conversion from metres included, is computed in extended precision and rounded once. With
+/// millimetres, the centre 0, the standard axes and a reference pose of zero, vertices keep every bit.
+///
+/// Throws UsageError where the description cannot be followed (axes that are not orthonormal, landmarks that
+/// coincide, meshes whose sizes speak for two units, coordinates too large), MeshError where a fit finds
+/// nothing or an axis more than 45 degrees from the one described. One line that begins with the part of the
+/// description it is about ("frame", "frame.centre", "units") or the name of the body.
+///
+/// Linear in the meshes, but for a fit, which searches the surface.
+PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile);
+
+}  // namespace condyle

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/repair_text.hpp"
+
+namespace condyle {
+namespace {
+
+std::string_view name_of(LengthUnit unit) noexcept {
+  return unit == LengthUnit::metres ? "metres" : "millimetres";
+}
+
+/// A body by its file: that is what errors name.
+struct LoadedBody {
+  Body body;
+  BodyReport report;
+};
+
+LoadedBody load(const BodyEntry& entry) {
+  MeshFile file = read_mesh(entry.mesh);
+  BodyReport report{entry.mesh, 0, 0, file.welded_vertices, {}};
+  try {
+    report.repairs = repair_mesh(file.mesh, entry.repairs);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", entry.mesh.string(), error.what()));
+  }
+  report.vertices = file.mesh.vertices.size();
+  report.triangles = file.mesh.triangles.size();
+  return {{entry.mesh.string(), std::move(file.mesh)}, std::move(report)};
+}
+
+PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {
+  try {
+    PlacedJoint made = make_joint(file.joint, std::move(fixed), std::move(mobile));
+    made.joint.fixed.name = file.fixed.name;
+    made.joint.mobile.name = file.mobile.name;
+    return made;
+  } catch (const UsageError& error) {
+    throw FileError(fmt::format("{}: {}", file.path.string(), error.what()));
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", file.path.string(), error.what()));
+  }
+}
+
+std::string file_name(const BodyReport& body) {
+  return body.mesh.filename().string();
+}
+
+/// The unit is what the file says; meshes that look otherwise are reported.
+void note_doubtful_unit(const BodyReport& body, const LikelyUnit& likely, LengthUnit units,
+                        std::vector<std::string>& notes) {
+  if (likely.unit != units)
+    notes.push_back(
+        fmt::format("{}: the file says {}, but {}", file_name(body), name_of(units), likely.reason));
+}
+
+void note_repairs(const BodyReport& body, std::vector<std::string>& notes) {
+  if (body.welded_vertices > 0)
+    notes.push_back(fmt::format("{}: merged {} duplicate vertices", file_name(body), body.welded_vertices));
+  for (const RepairDone& done : body.repairs)
+    notes.push_back(fmt::format("{}: {}", file_name(body), describe(done)));
+}
+
+std::vector<std::string> notes_on(const JointReport& report) {
+  std::vector<std::string> notes;
+  const LengthUnit units = report.file.joint.units;
+  const JointPlacement& placement = report.placement;
+  note_doubtful_unit(report.fixed, placement.fixed.likely_unit, units, notes);
+  note_doubtful_unit(report.mobile, placement.mobile.likely_unit, units, notes);
+  if (units == LengthUnit::metres) notes.push_back("meshes and lengths converted from metres to mm");
+  note_repairs(report.fixed, notes);
+  note_repairs(report.mobile, notes);
+  notes.insert(notes.end(), placement.notes.begin(), placement.notes.end());
+  return notes;
+}
+
+}  // namespace
+
+LoadedJoint read_joint(const std::filesystem::path& path) {
+  JointFile file = read_joint_file(path);
+  LoadedBody fixed = load(file.fixed), mobile = load(file.mobile);
+  PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
+  JointReport report{
+      std::move(file), std::move(fixed.report), std::move(mobile.report), std::move(made.placement), {}};
+  report.notes = notes_on(report);
+  return {std::move(made.joint), std::move(report)};
+}
+
+}  // namespace condyle

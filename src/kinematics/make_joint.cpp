@@ -1,0 +1,183 @@
+#include "condyle/make_joint.hpp"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "condyle/error.hpp"
+
+namespace condyle {
+namespace {
+
+/// printf into a string; for lines of less than 400 characters.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 400> text;
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+double scale_of(LengthUnit unit) noexcept {
+  return unit == LengthUnit::metres ? 1000.0 : 1.0;
+}
+
+const char* name_of(LengthUnit unit) noexcept {
+  return unit == LengthUnit::metres ? "metres" : "millimetres";
+}
+
+/// Two meshes that contradict each other cannot both be in the unit described.
+void check_units(const Body& fixed, const LikelyUnit& of_fixed, const Body& mobile,
+                 const LikelyUnit& of_mobile) {
+  if (of_fixed.unit && of_mobile.unit && *of_fixed.unit != *of_mobile.unit)
+    throw UsageError("units: " + fixed.name + " looks like " + name_of(*of_fixed.unit) + " and " +
+                     mobile.name + " like " + name_of(*of_mobile.unit) + ": give both in one unit");
+}
+
+/// X * (scale p) in extended precision, rounded once per coordinate; untouched where nothing is to be done.
+Mesh placed(const Pose& X, double scale, const Body& body) {
+  if (scale == 1 && X.matrix() == Pose::Identity().matrix()) return body.mesh;
+  Points points = body.mesh.vertices();
+  const auto& m = X.matrix();
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    const long double x = scale * static_cast<long double>(points.x[v]);
+    const long double y = scale * static_cast<long double>(points.y[v]);
+    const long double z = scale * static_cast<long double>(points.z[v]);
+    const auto row = [&](int i) {
+      return static_cast<double>(m(i, 0) * x + m(i, 1) * y + m(i, 2) * z + m(i, 3));
+    };
+    const Vec3 p(row(0), row(1), row(2));
+    if (!p.allFinite())
+      throw UsageError(body.name + ": vertex " + std::to_string(v) +
+                       ": coordinates too large for millimetres");
+    points.set(v, p);
+  }
+  return body.mesh.moved_to(std::move(points));
+}
+
+/// The axes about a centre, from directions or landmarks.
+Pose frame_about(const Vec3& centre, const JointDescription& description) {
+  struct Frames {
+    const Vec3& centre;
+    Side side;
+    Pose operator()(const FrameDirections& d) const {
+      return frame_from_axes(centre, d.anterior, d.superior);
+    }
+    Pose operator()(const PelvisLandmarks& l) const { return frame_from_landmarks(centre, l); }
+    Pose operator()(const AnteriorPelvicPlane& l) const { return frame_from_landmarks(centre, l); }
+    Pose operator()(const FemurLandmarks& l) const { return frame_from_landmarks(centre, side, l); }
+    Pose operator()(const TransepicondylarAxis& l) const { return frame_from_landmarks(side, l); }
+  };
+  try {
+    return std::visit(Frames{centre, description.side}, description.frame.axes);
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("frame: ") + error.what());
+  }
+}
+
+/// Rotates the frame by the smallest rotation that lays its Z axis along the fitted cylinder's, in the nearer
+/// sense.
+Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& placement) {
+  constexpr double largest_turn_deg = 45;  // beyond it the fit is not of the joint that the axes describe
+  const Vec3 z = X_WF.linear().col(2);
+  const Vec3 axis = z.dot(fitted) < 0 ? Vec3(-fitted) : fitted;
+  placement.axis_rotation = Angle::radians(std::atan2(z.cross(axis).norm(), z.dot(axis)));
+  if (placement.axis_rotation.degrees() > largest_turn_deg)
+    throw MeshError(
+        formatted("frame.centre: the fitted axis is %.1f degrees from right = anterior x superior; "
+                  "more than %g is not taken for the same axis (limit the fit with fit_within)",
+                  placement.axis_rotation.degrees(), largest_turn_deg));
+  Pose rotated = X_WF;
+  rotated.linear() = Eigen::Quaterniond::FromTwoVectors(z, axis).toRotationMatrix() * X_WF.linear();
+  return rotated;
+}
+
+Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& body,
+                  JointPlacement& placement) {
+  const Mesh mesh = placed(Pose::Identity(), scale_of(description.units), body);
+  try {
+    if (description.kind == JointKind::ball) {
+      SphereSearch search;
+      search.part = fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head;
+      search.within = fit.within;
+      placement.sphere = find_sphere(mesh, search);
+    } else {
+      placement.cylinder = find_cylinder(mesh, {.within = fit.within});
+    }
+  } catch (const MeshError& error) {
+    throw MeshError("frame.centre: " + body.name + ": " + error.what());
+  }
+  if (placement.sphere) return frame_about(placement.sphere->fit.sphere.centre, description);
+  const Cylinder& cylinder = placement.cylinder->cylinder;
+  return rotated_to_axis(frame_about(cylinder.point, description), cylinder.direction, placement);
+}
+
+Pose frame_of(const JointDescription& description, const Body& fixed, const Body& mobile,
+              JointPlacement& placement) {
+  const FrameDescription& frame = description.frame;
+  if (const auto* directions = std::get_if<FrameDirections>(&frame.axes))
+    placement.axis_errors = axis_errors(directions->anterior, directions->superior);
+  if (const auto* fit = std::get_if<CentreFit>(&frame.centre))
+    return fitted_frame(description, *fit, fit->body == BodyRole::fixed ? fixed : mobile, placement);
+  const auto* centre = std::get_if<Vec3>(&frame.centre);
+  return frame_about(centre ? *centre : Vec3(Vec3::Zero()), description);
+}
+
+BoundingBox bounds_of(const Points& points) {
+  if (points.size() == 0) return {Vec3::Zero(), Vec3::Zero()};
+  BoundingBox box{points[0], points[0]};
+  for (std::size_t v = 0; v < points.size(); ++v) {
+    box.low = box.low.cwiseMin(points[v]);
+    box.high = box.high.cwiseMax(points[v]);
+  }
+  return box;
+}
+
+std::vector<std::string> notes_on(const JointPlacement& placement) {
+  std::vector<std::string> notes;
+  if (const AxisErrors& errors = placement.axis_errors; !errors.none())
+    notes.push_back(
+        formatted("axes made orthonormal: lengths were off by %.1e and %.1e, the right angle by %.1e",
+                  errors.anterior_length, errors.superior_length, errors.right_angle));
+  if (placement.sphere) {
+    const SphereFit& fit = placement.sphere->fit;
+    notes.push_back(
+        formatted("centre fitted: sphere of radius %.3f mm over %zu vertices, %.0f %% of the sphere, rms "
+                  "residual %.3f mm, largest %.3f mm",
+                  fit.sphere.radius, fit.vertices.size(), 100 * placement.sphere->coverage, fit.rms_residual,
+                  fit.largest_residual));
+  }
+  if (placement.cylinder) {
+    const CylinderFit& fit = *placement.cylinder;
+    notes.push_back(
+        formatted("axis fitted: cylinder of radius %.3f mm over %zu vertices, rms residual %.3f mm, "
+                  "largest %.3f mm; axes rotated by %.2f degrees to it",
+                  fit.cylinder.radius, fit.vertices.size(), fit.rms_residual, fit.largest_residual,
+                  placement.axis_rotation.degrees()));
+  }
+  return notes;
+}
+
+}  // namespace
+
+PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile) {
+  JointPlacement placement{};
+  placement.fixed.likely_unit = likely_unit(fixed.mesh);
+  placement.mobile.likely_unit = likely_unit(mobile.mesh);
+  check_units(fixed, placement.fixed.likely_unit, mobile, placement.mobile.likely_unit);
+  placement.X_WF = frame_of(description, fixed, mobile, placement);
+
+  const Pose X_FW = placement.X_WF.inverse();
+  const Pose X_MF = pose_at(description.side, description.reference_pose).inverse();
+  const double scale = scale_of(description.units);
+  fixed.mesh = placed(X_FW, scale, fixed);
+  mobile.mesh = placed(X_MF * X_FW, scale, mobile);
+  placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
+  placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
+  placement.notes = notes_on(placement);
+  return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile)},
+          std::move(placement)};
+}
+
+}  // namespace condyle
