@@ -1,9 +1,10 @@
 #pragma once
 
-#include <vector>
+#include <cassert>
 
 #include "condyle/mesh.hpp"
 #include "mesh/triangle_intersection.hpp"
+#include "mesh/triangle_tree.hpp"
 
 namespace condyle::mesh {
 
@@ -11,26 +12,17 @@ namespace condyle::mesh {
 /// coordinate; a triangle of zero area counts as its edges.
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept;
 
-/// Distance from any point to the nearest point of a mesh: the shortest way out by translation, in any
-/// direction. A tree of boxes over the triangles, built once, O(n log n); a query looks at a few leaves.
+/// Distance from any point to the nearest point of a mesh: the shortest exit by translation, in any direction.
+/// Over a tree of its triangles, built once; a query looks at a few leaves.
 class SurfaceDistance {
  public:
-  /// The mesh must outlive this, and have a triangle.
-  explicit SurfaceDistance(const TriMesh& mesh);
+  /// The mesh must have a triangle.
+  explicit SurfaceDistance(const TriMesh& mesh) : tree_(mesh) { assert(!tree_.empty()); }
 
   double operator()(const Vec3& p) const noexcept;
 
  private:
-  struct Node {
-    Vec3 low, high;
-    Index first, last;  ///< triangles, in order_
-    Index right;        ///< of an inner node, whose left child follows it; no_index for a leaf
-  };
-  Index build(Index first, Index last, const std::vector<Vec3>& centres);
-
-  const TriMesh* mesh_;
-  std::vector<Index> order_;
-  std::vector<Node> nodes_;
+  TriangleTree tree_;
 };
 
 }  // namespace condyle::mesh
