@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 
 #include "condyle/mesh.hpp"
 
@@ -20,15 +19,5 @@ std::optional<DirectedEdge> first_unbalanced_edge(const TriMesh& mesh);
 /// Raises MeshError naming that edge: without an inside there is no winding number; what can still be
 /// computed is said.
 [[noreturn]] void refuse_unbalanced(const DirectedEdge& edge);
-
-/// As above, by (from, to).
-inline std::optional<std::pair<Index, Index>> unbalanced_edge(const TriMesh& mesh) {
-  const auto edge = first_unbalanced_edge(mesh);
-  return edge ? std::optional(std::pair{edge->from, edge->to}) : std::nullopt;
-}
-template <class Pair>
-[[noreturn]] void refuse_unbalanced(const Pair& edge) {
-  refuse_unbalanced(DirectedEdge{edge.first, edge.second});
-}
 
 }  // namespace condyle::mesh
