@@ -165,7 +165,7 @@ std::uint64_t arcs_hash(const JointContact& joint, Seen& seen) {
   Hash hash;
   for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, -2, 3)}) {
     const RingTable table(joint.fixed(), AxisFrame(Vec3::Zero(), axis));
-    const OccupiedArcs arcs = table.occupied_arcs(joint.mobile().vertices);
+    const OccupiedArcs arcs = table.occupied_arcs(joint.mobile().vertices());
     for (std::size_t point = 0; point < arcs.size(); ++point) {
       hash.add(std::uint64_t{arcs.of(point).size()});
       for (const OccupiedArc& arc : arcs.of(point)) {
