@@ -6,7 +6,7 @@
 
 namespace condyle {
 
-RadialBodySummary summarise(const RadialResults& results, PointsView points, const TriMesh& other) {
+RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other) {
   RadialBodySummary summary;
   std::optional<mesh::SurfaceDistance> distance;  // built where a vertex is inside
   const auto deepen = [](std::optional<DeepestVertex>& deepest, const DeepestVertex& candidate) {

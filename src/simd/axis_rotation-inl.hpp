@@ -6,7 +6,7 @@
 #define CONDYLE_SIMD_AXIS_ROTATION_INL
 #endif
 
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 #include <cstddef>
 #include <span>

@@ -6,12 +6,11 @@
 #define CONDYLE_SIMD_LANE_NUMBERS_INL
 #endif
 
-#include <hwy/highway.h>
 
 #include <cstddef>
 #include <cstdint>
 
-#include "simd/compress_store-inl.hpp"
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::simd::HWY_NAMESPACE {

@@ -12,7 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace condyle::simd::HWY_NAMESPACE {
 
-/// hull() of RadiusWords, in lanes of 32 bits: the halves are numbers of their own.
+/// hull() of packed intervals, in lanes of 32 bits: the halves are numbers of their own.
 template <class Tag>
 HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> hull_of_lanes(Tag tag, hwy::HWY_NAMESPACE::Vec<Tag> a,
                                                       hwy::HWY_NAMESPACE::Vec<Tag> b) {

@@ -30,7 +30,7 @@ struct Sectors {
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangential/build/profile_boxes.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 #include "simd/axis_rotation-inl.hpp"
 #include "simd/lane_numbers-inl.hpp"

@@ -6,7 +6,7 @@
 #define CONDYLE_TANGENTIAL_ARCTANGENT_INL
 #endif
 
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 #include <numbers>
 

@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangential/query/circle_cells.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 #include "simd/axis_rotation-inl.hpp"
 

@@ -9,7 +9,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangential/query/classify_crossings.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#include "simd/prelude-inl.hpp"
 
 #include "simd/lane_numbers-inl.hpp"
 #include "tangential/exact/arctangent-inl.hpp"

@@ -5,9 +5,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangential/query/gather_candidates.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
 
-#include "simd/compress_store-inl.hpp"
+#include "simd/prelude-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::tangential::HWY_NAMESPACE {
