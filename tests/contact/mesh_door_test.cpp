@@ -3,9 +3,10 @@
 #include <limits>
 #include <vector>
 
+#include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "condyle/joint.hpp"
-#include "condyle/contact.hpp"
+#include "contact/body_pair.hpp"
 #include "mesh/winding_number.hpp"
 #include "support/test_meshes.hpp"
 

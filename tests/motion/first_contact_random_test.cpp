@@ -97,11 +97,10 @@ RC_GTEST_PROP(FirstContactRandom, StartsInContactExactlyWhereSurfacesTouchOrOneI
       const Vec3 p = scene.turning.vertices[v], centre = scene.turning.vertices[1];
       scene.turning.vertices.set(v, 0.9 * c + 0.1 * centre + 0.2 * (p - centre));
     }
-    const bool inside =
-        winding_number(scene.axis.to_axis(scene.resting), scene.axis.to_axis(scene.turning).vertices[0])
-                .winding > 0 ||
-        winding_number(scene.axis.to_axis(scene.turning), scene.axis.to_axis(scene.resting).vertices[0])
-                .winding > 0;
+    const TriMesh turning = in_axis_frame(scene.axis, scene.turning);
+    const TriMesh resting = in_axis_frame(scene.axis, scene.resting);
+    const bool inside = winding_number(resting, turning.vertices[0]).winding > 0 ||
+                        winding_number(turning, resting.vertices[0]).winding > 0;
     const bool touching = brute_contact_at(scene, 0);
     const auto found = limits(scene).positive;
     RC_ASSERT((found.reason == LimitReason::contact_at_start) == (inside || touching));

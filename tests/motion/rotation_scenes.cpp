@@ -56,8 +56,13 @@ RotationScene exchanged(const RotationScene& scene) {
   return {scene.resting, scene.turning, scene.axis};
 }
 
+TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, axis.to_axis(mesh.vertices[v]));
+  return mesh;
+}
+
 TriMesh turned(const RotationScene& scene, double angle) {
-  TriMesh mesh = scene.axis.to_axis(scene.turning);
+  TriMesh mesh = in_axis_frame(scene.axis, scene.turning);
   const double c = std::cos(angle), s = std::sin(angle);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 p = mesh.vertices[v];
@@ -105,7 +110,7 @@ std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, Rotati
 }
 
 bool brute_contact_at(const RotationScene& scene, double angle) {
-  const TriMesh m = turned(scene, angle), f = scene.axis.to_axis(scene.resting);
+  const TriMesh m = turned(scene, angle), f = in_axis_frame(scene.axis, scene.resting);
   const auto box_of = [](const TriMesh& mesh, std::size_t t) {
     Eigen::AlignedBox3d box;
     for (int k = 0; k < 3; ++k) box.extend(mesh.corner(t, k));

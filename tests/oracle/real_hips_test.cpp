@@ -178,8 +178,7 @@ TEST_P(ContactOfRealJoints, VerticesInsideAndTrianglePairsAreThoseOfCgalInEveryP
     const simd::InstructionSetInUse in_use(sets[asked++ % sets.size()]);
     expect_same_penetrations(joint.fixed_table(), mobile_points, X, *contact.mobile_in_fixed);
     expect_same_penetrations(joint.mobile_table(), fixed_points, X.inverse(), *contact.fixed_in_mobile);
-    std::optional<TrianglePair> no_hit;
-    EXPECT_EQ(joint.bodies().touch(X, no_hit), contact.in_contact);
+    EXPECT_EQ(joint.in_contact(X), contact.in_contact);
     const auto inside = std::count(contact.mobile_in_fixed->state.begin(),
                                    contact.mobile_in_fixed->state.end(), PointState::inside);
     (!contact.in_contact ? free : inside == 0 ? touching : deep)++;

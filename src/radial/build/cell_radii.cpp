@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <hwy/cache_control.h>
-
 namespace condyle::radial {
 namespace {
 
@@ -67,7 +65,7 @@ ChangedRadii find_radii_in(const CubeMap& map, const CubeTable& table, const Cha
   SurfaceRadii all{radii.least_squared, radii.greatest_squared};
   // Rows lie anywhere.
   for (const Index cell : changed.cells)
-    hwy::Prefetch(&table.entries.row[cell]), hwy::Prefetch(&radii.of_cell[cell]);
+    __builtin_prefetch(&table.entries.row[cell]), __builtin_prefetch(&radii.of_cell[cell]);
   core::UninitialisedVector<ChangedEntry> scratch(changed.entry.size());
   ChangedRadii out;
   out.cells.resize(changed.cells.size());

@@ -5,8 +5,6 @@
 #include <cassert>
 #include <numeric>
 
-#include <hwy/cache_control.h>
-
 #include "radial/build/cube_binning.hpp"
 
 namespace condyle::radial {
@@ -27,11 +25,11 @@ std::vector<Triangle> corners_of(const TriMesh& mesh, const CubeTable& table,
     return triangles[std::min(i + by, triangles.size() - 1)];
   };
   for (std::size_t i = 0; i < triangles.size(); ++i) {
-    hwy::Prefetch(&mesh.triangles[ahead(i, 2 * triangles_ahead)]);
-    hwy::Prefetch(&table.forms.edge_functions[triangles[i]]);
+    __builtin_prefetch(&mesh.triangles[ahead(i, 2 * triangles_ahead)]);
+    __builtin_prefetch(&table.forms.edge_functions[triangles[i]]);
     for (const Index v : mesh.triangles[ahead(i, triangles_ahead)]) {
-      hwy::Prefetch(&table.forms.corner[v]), hwy::Prefetch(&table.slack.rectangle[v]),
-          hwy::Prefetch(&table.slack.face[v]);
+      __builtin_prefetch(&table.forms.corner[v]), __builtin_prefetch(&table.slack.rectangle[v]),
+          __builtin_prefetch(&table.slack.face[v]);
     }
     corners[i] = mesh.triangles[triangles[i]];
   }
