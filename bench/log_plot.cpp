@@ -13,12 +13,12 @@
 namespace bench {
 namespace {
 
-namespace palette = condyle::palette;
-using condyle::Ink;
-using condyle::PlotScale;
-using condyle::ScreenPoint;
-using condyle::SvgCanvas;
-using condyle::TextAnchor;
+namespace palette = condyle::io::palette;
+using condyle::io::Ink;
+using condyle::io::PlotScale;
+using condyle::io::ScreenPoint;
+using condyle::io::SvgCanvas;
+using condyle::io::TextAnchor;
 
 constexpr double width = 1120, left = 84, right = 620, label_left = 650, top = 76;  // px
 constexpr double line_height = 15, type_size = 12, zero_row = 34;                   // px
@@ -78,7 +78,7 @@ void draw_axes(SvgCanvas& canvas, const LogPlot& plot, const PlotScale& x, const
   canvas.line({left, top}, {left, bottom}, axis);
   canvas.text({(left + right) / 2, bottom + 42}, plot.x_label, {.anchor = TextAnchor::middle});
   canvas.text({22, (top + bottom) / 2}, plot.y_label,
-              {.anchor = TextAnchor::middle, .turn = condyle::TextTurn::upwards});
+              {.anchor = TextAnchor::middle, .turn = condyle::io::TextTurn::upwards});
 }
 
 /// Heights of labels as near to where they belong as their own height lets them: pushed down in order, then
@@ -150,7 +150,7 @@ std::string svg_text(const LogPlot& plot) {
   double at = left;
   double line = bottom + 68;
   for (const std::string& family : legend.families) {
-    const double room = 22 + condyle::text_width(family, type_size) + 18;
+    const double room = 22 + condyle::io::text_width(family, type_size) + 18;
     if (at + room > width - 20) at = left, line += line_height + 2;
     canvas.circle({at + 6, line - 4}, 4, {.fill = legend.colour(family)});
     canvas.text({at + 16, line}, family, {.size = type_size});

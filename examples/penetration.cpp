@@ -8,10 +8,11 @@ int main() {
   const condyle::Joint hip = condyle::read_joint("sample/hip.toml").joint;
   const condyle::JointContact contact(hip);  // tables and trees, built once and asked at any pose
   const auto X_FM =
-      condyle::pose_at(hip.side, {condyle::Angle::degrees(130), {}, {}});  // p_fixed = X_FM * p_mobile
+      condyle::pose_at(hip.side, {condyle::Angle::degrees(140), {}, {}});  // p_fixed = X_FM * p_mobile
   const condyle::Contact at = contact.at(X_FM);
   const condyle::Penetrations& femur = *at.mobile_in_fixed;  // its vertices inside the hip bone
-  const double deepest_mm = *std::max_element(femur.depth_mm.begin(), femur.depth_mm.end());
+  double deepest_mm = 0;
+  for (const double depth_mm : femur.depth_mm) deepest_mm = std::max(deepest_mm, depth_mm);
   std::printf("%zu vertices inside, radial depth up to %.2f mm; %zu triangle pairs\n", femur.size(),
               deepest_mm, at.pairs.size());
 }

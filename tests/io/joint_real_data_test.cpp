@@ -27,9 +27,7 @@ struct PublishedFit {
   double radius, rms;
   friend void PrintTo(const PublishedFit& fit, std::ostream* out) { *out << fit.mesh; }
 };
-void PrintTo(const PublishedFit& fit, std::ostream* out) {
-  *out << fit.mesh;
-}
+
 constexpr double centre_tolerance = 0.25;  // mm: half the largest rms residual
 constexpr double radius_tolerance = 0.25;
 
