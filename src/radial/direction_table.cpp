@@ -117,8 +117,9 @@ void DirectionTable::query(PointsView points, RadialResults& out) const {
 void DirectionTable::penetrations(const PointBlocks& points, const Pose& X_FM, Penetrations& out,
                                   PenetrationWork* work) const {
   require_closed();
-  const auto scratch = std::make_unique_for_overwrite<PenetrationScratch>();
+  auto scratch = scratch_.take();
   radial::penetrations(exact_view(), cube_view(), points, X_FM, *scratch, out, work);
+  scratch_.put_back(std::move(scratch));
 }
 
 void DirectionTable::penetrations(const PointBlocks& points, std::span<const Pose> X_FM,
@@ -130,9 +131,10 @@ void DirectionTable::penetrations(const PointBlocks& points, std::span<const Pos
   // A pose may take no more than a microsecond: some together are worth a task.
   constexpr std::size_t poses_per_task = 8;
   core::parallel_chunks(X_FM.size(), poses_per_task, [&](std::size_t first, std::size_t last) {
-    const auto scratch = std::make_unique_for_overwrite<PenetrationScratch>();
+    auto scratch = scratch_.take();
     for (std::size_t i = first; i < last; ++i)
       radial::penetrations(exact, cube, points, X_FM[i], *scratch, out[i], nullptr);
+    scratch_.put_back(std::move(scratch));
   });
 }
 

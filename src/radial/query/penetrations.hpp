@@ -7,8 +7,8 @@
 
 namespace condyle::radial {
 
-/// What the passes of a penetration query write: 220 kB, on the heap, made once for all poses that one thread
-/// is given. What is left on the stack stays below 16 kB.
+/// What the passes of a penetration query write: 220 kB, on the heap; a table keeps one between queries. What is
+/// left on the stack stays below 16 kB.
 struct PenetrationScratch {
   NearPoints near;
   FoundPoints found;
