@@ -5,9 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
-#include <ranges>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "condyle/repair.hpp"
 #include "core/predicates.hpp"
@@ -39,15 +39,19 @@ struct Edges {
   const TriMesh& mesh;
   const mesh::EdgeTable& table;
 
-  /// Half-edges along an edge, ascending.
-  auto uses(Index edge) const {
-    return table.half_edges(edge) |
-           std::views::filter([this](HalfEdge h) { return !names_a_vertex_twice(mesh.triangles[h / 3]); });
+  std::vector<HalfEdge> scratch = {};
+
+  /// Half-edges along an edge, ascending; until the next call.
+  std::span<const HalfEdge> uses(Index edge) {
+    scratch.clear();
+    for (const HalfEdge h : table.half_edges(edge))
+      if (!names_a_vertex_twice(mesh.triangles[h / 3])) scratch.push_back(h);
+    return scratch;
   }
 
   /// visit(edge, its first half-edge), in the order of first half-edges: that of the file.
   template <class Visit>
-  void for_each(const Visit& visit) const {
+  void for_each(const Visit& visit) {
     for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); ++h) {
       if (names_a_vertex_twice(mesh.triangles[h / 3])) continue;
       const Index edge = table.edge_of(h);
@@ -99,25 +103,24 @@ void find_bad_triangles(const TriMesh& mesh, MeshReport& report) {
   for (const Index t : duplicates) report.duplicate_triangles.add(t);
 }
 
-void find_bad_edges(const Edges& edges, MeshReport& report) {
+void find_bad_edges(Edges& edges, MeshReport& report) {
   edges.for_each([&](Index e, HalfEdge first) {
     const Edge edge{from(edges.mesh, first), to(edges.mesh, first)};
-    auto uses = edges.uses(e);
-    const auto count = std::ranges::distance(uses);
+    const auto uses = edges.uses(e);
+    const std::size_t count = uses.size();
     if (count == 1) report.boundary_edges.add(edge);
-    if (count == 2 && from(edges.mesh, *std::next(uses.begin())) == edge.from)
-      report.inconsistent_edges.add(edge);
+    if (count == 2 && from(edges.mesh, uses[1]) == edge.from) report.inconsistent_edges.add(edge);
     if (count > 2) report.non_manifold_edges.add(edge);
     if (edges.table.balance(edges.mesh, e) != 0) report.unbalanced_edges.add(edge);
   });
 }
 
-void find_boundary_loops(const Edges& edges, MeshReport& report) {
+void find_boundary_loops(Edges& edges, MeshReport& report) {
   const TriMesh& mesh = edges.mesh;
   DisjointSets connected(mesh.vertices.size());
   std::vector<HalfEdge> boundary;
   edges.for_each([&](Index e, HalfEdge first) {
-    if (std::ranges::distance(edges.uses(e)) != 1) return;
+    if (edges.uses(e).size() != 1) return;
     boundary.push_back(first);
     connected.join(from(mesh, first), to(mesh, first));
   });
@@ -140,7 +143,7 @@ void find_boundary_loops(const Edges& edges, MeshReport& report) {
 }
 
 /// Corners about a vertex, joined over the edges their triangles share: one set is one fan.
-DisjointSets fans_of(const Edges& edges) {
+DisjointSets fans_of(Edges& edges) {
   const TriMesh& mesh = edges.mesh;
   DisjointSets fans(3 * mesh.triangles.size());
   edges.for_each([&](Index e, HalfEdge first) {
@@ -165,7 +168,7 @@ void find_non_manifold_vertices(const TriMesh& mesh, DisjointSets& fans, MeshRep
 }
 
 /// Genus by Euler: vertices - edges + triangles = 2 - 2 genus, edges = 3/2 triangles.
-void measure_components(const Edges& edges, DisjointSets& fans, MeshReport& report) {
+void measure_components(Edges& edges, DisjointSets& fans, MeshReport& report) {
   const TriMesh& mesh = edges.mesh;
   const auto in_table = edges.table.components();
   // Those that consist of triangles without sides have no number in the report.
@@ -191,7 +194,7 @@ void measure_components(const Edges& edges, DisjointSets& fans, MeshReport& repo
   edges.for_each([&](Index e, HalfEdge first) {
     const Index c = component_of(first / 3);
     if (edges.table.balance(mesh, e) != 0) components[c].closed = false;
-    if (std::ranges::distance(edges.uses(e)) != 2) manifold[c] = false;
+    if (edges.uses(e).size() != 2) manifold[c] = false;
   });
   mesh::CompensatedSum total;
   for (std::size_t c = 0; c < components.size(); ++c) {
@@ -205,7 +208,7 @@ void measure_components(const Edges& edges, DisjointSets& fans, MeshReport& repo
   if (report.is_closed()) report.signed_volume = total.value();
 }
 
-void measure_surface(const Edges& edges, MeshReport& report) {
+void measure_surface(Edges& edges, MeshReport& report) {
   const TriMesh& mesh = edges.mesh;
   report.bounds = mesh::bounds_of_surface(mesh);
   mesh::CompensatedSum area;
@@ -260,7 +263,7 @@ MeshReport inspect(const Mesh& mesh) {
   MeshReport report;
   report.vertices = mesh.vertices().size();
   report.triangles = mesh.triangles().size();
-  const Edges edges{mesh, mesh::edges_of(mesh)};
+  Edges edges{mesh, mesh::edges_of(mesh)};
   DisjointSets fans = fans_of(edges);
 
   find_bad_vertices(mesh, report);
