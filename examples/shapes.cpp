@@ -41,7 +41,7 @@ TriMesh socket(double radius) {
   const TriMesh cavity = ball(radius);
   const auto offset = static_cast<Index>(mesh.vertices.size());
   for (std::size_t i = 0; i < cavity.vertices.size(); ++i) mesh.vertices.push_back(cavity.vertices[i]);
-  // The cavity's skin is wound the other way: its outside is the hollow.
+  // The cavity's boundary is wound the other way: its outside is the hollow.
   for (const auto& [a, b, c] : cavity.triangles)
     mesh.triangles.push_back({a + offset, c + offset, b + offset});
   return mesh;

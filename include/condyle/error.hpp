@@ -12,7 +12,7 @@ class FileError : public std::runtime_error {
 };
 
 /// A mesh that was read well but does not allow the question asked of it: open where a closed surface is
-/// needed, wound inside out, the joint centre on its surface. The message is one line.
+/// needed, of inverted orientation, the joint centre on its surface. The message is one line.
 class MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -79,7 +79,7 @@ struct RotationRange {
   Angle positive = Angle::radians(two_pi);
 };
 
-/// Two bodies made ready for rotations of the mobile one about one axis that is at rest in the fixed one.
+/// Two bodies made ready for rotations of the mobile one about one axis that stays in the fixed one.
 ///
 ///         fixed            The axis is given in the frame of the fixed body F. The mobile body M starts at
 ///        +-----+           X_FM and turns about the axis either way, until the surfaces meet or the range

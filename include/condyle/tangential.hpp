@@ -60,7 +60,7 @@ struct TangentialResults {
   std::vector<Angle> angular_gap;
   std::vector<double> arc_gap_mm;  ///< The same as a length at the point's own radius.
   std::vector<Index> triangle;     ///< The triangle reached; no_index where there is none.
-  /// Which way to rotate the point to reach it: inside, the shorter way out.
+  /// Which way to rotate the point to reach it: inside, the nearer exit.
   std::vector<RotationSense> rotation_sense;
   TangentialWork work;
 

@@ -105,15 +105,15 @@ BodyPair::Body::Body(const Mesh& mesh)
 
 BodyPair::BodyPair(const Mesh& fixed, const Mesh& mobile) : fixed_(fixed), mobile_(mobile) {}
 
-bool BodyPair::touch(const Pose& X_FM, std::optional<TrianglePair>& last_hit) const {
-  if (last_hit) {
-    const Index f = fixed_.place_of_triangle[last_hit->fixed],
-                m = mobile_.place_of_triangle[last_hit->mobile];
+bool BodyPair::touch(const Pose& X_FM, std::optional<TrianglePair>& last_witness) const {
+  if (last_witness) {
+    const Index f = fixed_.place_of_triangle[last_witness->fixed],
+                m = mobile_.place_of_triangle[last_witness->mobile];
     if (mesh::triangles_intersect(fixed_.tree.corners(f), posed_corners(mobile_.tree, m, X_FM))) return true;
   }
   bool hit = false;
   visit_meeting_pairs(fixed_.tree, mobile_.tree, X_FM, [&](Index f, Index m) {
-    last_hit = {fixed_.tree.mesh_triangles()[f], mobile_.tree.mesh_triangles()[m]};
+    last_witness = {fixed_.tree.mesh_triangles()[f], mobile_.tree.mesh_triangles()[m]};
     return hit = true;
   });
   return hit || one_inside_other(X_FM);

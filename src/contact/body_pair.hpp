@@ -19,9 +19,9 @@ class BodyPair {
   /// Whether the bodies share a point: surfaces that meet (touching counts; triangles of zero area meet
   /// nothing), or one body inside the other's solid, where that one is closed.
   ///
-  /// Ends at the first pair of triangles found. `last_hit` is asked first and becomes that pair: along a
+  /// Ends at the first pair of triangles found. `last_witness` is asked first and becomes that pair: along a
   /// motion the next pose mostly touches there too. It changes how long the answer takes, never the answer.
-  bool touch(const Pose& X_FM, std::optional<TrianglePair>& last_hit) const;
+  bool touch(const Pose& X_FM, std::optional<TrianglePair>& last_witness) const;
   bool touch(const Pose& X_FM) const;
 
   /// The exact set of intersecting triangle pairs, ascending; open meshes too. One thread.

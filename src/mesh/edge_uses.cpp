@@ -21,7 +21,7 @@ class EdgeSlots {
   explicit EdgeSlots(std::size_t count) : slot_(count, no_use) {}
 
   /// Takes a use; returns what it drives out, or `no_use`. Without a branch, and so that the compiler finds
-  /// none: what happens nobody could foretell.
+  /// none: which comes next nobody could predict.
   EdgeUse take(EdgeUse use, std::size_t number) noexcept {
     const EdgeUse waited = slot_[number];
     const EdgeUse unless_met = EdgeUse{(waited ^ use) == 1} - 1;
@@ -129,7 +129,7 @@ core::UninitialisedVector<EdgeUse> first_pass(std::span<const Triangle> triangle
   const auto take_batch = [&](const Triangle* some) {
     fill(some, slots_log2, batch);
     // In two steps: where the next one is written would else be known too late for what is read meanwhile.
-    // Eight times in a row: for each place in the code a processor foretells whether it reads what was just
+    // Eight times in a row: for each place in the code a processor predicts whether it reads what was just
     // written.
     for (std::size_t i = 0; i < UseBatch::most; i += 8) {
       for (std::size_t k = i; k < i + 8; ++k) driven_out[k] = slots.take(batch.use(k), batch.slot[k]);

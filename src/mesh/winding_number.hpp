@@ -17,7 +17,7 @@ struct PointWinding {
 };
 
 /// Exact winding number of any point about a closed mesh: nested and overlapping components count together, a
-/// mesh wound inside out counts negative, self-intersections do no harm.
+/// mesh of inverted orientation counts negative, self-intersections do no harm.
 ///
 /// The ray from the point along +z leaves the solid where it crosses a triangle whose normal points up and
 /// enters it where the normal points down: w = (up) - (down). Every decision is an orientation predicate,

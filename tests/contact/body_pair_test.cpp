@@ -153,16 +153,16 @@ TEST(BodyPair, AnEmptyMeshTouchesNothing) {
 TEST(BodyPair, TheLastHitIsAPairThatMeetsAndChangesNoAnswer) {
   const TriMesh fixed = box({10, -2, -2}, {14, 2, 2}), mobile = box({9, -1, -1}, {12, 1, 1});
   const contact::BodyPair bodies(fixed, mobile);
-  std::optional<TrianglePair> last_hit;
+  std::optional<TrianglePair> last_witness;
   std::size_t hits = 0;
   for (int degrees = 0; degrees < 360; ++degrees) {
     const Pose X = turned(degrees, {0, 0, 1});
-    const bool touches = bodies.touch(X, last_hit);
+    const bool touches = bodies.touch(X, last_witness);
     EXPECT_EQ(touches, bodies.touch(X)) << degrees;
     if (!touches || bodies.pairs(X).empty()) continue;
     ++hits;
     const auto pairs = bodies.pairs(X);
-    EXPECT_TRUE(std::find(pairs.begin(), pairs.end(), *last_hit) != pairs.end()) << degrees;
+    EXPECT_TRUE(std::find(pairs.begin(), pairs.end(), *last_witness) != pairs.end()) << degrees;
   }
   EXPECT_GT(hits, 10u);
   EXPECT_LT(hits, 90u);

@@ -81,7 +81,7 @@ TEST(WindingNumber, NestedAndOverlappingComponentsAdd) {
   EXPECT_EQ(winding.at({1.2, 0.2, 0.3}).winding, 1);
   EXPECT_EQ(winding.at({1.2, 0.7, 0.3}).winding, 0);
   EXPECT_GT(expect_same_as_brute_force(both, lattice(4, 0.5)), 50);
-  // A cavity: the inner skin wound the other way.
+  // A cavity: the inner boundary wound the other way.
   const TriMesh shell = test::joined(outer, test::flipped(test::box({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})));
   EXPECT_EQ(mesh::WindingNumber(shell).at({0.1, 0.2, 0.3}).state, PointState::outside);
   expect_same_as_brute_force(shell, lattice(4, 0.25));

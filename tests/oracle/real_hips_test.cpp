@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "condyle/angle.hpp"
+#include "condyle/contact.hpp"
+#include "condyle/radial.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
-#include "condyle/contact.hpp"
 #include "oracle/cgal_oracle.hpp"
-#include "condyle/radial.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
@@ -204,7 +204,7 @@ TEST_P(ContactOfRealJoints, TheTangentialMethodHasTheSameVerticesInsideAndPairs)
   }
 }
 
-/// The way out of each vertex inside, again: every triangle, in long double, by the plane's equation and
+/// The exit of each vertex inside, again: every triangle, in long double, by the plane's equation and
 /// three volumes.
 double depth_by_all_triangles(const TriMesh& mesh, const Vec3& v) {
   using Long3 = Eigen::Matrix<long double, 3, 1>;
@@ -232,7 +232,7 @@ TEST_P(ContactOfRealJoints, DepthsAreThoseOfAnIndependentRay) {
     const Points points = posed(X, meshes->mobile.vertices.view());
     const RadialResults hits = fixed.query(points);
     for (std::size_t i = 0; i < hits.size(); ++i) {
-      // Several skins or overlaps are counted by winding number; the plain scan knows one skin.
+      // Several boundary crossings or overlaps are counted by winding number; the plain scan knows one.
       if (hits.state[i] != PointState::inside || hits.winding[i] != 1 || compared > 400) continue;
       const double expected = depth_by_all_triangles(meshes->fixed, points[i]);
       EXPECT_NEAR(-hits.radial_gap_mm[i], expected, 1e-9 * points[i].norm()) << "vertex " << i;

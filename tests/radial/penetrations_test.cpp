@@ -279,7 +279,7 @@ TEST_P(PenetrationsOn, RealHipsAndCartilagesAtRestAnswerAlike) {
       expect_plain_answers(RadialTable(read("hip_bone.ply")), read("femur.ply").vertices, poses);
   EXPECT_GT(bones.found, 100u);
   EXPECT_LT(bones.work.uncertain, bones.work.near_points / 100);
-  // Touching at rest: hundreds of vertices within 1e-4 mm of the other surface.
+  // Touching in the reference pose: hundreds of vertices within 1e-4 mm of the other surface.
   const RadialTable acetabular(read("acetabular_cartilage_nogap.ply"));
   const Points femoral = read("femur_cartilage_nogap.ply").vertices;
   EXPECT_GT(

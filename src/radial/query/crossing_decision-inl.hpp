@@ -119,7 +119,7 @@ HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size
 struct PointCrossings {
   int winding;
   bool uncertain;
-  bool has_exit;  ///< `way` is the nearer way out of a point that is inside
+  bool has_exit;  ///< `way` is the nearest exit of a point that is inside
   NearestExit way;
 };
 

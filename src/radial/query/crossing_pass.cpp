@@ -22,7 +22,7 @@ using DU = hn::CappedTag<std::uint32_t, 16>;
 using Words = hn::Vec<DU>;
 constexpr DU du;
 
-/// Which of the octagons from `first` on hold the point.
+/// Which of the 8-DOPs from `first` on hold the point.
 HWY_INLINE hn::Mask<DU> dops_holding(const EntryView& entries, std::size_t first, std::size_t last, Words box,
                                      Words diagonal) {
 #if HWY_TARGET == HWY_SCALAR
