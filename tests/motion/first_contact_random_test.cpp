@@ -3,6 +3,7 @@
 
 #include "motion/rotation_scenes.hpp"
 #include "support/brute_force.hpp"
+#include "support/test_meshes.hpp"
 
 /// First contact of random meshes: against every pair of features, against exact triangle tests just before
 /// and just after, and against itself in other words.

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "condyle/error.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 
 /// Paths in several angles: never past a contact, by exact triangle tests; along one angle the exact limit.

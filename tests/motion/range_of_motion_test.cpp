@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "condyle/error.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
 
 /// Limits of a joint's motions: closed forms in all three angles and on both sides, the joint in other words,

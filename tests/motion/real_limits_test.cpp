@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/range_of_motion.hpp"
-#include "condyle/contact.hpp"
 #include "support/shared_data.hpp"
 
 /// Every built-in motion of real hips, against the exact sets of intersecting triangles.

@@ -56,11 +56,6 @@ RotationScene exchanged(const RotationScene& scene) {
   return {scene.resting, scene.turning, scene.axis};
 }
 
-TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh) {
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, axis.to_axis(mesh.vertices[v]));
-  return mesh;
-}
-
 TriMesh turned(const RotationScene& scene, double angle) {
   TriMesh mesh = in_axis_frame(scene.axis, scene.turning);
   const double c = std::cos(angle), s = std::sin(angle);

@@ -24,9 +24,6 @@ RotationScene moved(const Pose& X, const RotationScene& scene);
 /// The two bodies' roles exchanged.
 RotationScene exchanged(const RotationScene& scene);
 
-/// The mesh with its vertices in the coordinates of the axis.
-TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh);
-
 /// The turning body after a rotation by the angle (rad), rounded once more.
 TriMesh turned(const RotationScene& scene, double angle);
 

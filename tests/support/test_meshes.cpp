@@ -97,4 +97,9 @@ TriMesh flipped(TriMesh mesh) {
   return mesh;
 }
 
+TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, axis.to_axis(mesh.vertices[v]));
+  return mesh;
+}
+
 }  // namespace condyle::test

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
 
 /// Small closed meshes with known geometry, all wound outwards.
@@ -25,5 +26,8 @@ TriMesh joined(const TriMesh& a, const TriMesh& b);
 
 /// Wound the other way.
 TriMesh flipped(TriMesh mesh);
+
+/// The mesh with its vertices in the coordinates of the axis.
+TriMesh in_axis_frame(const AxisFrame& axis, TriMesh mesh);
 
 }  // namespace condyle::test

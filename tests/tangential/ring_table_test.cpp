@@ -22,12 +22,6 @@ namespace {
 
 using test::infinity, test::z_axis;
 
-TriMesh in_axis_frame(const TriMesh& mesh, const AxisFrame& frame) {
-  TriMesh out = mesh;
-  for (std::size_t v = 0; v < out.vertices.size(); ++v) out.vertices.set(v, frame.to_axis(mesh.vertices[v]));
-  return out;
-}
-
 TEST(RingTable, TenMetresFromTheOriginStatesStayExactAndAnglesKeepTheirBound) {
   const Vec3 away(1e4, -1e4, 1e4);
   const TriMesh ball = test::sphere(away, 25, 3);
@@ -70,7 +64,7 @@ TEST(RingTable, AnyAxisGivesWhatRotatingEverythingToZGives) {
     in_frame.push_back(frame.to_axis(points[points.size() - 1]));
   }
   EXPECT_EQ(RingTable(mesh, frame).query(points),
-            RingTable(in_axis_frame(mesh, frame), z_axis).query(in_frame));
+            RingTable(test::in_axis_frame(frame, mesh), z_axis).query(in_frame));
   // Opposite direction: the same gaps, every rotation sense reversed.
   const auto forth = RingTable(mesh, AxisFrame(Vec3::Zero(), Vec3::UnitX())).query(points);
   const auto back = RingTable(mesh, AxisFrame(Vec3::Zero(), -Vec3::UnitX())).query(points);
