@@ -184,6 +184,24 @@ TriangleTree::TriangleTree(const TriMesh& mesh) {
   Builder(*this, items, nodes_).build();
 }
 
+TriangleTree TriangleTree::moved_to(const Points& mesh_vertices) const {
+  TriangleTree moved = *this;
+  for (std::size_t v = 0; v < vertices_.size(); ++v) moved.vertices_[v] = mesh_vertices[mesh_vertices_[v]];
+  // Children come after their parent.
+  std::vector<Extent> extents(nodes_.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = moved.nodes_[i];
+    if (node.is_leaf()) {
+      for (Index t = node.first; t < node.last; ++t) extents[i].extend(extent_of(moved.corners(t)));
+    } else {
+      extents[i] = extents[node.child];
+      extents[i].extend(extents[node.child + 1]);
+    }
+    set_bounds(node, extents[i]);
+  }
+  return moved;
+}
+
 void TriangleTree::number_anew(const TriMesh& mesh) {
   std::vector<Index> place(mesh.vertices.size(), no_index);
   triangles_.resize(mesh_triangles_.size());

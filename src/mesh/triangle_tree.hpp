@@ -42,6 +42,10 @@ class TriangleTree {
 
   explicit TriangleTree(const TriMesh& mesh);
 
+  /// The same tree over vertices elsewhere, one for each of the mesh's. Good answers whatever the movement, fast ones
+  /// while it is small. Linear.
+  TriangleTree moved_to(const Points& mesh_vertices) const;
+
   bool empty() const noexcept { return triangles_.empty(); }
   const std::vector<Node>& nodes() const noexcept { return nodes_; }
   /// Corners are places of vertices, in the mesh's order.

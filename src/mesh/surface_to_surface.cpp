@@ -1,0 +1,134 @@
+#include "mesh/surface_to_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "mesh/triangle_intersection.hpp"
+
+namespace condyle::mesh {
+namespace {
+
+using Node = TriangleTree::Node;
+
+/// More than bounds of boxes and spheres round, relative to the coordinates.
+constexpr double rounding = 1e-12;
+
+struct Ball {
+  Vec3 centre;
+  double radius;
+};
+
+double distance_between(const Ball& a, const Ball& b) noexcept {
+  return (a.centre - b.centre).norm() - a.radius - b.radius;
+}
+
+/// A triangle as placed, and a ball that holds it.
+struct PlacedTriangle {
+  TriangleCorners corners;
+  Ball ball;
+
+  explicit PlacedTriangle(const TriangleCorners& placed) : corners(placed) {
+    ball.centre = (placed[0] + placed[1] + placed[2]) / 3;
+    double squared = 0;
+    for (const Vec3& corner : placed) squared = std::max(squared, (corner - ball.centre).squaredNorm());
+    ball.radius = std::sqrt(squared) * (1 + rounding) + rounding * ball.centre.norm();
+  }
+};
+
+class Search {
+ public:
+  Search(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB) : a_(a), b_(b), X_AB_(X_AB) {
+    for (int axis = 0; axis < 3; ++axis) to_a_size_.row(axis) = X_AB.linear().row(axis).cwiseAbs();
+  }
+
+  std::optional<ClosestPoints> run() {
+    if (a_.empty() || b_.empty()) return std::nullopt;
+    push(0, 0);
+    while (!open_.empty() && best_mm_ > 0) {
+      const Pair pair = open_.back();
+      open_.pop_back();
+      if (pair.apart >= best_mm_) continue;
+      const Node &na = a_.nodes()[pair.a], &nb = b_.nodes()[pair.b];
+      if (na.is_leaf() && nb.is_leaf()) {
+        compare_leaves(na, nb);
+        continue;
+      }
+      const std::size_t before = open_.size();
+      if (nb.is_leaf() || (!na.is_leaf() && na.size() > nb.size())) {
+        push(na.child, pair.b);
+        push(na.child + 1, pair.b);
+      } else {
+        push(pair.a, nb.child);
+        push(pair.a, nb.child + 1);
+      }
+      // Nearest first: what is nearest last on the stack.
+      if (open_.size() == before + 2 && open_[before].apart < open_[before + 1].apart)
+        std::swap(open_[before], open_[before + 1]);
+    }
+    return found_;
+  }
+
+ private:
+  struct Pair {
+    Index a, b;
+    double apart;  ///< no points of theirs are nearer
+  };
+
+  static Vec3 vec3(const std::array<float, 4>& v) noexcept { return {v[0], v[1], v[2]}; }
+
+  /// Of the boxes, B's seen along the axes of A.
+  double apart(const Node& na, const Node& nb) const noexcept {
+    const Vec3 centre = posed(X_AB_, vec3(nb.centre));
+    const Vec3 half = to_a_size_ * vec3(nb.half);
+    const Vec3 between = (centre - vec3(na.centre)).cwiseAbs() - half - vec3(na.half);
+    const double scale = centre.cwiseAbs().maxCoeff() + half.maxCoeff();
+    return between.cwiseMax(0.0).norm() * (1 - rounding) - rounding * scale;
+  }
+
+  void push(Index a, Index b) {
+    const double distance = apart(a_.nodes()[a], b_.nodes()[b]);
+    if (distance < best_mm_) open_.push_back({a, b, distance});
+  }
+
+  void compare_leaves(const Node& na, const Node& nb) {
+    for (Index s = nb.first; s < nb.last; ++s) {
+      TriangleCorners corners = b_.corners(s);
+      for (Vec3& corner : corners) corner = posed(X_AB_, corner);
+      const PlacedTriangle of_b(corners);
+      for (Index t = na.first; t < na.last; ++t) {
+        const PlacedTriangle of_a(a_.corners(t));
+        const double least = distance_between(of_a.ball, of_b.ball);
+        if (least >= best_mm_) continue;
+        if (least <= 0 && triangles_intersect(of_a.corners, of_b.corners)) {
+          best_mm_ = 0;
+          found_ = {0, a_.mesh_triangles()[t], b_.mesh_triangles()[s], of_a.ball.centre, of_b.ball.centre};
+          return;
+        }
+        const NearestPoints nearest = between_triangles(of_a.corners, of_b.corners);
+        const double distance = std::sqrt(nearest.squared_distance);
+        if (distance >= best_mm_) continue;
+        best_mm_ = distance;
+        found_ = {distance, a_.mesh_triangles()[t], b_.mesh_triangles()[s], nearest.a, nearest.b};
+      }
+    }
+  }
+
+  const TriangleTree &a_, &b_;
+  const Pose& X_AB_;
+  Eigen::Matrix3d to_a_size_;
+  std::vector<Pair> open_;
+  double best_mm_ = std::numeric_limits<double>::infinity();
+  std::optional<ClosestPoints> found_;
+};
+
+}  // namespace
+
+std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB) {
+  return Search(a, b, X_AB).run();
+}
+
+}  // namespace condyle::mesh

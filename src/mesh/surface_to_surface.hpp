@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "condyle/pose.hpp"
+#include "mesh/triangle_distance.hpp"
+#include "mesh/triangle_tree.hpp"
+
+namespace condyle::mesh {
+
+/// Where two surfaces are nearest to each other.
+struct ClosestPoints {
+  double distance_mm;            ///< 0 where they meet
+  Index a_triangle, b_triangle;  ///< numbers of the meshes
+  Vec3 a_point, b_point;  ///< both in the frame of A; where the surfaces meet, points of these triangles
+};
+
+/// Of two surfaces, B placed by X_AB; empty where one has no triangles. Whether they meet is decided exactly for B's
+/// corners as placed, each coordinate rounded; distances are rounded to 1e-12 of the coordinates. Near linear in the
+/// triangles that lie within the answer of each other.
+std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB);
+
+}  // namespace condyle::mesh

@@ -1,0 +1,112 @@
+#include "mesh/surface_to_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "mesh/triangle_intersection.hpp"
+#include "support/random_triangles.hpp"
+#include "support/test_meshes.hpp"
+
+/// The smallest distance of two surfaces, in closed form and against all pairs of triangles.
+
+namespace condyle::mesh {
+namespace {
+
+using test::box, test::sphere;
+
+ClosestPoints closest(const TriMesh& a, const TriMesh& b, const Pose& X = Pose::Identity()) {
+  return closest_points(TriangleTree(a), TriangleTree(b), X).value();
+}
+
+TEST(ClosestPoints, OfTwoBoxesIsThatOfTheirNearestFacesEdgesOrCorners) {
+  const TriMesh unit = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_NEAR(closest(unit, box({3, 0, 0}, {4, 1, 1})).distance_mm, 2, 1e-12);
+  EXPECT_NEAR(closest(unit, box({4, 5, 0}, {6, 6, 1})).distance_mm, 5, 1e-12);
+  EXPECT_NEAR(closest(unit, box({2, 3, 3}, {6, 6, 6})).distance_mm, 3, 1e-12);
+  EXPECT_NEAR(closest(box({0, 0, 0}, {10, 10, 10}), box({4, 5, 5}, {6, 6, 6})).distance_mm, 4, 1e-12)
+      << "one in the other";
+}
+
+TEST(ClosestPoints, IsNoughtWhereSurfacesMeetAlsoFarFromAllVertices) {
+  // A long bar through the middle of a large face.
+  const ClosestPoints met = closest(box({-50, -50, 0}, {50, 50, 1}), box({-1, -1, -80}, {1, 1, 80}));
+  EXPECT_EQ(met.distance_mm, 0);
+  EXPECT_EQ(closest(box({0, 0, 0}, {1, 1, 1}), box({1, 0.25, 0.25}, {2, 0.75, 0.75})).distance_mm, 0)
+      << "touching";
+}
+
+TEST(ClosestPoints, OfABallInASocketIsTheGapLessTheSag) {
+  const TriMesh socket = test::socket({0, 0, 0}, 23, 28, 4);
+  const TriMesh ball = sphere({0, 0, 0}, 20, 4);
+  Pose X = Pose::Identity();
+  X.translation() = Vec3(0.5, 1, -0.25);
+  const double gap = 3 - X.translation().norm(), sag = 0.06;
+  EXPECT_NEAR(closest(socket, ball, X).distance_mm, gap, sag);
+}
+
+TEST(ClosestPoints, IsTheLeastOverAllPairsOfTriangles) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  std::size_t apart = 0;
+  for (int round = 0; round < 40; ++round) {
+    const TriMesh a = sphere({0, 0, 0}, 1, 1), b = sphere({0, 0, 0}, 0.7, 1);
+    Pose X = Pose::Identity();
+    X.linear() =
+        Eigen::AngleAxisd(3 * anywhere(random), Vec3(anywhere(random), anywhere(random), 0.1).normalized())
+            .toRotationMatrix();
+    X.translation() = 2 * Vec3(anywhere(random), anywhere(random), anywhere(random));
+    const TriMesh placed = posed(X, b);
+    double least = HUGE_VAL;
+    const auto corners = [](const TriMesh& mesh, std::size_t t) {
+      return TriangleCorners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+    };
+    for (std::size_t t = 0; t < a.triangles.size(); ++t)
+      for (std::size_t s = 0; s < b.triangles.size(); ++s) {
+        const auto one = corners(a, t), other = corners(placed, s);
+        least = std::min(least, triangles_intersect(one, other)
+                                    ? 0
+                                    : std::sqrt(between_triangles(one, other).squared_distance));
+      }
+    const ClosestPoints found = closest(a, b, X);
+    EXPECT_NEAR(found.distance_mm, least, 1e-12);
+    if (least == 0) continue;
+    ++apart;
+    EXPECT_NEAR((found.a_point - found.b_point).norm(), least, 1e-12);
+    EXPECT_NEAR(std::sqrt(between_triangles(corners(a, found.a_triangle), corners(placed, found.b_triangle))
+                              .squared_distance),
+                least, 1e-12);
+  }
+  EXPECT_GT(apart, 10u);
+  EXPECT_LT(apart, 40u);
+}
+
+TEST(ClosestPoints, OfNothingIsNone) {
+  EXPECT_FALSE(
+      closest_points(TriangleTree(TriMesh{}), TriangleTree(sphere({0, 0, 0}, 1, 1)), Pose::Identity()));
+}
+
+TEST(MovedTree, HoldsWhatItsTrianglesHave) {
+  const TriMesh before = sphere({0, 0, 0}, 10, 3);
+  TriMesh after = before;
+  for (std::size_t v = 0; v < after.vertices.size(); ++v) {
+    const Vec3 p = after.vertices[v];
+    after.vertices.set(v, 1.1 * p + Vec3(std::sin(p.y()), 0, 0.2 * p.x()));
+  }
+  const TriangleTree moved = TriangleTree(before).moved_to(after.vertices);
+  EXPECT_EQ(moved.nodes().size(), TriangleTree(before).nodes().size());
+  for (const auto& node : moved.nodes())
+    for (Index t = node.first; t < node.last; ++t)
+      for (const Vec3& corner : moved.corners(t)) {
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto k = static_cast<std::size_t>(axis);
+          EXPECT_LE(std::abs(corner[axis] - node.centre[k]), node.half[k]);
+        }
+        EXPECT_LE(corner.norm(), node.farthest);
+        EXPECT_GE(corner.norm(), node.nearest);
+      }
+  EXPECT_EQ(moved.corners(0)[0], after.vertices[moved.mesh_vertices()[moved.triangles()[0][0]]]);
+}
+
+}  // namespace
+}  // namespace condyle::mesh
