@@ -60,12 +60,12 @@ const TableHead agreement_head = {"first_contact_agreement",
                                    {"free_just_before", "FCL free 1e-6° before"},
                                    {"touching_just_after", "touching 1e-6° after"}}};
 
-/// The joint made ready as a caller does who knows where its head is; a limit is asked once, for the first
-/// one on a thread makes room for the body that turns.
-std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const Motion& motion) {
-  const condyle::ArticularRegion head{.radius_mm = 27};
+/// The joint made ready as a caller does who knows its bearing surface, any contact to count as it does for the others;
+/// a limit is asked once, for the first one on a thread makes room for the body that turns.
+std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const condyle::BearingOptions& bearing,
+                                     const Motion& motion) {
   auto range =
-      std::make_unique<RangeOfMotion>(joint, condyle::RangeOptions{.articular = head, .overlap = {}});
+      std::make_unique<RangeOfMotion>(joint, condyle::RangeOptions{.bearing = bearing, .overlap = {}});
   range->limit(motion);
   return range;
 }
@@ -78,9 +78,10 @@ struct Building {
   double condyle_seconds, fcl_seconds;
 };
 
-Building ask_building(const Joint& joint, const MethodKind& fcl, int rounds, Report& report) {
+Building ask_building(const Joint& joint, const condyle::BearingOptions& bearing, const MethodKind& fcl,
+                      int rounds, Report& report) {
   const Motion motion = condyle::hip_motions().front();
-  const auto samples = interleaved(rounds, {[&] { ready(joint, motion); },
+  const auto samples = interleaved(rounds, {[&] { ready(joint, bearing, motion); },
                                             [&] {
                                               fcl.make({joint.fixed.mesh, joint.mobile.mesh});
                                             }});
@@ -155,9 +156,11 @@ void ask_first_contact(const Scene& scene, Effort effort, Report& report) {
     return;
   }
   const int rounds = effort == Effort::full ? 3 : 1;
-  const Building building = ask_building(joint, *kind, rounds, report);
+  const condyle::BearingOptions bearing{.rule = condyle::BearingRule::count,
+                                        .surface = condyle::find_bearing_surface(joint).surface};
+  const Building building = ask_building(joint, bearing, *kind, rounds, report);
   const std::vector<Motion> motions = condyle::hip_motions();
-  const auto range = ready(joint, motions.front());
+  const auto range = ready(joint, bearing, motions.front());
   const auto fcl = kind->make({joint.fixed.mesh, joint.mobile.mesh});
   for (const auto* name : {"flexion", "internal_rotation_at_90_flexion"})
     ask_limit(condyle::motion_named(motions, name), joint, *range, *fcl, building, rounds, report);

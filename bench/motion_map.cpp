@@ -38,8 +38,9 @@ const TableHead work_head = {"motion_map_work",
 void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
   const condyle::Joint& joint = scene.joint;
   const double step = effort == Effort::full ? 1 : 10;
-  const condyle::RangeOfMotion range(
-      joint, {.articular = {}, .overlap = {.reference_contact = condyle::ReferenceContact::accept}});
+  const condyle::RangeOfMotion range(joint,
+                                     {.bearing = {.rule = condyle::BearingRule::count},
+                                      .overlap = {.reference_contact = condyle::ReferenceContact::accept}});
   const condyle::MapGrid grid{.row = {JointAngle::adduction, -40, 30, step},
                               .column = {JointAngle::flexion, -20, 120, step},
                               .vary = JointAngle::internal_rotation};

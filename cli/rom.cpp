@@ -29,13 +29,15 @@ namespace {
 namespace fs = std::filesystem;
 
 enum class ReferenceContacts { count, leave_out };
-enum class Centre { fixed, follows_socket };
 
 struct Options {
   std::string joint, out, vary;
   std::vector<std::string> motions, map;
-  std::optional<double> exclude_radius_mm, allow_depth_mm, past_deg;
-  Centre centre = Centre::fixed;
+  std::optional<double> allow_depth_mm, past_deg;
+  std::size_t band_samples = 0;  ///< 0: no bands
+  std::uint64_t seed = 1;
+  std::optional<double> sigma_centre_mm, sigma_axes_deg, sigma_surface_mm;
+  BearingOptions bearing;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   ReferenceContact reference_contact = ReferenceContact::refuse;
   AnswerForm form = AnswerForm::text;
@@ -70,21 +72,42 @@ std::optional<MapGrid> grid_of(const Options& options, JointKind kind) {
   return grid;
 }
 
+/// "count", or a margin in mm.
+BearingOptions parse_bearing(const std::string& text) {
+  BearingOptions bearing;
+  if (text == "count") {
+    bearing.rule = BearingRule::count;
+  } else if (!CLI::detail::lexical_cast(text, bearing.margin_mm.emplace())) {
+    throw UsageError("--bearing: '" + text + "' is neither a margin in mm nor count");
+  }
+  return bearing;
+}
+
 RangeOptions range_options(const Options& options, const JointAngles& reference_pose) {
   RangeOptions range;
+  range.bearing = options.bearing;
   range.overlap.reference_pose = reference_pose;
   range.overlap.reference_contact = options.reference_contact;
-  if (options.exclude_radius_mm) range.overlap.leave_out_region = ArticularRegion{*options.exclude_radius_mm};
   if (options.reference_contacts == ReferenceContacts::leave_out)
     range.overlap.leave_out_reference_contacts.emplace();
   return range;
 }
 
-/// The limits and what they are labelled by.
+/// What the options say, else the joint file, else what is usual.
+BandOptions band_options(const Options& options, const Uncertainty& of_file) {
+  BandOptions band{.sigma = of_file, .samples = options.band_samples, .seed = options.seed};
+  if (options.sigma_centre_mm) band.sigma.centre_mm = *options.sigma_centre_mm;
+  if (options.sigma_axes_deg) band.sigma.axes = Angle::degrees(*options.sigma_axes_deg);
+  if (options.sigma_surface_mm) band.sigma.surface_mm = *options.sigma_surface_mm;
+  return band;
+}
+
+/// The limits and what contacts are told apart by.
 struct Limits {
   std::vector<MotionLimit> limits;
   std::vector<DepthLimit> depths;  ///< with a depth allowed
-  std::optional<ArticularRegion> articular;
+  BearingFinding bearing;
+  BearingRule bearing_rule = BearingRule::count;
   std::vector<std::string> terms;
 };
 
@@ -92,15 +115,11 @@ struct Limits {
 Limits depth_limits(const Options& options, const Joint& joint, const std::vector<Motion>& motions) {
   AllowedDepth allowed;
   allowed.depth_mm = *options.allow_depth_mm;
-  if (options.centre == Centre::follows_socket) allowed.follow_socket.emplace();
   const DepthRange range(joint, allowed);
-  Limits found{{}, range.limits(motions), range.articular_region(), {}};
+  Limits found{{}, range.limits(motions), range.bearing(), BearingRule::count, {}};
   for (const DepthLimit& depth : found.depths) found.limits.push_back(depth.limit);
   found.terms.push_back(fmt::format("allowed: a radial depth of {:g} mm; limits are searched for, not exact",
                                     allowed.depth_mm));
-  if (allowed.follow_socket)
-    found.terms.push_back(fmt::format("the centre follows the socket, by at most {:g} mm",
-                                      allowed.follow_socket->largest_shift_mm));
   return found;
 }
 
@@ -108,16 +127,13 @@ Limits depth_limits(const Options& options, const Joint& joint, const std::vecto
 std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMotion& range) {
   std::vector<std::string> terms;
   const OverlapOptions& overlap = options.overlap;
-  if (overlap.leave_out_region)
-    terms.push_back(fmt::format("left out: triangles within {:g} mm of the joint centre",
-                                overlap.leave_out_region->radius_mm));
   if (overlap.leave_out_reference_contacts)
     terms.push_back(
-        fmt::format("left out: triangles in contact in the reference pose and {} rings of neighbours",
-                    overlap.leave_out_reference_contacts->rings));
-  if (overlap.leaves_out())
-    terms.push_back(fmt::format("left out in all: {} triangles of the fixed body, {} of the mobile one",
-                                range.left_out().fixed_triangles, range.left_out().mobile_triangles));
+        fmt::format("left out: triangles in contact in the reference pose and {} rings of neighbours, {} of "
+                    "the fixed body and {} "
+                    "of the mobile one",
+                    overlap.leave_out_reference_contacts->rings, range.left_out().fixed_triangles,
+                    range.left_out().mobile_triangles));
   if (overlap.reference_contact == ReferenceContact::accept)
     terms.emplace_back("contact in the reference pose is accepted: motions that start in contact say so");
   return terms;
@@ -130,7 +146,7 @@ std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const RangeOptions& opt
     return std::make_unique<RangeOfMotion>(joint, options);
   } catch (const ReferenceContactError& error) {
     throw ReferenceContactError(std::string(error.what()) +
-                                " (--allow-depth, --exclude-radius, --exclude-reference-contacts, "
+                                " (--allow-depth, --exclude-reference-contacts, "
                                 "[reference_pose] in the joint file, --accept-reference-contact)");
   }
 }
@@ -143,7 +159,8 @@ void run(const Options& options) {
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
   const RangeOptions asked = range_options(options, loaded.report.file.joint.reference_pose);
   std::optional<ZoneFinder> finder;
-  if (options.past_deg) finder.emplace(joint, ZoneOptions{.past = Angle::degrees(*options.past_deg)});
+  if (options.past_deg)
+    finder.emplace(joint, ZoneOptions{.bearing = options.bearing, .past = Angle::degrees(*options.past_deg)});
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
@@ -153,15 +170,30 @@ void run(const Options& options) {
     found = depth_limits(options, joint, motions);
   } else {
     const auto range = ready(joint, asked);
-    found = {range->limits(motions), {}, range->articular_region(), terms_of(asked, *range)};
+    found = {range->limits(motions), {}, range->bearing(), range->bearing_rule(), terms_of(asked, *range)};
     if (grid) map = computed_map(*grid, *range);
+  }
+  const BandOptions band = band_options(options, loaded.report.file.uncertainty);
+  std::vector<LimitBand> bands;
+  if (options.band_samples > 0) {
+    RangeOptions again = asked;
+    again.bearing.surface = found.bearing.surface;
+    bands = computed_bands(joint, motions, again, band);
   }
   std::vector<std::optional<ImpingementZone>> zones;
   if (finder)
     for (const MotionLimit& limit : found.limits) zones.push_back(finder->zone(limit));
 
-  const RomResult result{joint,        found.limits, found.articular,      found.terms,
-                         found.depths, zones,        map ? &*map : nullptr};
+  const RomResult result{.joint = joint,
+                         .limits = found.limits,
+                         .bearing = found.bearing,
+                         .bearing_rule = found.bearing_rule,
+                         .terms = found.terms,
+                         .depths = found.depths,
+                         .zones = zones,
+                         .map = map ? &*map : nullptr,
+                         .bands = bands,
+                         .band_options = band};
   if (!options.out.empty()) write_rom(options.out, result);
   print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
 }
@@ -190,9 +222,11 @@ void add_rom(CLI::App& app) {
   command->add_option("--vary", options->vary, "The angle that varies in the map: the third one");
   command->add_option("--past", options->past_deg,
                       "Also find the impingement zones this many degrees past each limit");
-  auto* radius = command->add_option(
-      "--exclude-radius", options->exclude_radius_mm,
-      "Leave out what lies within this many mm of the joint centre: sliding surfaces that overlap");
+  auto* bearing = command->add_option_function<std::string>(
+      "--bearing", [options](const std::string& text) { options->bearing = parse_bearing(text); },
+      "How far outside the head's sphere contact is bearing contact and does not end a motion, in mm; count: "
+      "any "
+      "contact ends a motion. 2 mm, or less where the rim is near, if not given");
   auto* contacts = command->add_flag_callback(
       "--exclude-reference-contacts",
       [options] { options->reference_contacts = ReferenceContacts::leave_out; },
@@ -201,20 +235,30 @@ void add_rom(CLI::App& app) {
       command->add_option("--allow-depth", options->allow_depth_mm,
                           "End a motion where the radial depth exceeds this many mm, for meshes that "
                           "overlap wherever they are: searched for, not exact");
-  command
-      ->add_flag_callback(
-          "--follow-socket", [options] { options->centre = Centre::follows_socket; },
-          "With --allow-depth: shift the mobile body at every pose so that the joint space is even")
-      ->needs(depth);
   auto* accept = command->add_flag_callback(
       "--accept-reference-contact", [options] { options->reference_contact = ReferenceContact::accept; },
       "Answer although the bodies are in contact in the reference pose: motions that start in contact say "
       "so");
-  for (CLI::Option* other : {map, radius, contacts, accept}) depth->excludes(other);
-  command->add_option(
-      "--out", options->out,
-      "Folder for rom.json, limits.csv, limits.svg and clock_face.svg, map.csv and map_*.svg of a map, "
-      "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
+  auto* band = command->add_flag("--band{200}", options->band_samples,
+                                 "Also compute how far each limit moves with what is uncertain: 5 to 95 % of "
+                                 "this many displaced joints, 200 if not "
+                                 "given (--band=1000)");
+  for (CLI::Option* other : {map, bearing, contacts, accept, band}) depth->excludes(other);
+  const auto for_band = [&](CLI::Option* option) { option->needs(band); };
+  for_band(
+      command->add_option("--seed", options->seed, "With --band: seed of the displacements, 1 if not given"));
+  for_band(command->add_option(
+      "--sigma-centre", options->sigma_centre_mm,
+      "With --band: standard deviation of each coordinate of the centre, 0.5 mm if neither this "
+      "nor the joint file says"));
+  for_band(command->add_option("--sigma-axes", options->sigma_axes_deg,
+                               "With --band: of the rotation about each axis, 1 degree if not said"));
+  for_band(command->add_option("--sigma-surface", options->sigma_surface_mm,
+                               "With --band: of each surface along its normals, 0.25 mm if not said"));
+  command->add_option("--out", options->out,
+                      "Folder for rom.json, limits.csv, limits.svg, clock_face.svg and bearing.vtp, map.csv "
+                      "and map_*.svg of a map, "
+                      "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
   command->callback([options] { run(*options); });

@@ -25,7 +25,7 @@ set(kinematics_headers fit joint joint_coordinates joint_frame make_joint)
 set(radial_headers radial)
 set(tangential_headers tangential)
 set(contact_headers contact)
-set(motion_headers articular_centre articular_region clock_face depth_limit first_contact impingement_zone motion_map
+set(motion_headers bearing clock_face depth_limit first_contact impingement_zone limit_band motion_map
                    overlap_options path_limit range_of_motion)
 set(sample_headers)
 set(io_headers)

@@ -34,10 +34,10 @@
 
 // Motions.
 #include "condyle/first_contact.hpp"
-#include "condyle/articular_centre.hpp"
-#include "condyle/articular_region.hpp"
+#include "condyle/bearing.hpp"
 #include "condyle/overlap_options.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "condyle/limit_band.hpp"
 #include "condyle/clock_face.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/depth_limit.hpp"

@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "condyle/articular_centre.hpp"
-#include "condyle/articular_region.hpp"
 #include "condyle/range_of_motion.hpp"
 
 /// Limits of joints whose meshes overlap a little wherever they are: a motion ends where the deepest radial
@@ -18,9 +16,6 @@ struct AllowedDepth {
   double depth_mm = 0;
   Angle step = Angle::degrees(1);          ///< of the search along the motion
   Angle tolerance = Angle::degrees(1e-3);  ///< of the limit, once bracketed
-  /// The mobile body is shifted at every pose so that the joint space is even; empty: it turns about the joint
-  /// centre.
-  std::optional<CentreRule> follow_socket = {};
 };
 
 /// The deepest place of two bodies at one pose.
@@ -28,7 +23,6 @@ struct DeepestPlace {
   double depth_mm = 0;                         ///< 0 where no vertex is inside
   std::optional<ContactWitness> contact = {};  ///< that vertex, and the face that its ray leaves through
   Angle ray_to_normal = {};                    ///< at that face; beyond 60 degrees the radial depth grazes
-  std::optional<CentreShift> shift = {};       ///< where the centre follows the socket
 };
 
 struct DepthLimit {
@@ -52,10 +46,8 @@ struct DepthLimit {
 class DepthRange {
  public:
   /// Throws UsageError for an allowed depth below 0, steps or tolerances that are not above 0, a tolerance
-  /// above the step; MeshError where a mesh is open, for depth needs an inside, or, following the socket,
-  /// where no articular region is given or found.
-  DepthRange(const Joint& joint, const AllowedDepth& allowed,
-             const std::optional<ArticularRegion>& articular = {});
+  /// above the step; MeshError where a mesh is open, for depth needs an inside.
+  DepthRange(const Joint& joint, const AllowedDepth& allowed);
   ~DepthRange();
   DepthRange(const DepthRange&) = delete;
   DepthRange& operator=(const DepthRange&) = delete;
@@ -65,7 +57,8 @@ class DepthRange {
   DepthLimit limit(const Motion& motion) const;
   std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
 
-  const std::optional<ArticularRegion>& articular_region() const noexcept;
+  /// What contacts are labelled by: all of them count.
+  const BearingFinding& bearing() const noexcept;
 
  private:
   struct Parts;

@@ -27,19 +27,33 @@ struct Feature {
   friend auto operator<=>(const Feature&, const Feature&) = default;
 };
 
+/// What a contact of a joint is: see BearingSurface.
+enum class ContactKind : std::uint8_t {
+  unknown,      ///< No bearing surface is known.
+  bearing,      ///< The sliding surfaces touch: the centre or the segmentation is off.
+  impingement,  ///< Something else meets.
+};
+
 /// A pair of features in contact, and where on each body in its own frame. Of several pairs in contact at the
 /// same reported angle the first in the order of Feature, the turning body's first.
 struct ContactWitness {
   Feature fixed_feature, mobile_feature;
   Vec3 fixed_point, mobile_point;  ///< mm, each in its own body's frame
-  /// Inside the joint's articular region (see ArticularRegion), not at rim or neck; false where none is known.
-  bool articular = false;
+  ContactKind kind = ContactKind::unknown;
 };
 
 enum class LimitReason : std::uint8_t {
   contact,           ///< The surfaces meet at the angle, and not before.
   end_of_range,      ///< Nothing meets in the whole range.
   contact_at_start,  ///< The surfaces meet at the start already, or one body is inside the other.
+};
+
+/// Contact of bearing surfaces on the way to a limit.
+struct BearingContact {
+  Angle turned = {};  ///< from the start, >= 0; 0 where they are in contact there already
+  /// Empty where one surface is inside the other body and they do not meet.
+  std::optional<ContactWitness> contact = {};
+  Angle error_bound = {};  ///< as a limit's
 };
 
 /// One end of a free rotation.
@@ -50,8 +64,10 @@ struct Limit {
   std::optional<ContactWitness> contact = {};
   /// First contact is at `turned` or past it by at most this; never before.
   Angle error_bound = {};
+  /// Of RangeOfMotion where bearing contact does not count: the first one, if it comes before the limit.
+  std::optional<BearingContact> bearing_contact = {};
 
-  bool is_articular() const noexcept { return contact && contact->articular; }
+  ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
 };
 
 /// What a search has looked at.

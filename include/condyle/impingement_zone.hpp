@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "condyle/bearing.hpp"
 #include "condyle/clock_face.hpp"
 #include "condyle/range_of_motion.hpp"
 
@@ -13,6 +14,7 @@
 namespace condyle {
 
 struct ZoneOptions {
+  BearingOptions bearing = {};                 ///< as the limits were found with
   Angle past = Angle::degrees(5);              ///< how far past the limit the zone is shown, 0 or more
   std::optional<ClockFace> socket_clock = {};  ///< in F; the sagittal one where not given
   std::optional<NeckAxis> neck = {};           ///< in M; find_neck_axis() where not given
@@ -54,8 +56,9 @@ class ZoneFinder {
   ZoneFinder(ZoneFinder&&) noexcept;
   ZoneFinder& operator=(ZoneFinder&&) noexcept;
 
-  /// Empty for motions that did not end by contact on their way. Zones are of whole bodies, also where limits
-  /// were found with parts left out.
+  /// Empty for motions that did not end by contact on their way. What bearing contact overlaps is no zone unless it
+  /// counts: neither the mobile body's bearing surface nor what of the fixed body lies inside behind it. Triangles that
+  /// overlap options left out are part of zones.
   std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
 
   /// In M; empty where it was not given and no neck was found.

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "condyle/articular_region.hpp"
 #include "condyle/error.hpp"
 #include "condyle/joint.hpp"
 
@@ -33,16 +32,10 @@ struct OverlapOptions {
   /// The pose in which the meshes are known: checked for contact, and where contacts are left out.
   JointAngles reference_pose = {};
   ReferenceContact reference_contact = ReferenceContact::refuse;
-  /// Triangles with all three corners in this region are left out: of the fixed body as it is, and of the
-  /// mobile body where the region is a ball without a cone (it is then the same in every pose). Every contact
-  /// on such a triangle is in the region; contacts on those across its border still count.
-  std::optional<ArticularRegion> leave_out_region = {};
   std::optional<LeaveOutReferenceContacts> leave_out_reference_contacts = {};
-
-  bool leaves_out() const noexcept { return leave_out_region || leave_out_reference_contacts; }
 };
 
-/// How many triangles of each body are left out.
+/// How many triangles of each body the overlap options leave out.
 struct LeftOut {
   std::size_t fixed_triangles = 0, mobile_triangles = 0;
 };

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/articular_region.hpp"
+#include "condyle/bearing.hpp"
 #include "condyle/first_contact.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/overlap_options.hpp"
@@ -57,10 +57,20 @@ const Motion& motion_named(std::span<const Motion> motions, std::string_view nam
 /// most a full turn, an angle that is not finite, or a hinge turned or held in another angle than flexion.
 void check_motion(const Motion& motion, JointKind kind);
 
+/// How a head lies in its socket where a motion ends.
+struct HeadAtLimit {
+  /// Between the centres of head and socket, mm; empty where no socket was fitted.
+  std::optional<double> centre_distance_mm;
+  /// The smallest distance between the bearing surface and the fixed body, mm; 0 where they meet, empty where bearing
+  /// contact counts.
+  std::optional<double> joint_space_mm;
+};
+
 /// Where one motion ends.
 struct MotionLimit {
   Motion motion = {};
   Limit end = {};
+  std::optional<HeadAtLimit> head = {};  ///< where a bearing surface is known
 
   JointAngles angles_at_limit() const noexcept;
 };
@@ -72,8 +82,7 @@ JointAngles turned_by(JointAngles from, JointAngle angle, Angle by) noexcept;
 Angle angle_of(const JointAngles& angles, JointAngle angle) noexcept;
 
 struct RangeOptions {
-  /// Contacts in here are labelled articular; find_articular_region() where not stated.
-  std::optional<ArticularRegion> articular = {};
+  BearingOptions bearing = {};
   OverlapOptions overlap = {};
 };
 
@@ -89,14 +98,18 @@ struct RangeOptions {
 ///
 /// With F turning instead of M, contact is reported the same: features and points say fixed and mobile.
 ///
+/// Where a bearing surface is known (find_bearing_surface) and is not to count, a limit is the first contact of the
+/// rest of the mobile body, exactly, and bearing contact on the way to it stands beside it. The rest is an open
+/// surface: the fixed body is not noticed inside of it.
+///
 /// Guarantee: as of FirstContact, for the vertices of the turning body as rounded into the frame of the axis:
 /// never past a contact, short of one by at most `error_bound`. All limits of one joint and pose are the same
 /// bits on any thread and in any order.
 class RangeOfMotion {
  public:
-  /// The joint's meshes are borrowed only here. Throws ReferenceContactError where the bodies are in contact in
-  /// the reference pose and the options say nothing about it: the message explains what can be done and names
-  /// the deepest vertex.
+  /// Throws ReferenceContactError where the bodies are in contact in the reference pose and the options say nothing
+  /// about it: the message explains what can be done and names the deepest vertex. Contact that does not count is
+  /// none.
   explicit RangeOfMotion(const Joint& joint, const RangeOptions& options = {});
   ~RangeOfMotion();
   RangeOfMotion(const RangeOfMotion&) = delete;
@@ -113,10 +126,10 @@ class RangeOfMotion {
 
   JointKind kind() const noexcept;
   Side side() const noexcept;
-  /// What contacts are labelled by; empty where it was not stated and no head was found: nothing is then
-  /// called articular.
-  const std::optional<ArticularRegion>& articular_region() const noexcept;
-  /// How much of each body the options leave out.
+  /// The bearing surface, or why there is none and everything counts.
+  const BearingFinding& bearing() const noexcept;
+  BearingRule bearing_rule() const noexcept;
+  /// How much of each body the overlap options leave out.
   const LeftOut& left_out() const noexcept;
 
  private:

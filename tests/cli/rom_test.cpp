@@ -158,13 +158,14 @@ TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
   expect_refused(2, "rom joint.toml --out out --map flexion=0:1:1 adduction=0:1:1 --vary flexion",
                  "named twice");
   expect_refused(2, "rom joint.toml --out out --vary flexion", "--vary");
-  expect_refused(2, "rom joint.toml --out out --exclude-radius 0", "above 0 mm");
+  expect_refused(2, "rom joint.toml --out out --bearing -1", "0 mm or more");
+  expect_refused(2, "rom joint.toml --out out --bearing most", "neither a margin in mm nor count");
+  expect_refused(2, "rom joint.toml --out out --bearing 1 --allow-depth 1", "excludes");
   expect_refused(2, "rom joint.toml --out out --past 200", "past the limit");
   expect_refused(2, "rom joint.toml --out out --past -1", "past the limit");
   expect_refused(2, "rom joint.toml --out out --past nan", "past the limit");
   expect_refused(2, "rom joint.toml --out out --allow-depth -1", "depth");
   expect_refused(2, "rom joint.toml --out out --allow-depth 1 --exclude-reference-contacts", "excludes");
-  expect_refused(2, "rom joint.toml --out out --follow-socket", "requires --allow-depth");
 }
 
 TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {

@@ -25,8 +25,14 @@ std::vector<MotionLimit> some_limits() {
                     Angle::degrees(180)};
   contact.end.turned = Angle::radians(1.2345678901234567);
   contact.end.reason = LimitReason::contact;
-  contact.end.contact = {
-      {FeatureKind::edge, 3, 17}, {FeatureKind::face, 40}, {0.1, 1.0 / 3, -2e-17}, {7, 8, 9}, true};
+  contact.end.contact = {{FeatureKind::edge, 3, 17},
+                         {FeatureKind::face, 40},
+                         {0.1, 1.0 / 3, -2e-17},
+                         {7, 8, 9},
+                         ContactKind::impingement};
+  contact.end.bearing_contact =
+      BearingContact{Angle::radians(1.1), ContactWitness{{}, {}, {1, 2, 3}, {4, 5, 6}}};
+  contact.head = HeadAtLimit{.centre_distance_mm = 1.0 / 3, .joint_space_mm = 0.1};
   contact.end.error_bound = Angle::radians(1.5e-12);
   MotionLimit ended;
   ended.motion = {
@@ -36,6 +42,14 @@ std::vector<MotionLimit> some_limits() {
   swallowed.motion = {"schön", JointAngle::adduction, RotationSense::negative, {}, Angle::degrees(90)};
   swallowed.end.reason = LimitReason::contact_at_start;
   return {contact, ended, swallowed};
+}
+
+BearingSurface some_bearing() {
+  BearingSurface surface;
+  surface.head = {{0.1, 0.2, 0.3}, 24.5};
+  surface.margin_mm = 1.75, surface.rim_gap_mm = 2.25;
+  surface.triangles = {1, 0, 1};
+  return surface;
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -48,16 +62,21 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
   const std::vector<MotionLimit> limits = some_limits();
-  const Json json = Json::parse(rom_json(
-      {joint, limits, ArticularRegion{26.5, ArticularCone{{0, 1, 0}, Angle::degrees(60)}}, {"a term"}}));
+  const Json json =
+      Json::parse(rom_json({joint, limits, {some_bearing(), {}}, BearingRule::leave_out, {"a term"}}));
   EXPECT_EQ(json["condyle"], 1);
   EXPECT_EQ(json["joint"], "arm and post");
   EXPECT_EQ(json["fixed"], "post");
   EXPECT_EQ(json["mobile"], "arm");
   EXPECT_EQ(json["side"], "right");
   EXPECT_EQ(json["terms"], Json({"a term"}));
-  EXPECT_EQ(json["articular_region"]["radius_mm"], 26.5);
-  EXPECT_EQ(json["articular_region"]["cone"]["axis"], (Json{0.0, 1.0, 0.0}));
+  EXPECT_EQ(json["bearing"]["rule"], "leave_out");
+  EXPECT_EQ(json["bearing"]["head"]["centre_mm"], (Json{0.1, 0.2, 0.3}));
+  EXPECT_EQ(json["bearing"]["head"]["radius_mm"], 24.5);
+  EXPECT_EQ(json["bearing"]["margin_mm"], 1.75);
+  EXPECT_EQ(json["bearing"]["rim_gap_mm"], 2.25);
+  EXPECT_EQ(json["bearing"]["triangles"], 2);
+  EXPECT_TRUE(json["bearing"]["socket"].is_null());
   EXPECT_NE(json["scope"].get<std::string>().find("not a medical device"), std::string::npos);
   EXPECT_FALSE(json.contains("map"));
   ASSERT_EQ(json["motions"].size(), 3u);
@@ -66,7 +85,11 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   EXPECT_EQ(flexion["name"], "flexion");
   EXPECT_EQ(flexion["limit_deg"].get<double>(), limits[0].end.turned.degrees());
   EXPECT_EQ(flexion["reason"], "contact");
-  EXPECT_EQ(flexion["articular"], true);
+  EXPECT_EQ(flexion["contact_kind"], "impingement");
+  EXPECT_EQ(flexion["bearing_contact_deg"].get<double>(), Angle::radians(1.1).degrees());
+  EXPECT_EQ(flexion["bearing_contact_point_mm"], (Json{1.0, 2.0, 3.0}));
+  EXPECT_EQ(flexion["centre_distance_mm"], 1.0 / 3);
+  EXPECT_EQ(flexion["joint_space_mm"], 0.1);
   EXPECT_EQ(flexion["contact_point_mm"], (Json{0.1, 1.0 / 3, -2e-17}));
   EXPECT_EQ(flexion["contact_point_mobile_mm"], (Json{7.0, 8.0, 9.0}));
   EXPECT_EQ(flexion["features"]["fixed"], (Json{{"kind", "edge"}, {"vertices", {3, 17}}}));
@@ -85,12 +108,13 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   const Json& ended = json["motions"][1];
   EXPECT_EQ(ended["reason"], "end_of_range");
   EXPECT_EQ(ended["at_limit_deg"]["internal_rotation"].get<double>(), -ended["limit_deg"].get<double>());
-  for (const char* key : {"articular", "contact_point_mm", "contact_point_mobile_mm", "features"})
+  for (const char* key : {"contact_kind", "contact_point_mm", "contact_point_mobile_mm", "features",
+                          "bearing_contact_deg", "centre_distance_mm", "joint_space_mm"})
     EXPECT_TRUE(ended.at(key).is_null()) << key;
   const Json& swallowed = json["motions"][2];
   EXPECT_EQ(swallowed["reason"], "contact_at_start");
   EXPECT_EQ(swallowed["limit_deg"], 0.0);
-  EXPECT_EQ(swallowed["articular"], false);
+  EXPECT_EQ(swallowed["contact_kind"], "unknown");
   EXPECT_TRUE(swallowed["features"].is_null());
 }
 
@@ -123,17 +147,20 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   const Joint joint = arm_and_post();
   const std::vector<MotionLimit> limits = some_limits();
-  const auto lines = lines_of(rom_text({joint, limits, std::nullopt, {"left out: nothing"}}));
-  ASSERT_EQ(lines.size(), 8u);
+  const auto lines = lines_of(
+      rom_text({joint, limits, {some_bearing(), {}}, BearingRule::leave_out, {"left out: nothing"}}));
+  ASSERT_EQ(lines.size(), 9u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
-  EXPECT_EQ(lines[2], "  left out: nothing");
+  EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
+  EXPECT_EQ(lines[3], "  left out: nothing");
   // Column of the first letter of the reasons; an umlaut is two bytes and one letter.
-  const std::size_t column = lines[3].find("reason");
-  EXPECT_EQ(lines[4].find("contact, articular"), column);
-  EXPECT_EQ(lines[5].find("end of range, no contact"), column);
-  EXPECT_EQ(lines[6].find("in contact at start"), column + 1);
-  EXPECT_NE(lines[4].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
-  EXPECT_NE(lines[5].find(" 40.00 "), std::string::npos);
+  const std::size_t column = lines[4].find("ended by");
+  EXPECT_EQ(lines[5].find("impingement"), column);
+  EXPECT_EQ(lines[6].find("no contact in range"), column);
+  EXPECT_EQ(lines[7].find("in contact at start"), column + 1);
+  EXPECT_NE(lines[5].find(" 70.74 "), std::string::npos);  // 1.2345678901 rad
+  EXPECT_NE(lines[5].find(" 63.03 "), std::string::npos) << "bearing contact at 1.1 rad";
+  EXPECT_NE(lines[6].find(" 40.00 "), std::string::npos);
 }
 
 /// A limit with contact in this direction from the joint centre.
@@ -182,13 +209,11 @@ TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
   depth.at_limit.depth_mm = 0.4375;
   depth.start_depth_mm = 0.125;
   depth.depth_grows = false;
-  depth.at_limit.shift = CentreShift{.translation_mm = {0.5, 0.25, 0}};
   const Json motion = Json::parse(
       rom_json({.joint = joint, .limits = {&depth.limit, 1}, .depths = {&depth, 1}}))["motions"][0];
   EXPECT_EQ(motion["depth"]["at_limit_mm"], 0.4375);
   EXPECT_EQ(motion["depth"]["at_start_mm"], 0.125);
   EXPECT_EQ(motion["depth"]["grows"], false);
-  EXPECT_EQ(motion["depth"]["centre_shift_mm"], (Json{0.5, 0.25, 0.0}));
   EXPECT_TRUE(motion["guarantee"].get<std::string>().starts_with("searched, not exact"));
   EXPECT_FALSE(motion.contains("zone"));
 }

@@ -6,10 +6,9 @@
 
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
-#include "motion/rom/even_joint_space.hpp"
 #include "support/test_meshes.hpp"
 
-/// Limits by allowed depth and the centre that follows the socket, where the depth is known.
+/// Limits by allowed depth, where the depth is known.
 
 namespace condyle {
 namespace {
@@ -91,38 +90,6 @@ TEST(DepthLimit, RefusesWhatItCannotAnswer) {
   without_one.triangles.pop_back();
   open.fixed.mesh = without_one;
   EXPECT_THROW(DepthRange(open, {.depth_mm = 1}), MeshError);
-  EXPECT_THROW(DepthRange(joint, {.follow_socket = CentreRule{}}), MeshError) << "no head";
-}
-
-/// A ball of radius 20, off by `offset`, in the half shell of radius 23 about the origin.
-JointContact ball_in_socket(const Vec3& offset) {
-  return JointContact(socket({0, 0, 0}, 23, 28, 4), sphere(offset, 20, 4));
-}
-
-TEST(EvenJointSpace, BringsABallBackToTheMiddleOfItsSocket) {
-  // Both discretised spheres sag by up to edge^2 / (8 r): edges of 20 * pi/2 / 16 and 23 * pi/2 / 16 give
-  // 0.025 and 0.028 mm; a fit to either is off by no more than both.
-  const double sag = 0.053;
-  for (const Vec3& offset : {Vec3(0, 0, 0), Vec3(0.7, -0.5, 0.3), Vec3(-1.2, 0.9, 0.6)}) {
-    const CentreShift shift = motion::even_joint_space(ball_in_socket(offset), {22.5}, Pose::Identity());
-    EXPECT_LT((shift.translation_mm + offset).norm(), 2 * sag);
-    EXPECT_NEAR(shift.gap_mm, 3, 2 * sag);
-    EXPECT_FALSE(shift.cut_back);
-    EXPECT_LE(shift.spread_after_mm, shift.spread_before_mm + 1e-12);
-  }
-}
-
-TEST(EvenJointSpace, IsCutBackToTheLargestShift) {
-  const CentreShift shift = motion::even_joint_space(ball_in_socket({1, 0, 0}), {22.5}, Pose::Identity(),
-                                                     {.largest_shift_mm = 0.25});
-  EXPECT_TRUE(shift.cut_back);
-  EXPECT_NEAR(shift.translation_mm.norm(), 0.25, 1e-12);
-  EXPECT_LT(shift.translation_mm.x(), -0.24);
-}
-
-TEST(EvenJointSpace, RefusesJointsWithoutASocket) {
-  const JointContact apart(box({100, 100, 100}, {110, 110, 110}), sphere({0, 0, 0}, 20, 3));
-  EXPECT_THROW(motion::even_joint_space(apart, {22}, Pose::Identity()), MeshError);
 }
 
 }  // namespace

@@ -92,4 +92,10 @@ Joint ball_and_post_joint() {
   return joint_of(Side::right, std::move(fixed), std::move(mobile));
 }
 
+Joint head_and_post_joint(const Vec3& offset) {
+  TriMesh fixed = joined(post(), socket(Vec3::Zero(), socket_radius, 28, 4));
+  TriMesh mobile = joined(arm(), sphere(offset, head_radius, 4));
+  return joint_of(Side::right, std::move(fixed), std::move(mobile));
+}
+
 }  // namespace condyle::test

@@ -40,6 +40,10 @@ Joint overlapping_joint();
 /// post_joint() for flexion with a ball on the arm's end that overlaps another ball of the fixed body, all
 /// inside a ball about the centre.
 Joint ball_and_post_joint();
-inline constexpr double ball_and_post_region = 20;
+
+/// post_joint() for flexion whose arm hangs from a head of head_radius in a half shell about the centre, which is open
+/// below. The head's centre is off by `offset`.
+Joint head_and_post_joint(const Vec3& offset);
+inline constexpr double head_radius = 20, socket_radius = 23;
 
 }  // namespace condyle::test

@@ -24,7 +24,7 @@ MapGrid small_grid() {
 void expect_same_end(const Limit& a, const Limit& b) {
   EXPECT_EQ(a.turned, b.turned);
   EXPECT_EQ(a.reason, b.reason);
-  EXPECT_EQ(a.is_articular(), b.is_articular());
+  EXPECT_EQ(a.kind(), b.kind());
   EXPECT_EQ(a.error_bound, b.error_bound);
   ASSERT_EQ(a.contact.has_value(), b.contact.has_value());
   if (!a.contact) return;

@@ -24,7 +24,7 @@ constexpr double angle_tolerance = 5e-12;
 void expect_same_end(const MotionLimit& a, const MotionLimit& b) {
   EXPECT_EQ(a.end.turned, b.end.turned) << a.motion.name;
   EXPECT_EQ(a.end.reason, b.end.reason);
-  EXPECT_EQ(a.end.is_articular(), b.end.is_articular());
+  EXPECT_EQ(a.end.kind(), b.end.kind());
   EXPECT_EQ(a.end.error_bound, b.end.error_bound);
   ASSERT_EQ(a.end.contact.has_value(), b.end.contact.has_value());
   if (!a.end.contact) return;
@@ -114,7 +114,7 @@ TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
   Joint carried = scene.joint;
   carried.fixed.mesh = posed(pose_at(side(), before), carried.fixed.mesh);
   carried.mobile.mesh = posed(pose_at(side(), after).inverse(), carried.mobile.mesh);
-  const RangeOptions accept{.articular = {}, .overlap = {.reference_contact = ReferenceContact::accept}};
+  const RangeOptions accept{.bearing = {}, .overlap = {.reference_contact = ReferenceContact::accept}};
   EXPECT_NEAR(RangeOfMotion(carried, accept).limit(motion(held)).end.turned.radians(), scene.limit, 1e-11);
 }
 
@@ -124,7 +124,8 @@ TEST_P(EachAngle, ExchangingTheBodiesNegatesAndAgrees) {
   std::swap(exchanged.fixed, exchanged.mobile);
   Motion one = motion(), other = motion();
   other.sense = RotationSense::negative;
-  const MotionLimit a = RangeOfMotion(joint).limit(one), b = RangeOfMotion(exchanged).limit(other);
+  const RangeOptions all{.bearing = {.rule = BearingRule::count}, .overlap = {}};
+  const MotionLimit a = RangeOfMotion(joint, all).limit(one), b = RangeOfMotion(exchanged, all).limit(other);
   ASSERT_EQ(a.end.reason, LimitReason::contact);
   EXPECT_EQ(b.end.reason, a.end.reason);
   EXPECT_NEAR(a.end.turned.radians(), b.end.turned.radians(), 1e-11);
@@ -190,39 +191,17 @@ TEST(RangeOfMotion, ContactInTheReferencePoseCanBeAcceptedAndIsThenReported) {
   EXPECT_TRUE(limit.end.contact);
 }
 
-TEST(RangeOfMotion, ContactsInsideARegionCanBeLeftOut) {
-  const Joint joint = ball_and_post_joint();
-  const OverlapOptions options{.leave_out_region = ArticularRegion{ball_and_post_region}};
-  const RangeOfMotion range(joint, {.overlap = options});
+TEST(RangeOfMotion, ContactsInTheReferencePoseCanBeLeftOut) {
+  const OverlapOptions options{.leave_out_reference_contacts = LeaveOutReferenceContacts{.rings = 1}};
+  const RangeOfMotion range(ball_and_post_joint(), {.overlap = options});
   EXPECT_GT(range.left_out().fixed_triangles, 0u);
   EXPECT_GT(range.left_out().mobile_triangles, 0u);
   const MotionLimit limit = range.limit(hip_motions().front());
   EXPECT_EQ(limit.end.reason, LimitReason::contact);
   EXPECT_NEAR(limit.end.turned.radians(), post_limit(), angle_tolerance);
-  EXPECT_FALSE(limit.end.is_articular());
   // Features carry the numbers of the whole mesh: the point lies on the named fixed edge or its faces.
   EXPECT_NEAR(limit.end.contact->fixed_point.x(), post_x, 1e-9);
   EXPECT_NEAR(limit.end.contact->fixed_point.y(), post_y, 1e-9);
-}
-
-TEST(RangeOfMotion, ContactsInTheReferencePoseCanBeLeftOut) {
-  const OverlapOptions options{.leave_out_reference_contacts = LeaveOutReferenceContacts{.rings = 1}};
-  const RangeOfMotion range(ball_and_post_joint(), {.overlap = options});
-  EXPECT_NEAR(range.limit(hip_motions().front()).end.turned.radians(), post_limit(), angle_tolerance);
-}
-
-TEST(RangeOfMotion, ContactsAreArticularInsideTheStatedRegionOnly) {
-  const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
-  const double radius = std::hypot(post_x, post_y);
-  const auto articular = [&](const ArticularRegion& region) {
-    return RangeOfMotion(scene.joint, {.articular = region}).limit(hip_motions().front()).end.is_articular();
-  };
-  // The post's edge is 10 mm long: contact is on its straight line, at most 5 mm off its middle.
-  EXPECT_FALSE(articular({radius - 0.01}));
-  EXPECT_TRUE(articular({radius + 0.2}));
-  const Vec3 towards(post_x, post_y, 0);
-  EXPECT_TRUE(articular({radius + 0.2, ArticularCone{towards, Angle::degrees(10)}}));
-  EXPECT_FALSE(articular({radius + 0.2, ArticularCone{-towards, Angle::degrees(10)}}));
 }
 
 TEST(HipMotions, HaveTheNamesThatCliniciansUse) {

@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(SharedData, RealHipLimits, testing::ValuesIn(hips),
 
 TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndInContactAMicrodegreeAfter) {
   const JointContact exact(joint_.fixed.mesh, joint_.mobile.mesh);
-  const auto limits = RangeOfMotion(joint_).limits(hip_motions());
+  const auto limits = RangeOfMotion(joint_, {.bearing = {.rule = BearingRule::count}}).limits(hip_motions());
   std::size_t contacts = 0;
   for (const MotionLimit& limit : limits) {
     SCOPED_TRACE(limit.motion.name);
@@ -71,9 +71,10 @@ TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndInContactAMicrodegreeAfter) {
 }
 
 TEST_P(RealHipLimits, HaveZonesThatGrowFromTheContactPoint) {
-  const auto limits = RangeOfMotion(joint_).limits(hip_motions());
-  const ZoneFinder shortly_after(joint_, {.past = Angle::degrees(0.5)}),
-      later(joint_, {.past = Angle::degrees(5)});
+  const BearingOptions all{.rule = BearingRule::count};
+  const auto limits = RangeOfMotion(joint_, {.bearing = all}).limits(hip_motions());
+  const ZoneFinder shortly_after(joint_, {.bearing = all, .past = Angle::degrees(0.5)}),
+      later(joint_, {.bearing = all, .past = Angle::degrees(5)});
   ASSERT_TRUE(later.neck());
   for (const MotionLimit& limit : limits) {
     SCOPED_TRACE(limit.motion.name);
@@ -115,14 +116,15 @@ TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
                     {"hip bone", test::read_ply(*data / "hip_gait2392_lowres_dirty/pelvis_r.ply")},
                     {"femur", test::read_ply(*data / "hip_gait2392_lowres_dirty/femur_r.ply")}};
   try {
-    const RangeOfMotion refused(joint);
+    const RangeOfMotion refused(joint, {.bearing = {.rule = BearingRule::count}});
     FAIL() << "accepted";
   } catch (const MeshError& error) {
     const std::string text = error.what();
     EXPECT_NE(text.find("47 pairs of triangles meet; an open mesh has no depth"), std::string::npos) << text;
   }
   const RangeOfMotion bones(joint,
-                            {.overlap = {.leave_out_reference_contacts = LeaveOutReferenceContacts{}}});
+                            {.bearing = {.rule = BearingRule::count},
+                             .overlap = {.leave_out_reference_contacts = LeaveOutReferenceContacts{}}});
   EXPECT_GT(bones.left_out().fixed_triangles, 0u);
   std::size_t contacts = 0;
   for (const MotionLimit& limit : bones.limits(hip_motions())) {
@@ -130,6 +132,23 @@ TEST(OverlappingRealHip, IsRefusedUntilAnOptionSaysWhatToDo) {
     contacts += limit.end.reason == LimitReason::contact;
   }
   EXPECT_GT(contacts, 3u);
+}
+
+/// All of its contact in the reference pose is bearing contact.
+TEST(OverlappingRealHip, IsAnsweredWhereOnlyBearingSurfacesOverlap) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const RangeOfMotion range({"gait2392",
+                             JointKind::ball,
+                             Side::right,
+                             {"hip bone", test::read_ply(*data / "hip_gait2392_lowres_dirty/pelvis_r.ply")},
+                             {"femur", test::read_ply(*data / "hip_gait2392_lowres_dirty/femur_r.ply")}});
+  for (const MotionLimit& limit : range.limits(hip_motions())) {
+    if (limit.motion.start != JointAngles{}) continue;
+    EXPECT_NE(limit.end.reason, LimitReason::contact_at_start) << limit.motion.name;
+    ASSERT_TRUE(limit.end.bearing_contact) << limit.motion.name;
+    EXPECT_EQ(limit.end.bearing_contact->turned, Angle()) << limit.motion.name;
+  }
 }
 
 }  // namespace

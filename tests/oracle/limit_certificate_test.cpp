@@ -45,8 +45,7 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
                     {"hip bone", test::read_ply(*data / files.fixed)},
                     {"femur", test::read_ply(*data / files.mobile)}};
   const Motion motion = hip_motions()[number];
-  // Stated, so that no head is searched for.
-  const MotionLimit limit = RangeOfMotion(joint, {.articular = ArticularRegion{30}}).limit(motion);
+  const MotionLimit limit = RangeOfMotion(joint, {.bearing = {.rule = BearingRule::count}}).limit(motion);
   const CgalOracle oracle(joint.fixed.mesh);
   const auto touching = [&](Angle turned) {
     const Angle by = motion.sense == RotationSense::positive ? turned : -turned;

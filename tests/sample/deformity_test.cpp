@@ -14,12 +14,20 @@ namespace {
 
 double internal_rotation_at_90_flexion_deg(const HipParameters& parameters) {
   const SampleHip& hip = test::made_hip(Scenario::three, parameters);
-  const RangeOfMotion range(
-      {"sample hip", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}});
+  const Joint joint{
+      "sample hip", JointKind::ball, Side::right, {"hip bone", hip.hip_bone}, {"femur", hip.femur}};
+  const RangeOfMotion range(joint), all(joint, {.bearing = {.rule = BearingRule::count}});
+  EXPECT_TRUE(range.bearing().surface);
   const auto motions = hip_motions();
-  const MotionLimit limit = range.limit(motion_named(motions, "internal_rotation_at_90_flexion"));
-  EXPECT_EQ(limit.end.reason, LimitReason::contact);
-  return limit.end.turned.degrees();
+  double limit_deg = 0;
+  for (const auto* name : {"fadir", "internal_rotation_at_90_flexion"}) {
+    const MotionLimit limit = range.limit(motion_named(motions, name));
+    EXPECT_EQ(limit.end.reason, LimitReason::contact);
+    limit_deg = limit.end.turned.degrees();
+    // What slides is told apart without a deformity being taken for it.
+    EXPECT_NEAR(limit_deg, all.limit(limit.motion).end.turned.degrees(), 0.1) << name;
+  }
+  return limit_deg;
 }
 
 /// What meshing may change in a limit where the solids' own limit does not change: every hip is meshed anew.

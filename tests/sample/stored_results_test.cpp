@@ -181,7 +181,7 @@ std::uint64_t arcs_hash(const JointContact& joint, Seen& seen) {
 std::uint64_t motions_hash(const JointContact& joint, Seen& seen) {
   const RangeOfMotion range(
       {"sample hip", JointKind::ball, Side::right, {"hip bone", joint.fixed()}, {"femur", joint.mobile()}},
-      {.articular = ArticularRegion{26}});
+      {.bearing = {.rule = BearingRule::count}});
   Hash hash;
   const auto add_feature = [&](const Feature& feature) {
     hash.add(static_cast<std::uint64_t>(feature.kind));
@@ -192,7 +192,8 @@ std::uint64_t motions_hash(const JointContact& joint, Seen& seen) {
     hash.add_rounded(limit.turned.degrees(), 1e-8);
     hash.add(static_cast<std::uint64_t>(limit.reason));
     hash.add(std::uint64_t{limit.contact.has_value()});
-    hash.add(std::uint64_t{limit.is_articular()});
+    // Kept as it was stored: whether the contact is within 26 mm of the joint centre.
+    hash.add(std::uint64_t{limit.contact && limit.contact->fixed_point.norm() <= 26});
     if (!limit.contact) continue;
     ++seen.contacts;
     add_feature(limit.contact->fixed_feature), add_feature(limit.contact->mobile_feature);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/repair.hpp"
@@ -25,7 +26,8 @@ struct JointFile {
   std::filesystem::path path;
   JointDescription joint;
   BodyEntry fixed, mobile;
-  std::vector<Motion> motions;  ///< of the [[motion]] tables, in their order, each name once
+  std::vector<Motion> motions;   ///< of the [[motion]] tables, in their order, each name once
+  Uncertainty uncertainty = {};  ///< of the [uncertainty] table; what is usual where it says nothing
 };
 JointFile read_joint_file(const std::filesystem::path& path);
 

@@ -9,6 +9,7 @@
 #include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"
 
@@ -21,8 +22,9 @@ namespace condyle {
 struct RomResult {
   const Joint& joint;
   std::span<const MotionLimit> limits;
-  /// Contacts in here are called articular; empty where no region is known and none is.
-  std::optional<ArticularRegion> articular = {};
+  /// What contacts are told apart by, and whether bearing contact counts.
+  BearingFinding bearing = {};
+  BearingRule bearing_rule = BearingRule::count;
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
   std::vector<std::string> terms = {};
   /// One per limit where a depth was allowed, none where limits are exact.
@@ -31,10 +33,15 @@ struct RomResult {
   std::span<const std::optional<ImpingementZone>> zones = {};
   /// Null where none was computed.
   const MotionMap* map = nullptr;
+  /// One per limit where bands were computed, none where not, and what they were computed with.
+  std::span<const LimitBand> bands = {};
+  BandOptions band_options = {};
 };
 
 /// "contact", "end_of_range", "contact_at_start".
 std::string_view name_of(LimitReason reason) noexcept;
+/// "unknown", "bearing", "impingement".
+std::string_view name_of(ContactKind kind) noexcept;
 
 /// What is guaranteed of the limit, in one sentence.
 std::string guarantee_text(const MotionLimit& limit);

@@ -41,6 +41,11 @@ class Lengths {
     if (!(value > 0)) table.fail(key, "must be above 0");
     return scale_ * value;
   }
+  double not_negative(io::TomlTable& table, std::string_view key) const {
+    const double value = table.required(key, table.number(key));
+    if (value < 0) table.fail(key, "must be 0 or more");
+    return scale_ * value;
+  }
 
  private:
   double scale_;
@@ -150,6 +155,20 @@ JointAngles reference_pose(io::TomlTable& file, JointKind kind) {
   return pose;
 }
 
+Uncertainty uncertainty(io::TomlTable& file, const Lengths& lengths) {
+  Uncertainty sigma;
+  auto table = file.table("uncertainty");
+  if (!table) return sigma;
+  if (table->has("centre")) sigma.centre_mm = lengths.not_negative(*table, "centre");
+  if (table->has("surface")) sigma.surface_mm = lengths.not_negative(*table, "surface");
+  if (const auto axes = table->number("axes")) {
+    if (*axes < 0) table->fail("axes", "must be 0 or more");
+    sigma.axes = Angle::degrees(*axes);
+  }
+  table->finish();
+  return sigma;
+}
+
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
 /// by its order which way it goes.
 Motion own_motion(io::TomlTable& table, JointKind kind) {
@@ -216,6 +235,7 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.frame = frame_description(file, Lengths(joint.units));
   joint.reference_pose = reference_pose(file, joint.kind);
   out.motions = own_motions(file, joint.kind);
+  out.uncertainty = uncertainty(file, Lengths(joint.units));
   file.finish();
   return out;
 }

@@ -13,7 +13,7 @@ std::vector<ClockContact> clock_contacts(const RomResult& result) {
   std::vector<ClockContact> contacts;
   for (const MotionLimit& limit : result.limits)
     if (const auto hour = clock_hour(result.joint, limit))
-      contacts.push_back({limit.motion.name, *hour, limit.end.is_articular()});
+      contacts.push_back({limit.motion.name, *hour, limit.end.kind()});
   return contacts;
 }
 

@@ -12,10 +12,10 @@ namespace condyle {
 namespace {
 
 std::string csv_of(const Limit& end) {
-  std::string text =
-      fmt::format(",{},{},{}", name_of(end.reason),
-                  end.reason == LimitReason::end_of_range ? "" : (end.is_articular() ? "1" : "0"),
-                  end.error_bound.degrees());
+  std::string text = fmt::format(
+      ",{},{},{},{}", name_of(end.reason), end.reason == LimitReason::end_of_range ? "" : name_of(end.kind()),
+      end.error_bound.degrees(),
+      end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "");
   if (!end.contact) return text + ",,,";
   const Vec3& p = end.contact->fixed_point;
   return text + fmt::format(",{},{},{}", p.x(), p.y(), p.z());
@@ -58,7 +58,8 @@ std::string map_csv(const MotionMap& map) {
                                  name_of(grid.row.angle), varied);
   for (const char* end : {"lower", "upper"})
     text += fmt::format(
-        ",{0}_reason,{0}_articular,{0}_error_bound_deg,{0}_contact_x_mm,{0}_contact_y_mm,{0}_contact_z_mm",
+        ",{0}_reason,{0}_contact_kind,{0}_error_bound_deg,{0}_bearing_contact_deg,"
+        "{0}_contact_x_mm,{0}_contact_y_mm,{0}_contact_z_mm",
         end);
   text += "\n";
   const std::size_t columns = grid.column.count();

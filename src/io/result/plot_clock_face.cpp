@@ -39,9 +39,9 @@ void draw_face(SvgCanvas& canvas, ScreenPoint centre) {
   direction(-radius + 40, 0, "posterior", TextAnchor::start);
 }
 
-void draw_mark(SvgCanvas& canvas, ScreenPoint at, bool articular) {
+void draw_mark(SvgCanvas& canvas, ScreenPoint at, ContactKind kind) {
   const auto [x, y] = at;
-  if (articular)
+  if (kind == ContactKind::bearing)
     canvas.polygon({{x - 7.5, y}, {x, y - 7.5}, {x + 7.5, y}, {x, y + 7.5}},
                    {.fill = palette::orange, .stroke = palette::paper, .stroke_width = 1.2});
   else
@@ -134,15 +134,25 @@ std::string clock_face_plot(const PlotHeading& heading, std::span<const ClockCon
     draw_labels(canvas, *half, centre, heading_height + label_gap / 2,
                 heading_height + height - label_gap / 2);
   for (const ClockContact& contact : contacts)
-    draw_mark(canvas, on_face(centre, radius, contact.hour), contact.articular);
+    draw_mark(canvas, on_face(centre, radius, contact.hour), contact.kind);
   if (contacts.empty())
     canvas.text({centre.x, centre.y + 5}, "no contact", {.size = 15, .anchor = TextAnchor::middle});
 
   const double legend_y = heading_height + height + 22;
-  draw_mark(canvas, {canvas_width / 2 - 230, legend_y}, false);
-  canvas.text({canvas_width / 2 - 216, legend_y + 4}, "extra-articular contact", {.size = 12});
-  draw_mark(canvas, {canvas_width / 2 + 30, legend_y}, true);
-  canvas.text({canvas_width / 2 + 44, legend_y + 4}, "articular contact", {.size = 12});
+  const auto shown = [&](ContactKind kind) {
+    return std::any_of(contacts.begin(), contacts.end(),
+                       [&](const ClockContact& c) { return c.kind == kind; });
+  };
+  double legend_x = canvas_width / 2 - 230;
+  const auto legend = [&](ContactKind kind, std::string_view words) {
+    if (!shown(kind)) return;
+    draw_mark(canvas, {legend_x, legend_y}, kind);
+    canvas.text({legend_x + 14, legend_y + 4}, words, {.size = 12});
+    legend_x += 260;
+  };
+  legend(ContactKind::impingement, "impingement");
+  legend(ContactKind::unknown, "contact");
+  legend(ContactKind::bearing, "bearing contact");
   draw_footer(canvas);
   return canvas.document();
 }

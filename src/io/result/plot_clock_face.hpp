@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/first_contact.hpp"
 #include "io/result/plot_axes.hpp"
 
 namespace condyle::io {
@@ -12,7 +13,7 @@ namespace condyle::io {
 struct ClockContact {
   std::string motion;
   double hour;  ///< in [0, 12): 12 (0) superior, 3 anterior on either side of the body
-  bool articular = false;
+  ContactKind kind = ContactKind::unknown;
 };
 
 /// "1:30" of 1.5: hours and minutes of the clock face, 12 for the first hour.

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "condyle/range_of_motion.hpp"
+#include "condyle/limit_band.hpp"
 #include "io/result/plot_axes.hpp"
 
 namespace condyle::io {
@@ -23,6 +23,8 @@ inline constexpr std::string_view normal_hip_range_source =
 
 /// The limits of all motions as a horizontal bar chart, SVG text: how far each turns from its start in
 /// degrees, with a mark for the reason and, behind the bar, the normal range where there is a source for it.
-std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits);
+/// With bands, one per limit or none, a whisker from 5 to 95 % with a tick at the median.
+std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits,
+                        std::span<const LimitBand> bands = {});
 
 }  // namespace condyle::io

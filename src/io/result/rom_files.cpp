@@ -44,6 +44,14 @@ void write_map(OutputFolder& out, const MotionMap& map, std::string_view joint_n
   draw("free_range", io::MapView::free_range);
 }
 
+/// The mobile body at zero angles, triangles of the bearing surface marked.
+void write_bearing(OutputFolder& out, const RomResult& result) {
+  if (!result.bearing.surface) return;
+  const auto& marks = result.bearing.surface->triangles;
+  const MeshArray bearing{"bearing", std::vector<double>(marks.begin(), marks.end())};
+  write_vtp(out.file("bearing.vtp"), result.joint.mobile.mesh, {}, {&bearing, 1});
+}
+
 }  // namespace
 
 void write_rom(const std::filesystem::path& folder, const RomResult& result) {
@@ -51,14 +59,15 @@ void write_rom(const std::filesystem::path& folder, const RomResult& result) {
   const std::string& name = result.joint.name;
   write_whole_file(out.file("rom.json"), rom_json(result));
   write_whole_file(out.file("limits.csv"), rom_csv(result));
-  write_whole_file(out.file("limits.svg"),
-                   io::limits_plot({name, "How far each motion turns from its start"}, result.limits));
+  write_whole_file(out.file("limits.svg"), io::limits_plot({name, "How far each motion turns from its start"},
+                                                           result.limits, result.bands));
   if (result.joint.kind == JointKind::ball)
     write_whole_file(out.file("clock_face.svg"),
                      io::clock_face_plot({name,
                                           "Where motions end, seen from the joint centre in the sagittal "
                                           "plane: 12 superior, 3 anterior"},
                                          io::clock_contacts(result)));
+  write_bearing(out, result);
   write_zones(out, result);
   if (result.map) write_map(out, *result.map, name);
   out.commit();

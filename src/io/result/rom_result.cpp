@@ -13,6 +13,7 @@
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_summary.hpp"
+#include "io/result/quoted_limit.hpp"
 
 namespace condyle {
 namespace {
@@ -107,19 +108,35 @@ Json json_of(const DepthLimit& depth) {
             {"at_limit_mm", depth.at_limit.depth_mm},
             {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
             {"grows", depth.depth_grows}};
-  const auto& shift = depth.at_limit.shift;
-  json["centre_shift_mm"] = shift ? json_of(shift->translation_mm) : Json(nullptr);
   return json;
+}
+
+Json json_of(const LimitBand& band) {
+  return {{"p5_deg", band.p5.degrees()},
+          {"median_deg", band.median.degrees()},
+          {"p95_deg", band.p95.degrees()},
+          {"width_from",
+           {{"centre_deg", band.width_from.centre.degrees()},
+            {"axes_deg", band.width_from.axes.degrees()},
+            {"surface_deg", band.width_from.surface.degrees()}}},
+          {"share_without_contact", band.share_without_contact},
+          {"share_in_contact_at_start", band.share_in_contact_at_start}};
 }
 
 /// Of the i-th motion.
 Json motion_json(const RomResult& result, std::size_t i) {
   const MotionLimit& limit = result.limits[i];
   const auto& contact = limit.end.contact;
+  const auto& bearing = limit.end.bearing_contact;
   Json json{{"name", limit.motion.name},
             {"limit_deg", limit.end.turned.degrees()},
             {"reason", name_of(limit.end.reason)},
-            {"articular", ends_in_contact(limit) ? Json(limit.end.is_articular()) : Json(nullptr)},
+            {"contact_kind", ends_in_contact(limit) ? Json(name_of(limit.end.kind())) : Json(nullptr)},
+            {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
+            {"bearing_contact_point_mm",
+             bearing && bearing->contact ? json_of(bearing->contact->fixed_point) : Json(nullptr)},
+            {"centre_distance_mm", limit.head ? nullable(limit.head->centre_distance_mm) : Json(nullptr)},
+            {"joint_space_mm", limit.head ? nullable(limit.head->joint_space_mm) : Json(nullptr)},
             {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
             {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
             {"clock_hour", nullable(io::clock_hour(result.joint, limit))},
@@ -136,7 +153,17 @@ Json motion_json(const RomResult& result, std::size_t i) {
             {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
   if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
   if (!result.zones.empty()) json["zone"] = json_of(result.zones[i]);
+  json["band"] = result.bands.empty() ? Json(nullptr) : json_of(result.bands[i]);
   return json;
+}
+
+Json json_of(const BandOptions& options) {
+  return {{"samples", options.samples},
+          {"seed", options.seed},
+          {"sigma",
+           {{"centre_mm", options.sigma.centre_mm},
+            {"axes_deg", options.sigma.axes.degrees()},
+            {"surface_mm", options.sigma.surface_mm}}}};
 }
 
 Json json_of(const ReasonCounts& counts) {
@@ -170,29 +197,56 @@ Json json_of(const MotionMap& map) {
           {"row_free_area_deg2", summary.volume.row_area_deg2}};
 }
 
-Json json_of(const std::optional<ArticularRegion>& region) {
-  if (!region) return nullptr;
-  Json json{{"radius_mm", region->radius_mm}};
-  if (region->cone)
-    json["cone"] = {{"axis", json_of(region->cone->axis)},
-                    {"half_angle_deg", region->cone->half_angle.degrees()}};
+Json json_of(const Sphere& sphere) {
+  return {{"centre_mm", json_of(sphere.centre)}, {"radius_mm", sphere.radius}};
+}
+
+Json bearing_json(const RomResult& result) {
+  Json json{{"rule", result.bearing_rule == BearingRule::count ? "count" : "leave_out"}};
+  const auto& surface = result.bearing.surface;
+  if (!surface) {
+    json["why_none"] = result.bearing.why_none;
+    return json;
+  }
+  json["head"] = json_of(surface->head);
+  json["head_coverage"] = surface->head_coverage;
+  json["socket"] = surface->socket ? json_of(*surface->socket) : Json(nullptr);
+  json["margin_mm"] = surface->margin_mm;
+  json["rim_gap_mm"] = nullable(surface->rim_gap_mm);
+  json["triangles"] = surface->count();
   return json;
 }
 
-std::string text_of(const std::optional<ArticularRegion>& region) {
-  if (!region) return "no articular region is known: no contact is called articular";
-  return fmt::format("articular is contact within {:.2f} mm of the joint centre{}", region->radius_mm,
-                     region->cone ? ", in a cone" : "");
+/// One line or two: what does not count and by which numbers.
+std::string bearing_text(const RomResult& result) {
+  const auto& surface = result.bearing.surface;
+  if (!surface) return fmt::format("  every contact counts: {}\n", result.bearing.why_none);
+  const std::string rim =
+      surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm) : std::string();
+  return fmt::format(
+      "  bearing surface: {} of {} triangles of {}, within {:.2f} mm of the head's sphere\n"
+      "    (radius {:.2f} mm{}); contact on it {}\n",
+      surface->count(), surface->triangles.size(), result.joint.mobile.name, surface->margin_mm,
+      surface->head.radius, rim,
+      result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
 }
 
 std::string_view words_of(const MotionLimit& limit) noexcept {
   switch (limit.end.reason) {
     case LimitReason::contact:
-      return limit.end.is_articular() ? "contact, articular" : "contact, extra-articular";
+      switch (limit.end.kind()) {
+        case ContactKind::bearing:
+          return "bearing contact";
+        case ContactKind::impingement:
+          return "impingement";
+        case ContactKind::unknown:
+          return "contact";
+      }
+      return "";
     case LimitReason::end_of_range:
-      return "end of range, no contact";
+      return "no contact in range";
     case LimitReason::contact_at_start:
-      return limit.end.is_articular() ? "in contact at start, articular" : "in contact at start";
+      return "in contact at start";
   }
   return "";
 }
@@ -226,6 +280,36 @@ std::string table_text(std::span<const Column> columns) {
   return text;
 }
 
+/// The bands and where they come from; without bands a line that says how to get them.
+std::string band_text(const RomResult& result) {
+  if (result.bands.empty())
+    return result.depths.empty()
+               ? "  band unknown: --band tells how far these limits move with what is uncertain\n"
+               : "";
+  const BandOptions& options = result.band_options;
+  std::string text = fmt::format(
+      "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
+      "surfaces by {:g} mm\n"
+      "    (standard deviations, seed {}); its width where only one of them is moved:\n",
+      options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(), options.sigma.surface_mm,
+      options.seed);
+  Column name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
+      high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},
+      surface{Align::right, {"surface"}}, free{Align::right, {"no contact"}};
+  for (std::size_t i = 0; i < result.bands.size(); ++i) {
+    const LimitBand& band = result.bands[i];
+    name.cells.push_back(result.limits[i].motion.name);
+    const auto add = [](Column& column, Angle angle) {
+      column.cells.push_back(fmt::format("{:.1f}", angle.degrees()));
+    };
+    add(median, band.median), add(low, band.p5), add(high, band.p95);
+    add(centre, band.width_from.centre), add(axes, band.width_from.axes),
+        add(surface, band.width_from.surface);
+    free.cells.push_back(fmt::format("{:.0f} %", 100 * band.share_without_contact));
+  }
+  return text + table_text(std::array{name, median, low, high, centre, axes, surface, free});
+}
+
 }  // namespace
 
 std::string_view name_of(LimitReason reason) noexcept {
@@ -238,6 +322,18 @@ std::string_view name_of(LimitReason reason) noexcept {
       return "contact_at_start";
   }
   return "contact";
+}
+
+std::string_view name_of(ContactKind kind) noexcept {
+  switch (kind) {
+    case ContactKind::unknown:
+      return "unknown";
+    case ContactKind::bearing:
+      return "bearing";
+    case ContactKind::impingement:
+      return "impingement";
+  }
+  return "unknown";
 }
 
 std::string guarantee_text(const MotionLimit& limit) {
@@ -277,8 +373,9 @@ std::string rom_json(const RomResult& result) {
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)},
-            {"articular_region", json_of(result.articular)},
-            {"terms", result.terms}};
+            {"bearing", bearing_json(result)},
+            {"terms", result.terms},
+            {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);
@@ -287,48 +384,72 @@ std::string rom_json(const RomResult& result) {
 }
 
 std::string rom_text(const RomResult& result) {
+  const auto limit_text = [&](std::size_t i) {
+    const Angle turned = result.limits[i].end.turned;
+    return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
+                                : io::quoted_limit(turned, result.bands[i]);
+  };
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
-      reason{Align::left, {"reason"}}, point{Align::left, {"contact point (mm, fixed frame)"}},
-      clock{Align::right, {"clock"}}, features{Align::left, {"mobile on fixed"}};
-  for (const MotionLimit& limit : result.limits) {
+      reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
+      clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
+      centres{Align::right, {"centres (mm)"}}, space{Align::right, {"space (mm)"}};
+  for (std::size_t i = 0; i < result.limits.size(); ++i) {
+    const MotionLimit& limit = result.limits[i];
     name.cells.push_back(limit.motion.name);
-    turned.cells.push_back(fmt::format("{:.2f}", limit.end.turned.degrees()));
+    turned.cells.push_back(limit_text(i));
     reason.cells.emplace_back(words_of(limit));
     const auto& contact = limit.end.contact;
     point.cells.push_back(contact ? fmt::format("({:.2f}, {:.2f}, {:.2f})", contact->fixed_point.x(),
                                                 contact->fixed_point.y(), contact->fixed_point.z())
                                   : "-");
+    const auto& sliding = limit.end.bearing_contact;
+    bearing.cells.push_back(sliding ? fmt::format("{:.2f}", sliding->turned.degrees()) : "-");
+    const bool distance = limit.head && limit.head->centre_distance_mm;
+    centres.cells.push_back(distance ? fmt::format("{:.2f}", *limit.head->centre_distance_mm) : "-");
+    const bool spaced = limit.head && limit.head->joint_space_mm;
+    space.cells.push_back(spaced ? fmt::format("{:.2f}", *limit.head->joint_space_mm) : "-");
     const auto hour = io::clock_hour(result.joint, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
-    features.cells.push_back(
-        contact ? fmt::format("{} on {}", text_of(contact->mobile_feature), text_of(contact->fixed_feature))
-                : "-");
   }
   const Joint& joint = result.joint;
   std::string text = fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  name_of(joint.side));
-  text += fmt::format("  {}\n", text_of(result.articular));
+  text += bearing_text(result);
   for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
-  text += table_text(std::array{name, turned, reason, clock, point, features});
+  text += result.bearing.surface
+              ? table_text(std::array{name, turned, reason, clock, point, bearing, centres, space})
+              : table_text(std::array{name, turned, reason, clock, point});
+  text += band_text(result);
   if (result.map) text += map_text(*result.map);
   return text + fmt::format("  {}\n", io::scope_note);
 }
 
 std::string rom_csv(const RomResult& result) {
   std::string text =
-      "motion,limit_deg,reason,articular,error_bound_deg,vary,sense,range_deg,"
+      "motion,limit_deg,reason,contact_kind,bearing_contact_deg,centre_distance_mm,joint_space_mm,"
+      "error_bound_deg,vary,sense,range_deg,"
       "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
       "limit_flexion_deg,limit_adduction_deg,limit_internal_rotation_deg,"
       "contact_x_mm,contact_y_mm,contact_z_mm,"
-      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour\n";
+      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour,"
+      "band_p5_deg,band_median_deg,band_p95_deg,band_from_centre_deg,band_from_axes_deg,band_from_surface_"
+      "deg,"
+      "band_share_without_contact\n";
   const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
   const auto angles = [](const JointAngles& a) {
     return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
   };
-  for (const MotionLimit& limit : result.limits) {
-    const auto& [motion, end] = limit;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), end.turned.degrees(),
-                        name_of(end.reason), ends_in_contact(limit) ? (end.is_articular() ? "1" : "0") : "",
+  for (std::size_t i = 0; i < result.limits.size(); ++i) {
+    const MotionLimit& limit = result.limits[i];
+    const auto& [motion, end, head] = limit;
+    const auto field = [](const std::optional<double>& value) {
+      return value ? fmt::format("{}", *value) : "";
+    };
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name),
+                        end.turned.degrees(), name_of(end.reason),
+                        ends_in_contact(limit) ? name_of(end.kind()) : "",
+                        end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
+                        head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
                         end.error_bound.degrees(), name_of(motion.vary),
                         motion.sense == RotationSense::positive ? "positive" : "negative",
                         motion.range.degrees(), angles(motion.start), angles(limit.angles_at_limit()));
@@ -337,7 +458,16 @@ std::string rom_csv(const RomResult& result) {
     text += contact ? fmt::format("{},{},{},{}", point(contact->fixed_point), point(contact->mobile_point),
                                   text_of(contact->fixed_feature), text_of(contact->mobile_feature))
                     : std::string(",,,,,,,");
-    text += hour ? fmt::format(",{}\n", *hour) : ",\n";
+    text += hour ? fmt::format(",{}", *hour) : ",";
+    if (result.bands.empty()) {
+      text += ",,,,,,,\n";
+      continue;
+    }
+    const LimitBand& band = result.bands[i];
+    for (const Angle angle : {band.p5, band.median, band.p95, band.width_from.centre, band.width_from.axes,
+                              band.width_from.surface})
+      text += fmt::format(",{}", angle.degrees());
+    text += fmt::format(",{}\n", band.share_without_contact);
   }
   return text;
 }

@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-#include "condyle/error.hpp"
 #include "condyle/contact.hpp"
-#include "motion/rom/even_joint_space.hpp"
+#include "condyle/error.hpp"
 #include "radial/exact/ray_scan.hpp"
 
 namespace condyle {
@@ -55,34 +54,24 @@ struct DepthRange::Parts {
   JointKind kind;
   Side side;
   AllowedDepth allowed;
-  std::optional<ArticularRegion> articular;
+  BearingFinding bearing;
   JointContact contact;
 };
 
-DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed,
-                       const std::optional<ArticularRegion>& articular) {
+DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed) {
   check(allowed);
-  parts_ = std::make_unique<Parts>(Parts{joint.kind, joint.side, allowed,
-                                         articular ? articular : find_articular_region(joint),
-                                         JointContact(joint)});
+  parts_ = std::make_unique<Parts>(
+      Parts{joint.kind, joint.side, allowed, find_bearing_surface(joint), JointContact(joint)});
   for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},
                                     std::pair{&joint.mobile, &parts_->contact.mobile_table()}})
     if (!table->is_closed()) throw MeshError(body->name + ": is open: depth needs an inside");
-  if (allowed.follow_socket && !parts_->articular)
-    throw MeshError(joint.mobile.name +
-                    ": no head was found to centre in the socket: state the articular region");
 }
 
 DepthRange::~DepthRange() = default;
 
 DeepestPlace DepthRange::deepest(const JointAngles& at) const {
-  Pose X = pose_at(parts_->side, at);
+  const Pose X = pose_at(parts_->side, at);
   DeepestPlace deepest;
-  if (parts_->allowed.follow_socket) {
-    deepest.shift =
-        motion::even_joint_space(parts_->contact, *parts_->articular, X, *parts_->allowed.follow_socket);
-    X.pretranslate(deepest.shift->translation_mm);
-  }
   const Pose X_MF = X.inverse();
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
   Penetrations found;
@@ -122,8 +111,11 @@ DepthLimit DepthRange::limit(const Motion& motion) const {
     end.reason = reason, end.turned = turned;
     if (reason == LimitReason::end_of_range) return out;
     end.contact = out.at_limit.contact;
-    if (end.contact)
-      end.contact->articular = parts_->articular && parts_->articular->holds(end.contact->fixed_point);
+    if (end.contact && parts_->bearing.surface)
+      end.contact->kind =
+          parts_->bearing.surface->holds(parts_->contact.mobile(), end.contact->mobile_feature)
+              ? ContactKind::bearing
+              : ContactKind::impingement;
     return out;
   };
   if (out.start_depth_mm > allowed.depth_mm) return finish(LimitReason::contact_at_start, Angle());
@@ -160,8 +152,8 @@ std::vector<DepthLimit> DepthRange::limits(std::span<const Motion> motions) cons
   return out;
 }
 
-const std::optional<ArticularRegion>& DepthRange::articular_region() const noexcept {
-  return parts_->articular;
+const BearingFinding& DepthRange::bearing() const noexcept {
+  return parts_->bearing;
 }
 
 }  // namespace condyle

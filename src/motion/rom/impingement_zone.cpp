@@ -3,20 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
-#include "condyle/error.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/error.hpp"
 
 namespace condyle {
 namespace {
 
+/// counts(v): whether vertex v may be part of the zone.
+template <class Counts>
 void take_depths(const std::optional<RadialResults>& radial,
-                 const std::optional<TangentialResults>& tangential, BodyZone& zone) {
+                 const std::optional<TangentialResults>& tangential, const Counts& counts, BodyZone& zone) {
   if (!radial || !tangential) return;
   const std::size_t count = radial->size();
   for (auto* values : {&zone.radial_depth_mm, &zone.ray_to_normal_deg, &zone.tangential_depth_deg,
                        &zone.tangential_depth_mm})
     values->assign(count, 0.0);
   for (std::size_t v = 0; v < count; ++v) {
+    if (!counts(v)) continue;
     if (radial->state[v] == PointState::inside) {
       zone.radial_depth_mm[v] = -radial->radial_gap_mm[v];
       zone.ray_to_normal_deg[v] = radial->ray_to_normal[v].degrees();
@@ -42,11 +45,20 @@ void take_triangles(const TriMesh& mesh, std::vector<Index> triangles, BodyZone&
   if (zone.area_mm2 > 0) zone.centroid_mm = moment / zone.area_mm2;
 }
 
-std::optional<NeckAxis> neck_of(const Joint& joint) {
-  const auto region = find_articular_region(joint);
-  if (!region) return std::nullopt;
-  return find_neck_axis(joint.mobile.mesh, region->radius_mm / articular_radii_of_head);
-}
+/// Which triangles and vertices of the mobile body slide and do not count; none where bearing contact counts.
+struct Sliding {
+  std::vector<std::uint8_t> triangles, vertices;
+
+  Sliding(const TriMesh& mobile, const std::optional<BearingSurface>& bearing, BearingRule rule)
+      : triangles(mobile.triangles.size()), vertices(mobile.vertices.size()) {
+    if (!bearing || rule == BearingRule::count) return;
+    triangles = bearing->triangles;
+    std::fill(vertices.begin(), vertices.end(), std::uint8_t{1});
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      if (!triangles[t])
+        for (const Index v : mobile.triangles[t]) vertices[v] = 0;
+  }
+};
 
 }  // namespace
 
@@ -55,15 +67,19 @@ struct ZoneFinder::Parts {
   Angle past;
   ClockFace socket_clock;
   std::optional<NeckAxis> neck;
+  Sliding sliding;
   JointContact contact;
 };
 
 ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   if (!(options.past >= Angle() && options.past <= Angle::degrees(180)))
     throw UsageError("impingement zone: past the limit must be between 0 and 180 degrees");
+  const auto bearing = find_bearing_surface(joint, options.bearing).surface;
+  std::optional<NeckAxis> neck = options.neck;
+  if (!neck && bearing) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
   parts_ = std::make_unique<Parts>(
-      Parts{joint.side, options.past, options.socket_clock ? *options.socket_clock : sagittal_clock(),
-            options.neck ? options.neck : neck_of(joint), JointContact(joint.fixed.mesh, joint.mobile.mesh)});
+      Parts{joint.side, options.past, options.socket_clock ? *options.socket_clock : sagittal_clock(), neck,
+            Sliding(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -76,7 +92,7 @@ const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;
-  const auto& [side, past, socket_clock, neck, contact] = *parts_;
+  const auto& [side, past, socket_clock, neck, sliding, contact] = *parts_;
   ImpingementZone zone{limit, past, {}, {}, {}, {}, {}, {}};
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
@@ -84,12 +100,25 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   const RadialContact radial = contact.radial(X_FM);
   const bool both_closed = radial.mobile_in_fixed && radial.fixed_in_mobile;
   const TangentialContact tangential =
-      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, side, at))
-                  : TangentialContact{};
-  take_depths(radial.mobile_in_fixed, tangential.mobile_in_fixed, zone.mobile);
-  take_depths(radial.fixed_in_mobile, tangential.fixed_in_mobile, zone.fixed);
+      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, side, at)) : TangentialContact{};
+  // clang 14 does not let a lambda have a structured binding.
+  const Sliding& slides = sliding;
+  const auto leaves_through_bearing = [&](const std::vector<Index>& exits, std::size_t v) {
+    return exits[v] != no_index && slides.triangles[exits[v]];
+  };
+  take_depths(
+      radial.mobile_in_fixed, tangential.mobile_in_fixed, [&](std::size_t v) { return !slides.vertices[v]; },
+      zone.mobile);
+  take_depths(
+      radial.fixed_in_mobile, tangential.fixed_in_mobile,
+      [&](std::size_t v) {
+        return !leaves_through_bearing(radial.fixed_in_mobile->triangle, v) &&
+               !leaves_through_bearing(tangential.fixed_in_mobile->triangle, v);
+      },
+      zone.fixed);
   std::vector<Index> of_fixed, of_mobile;
   for (const TrianglePair& pair : radial.pairs) {
+    if (sliding.triangles[pair.mobile]) continue;
     of_fixed.push_back(pair.fixed);
     of_mobile.push_back(pair.mobile);
   }

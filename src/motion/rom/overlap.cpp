@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "condyle/error.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/error.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -13,48 +13,41 @@ namespace {
 /// One entry per triangle; bytes, because threads never share them and vector<bool> is slow to scan.
 using Marks = std::vector<unsigned char>;
 
-PartOfMesh without(const Mesh& mesh, const Marks& left_out, const std::string& body) {
+/// Empty where no triangle is wanted.
+std::optional<PartOfMesh> part_of(const Mesh& mesh, const Marks& wanted) {
   const TriMesh& whole = mesh;
   TriMesh part{whole.vertices, {}};
   std::vector<Index> triangle_in_whole;
   part.triangles.reserve(whole.triangles.size()), triangle_in_whole.reserve(whole.triangles.size());
   for (Index t = 0; t < whole.triangles.size(); ++t) {
-    if (left_out[t]) continue;
+    if (!wanted[t]) continue;
     part.triangles.push_back(whole.triangles[t]);
     triangle_in_whole.push_back(t);
   }
-  if (part.triangles.empty() && !whole.triangles.empty())
-    throw MeshError(body + ": every triangle is left out: nothing remains that could meet the other body");
-  if (part.triangles.size() == whole.triangles.size()) return {mesh, std::move(triangle_in_whole)};
-  return {std::move(part), std::move(triangle_in_whole)};
+  if (part.triangles.size() == whole.triangles.size()) return PartOfMesh{mesh, std::move(triangle_in_whole)};
+  if (part.triangles.empty()) return std::nullopt;
+  return PartOfMesh{std::move(part), std::move(triangle_in_whole)};
 }
 
-void mark_inside(const TriMesh& mesh, const ArticularRegion& region, Marks& marks) {
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    if (region.holds(mesh.corner(t, 0)) && region.holds(mesh.corner(t, 1)) && region.holds(mesh.corner(t, 2)))
-      marks[t] = 1;
+PartOfMesh counting_part(const Body& body, const Marks& wanted) {
+  if (auto part = part_of(body.mesh, wanted)) return std::move(*part);
+  throw MeshError(body.name + ": every triangle is left out: nothing remains that could meet the other body");
 }
 
-void mark_neighbours(const TriMesh& mesh, int rings, Marks& marks) {
+std::size_t left_out_by(const Marks& wanted) {
+  return static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 0));
+}
+
+void unmark_neighbours(const TriMesh& mesh, int rings, Marks& marks) {
   Marks vertex_marks(mesh.vertices.size());
   for (int ring = 0; ring < rings; ++ring) {
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      if (marks[t])
+      if (!marks[t])
         for (const Index v : mesh.triangles[t]) vertex_marks[v] = 1;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
       for (const Index v : mesh.triangles[t])
-        if (vertex_marks[v]) marks[t] = 1;
+        if (vertex_marks[v]) marks[t] = 0;
   }
-}
-
-void check(const ArticularRegion& region) {
-  if (!(region.radius_mm > 0) || !std::isfinite(region.radius_mm))
-    throw UsageError("region to leave out: the radius must be above 0 mm");
-  if (!region.cone) return;
-  if (!region.cone->axis.allFinite() || region.cone->axis.isZero(0))
-    throw UsageError("region to leave out: the cone's axis has no direction");
-  if (!(region.cone->half_angle.radians() > 0))
-    throw UsageError("region to leave out: the cone's half angle must be above 0 degrees");
 }
 
 std::string number(double value) {
@@ -74,23 +67,30 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
 
 }  // namespace
 
-PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options) {
+PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
+                              const std::optional<BearingSurface>& bearing, BearingRule rule) {
   const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
-  Marks of_fixed(fixed.triangles().size()), of_mobile(mobile.triangles().size());
+  Marks of_fixed(fixed.triangles().size(), 1), of_mobile(mobile.triangles().size(), 1);
   if (options.leave_out_reference_contacts) {
     const int rings = options.leave_out_reference_contacts->rings;
     if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
     const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.side, options.reference_pose));
-    for (const TrianglePair& pair : pairs) of_fixed[pair.fixed] = of_mobile[pair.mobile] = 1;
-    mark_neighbours(fixed, rings, of_fixed);
-    mark_neighbours(mobile, rings, of_mobile);
+    for (const TrianglePair& pair : pairs) of_fixed[pair.fixed] = of_mobile[pair.mobile] = 0;
+    unmark_neighbours(fixed, rings, of_fixed);
+    unmark_neighbours(mobile, rings, of_mobile);
   }
-  if (options.leave_out_region) {
-    check(*options.leave_out_region);
-    mark_inside(fixed, *options.leave_out_region, of_fixed);
-    if (!options.leave_out_region->cone) mark_inside(mobile, *options.leave_out_region, of_mobile);
+  const LeftOut left_out{left_out_by(of_fixed), left_out_by(of_mobile)};
+  std::optional<PartOfMesh> of_bearing;
+  if (bearing && rule == BearingRule::leave_out) {
+    Marks slides(of_mobile.size());
+    for (std::size_t t = 0; t < slides.size(); ++t) {
+      slides[t] = of_mobile[t] && bearing->triangles[t];
+      of_mobile[t] = of_mobile[t] && !bearing->triangles[t];
+    }
+    of_bearing = part_of(mobile, slides);
   }
-  return {without(fixed, of_fixed, joint.fixed.name), without(mobile, of_mobile, joint.mobile.name)};
+  return {counting_part(joint.fixed, of_fixed), counting_part(joint.mobile, of_mobile), std::move(of_bearing),
+          left_out};
 }
 
 std::string explain_overlap(const Joint& joint, const JointAngles& at) {
@@ -117,8 +117,9 @@ std::string explain_overlap(const Joint& joint, const JointAngles& at) {
             number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") mm";
   }
   return text +
-         ". Allow a radial depth, leave out the articular region, leave out the contacts in the reference "
-         "pose, state another reference pose, or accept contact at the start";
+         ". Allow a radial depth, leave out the contacts in the reference pose, state another reference "
+         "pose, or accept "
+         "contact at the start";
 }
 
 }  // namespace condyle::motion

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "condyle/bearing.hpp"
 #include "condyle/overlap_options.hpp"
 
 /// What OverlapOptions come to: the triangles that count, and words for people whose meshes overlap.
@@ -13,19 +15,20 @@ namespace condyle::motion {
 struct PartOfMesh {
   Mesh mesh;
   std::vector<Index> triangle_in_whole;
-
-  std::size_t left_out(const Mesh& whole) const noexcept {
-    return whole.triangles().size() - mesh.triangles().size();
-  }
 };
 
+/// What of a joint's bodies is asked for contact.
 struct PartsOfJoint {
-  PartOfMesh fixed, mobile;
+  PartOfMesh fixed;
+  PartOfMesh mobile;                  ///< what ends motions
+  std::optional<PartOfMesh> bearing;  ///< of the mobile body, where it does not count
+  LeftOut left_out;                   ///< by the overlap options
 };
 
-/// Both bodies without what the options leave out. Throws UsageError for a radius that is not above 0, a
-/// cone without an axis or fewer than 0 rings, and MeshError where nothing of a body is left.
-PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options);
+/// Both bodies without what the options leave out; where bearing contact is not to count, the mobile one without its
+/// bearing surface. Throws UsageError for fewer than 0 rings, and MeshError where nothing of a body is left.
+PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
+                              const std::optional<BearingSurface>& bearing, BearingRule rule);
 
 /// One line for people whose meshes overlap: how much, where it is deepest, and what can be done.
 std::string explain_overlap(const Joint& joint, const JointAngles& at);

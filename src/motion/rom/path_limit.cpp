@@ -58,22 +58,27 @@ double most_rotation(const JointAngles& from, const JointAngles& to) noexcept {
 struct PathFinder::Parts {
   RangeOfMotion range;
   motion::PartsOfJoint counting;
+  Mesh whole_mobile;
   motion::FeatureTree fixed, mobile;
 
   Parts(const Joint& joint, const RangeOptions& options)
       : range(joint, options),
-        counting(motion::parts_that_count(joint, options.overlap)),
+        counting(
+            motion::parts_that_count(joint, options.overlap, range.bearing().surface, range.bearing_rule())),
+        whole_mobile(joint.mobile.mesh),
         fixed(counting.fixed.mesh),
         mobile(counting.mobile.mesh) {}
 
   ContactWitness witness(const motion::Clearance& nearest, const Pose& X_FM) const {
     const Index f = counting.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
     const Index m = counting.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
-    return {{FeatureKind::face, f},
-            {FeatureKind::face, m},
-            nearest.fixed_point,
-            posed(X_FM.inverse(), nearest.mobile_point),
-            range.articular_region() && range.articular_region()->holds(nearest.fixed_point)};
+    const Feature face{FeatureKind::face, m};
+    const auto& bearing = range.bearing().surface;
+    const ContactKind kind = !bearing                             ? ContactKind::unknown
+                             : bearing->holds(whole_mobile, face) ? ContactKind::bearing
+                                                                  : ContactKind::impingement;
+    return {
+        {FeatureKind::face, f}, face, nearest.fixed_point, posed(X_FM.inverse(), nearest.mobile_point), kind};
   }
 };
 

@@ -3,10 +3,11 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <cassert>
-#include <cmath>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "mesh/surface_to_surface.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/first_contact.hpp"
 
@@ -30,7 +31,7 @@ struct CountingBody {
 /// With the bodies in each other's role.
 ContactWitness exchanged(const ContactWitness& contact) {
   return {contact.mobile_feature, contact.fixed_feature, contact.mobile_point, contact.fixed_point,
-          contact.articular};
+          contact.kind};
 }
 
 /// The axis of internal rotation as seen in M, for F turning about it: adding d to the angle turns M by d
@@ -46,31 +47,51 @@ AxisFrame flexion_axis(Side side) {
 }  // namespace
 
 struct RangeOfMotion::Parts {
+  /// A part of the mobile body, resting about the axis of internal rotation.
+  struct MobilePart {
+    CountingBody body;
+    motion::RotationTable rotation_table;
+
+    MobilePart(motion::PartOfMesh part, Side side)
+        : body(std::move(part)), rotation_table(body.tree, rotation_axis_in_M(side)) {}
+  };
+
   JointKind kind;
   Side side;
+  Mesh whole_mobile;
+  BearingRule bearing_rule;
+  BearingFinding bearing;
   LeftOut left_out;
-  std::optional<ArticularRegion> articular;
-  CountingBody fixed, mobile;
-  motion::RotationTable flexion_table, rotation_table;
+  CountingBody fixed;
+  MobilePart ending;                    ///< what ends motions
+  std::unique_ptr<MobilePart> sliding;  ///< the bearing surface, where it does not count
+  motion::RotationTable flexion_table;
 
-  /// What one thread keeps: both bodies ready to turn, and the table of the flexion it last adducted at.
+  /// What one thread keeps: bodies ready to turn, and the table of the flexion it last adducted at.
   struct Worker {
-    motion::TurningBody fixed, mobile;
+    motion::TurningBody fixed, ending;
+    std::optional<motion::TurningBody> sliding;
     std::optional<Angle> flexion;
     std::unique_ptr<motion::RotationTable> adduction_table;
 
-    explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), mobile(parts.mobile.tree) {}
+    explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), ending(parts.ending.body.tree) {
+      if (parts.sliding) sliding.emplace(parts.sliding->body.tree);
+    }
   };
   mutable tbb::enumerable_thread_specific<Worker> workers;
 
-  Parts(const Joint& joint, motion::PartsOfJoint counting)
+  Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint counting)
       : kind(joint.kind),
         side(joint.side),
-        left_out{counting.fixed.left_out(joint.fixed.mesh), counting.mobile.left_out(joint.mobile.mesh)},
+        whole_mobile(joint.mobile.mesh),
+        bearing_rule(rule),
+        bearing(std::move(found)),
+        left_out(counting.left_out),
         fixed(std::move(counting.fixed)),
-        mobile(std::move(counting.mobile)),
+        ending(std::move(counting.mobile), side),
+        sliding(counting.bearing ? std::make_unique<MobilePart>(std::move(*counting.bearing), side)
+                                 : nullptr),
         flexion_table(fixed.tree, flexion_axis(side)),
-        rotation_table(mobile.tree, rotation_axis_in_M(side)),
         workers([this] { return Worker(*this); }) {}
 
   const motion::RotationTable& adduction_table(Worker& worker, const JointAngles& start) const {
@@ -82,20 +103,64 @@ struct RangeOfMotion::Parts {
     return *worker.adduction_table;
   }
 
+  /// First contact of the fixed body and one part of the mobile one.
+  RotationLimits first_contact(Worker& worker, const MobilePart& part, motion::TurningBody& turning,
+                               JointAngle vary, const JointAngles& start, const RotationRange& range) const {
+    const Pose X_FM = pose_at(side, start);
+    const auto search = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
+      body.start_at(table.frame(), X);
+      return motion::first_contact(table, body, range);
+    };
+    RotationLimits limits =
+        vary == JointAngle::internal_rotation ? search(part.rotation_table, worker.fixed, X_FM.inverse())
+        : vary == JointAngle::adduction       ? search(adduction_table(worker, start), turning, X_FM)
+                                              : search(flexion_table, turning, X_FM);
+    for (Limit* limit : {&limits.negative, &limits.positive})
+      if (limit->contact) finish(*limit->contact, part, vary);
+    return limits;
+  }
+
   /// As the search reports it, in terms of the whole bodies and labelled.
-  void finish(Limit& limit, JointAngle vary) const {
-    if (!limit.contact) return;
-    ContactWitness& contact = *limit.contact;
+  void finish(ContactWitness& contact, const MobilePart& part, JointAngle vary) const {
     if (vary == JointAngle::internal_rotation) contact = exchanged(contact);
     contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
-    contact.mobile_feature = mobile.in_whole(contact.mobile_feature);
-    contact.articular = articular && articular->holds(contact.fixed_point);
+    contact.mobile_feature = part.body.in_whole(contact.mobile_feature);
+    if (!bearing.surface) return;
+    const bool slides = bearing_rule == BearingRule::leave_out
+                            ? &part == sliding.get()
+                            : bearing.surface->holds(whole_mobile, contact.mobile_feature);
+    contact.kind = slides ? ContactKind::bearing : ContactKind::impingement;
+  }
+
+  HeadAtLimit head_at(const JointAngles& angles) const {
+    const BearingSurface& surface = *bearing.surface;
+    const Pose X_FM = pose_at(side, angles);
+    HeadAtLimit head;
+    if (surface.socket)
+      head.centre_distance_mm = (posed(X_FM, surface.head.centre) - surface.socket->centre).norm();
+    if (!sliding) return head;
+    if (const auto nearest =
+            mesh::closest_points(fixed.tree.triangle_tree(), sliding->body.tree.triangle_tree(), X_FM))
+      head.joint_space_mm = nearest->distance_mm;
+    return head;
   }
 };
 
-RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options)
-    : parts_(std::make_unique<Parts>(joint, motion::parts_that_count(joint, options.overlap))) {
-  parts_->articular = options.articular ? options.articular : find_articular_region(joint);
+namespace {
+
+/// Bearing contact before the limit.
+std::optional<BearingContact> before(const Limit& limit, const Limit& bearing) {
+  if (bearing.reason == LimitReason::end_of_range || !(bearing.turned < limit.turned)) return std::nullopt;
+  return BearingContact{bearing.turned, bearing.contact, bearing.error_bound};
+}
+
+}  // namespace
+
+RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
+  BearingFinding bearing = find_bearing_surface(joint, options.bearing);
+  const BearingRule rule = bearing.surface ? options.bearing.rule : BearingRule::count;
+  motion::PartsOfJoint counting = motion::parts_that_count(joint, options.overlap, bearing.surface, rule);
+  parts_ = std::make_unique<Parts>(joint, std::move(bearing), rule, std::move(counting));
   const OverlapOptions& overlap = options.overlap;
   if (overlap.reference_contact == ReferenceContact::accept) return;
   if (!both_limits(JointAngle::flexion, overlap.reference_pose, {Angle(), Angle()}).free_at_start())
@@ -108,17 +173,13 @@ RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& st
                                           const RotationRange& range) const {
   assert(kind() == JointKind::ball || vary == JointAngle::flexion);
   Parts::Worker& worker = parts_->workers.local();
-  const Pose X_FM = pose_at(side(), start);
-  const auto search = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
-    body.start_at(table.frame(), X);
-    return motion::first_contact(table, body, range);
-  };
-  RotationLimits limits =
-      vary == JointAngle::internal_rotation ? search(parts_->rotation_table, worker.fixed, X_FM.inverse())
-      : vary == JointAngle::adduction ? search(parts_->adduction_table(worker, start), worker.mobile, X_FM)
-                                      : search(parts_->flexion_table, worker.mobile, X_FM);
-  parts_->finish(limits.negative, vary);
-  parts_->finish(limits.positive, vary);
+  RotationLimits limits = parts_->first_contact(worker, parts_->ending, worker.ending, vary, start, range);
+  if (!worker.sliding || !limits.free_at_start()) return limits;
+  const RotationLimits bearing = parts_->first_contact(worker, *parts_->sliding, *worker.sliding, vary, start,
+                                                       {-limits.negative.turned, limits.positive.turned});
+  limits.negative.bearing_contact = before(limits.negative, bearing.negative);
+  limits.positive.bearing_contact = before(limits.positive, bearing.positive);
+  limits.work += bearing.work;
   return limits;
 }
 
@@ -128,7 +189,9 @@ MotionLimit RangeOfMotion::limit(const Motion& motion) const {
   const RotationRange range{.negative = grows ? Angle() : -motion.range,
                             .positive = grows ? motion.range : Angle()};
   RotationLimits both = both_limits(motion.vary, motion.start, range);
-  return {motion, std::move(grows ? both.positive : both.negative)};
+  MotionLimit limit{motion, std::move(grows ? both.positive : both.negative), {}};
+  if (parts_->bearing.surface) limit.head = parts_->head_at(limit.angles_at_limit());
+  return limit;
 }
 
 std::vector<MotionLimit> RangeOfMotion::limits(std::span<const Motion> motions) const {
@@ -146,8 +209,11 @@ JointKind RangeOfMotion::kind() const noexcept {
 Side RangeOfMotion::side() const noexcept {
   return parts_->side;
 }
-const std::optional<ArticularRegion>& RangeOfMotion::articular_region() const noexcept {
-  return parts_->articular;
+const BearingFinding& RangeOfMotion::bearing() const noexcept {
+  return parts_->bearing;
+}
+BearingRule RangeOfMotion::bearing_rule() const noexcept {
+  return parts_->bearing_rule;
 }
 const LeftOut& RangeOfMotion::left_out() const noexcept {
   return parts_->left_out;

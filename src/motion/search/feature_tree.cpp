@@ -11,6 +11,12 @@ FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_clo
   component_vertices_ = base_.one_vertex_of_each_piece();
 }
 
+FeatureTree FeatureTree::moved_to(const Points& mesh_vertices) const {
+  FeatureTree moved = *this;
+  moved.base_ = base_.moved_to(mesh_vertices);
+  return moved;
+}
+
 /// The order of vertices is that in which triangles first use them.
 void FeatureTree::count_vertices() {
   vertices_before_.reserve(triangles().size() + 1);

@@ -24,12 +24,18 @@ class FeatureTree {
 
   explicit FeatureTree(const Mesh& mesh);
 
+  /// The same over vertices elsewhere, one for each of the mesh's: as TriangleTree::moved_to.
+  FeatureTree moved_to(const Points& mesh_vertices) const;
+
   struct Range {
     Index first = 0, last = 0;
   };
 
   const std::vector<Node>& nodes() const noexcept { return base_.nodes(); }
   bool empty() const noexcept { return base_.empty(); }
+
+  /// Its triangles in the same order.
+  const mesh::TriangleTree& triangle_tree() const noexcept { return base_; }
 
   /// Corners and ends are slots of vertices: corners in the mesh's order, ends in ascending order of the
   /// mesh's numbers, so that what is computed from a feature does not depend on the tree.

@@ -51,11 +51,12 @@ Feature feature(const FeatureTree& tree, FeatureKind kind, Index slot) {
   return {FeatureKind::face, tree.mesh_triangle(slot)};
 }
 
-/// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest.
+/// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest. Resting is
+/// const RotationTable or TurningBody.
+template <class Resting>
 class Search {
  public:
-  Search(const RotationTable& resting, TurningBody& turning, RotationSense sense, double range,
-         SearchWork& work)
+  Search(Resting& resting, TurningBody& turning, RotationSense sense, double range, SearchWork& work)
       : resting_(resting), turning_(turning), sense_(sense), best_angle_(range), work_(work) {
     narrow_window();
   }
@@ -99,7 +100,8 @@ class Search {
   void compare_leaves(const NodePair& pair, const Node& m, const Node& f) {
     ++work_.leaf_pairs;
     const CylinderBox &m_leaf = turning_.node_box(pair.turning), &f_leaf = resting_.node_box(pair.resting);
-    const CylinderFeatures &mf = turning_.leaf_features(pair.turning), &ff = resting_.features();
+    const CylinderFeatures &mf = turning_.leaf_features(pair.turning),
+                           &ff = resting_.leaf_features(pair.resting);
     std::array<Index, mesh::TriangleTree::leaf_triangles> near{};
     std::size_t count = 0;
     for (Index t = f.first; t < f.last; ++t) {
@@ -165,7 +167,7 @@ class Search {
         sense_ == RotationSense::positive ? AngleWindow::forward(reach_) : AngleWindow::backward(reach_);
   }
 
-  const RotationTable& resting_;
+  Resting& resting_;
   TurningBody& turning_;
   RotationSense sense_;
   double best_angle_;
@@ -190,10 +192,10 @@ Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 }
 
 /// Where the two features meet after the rotation: as a point of either body in its own frame.
-ContactWitness witness(const RotationTable& resting, TurningBody& turning, const Found& found,
-                       double rotation) {
+template <class Resting>
+ContactWitness witness(Resting& resting, TurningBody& turning, const Found& found, double rotation) {
   const auto on_turning = [&](Index v) { return about_axis(vec3(turning.placed_vertex(v)), rotation); };
-  const auto on_resting = [&](Index v) { return vec3(resting.features().points[v]); };
+  const auto on_resting = [&](Index v) { return vec3(resting.placed_vertex(v)); };
   Vec3 m, f;
   if (found.turning_kind == FeatureKind::vertex) {
     m = f = on_turning(found.turning);
@@ -205,7 +207,7 @@ ContactWitness witness(const RotationTable& resting, TurningBody& turning, const
     const Vec3 a = on_turning(pa), b = on_turning(pb), c = on_resting(pc), d = on_resting(pd);
     m = nearest_to_line(a, b, c, d), f = nearest_to_line(c, d, a, b);
   }
-  return {found.features.resting, found.features.turning, resting.frame().from_axis(f),
+  return {found.features.resting, found.features.turning, resting.to_own(f),
           turning.to_own(about_axis(m, -rotation))};
 }
 
@@ -214,11 +216,11 @@ Angle size_of(Angle range) noexcept {
   return Angle::radians(std::abs(range.radians()));
 }
 
-Limit limit_in(RotationSense sense, Angle range, const RotationTable& resting, TurningBody& turning,
-               SearchWork& work) {
+template <class Resting>
+Limit limit_in(RotationSense sense, Angle range, Resting& resting, TurningBody& turning, SearchWork& work) {
   const Angle size = size_of(range);
   std::optional<Found> found;
-  if (size > Angle()) found = Search(resting, turning, sense, size.radians(), work).run();
+  if (size > Angle()) found = Search<Resting>(resting, turning, sense, size.radians(), work).run();
   if (!found) return {size};
   return {Angle::radians(found->angle), LimitReason::contact,
           witness(resting, turning, *found, sign_of(sense) * found->angle), Angle::radians(2 * found->error)};
@@ -229,9 +231,8 @@ RotationLimits in_contact_at_start(const std::optional<ContactWitness>& contact,
   return {limit, limit, work};
 }
 
-}  // namespace
-
-RotationLimits first_contact(const RotationTable& resting, TurningBody& turning, const RotationRange& range) {
+template <class Resting>
+RotationLimits first_contact_of(Resting& resting, TurningBody& turning, const RotationRange& range) {
   assert(range.negative.radians() <= 0 && range.positive.radians() >= 0);
   assert(range.negative.radians() >= -two_pi && range.positive.radians() <= two_pi);
   SearchWork work;
@@ -243,6 +244,16 @@ RotationLimits first_contact(const RotationTable& resting, TurningBody& turning,
   const Limit negative = limit_in(RotationSense::negative, range.negative, resting, turning, work);
   const Limit positive = limit_in(RotationSense::positive, range.positive, resting, turning, work);
   return {negative, positive, work};
+}
+
+}  // namespace
+
+RotationLimits first_contact(const RotationTable& resting, TurningBody& turning, const RotationRange& range) {
+  return first_contact_of(resting, turning, range);
+}
+
+RotationLimits first_contact(TurningBody& resting, TurningBody& turning, const RotationRange& range) {
+  return first_contact_of(resting, turning, range);
 }
 
 }  // namespace condyle::motion

@@ -20,5 +20,7 @@ struct FeaturePair {
 /// Deterministic: the same input gives the same bits on any thread.
 RotationLimits first_contact(const RotationTable& resting, TurningBody& turning,
                              const RotationRange& range = {});
+/// The same for a body that rests for a few searches only, at the pose where it starts: made ready as far as they look.
+RotationLimits first_contact(TurningBody& resting, TurningBody& turning, const RotationRange& range = {});
 
 }  // namespace condyle::motion

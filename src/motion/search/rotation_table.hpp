@@ -55,10 +55,13 @@ class RotationTable {
 
   const FeatureTree& tree() const noexcept { return *tree_; }
   const AxisFrame& frame() const noexcept { return frame_; }
+  /// A point in the frame of the axis, in the coordinates that the frame is given in.
+  Vec3 to_own(const Vec3& p) const noexcept { return frame_.from_axis(p); }
   const CylinderBox& node_box(Index node) const noexcept { return features_.node_boxes[node]; }
   const CylinderFeatures& features() const noexcept { return features_; }
   /// As TurningBody's: here everything is ready.
   const CylinderFeatures& leaf_features(Index) const noexcept { return features_; }
+  const Triple<double>& placed_vertex(Index vertex) const noexcept { return features_.points[vertex]; }
 
  private:
   const FeatureTree* tree_;

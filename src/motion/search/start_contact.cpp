@@ -62,7 +62,8 @@ mesh::TriangleCorners corners_of(const FeatureTree& tree, const CylinderFeatures
 
 }  // namespace
 
-std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable& resting, TurningBody& turning,
+template <class Resting>
+std::optional<ContactWitness> faces_in_contact_at_start(Resting& resting, TurningBody& turning,
                                                         SearchWork& work) {
   const FeatureTree &mt = turning.tree(), &ft = resting.tree();
   const auto near_now = [](const CylinderBox& a, const CylinderBox& b) {
@@ -82,7 +83,8 @@ std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable& res
       split(mt, ft, pair, push);
       continue;
     }
-    const CylinderFeatures &mf = turning.leaf_features(pair.turning), &ff = resting.features();
+    const CylinderFeatures &mf = turning.leaf_features(pair.turning),
+                           &ff = resting.leaf_features(pair.resting);
     for (Index s = m.first; s < m.last; ++s) {
       for (Index t = f.first; t < f.last; ++t) {
         if (!near_now(mf.triangle_boxes[s], ff.triangle_boxes[t])) continue;
@@ -92,7 +94,7 @@ std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable& res
         const Vec3 p = common_point(a, b);
         return ContactWitness{{FeatureKind::face, ft.mesh_triangle(t)},
                               {FeatureKind::face, mt.mesh_triangle(s)},
-                              resting.frame().from_axis(p),
+                              resting.to_own(p),
                               turning.to_own(p)};
       }
     }
@@ -100,16 +102,21 @@ std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable& res
   return std::nullopt;
 }
 
-bool one_inside_other_at_start(const RotationTable& resting, TurningBody& turning) {
+template <class Resting>
+bool one_inside_other_at_start(Resting& resting, TurningBody& turning) {
   const FeatureTree &mt = turning.tree(), &ft = resting.tree();
   const auto inside_resting = [&](Index v) { return winding_number(resting, turning.placed_vertex(v)) > 0; };
-  const auto inside_turning = [&](Index v) {
-    return winding_number(turning, resting.features().points[v]) > 0;
-  };
+  const auto inside_turning = [&](Index v) { return winding_number(turning, resting.placed_vertex(v)) > 0; };
   return (ft.is_closed() &&
           std::any_of(mt.component_vertices().begin(), mt.component_vertices().end(), inside_resting)) ||
          (mt.is_closed() &&
           std::any_of(ft.component_vertices().begin(), ft.component_vertices().end(), inside_turning));
 }
+
+template std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable&, TurningBody&,
+                                                                 SearchWork&);
+template std::optional<ContactWitness> faces_in_contact_at_start(TurningBody&, TurningBody&, SearchWork&);
+template bool one_inside_other_at_start(const RotationTable&, TurningBody&);
+template bool one_inside_other_at_start(TurningBody&, TurningBody&);
 
 }  // namespace condyle::motion

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/first_contact.hpp"
+#include "condyle/fit.hpp"
+#include "condyle/joint.hpp"
+
+/// Bearing surfaces and impingement: which contacts stop a ball joint, and which only say that its centre is off.
+/// docs/mathematics.md, section 6.
+
+namespace condyle {
+
+/// Below the joint space of nearly every hip, 2 to 4 mm between bones, and above the roughness of a segmented head.
+inline constexpr double usual_bearing_margin_mm = 2;
+/// Kept between the bearing surface and the rim, so that nothing that can meet the rim is called bearing.
+inline constexpr double rim_reserve_mm = 0.5;
+/// A head whose centre is farther from the joint centre is no basis to tell bearing surfaces by.
+inline constexpr double farthest_head_centre_mm = 5;
+
+/// The part of the mobile body that slides in the socket: the triangles with all three corners within the head's
+/// radius and the margin of the head's centre. A vertex or an edge is bearing when all its triangles are.
+///
+///        ____
+///      /  M   .   .  rim: farther out than the head's radius and the margin,
+///     |   head .---+----  so what touches within touches inside the socket
+///      .      .   /   neck
+///        ----
+struct BearingSurface {
+  Sphere head;                          ///< in M, mm
+  double head_coverage = 0;             ///< of the fit
+  double margin_mm = 0;                 ///< as used
+  std::optional<double> rim_gap_mm;     ///< between head and rim; empty where no rim was found
+  std::optional<Sphere> socket;         ///< in F, fitted; empty where the fixed body has no spherical socket
+  std::vector<std::uint8_t> triangles;  ///< of the mobile mesh: 1 for bearing
+
+  std::size_t count() const noexcept;
+  /// A feature of the mobile mesh. Linear in its triangles for vertices and edges.
+  bool holds(const TriMesh& mobile, const Feature& feature) const noexcept;
+};
+
+enum class BearingRule : std::uint8_t {
+  leave_out,  ///< Bearing contact does not end a motion; impingement does.
+  count,      ///< Any contact ends a motion.
+};
+
+struct BearingOptions {
+  BearingRule rule = BearingRule::leave_out;
+  /// How far outside the head's sphere the bearing surface reaches, mm, 0 or more; where not given the smaller of
+  /// usual_bearing_margin_mm and the gap at the rim less rim_reserve_mm.
+  std::optional<double> margin_mm = {};
+  /// As found before, of the same mobile mesh; else it is found, which costs more than the rest of making a joint
+  /// ready.
+  std::optional<BearingSurface> surface = {};
+};
+
+/// The bearing surface of a joint, or in one sentence why none can be told.
+struct BearingFinding {
+  std::optional<BearingSurface> surface;
+  std::string why_none;
+};
+
+/// Looks for the head around the joint centre. None for a hinge, where no head is found, where its centre is farther
+/// than farthest_head_centre_mm from the joint centre, where the joint space leaves no margin, and where the whole
+/// mobile body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
+///
+/// Some milliseconds per 10,000 triangles: both bodies are searched for spheres.
+BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});
+
+}  // namespace condyle

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "condyle/range_of_motion.hpp"
+
+/// How far limits move when what is not known exactly is moved within what is known: a limit with its band can be
+/// quoted. docs/mathematics.md, section 6.
+
+namespace condyle {
+
+/// Standard deviations, each normally distributed and independent of the others.
+struct Uncertainty {
+  double centre_mm = 0.5;          ///< of each coordinate of the joint centre
+  Angle axes = Angle::degrees(1);  ///< of the rotation of the joint frame about each of its axes
+  /// Of the surface along its normals, one value over a whole bone: a segmentation takes too much everywhere or too
+  /// little everywhere.
+  double surface_mm = 0.25;
+};
+
+struct BandOptions {
+  Uncertainty sigma = {};
+  std::size_t samples = 200;  ///< 20 or more
+  std::uint64_t seed = 1;
+};
+
+/// Widths of the band, 5 to 95 %, where only one source is uncertain.
+struct BandShares {
+  Angle centre, axes, surface;
+};
+
+/// The spread of one motion's limit.
+struct LimitBand {
+  Angle p5, median, p95;
+  BandShares width_from;
+  double share_without_contact = 0;  ///< of the samples that reach the end of the motion's range, 0 to 1
+  double share_in_contact_at_start = 0;
+};
+
+/// How a band's computation is followed and ended, as a map's.
+struct BandControl {
+  std::function<void(std::size_t done, std::size_t total)> progress =
+      {};  ///< one call at a time, growing counts
+  std::stop_token stop = {};
+};
+
+/// Bands of these motions, in their order: each of `samples` joints has its centre displaced, its axes rotated and both
+/// surfaces moved, by a Latin hypercube of the seed; its limits are exact. Where a bearing surface is known, that of the
+/// joint as given is used in all. The same bits whatever the threads.
+///
+/// Throws UsageError for fewer than 20 samples, a standard deviation that is negative or not finite, and motions that
+/// check_motion() refuses. Up to four searches per sample, all together and each source alone, of some milliseconds
+/// each for twelve motions of a hip.
+std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
+                                   const RangeOptions& range, const BandOptions& options = {});
+/// The same; empty where it was stopped before all samples were done.
+std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
+                                                  const RangeOptions& range, const BandOptions& options,
+                                                  const BandControl& control);
+
+}  // namespace condyle

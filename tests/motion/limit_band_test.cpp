@@ -1,0 +1,179 @@
+#include "condyle/limit_band.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "condyle/error.hpp"
+#include "motion/joint_scenes.hpp"
+#include "support/shared_data.hpp"
+
+/// Bands of limits: in closed form, the same on any number of threads, and those of an independent run on real hips.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+Motion flexion() {
+  return hip_motions().front();
+}
+
+double post_limit_deg(double centre_x, double centre_y, double half_width) {
+  const double x = post_x - centre_x, y = post_y - centre_y;
+  // The arm hangs from the same place whatever the centre: its front is half a width before x = 0.
+  const double front = half_width - centre_x;
+  return (std::atan2(x, -y) - std::asin(front / std::hypot(x, y))) * 180 / std::numbers::pi;
+}
+
+TEST(LimitBand, OfTheCentreIsThatOfTheClosedForm) {
+  const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
+  const std::vector<Motion> motions{flexion()};
+  const BandOptions options{.sigma = {.centre_mm = 1, .axes = Angle(), .surface_mm = 0}, .samples = 2000};
+  const LimitBand band = limit_bands(scene.joint, motions, {}, options).front();
+  // To first order the limit is normal with the gradient's length as its deviation; a millimetre is small here.
+  const double h = 1e-3;
+  const double gx = (post_limit_deg(h, 0, arm_half_width) - post_limit_deg(-h, 0, arm_half_width)) / (2 * h);
+  const double gy = (post_limit_deg(0, h, arm_half_width) - post_limit_deg(0, -h, arm_half_width)) / (2 * h);
+  const double sigma = std::hypot(gx, gy), limit = post_limit() * 180 / std::numbers::pi;
+  EXPECT_NEAR(band.median.degrees(), limit, 0.05 * sigma);
+  EXPECT_NEAR(band.p5.degrees(), limit - 1.645 * sigma, 0.1 * sigma);
+  EXPECT_NEAR(band.p95.degrees(), limit + 1.645 * sigma, 0.1 * sigma);
+  EXPECT_EQ(band.width_from.centre, band.p95 - band.p5) << "nothing else is uncertain";
+  EXPECT_LT(band.width_from.axes.degrees(), 1e-9);
+  EXPECT_LT(band.width_from.surface.degrees(), 1e-9);
+  EXPECT_EQ(band.share_without_contact, 0);
+}
+
+TEST(LimitBand, WithoutUncertaintyIsTheLimit) {
+  for (const JointAngle vary : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+    for (const Side side : {Side::right, Side::left}) {
+      const PostJoint scene = post_joint(vary, side);
+      const std::vector<Motion> motions{{"there", vary, RotationSense::positive, {}, Angle::degrees(180)},
+                                        {"back", vary, RotationSense::negative, {}, Angle::radians(two_pi)},
+                                        {"briefly", vary, RotationSense::positive, {}, Angle::degrees(5)}};
+      const BandOptions options{.sigma = {.centre_mm = 0, .axes = Angle(), .surface_mm = 0}, .samples = 20};
+      const auto bands = limit_bands(scene.joint, motions, {}, options);
+      EXPECT_NEAR(bands[0].p5.radians(), scene.limit, 5e-12);
+      EXPECT_NEAR(bands[0].p95.radians(), scene.limit, 5e-12);
+      EXPECT_NEAR(bands[1].median.radians(), scene.limit_other_way, 5e-12);
+      EXPECT_EQ(bands[2].median, Angle::degrees(5));
+      EXPECT_EQ(bands[2].share_without_contact, 1);
+    }
+  }
+}
+
+TEST(LimitBand, OfAnotherReferencePoseIsTheSameBandSeenFromThere) {
+  // The same bones, known in a pose of 10 degrees of flexion: the limit is measured from zero all the same.
+  const PostJoint scene = post_joint(JointAngle::flexion, Side::right);
+  const std::vector<Motion> motions{flexion()};
+  const BandOptions options{.samples = 400};
+  RangeOptions flexed;
+  flexed.overlap.reference_pose.flexion = Angle::degrees(10);
+  const LimitBand zero = limit_bands(scene.joint, motions, {}, options).front();
+  const LimitBand there = limit_bands(scene.joint, motions, flexed, options).front();
+  EXPECT_NEAR(there.median.degrees(), zero.median.degrees(), 0.1);
+  EXPECT_GT(there.width_from.centre, Angle())
+      << "what is uncertain is where the axis was in the reference pose";
+}
+
+TEST(LimitBand, IsTheSameBytesOnAnyNumberOfThreadsAndAnotherWithAnotherSeed) {
+  const Joint joint = bumpy_joint(Side::right);
+  const std::vector<Motion> motions = hip_motions();
+  const auto bands = [&](std::uint64_t seed) {
+    return limit_bands(joint, motions, {.bearing = {.rule = BearingRule::count}, .overlap = {}},
+                       {.samples = 20, .seed = seed});
+  };
+  const auto many = bands(1), other = bands(2);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const auto alone = bands(1);
+  ASSERT_EQ(many.size(), motions.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    EXPECT_EQ(many[i].p5, alone[i].p5);
+    EXPECT_EQ(many[i].median, alone[i].median);
+    EXPECT_EQ(many[i].p95, alone[i].p95);
+    EXPECT_EQ(many[i].width_from.axes, alone[i].width_from.axes);
+    different += many[i].median != other[i].median;
+  }
+  EXPECT_GE(different, 5u) << "of those that end by contact";
+}
+
+TEST(LimitBand, RefusesWhatIsNoUncertainty) {
+  const Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
+  const std::vector<Motion> motions{flexion()};
+  const auto refused = [&](const BandOptions& options) {
+    EXPECT_THROW(limit_bands(joint, motions, {}, options), UsageError);
+  };
+  refused({.samples = 19});
+  refused({.sigma = {.centre_mm = -1}});
+  refused({.sigma = {.axes = Angle::radians(std::nan(""))}});
+  refused({.sigma = {.surface_mm = HUGE_VAL}});
+}
+
+TEST(LimitBand, EndsWhereItIsStopped) {
+  std::stop_source stop;
+  std::size_t seen = 0;
+  const std::vector<Motion> motions{flexion()};
+  const auto bands = limit_bands(post_joint(JointAngle::flexion, Side::right).joint, motions, {}, {},
+                                 {.progress =
+                                      [&](std::size_t done, std::size_t total) {
+                                        EXPECT_EQ(done, ++seen);
+                                        EXPECT_EQ(total, 800u);
+                                        if (done == 3) stop.request_stop();
+                                      },
+                                  .stop = stop.get_token()});
+  EXPECT_FALSE(bands);
+  EXPECT_LT(seen, 800u);
+}
+
+/// Quantiles of 200 samples drawn by another generator, and the widths that each source alone gives.
+struct Expected {
+  double p5_deg, median_deg, p95_deg, centre_deg, axes_deg, surface_deg;
+};
+constexpr std::array<Expected, 12> vhf_bands{{{127.0, 133.7, 138.0, 10.1, 7.3, 5.0},
+                                              {68.0, 72.9, 79.5, 8.6, 8.0, 6.0},
+                                              {59.5, 61.3, 63.6, 4.0, 0.8, 2.6},
+                                              {37.4, 39.3, 41.3, 1.3, 3.5, 2.1},
+                                              {97.7, 102.7, 115.5, 16.0, 4.8, 8.3},
+                                              {50.9, 55.1, 60.8, 4.8, 7.5, 3.3},
+                                              {67.6, 75.2, 81.9, 13.0, 5.6, 6.0},
+                                              {49.8, 53.2, 56.4, 5.8, 4.0, 3.5},
+                                              {26.8, 32.5, 37.7, 10.5, 4.6, 5.1},
+                                              {104.6, 110.8, 116.3, 9.7, 6.9, 4.2},
+                                              {20.2, 26.0, 31.3, 10.5, 4.2, 5.1},
+                                              {85.8, 120.0, 120.0, 0.0, 30.7, 0.0}}};
+
+TEST(RealHipBands, AgreeWithAnIndependentRun) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const Joint joint{"vhf",
+                    JointKind::ball,
+                    Side::right,
+                    {"hip bone", read_ply(*data / "hip_vhf_right/hip_bone.ply")},
+                    {"femur", read_ply(*data / "hip_vhf_right/femur.ply")}};
+  const auto motions = hip_motions();
+  // The quantiles of that run are of centre and axes: their widths are less than the surface alone would make them.
+  const auto bands = limit_bands(joint, motions, {}, {.sigma = {.surface_mm = 0}});
+  const auto surface = limit_bands(joint, motions, {}, {.sigma = {.centre_mm = 0, .axes = Angle()}});
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    SCOPED_TRACE(motions[i].name);
+    const Expected& expected = vhf_bands[i];
+    const auto near = [](Angle found, double expected_deg, double width_deg) {
+      EXPECT_NEAR(found.degrees(), expected_deg, std::max(1.5, width_deg / 10));
+    };
+    const double width_deg = expected.p95_deg - expected.p5_deg;
+    near(bands[i].p5, expected.p5_deg, width_deg);
+    near(bands[i].median, expected.median_deg, width_deg);
+    near(bands[i].p95, expected.p95_deg, width_deg);
+    // The difference of two quantiles has twice the variance of one, of two runs.
+    near(bands[i].width_from.centre, expected.centre_deg, 2 * expected.centre_deg);
+    near(bands[i].width_from.axes, expected.axes_deg, 2 * expected.axes_deg);
+    near(surface[i].width_from.surface, expected.surface_deg, 2 * expected.surface_deg);
+  }
+}
+
+}  // namespace
+}  // namespace condyle
