@@ -37,6 +37,11 @@ struct FoundPoint {
   std::uint32_t point, triangle;
   std::int16_t winding;
   bool away_from_centre, uncertain;
+
+  /// One that is left to exact arithmetic.
+  static constexpr FoundPoint left_open(std::uint32_t point) noexcept {
+    return {.point = point, .triangle = no_index, .winding = 0, .away_from_centre = false, .uncertain = true};
+  }
 };
 struct FoundPoints {
   std::size_t count;

@@ -42,9 +42,15 @@ FloatPose float_pose(const Pose& X, const Vec3& centre) {
 BlockColumns blocks_of(const PointBlocks& points, std::size_t level) {
   const auto column = [&](PointBlocks::Column c) { return points.block(level, c); };
   using P = PointBlocks;
-  return {column(P::axis_x),       column(P::axis_y),  column(P::axis_z),
-          column(P::chord),        column(P::nearest), column(P::furthest),
-          column(P::mean_inverse), column(P::spread),  points.block_count(level)};
+  return {.axis_x = column(P::axis_x),
+          .axis_y = column(P::axis_y),
+          .axis_z = column(P::axis_z),
+          .chord = column(P::chord),
+          .nearest = column(P::nearest),
+          .furthest = column(P::furthest),
+          .mean_inverse = column(P::mean_inverse),
+          .spread = column(P::spread),
+          .count = points.block_count(level)};
 }
 
 PointColumns points_of(const PointBlocks& points) {
@@ -176,9 +182,8 @@ void decide_one_by_one(const PointBlocks& points, PenetrationScratch& scratch, A
   FoundPoints& all = scratch.found;
   for (std::size_t first = 0; first < points.size(); first += points_per_batch) {
     all.count = std::min(points_per_batch, points.size() - first);
-    for (std::size_t i = 0; i < all.count; ++i) {
-      all.point[i] = {static_cast<std::uint32_t>(first + i), no_index, 0, false, true};
-    }
+    for (std::size_t i = 0; i < all.count; ++i)
+      all.point[i] = FoundPoint::left_open(static_cast<std::uint32_t>(first + i));
     answers.add(all, nullptr);
   }
 }
