@@ -9,11 +9,13 @@
 #define HWY_TARGET_INCLUDE "radial/query/crossing_pass.cpp"
 #include <hwy/foreach_target.h>
 #include "radial/query/crossing_decision-inl.hpp"
+#include "simd/packed_ranges-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
 namespace {
 
+using simd::HWY_NAMESPACE::range_excess;
 using simd::HWY_NAMESPACE::store_compacted;
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -25,19 +27,9 @@ constexpr DU du;
 /// Which of the 8-DOPs from `first` on hold the point.
 HWY_INLINE hn::Mask<DU> dops_holding(const EntryView& entries, std::size_t first, std::size_t last, Words box,
                                      Words diagonal) {
-#if HWY_TARGET == HWY_SCALAR
-  static_cast<void>(last);
-  const bool held =
-      holds(entries.axis[first], hn::GetLane(box)) && holds(entries.diagonal[first], hn::GetLane(diagonal));
-  return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
-#else
-  constexpr hn::Repartition<std::uint8_t, DU> bytes;
-  const auto excess = [&](const std::uint32_t* from, Words point) {
-    return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
-  };
-  const auto either = hn::Or(excess(entries.axis, box), excess(entries.diagonal, diagonal));
-  return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
-#endif
+  const auto axis = hn::LoadU(du, entries.axis + first), of_diagonal = hn::LoadU(du, entries.diagonal + first);
+  const auto excess = hn::Or(range_excess(du, axis, box), range_excess(du, of_diagonal, diagonal));
+  return hn::And(hn::Eq(excess, hn::Zero(du)), hn::FirstN(du, last - first));
 }
 
 void find_candidates_any(const EntryView& entries, std::span<const CellPlace> places, std::uint32_t* end,
@@ -188,7 +180,7 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
     tried += pairs.count;
     if (last == first) {
       // More triangles at one point than there is capacity for.
-      found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
+      found.point[found.count++] = FoundPoint::left_open(points.point[last++]);
     }
     first = last;
   }
