@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "radial/exact/ray_scan.hpp"
 
@@ -212,7 +211,7 @@ void penetrations(const ExactView& table, const std::optional<CubeView>& cube, c
 
   const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
   constexpr std::size_t fan = PointBlocks::fan, groups_per_batch = blocks_per_batch / fan;
-  constexpr std::size_t sets_per_batch = 16, few_groups = 4;
+  constexpr std::size_t sets_per_batch = 16;
   std::array<std::uint32_t, sets_per_batch> set;
   std::array<std::uint32_t, sets_per_batch * fan + vector_padding> near_group;
   std::array<std::uint32_t, blocks_per_batch + vector_padding> near_block;
@@ -220,13 +219,8 @@ void penetrations(const ExactView& table, const std::optional<CubeView>& cube, c
   for (std::size_t first_set = 0; first_set < set_count; first_set += sets_per_batch) {
     const std::size_t sets = std::min(sets_per_batch, set_count - first_set);
     for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
-    // Of few groups hardly one is off the surface: rejecting them is not worth its time.
-    std::size_t group_count = groups.count;
-    if (groups.count <= few_groups) {
-      std::iota(near_group.begin(), near_group.begin() + few_groups, 0u);
-    } else {
-      group_count = near_blocks(search->cube, groups, search->pose, set.data(), sets, near_group.data());
-    }
+    const std::size_t group_count =
+        near_blocks(search->cube, groups, search->pose, set.data(), sets, near_group.data());
     for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
       const std::size_t group_last = std::min(first + groups_per_batch, group_count);
       const std::size_t count = near_blocks(search->cube, blocks, search->pose, near_group.data() + first,
