@@ -161,7 +161,6 @@ std::optional<CubeView> DirectionTable::cube_view() const {
                   .levels = DirectionPyramid::level_count(cube()->cells_per_side()),
                   .radii = radii.of_cell.data(),
                   .pyramid = pyramid.data(),
-                  .all_radii = pyramid.all(),
                   .entries = table_.entries.view(),
                   .nearest = radii.nearest.data(),
                   .edge_functions = table_.forms.edge_functions.data(),

@@ -393,7 +393,6 @@ TEST_P(CubeTableOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
       anew.fill(cells, radii);
       const std::span followed_all(followed.data(), followed.size()), all(anew.data(), anew.size());
       ASSERT_TRUE(std::equal(followed_all.begin(), followed_all.end(), all.begin(), all.end())) << cells;
-      ASSERT_EQ(followed.all(), anew.all());
     }
   }
 }

@@ -22,7 +22,6 @@ struct CubeView {
   int levels;                     ///< of the pyramid
   const PackedInterval* radii;    ///< of each cell
   const PackedInterval* pyramid;  ///< see DirectionPyramid
-  PackedInterval all_radii;
   EntryView entries;
   const std::uint8_t* nearest;  ///< code of the least squared radius of each entry's triangle, its upper half
   const EdgeFunctions* edge_functions;  ///< of each triangle

@@ -147,12 +147,11 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
   const auto in_pyramid = hn::And(hn::RebindMask(di, has_cells), hn::Lt(level, hn::Set(di, cube.levels)));
   const auto index =
       hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
-  // What is too wide for the pyramid is held against all directions.
-  const auto entry = hn::IfThenElse(hn::RebindMask(du, in_pyramid), hn::GatherIndex(du, cube.pyramid, index),
-                                    hn::Set(du, cube.all_radii));
+  const auto entry = hn::GatherIndex(du, cube.pyramid, index);
   const auto reached = reach(interval_codes(d, cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
                              interval_codes(d, cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-  return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, certain)));
+  // What is too wide for the pyramid may be near.
+  return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, in_pyramid)));
 }
 
 template <bool translated>
