@@ -23,23 +23,29 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> numbers_from(Tag tag, std::size_t first)
   return hn::Add(hn::Iota(tag, 0), hn::Set(tag, static_cast<hn::TFromD<Tag>>(first)));
 }
 
-/// Stores those lanes of which the mask is set, one behind the other; may write a whole vector.
+/// Those lanes of which the mask is set, one behind the other, and whatever behind them.
 ///
 /// Eight lanes are permuted by a table of our own: of Highway 1.0.3's GCC 12 makes a copy on the stack each
 /// time.
-template <class Tag, class Vector, class T>
-HWY_INLINE void store_compacted(Tag tag, Vector values, hwy::HWY_NAMESPACE::Mask<Tag> mask, T* to) {
+template <class Tag, class Vector>
+HWY_INLINE Vector compacted(Tag tag, Vector values, hwy::HWY_NAMESPACE::Mask<Tag> mask) {
   namespace hn = hwy::HWY_NAMESPACE;
   if constexpr (hn::MaxLanes(tag) != 8) {
-    hn::StoreU(hn::Compress(values, mask), tag, to);
+    return hn::Compress(values, mask);
   } else {
     constexpr hn::RebindToUnsigned<Tag> words;
     constexpr hn::Rebind<std::uint8_t, Tag> bytes;
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(tag, mask, bits);
     const auto lanes = hn::PromoteTo(words, hn::LoadU(bytes, compaction_lanes[bits[0]].data()));
-    hn::StoreU(hn::TableLookupLanes(values, hn::IndicesFromVec(tag, lanes)), tag, to);
+    return hn::TableLookupLanes(values, hn::IndicesFromVec(tag, lanes));
   }
+}
+
+/// Stores what is compacted; may write a whole vector.
+template <class Tag, class Vector, class T>
+HWY_INLINE void store_compacted(Tag tag, Vector values, hwy::HWY_NAMESPACE::Mask<Tag> mask, T* to) {
+  hwy::HWY_NAMESPACE::StoreU(compacted(tag, values, mask), tag, to);
 }
 
 }  // namespace condyle::simd::HWY_NAMESPACE

@@ -88,8 +88,8 @@ void expect_points_find_their_triangles(const TriMesh& mesh, const radial::CubeM
       for (std::uint32_t i = entries.row[cell].first; i < entries.row[cell].last; ++i) {
         if (entries.triangle[i] != t) continue;
         ++found;
-        held += radial::holds(entries.axis[i], place) &&
-                        radial::holds(entries.diagonal[i], radial::diagonal_of_point(place))
+        held += simd::holds(entries.axis[i], place) &&
+                        simd::holds(entries.diagonal[i], radial::diagonal_of_point(place))
                     ? 1
                     : 0;
       }
@@ -393,7 +393,6 @@ TEST_P(CubeTableOn, APyramidOfWhichSomeCellsHaveChangedIsThatOfAllCells) {
       anew.fill(cells, radii);
       const std::span followed_all(followed.data(), followed.size()), all(anew.data(), anew.size());
       ASSERT_TRUE(std::equal(followed_all.begin(), followed_all.end(), all.begin(), all.end())) << cells;
-      ASSERT_EQ(followed.all(), anew.all());
     }
   }
 }

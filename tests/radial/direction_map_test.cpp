@@ -5,7 +5,7 @@
 #include <map>
 #include <random>
 
-#include "radial/query/cube_view.hpp"
+#include "radial/exact/cell_dop.hpp"
 
 namespace condyle {
 namespace {

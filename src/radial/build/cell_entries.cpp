@@ -29,24 +29,21 @@ void CellEntries::split_rows() {
     Index triangle;
     CellDop dop;
   };
-  std::vector<Entry> sorted;  // for left only, both, right only: each may be the whole row
+  std::array<std::vector<Entry>, 3> parts;  // left only, both, right only
   for (CellRow& at : row) {
     const std::uint32_t length = at.last - at.first;
     if (length <= longest_whole || length >= CellRow::whole) continue;
-    sorted.resize(std::max<std::size_t>(sorted.size(), std::size_t{3} * length));
-    const std::array<Entry*, 3> part = {sorted.data(), sorted.data() + length, sorted.data() + 2 * length};
-    std::array<Entry*, 3> end = part;
+    for (auto& part : parts) part.clear();
     for (std::uint32_t i = at.first; i < at.last; ++i) {
-      // Of least u, and of 255 - greatest u: never both. Which, cannot be predicted.
+      // Of least u, and of 255 - greatest u: never both.
       const std::uint32_t is_right = axis[i] >> 7 & 1, is_left = axis[i] >> 15 & 1;
-      *end[1 + is_right - is_left]++ = {triangle[i], {axis[i], diagonal[i]}};
+      parts[1 + is_right - is_left].push_back({triangle[i], {axis[i], diagonal[i]}});
     }
     std::uint32_t next = at.first;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (const Entry* entry = part[k]; entry != end[k]; ++entry) set(next++, entry->triangle, entry->dop);
-    }
-    at.right_begin = static_cast<std::uint16_t>(end[0] - part[0]);
-    at.left_end = static_cast<std::uint16_t>(at.right_begin + (end[1] - part[1]));
+    for (const auto& part : parts)
+      for (const Entry& entry : part) set(next++, entry.triangle, entry.dop);
+    at.right_begin = static_cast<std::uint16_t>(parts[0].size());
+    at.left_end = static_cast<std::uint16_t>(parts[0].size() + parts[1].size());
   }
 }
 

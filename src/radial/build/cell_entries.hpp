@@ -4,8 +4,9 @@
 
 #include "condyle/mesh.hpp"
 #include "core/uninitialised.hpp"
+#include "radial/build/cell_row.hpp"
+#include "radial/exact/cell_dop.hpp"
 #include "radial/exact/direction_map.hpp"
-#include "radial/query/cube_view.hpp"
 
 namespace condyle::radial {
 

@@ -29,15 +29,15 @@ float cosine_to_corners(int n) {
 RadiiView view_of(const CubeMap& map, const CubeTable& table, std::span<const TrianglePlane> planes,
                   CellRadii& radii) {
   const int n = map.cells_per_side();
-  return {n,
-          table.entries.triangle.data(),
-          planes.data(),
-          table.forms.scale,
-          radii.inverse_length.data(),
-          cosine_to_corners(n),
-          radii.starts_at_centre ? packed_interval(0, 0) : no_radii,
-          radii.nearest.data(),
-          radii.of_entry.empty() ? nullptr : radii.of_entry.data()};
+  return {.cells_per_side = n,
+          .triangle = table.entries.triangle.data(),
+          .plane = planes.data(),
+          .scale = table.forms.scale,
+          .inverse_length = radii.inverse_length.data(),
+          .cosine = cosine_to_corners(n),
+          .of_every_cell = radii.starts_at_centre ? packed_interval(0, 0) : no_radii,
+          .nearest = radii.nearest.data(),
+          .entry_radii = radii.of_entry.empty() ? nullptr : radii.of_entry.data()};
 }
 
 }  // namespace

@@ -82,9 +82,13 @@ void project_on(const std::array<PlacedCorner, 3>& corner, int face, FaceCorners
 }  // namespace
 
 MeshView view_of(PointsView vertices, std::span<const Triangle> triangles) noexcept {
-  return {vertices.x.data(), vertices.y.data(), vertices.z.data(),
-          nullptr,           vertices.size(),   triangles.empty() ? nullptr : triangles[0].data(),
-          triangles.size()};
+  return {.x = vertices.x.data(),
+          .y = vertices.y.data(),
+          .z = vertices.z.data(),
+          .xyz = nullptr,
+          .vertices = vertices.size(),
+          .corner = triangles.empty() ? nullptr : triangles[0].data(),
+          .triangles = triangles.size()};
 }
 
 CubeBinning::CubeBinning(PointsView vertices, std::span<const Triangle> triangles, const CubeMap& map,
@@ -170,8 +174,11 @@ void CubeBinning::add_projected(Index triangle, int face) {
 }
 
 void CubeBinning::bin_projected() {
-  const ProjectedTriangles projected{projected_u_.data(), projected_w_.data(), projected_triangle_.data(),
-                                     projected_face_.data(), projected_count_};
+  const ProjectedTriangles projected{.u = projected_u_.data(),
+                                     .w = projected_w_.data(),
+                                     .triangle = projected_triangle_.data(),
+                                     .face = projected_face_.data(),
+                                     .count = projected_count_};
   for (std::size_t binned = 0; binned < projected_count_;) {
     Binning larger = scratch();
     binned = bin_projected_triangles(projected, binned, larger);

@@ -44,7 +44,13 @@ class CubeBinning {
   void bin_clipped(Index triangle);
   void bin_projected();
   Binning scratch() noexcept {
-    return {n_, entry_.data(), count_, entry_.size(), length_.data(), nullptr, 0};
+    return {.cells_per_side = n_,
+            .entry = entry_.data(),
+            .count = count_,
+            .capacity = entry_.size(),
+            .length = length_.data(),
+            .elsewhere = nullptr,
+            .elsewhere_count = 0};
   }
 
   PointsView vertices_;

@@ -10,7 +10,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/build/cube_passes.cpp"
 #include <hwy/foreach_target.h>
-#include "radial/query/double_vectors-inl.hpp"
+#include "radial/exact/double_vectors-inl.hpp"
 #include "simd/cube_projection-inl.hpp"
 #include "simd/packed_intervals-inl.hpp"
 

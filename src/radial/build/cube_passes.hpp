@@ -5,12 +5,17 @@
 #include <span>
 #include <vector>
 
-#include "radial/query/cube_view.hpp"
+#include "condyle/points.hpp"
+#include "radial/build/cell_row.hpp"
+#include "radial/build/edge_functions.hpp"
+#include "radial/exact/cell_dop.hpp"
 
 /// What building a cube table does for every vertex and every triangle, compiled for every instruction set
 /// and chosen at run time.
 
 namespace condyle::radial {
+
+using simd::greatest_radius_code, simd::IntervalScale, simd::no_radii, simd::packed_interval;
 
 /// A vertex projected on the cube: u, w, u + w and u - w on its face.
 struct alignas(16) FacePoint {

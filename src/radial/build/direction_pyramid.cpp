@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/build/direction_pyramid.cpp"
@@ -300,10 +299,6 @@ void DirectionPyramid::fill_faces(int cells_per_side, std::span<const PackedInte
   assert(cells.size() == 6 * square(cells_per_side));
   scratch_.resize(HWY_DYNAMIC_DISPATCH(scratch_needed_any)(static_cast<std::size_t>(cells_per_side)));
   HWY_DYNAMIC_DISPATCH(fill_any)(cells_per_side, cells.data(), faces.data(), scratch_.data(), entry_.data());
-  // The last level has the fewest entries, and every cell is in one of them.
-  const auto last_step =
-      entry_.begin() + static_cast<std::ptrdiff_t>(start_of(level_count(cells_per_side) - 1, cells_per_side));
-  all_ = std::accumulate(last_step, entry_.end(), no_radii, simd::hull);
 }
 
 }  // namespace condyle::radial

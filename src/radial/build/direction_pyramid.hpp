@@ -44,8 +44,6 @@ class DirectionPyramid {
   void refill(int cells_per_side, std::span<const PackedInterval> cells, std::span<const Index> changed);
 
   const PackedInterval* data() const noexcept { return entry_.data(); }
-  /// Radii of all directions together: for caps that are wider than any dilation.
-  PackedInterval all() const noexcept { return all_; }
   std::size_t size() const noexcept { return entry_.size(); }
 
  private:
@@ -56,7 +54,6 @@ class DirectionPyramid {
   void fill_faces(int cells_per_side, std::span<const PackedInterval> cells, const FacesOfSizes& faces);
 
   std::vector<PackedInterval> entry_;
-  PackedInterval all_ = no_radii;
   std::vector<PackedInterval> scratch_;  // for filling
 };
 

@@ -8,7 +8,7 @@
 
 #include "simd/prelude-inl.hpp"
 
-#include "radial/query/cube_view.hpp"
+#include "radial/exact/cell_dop.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 
 #include "radial/build/cube_passes.hpp"
 
@@ -11,6 +10,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
 namespace {
+
+using simd::HWY_NAMESPACE::compacted;
 
 /// Triangles projected on faces, one in each lane: the constants of their cells.
 struct ProjectedBatch {
@@ -123,29 +124,15 @@ constexpr int tile_cells = static_cast<int>(lanes);
 constexpr int tile_columns = std::min(4, tile_cells), tile_rows = tile_cells / tile_columns;
 
 /// Entries of the cells that a triangle meets, one behind the other; returns how many they are. May write as
-/// many as there are lanes. How many it meets cannot be predicted: sixteen lanes have an instruction for
-/// that.
+/// many as there are lanes. How many it meets cannot be predicted.
 HWY_INLINE std::size_t store_met(hn::Mask<Lanes> meets, hn::Vec<Words> cell, std::uint32_t triangle,
                                  hn::Vec<Words> axis, hn::Vec<Words> diagonal, CellEntry* to) {
-  constexpr Lanes di;
   constexpr Words du;
-  const auto all = hn::Set(du, triangle);
-  if constexpr (lanes == 16) {
-    static_assert(binning_padding >= lanes && sizeof *to == 4 * sizeof(std::uint32_t));
-    const auto met = hn::RebindMask(du, meets);
-    hn::StoreInterleaved4(hn::Compress(cell, met), all, hn::Compress(axis, met), hn::Compress(diagonal, met),
-                          du, &to->cell);
-    return hn::CountTrue(di, meets);
-  } else {
-    alignas(64) std::uint32_t entry[4 * lanes];
-    hn::StoreInterleaved4(cell, all, axis, diagonal, du, entry);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(di, meets, bits);
-    std::size_t count = 0;
-    for (unsigned left = bits[0]; left != 0; left &= left - 1)
-      std::memcpy(to + count++, entry + 4 * hwy::Num0BitsBelowLS1Bit_Nonzero32(left), sizeof *to);
-    return count;
-  }
+  static_assert(binning_padding >= lanes && sizeof *to == 4 * sizeof(std::uint32_t));
+  const auto met = hn::RebindMask(du, meets);
+  hn::StoreInterleaved4(compacted(du, cell, met), hn::Set(du, triangle), compacted(du, axis, met),
+                        compacted(du, diagonal, met), du, &to->cell);
+  return hn::CountTrue(du, met);
 }
 
 /// Lists one triangle of a batch.

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/predicates.hpp"
-#include "radial/query/cube_view.hpp"
+#include "radial/exact/cell_dop.hpp"
 
 namespace condyle::radial {
 namespace {

@@ -87,7 +87,10 @@ HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size
     // Nearer to the centre than any surface, floats may have lost the direction.
     const float x = points.x[i], y = points.y[i], z = points.z[i];
     const bool too_near = from_inside && x * x + y * y + z * z < cube.nearest_squared;
-    scratch.sum[i] = {static_cast<std::int16_t>(cube.winding_at_centre), 0, 0, too_near};
+    scratch.sum[i] = {.winding = static_cast<std::int16_t>(cube.winding_at_centre),
+                      .crossings = 0,
+                      .end = 0,
+                      .uncertain = too_near};
   }
   for (std::size_t i = Crossings::begin; i < crossings.end; ++i) {
     CrossingSum& sum = scratch.sum[crossings.point[i]];
@@ -110,8 +113,11 @@ HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size
     NearestExit way{no_index, false};
     const bool uncertain = sum.uncertain || !nearest_exit(Ray(crossings, sum.end - sum.crossings, sum.end),
                                                           cube.winding_at_centre, way);
-    found.point[found.count++] = {points.point[scratch.kept[k]], way.triangle, sum.winding,
-                                  way.away_from_centre, uncertain};
+    found.point[found.count++] = {.point = points.point[scratch.kept[k]],
+                                  .triangle = way.triangle,
+                                  .winding = sum.winding,
+                                  .away_from_centre = way.away_from_centre,
+                                  .uncertain = uncertain};
   }
 }
 
@@ -124,7 +130,7 @@ struct PointCrossings {
 };
 
 HWY_INLINE PointCrossings classify_scalar(const Crossings& all, std::size_t last) {
-  PointCrossings out{0, false, false, {no_index, false}};
+  PointCrossings out{.winding = 0, .uncertain = false, .has_exit = false, .way = {no_index, false}};
   std::size_t begin = last + 1;
   for (; all.point[begin - 1] == all.point[last]; --begin) {
     const float beyond = std::abs(all.s[begin - 1]) - 1;
@@ -178,10 +184,10 @@ HWY_INLINE PointCrossings classify_vector(const Crossings& all, std::size_t last
   const float error_sum = 1.01f * (error_before * (1 + 2 * a) + error_after * (1 + 2 * b));
   const bool away_from_centre = difference < 0;
   const unsigned is_clear = in_order & passes & bit(winding == 1) & bit(std::abs(difference) > error_sum);
-  return {winding,
-          !hn::AllFalse(d, uncertain),
-          is_clear != 0,
-          {all.triangle[away_from_centre ? at_after : at_before], away_from_centre}};
+  return {.winding = winding,
+          .uncertain = !hn::AllFalse(d, uncertain),
+          .has_exit = is_clear != 0,
+          .way = {all.triangle[away_from_centre ? at_after : at_before], away_from_centre}};
 }
 
 /// Decides the near points that have crossings, the centre outside: the others are outside too. Most points
@@ -211,7 +217,11 @@ HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& c
     FoundPoint& at = found.point[found.count];
     if (crossings.point[last - 1] != point) {
       const bool certain = std::abs(std::abs(crossings.s[last]) - 1) > crossings.error[last];
-      at = {points.point[point], crossings.triangle[last], 1, false, !certain};
+      at = {.point = points.point[point],
+            .triangle = crossings.triangle[last],
+            .winding = 1,
+            .away_from_centre = false,
+            .uncertain = !certain};
       ++found.count;
       continue;
     }
@@ -221,8 +231,11 @@ HWY_INLINE void decide_from_outside(const NearPoints& points, const Crossings& c
     if (HWY_UNLIKELY(!are_few || (all.winding > 0 && !all.uncertain && !all.has_exit))) {
       all = classify_scalar(crossings, last);
     }
-    at = {points.point[point], all.way.triangle, static_cast<std::int16_t>(all.winding),
-          all.way.away_from_centre, all.uncertain || !all.has_exit};
+    at = {.point = points.point[point],
+          .triangle = all.way.triangle,
+          .winding = static_cast<std::int16_t>(all.winding),
+          .away_from_centre = all.way.away_from_centre,
+          .uncertain = all.uncertain || !all.has_exit};
     found.count += static_cast<std::size_t>(all.uncertain) | static_cast<std::size_t>(all.winding > 0);
   }
 }

@@ -9,11 +9,13 @@
 #define HWY_TARGET_INCLUDE "radial/query/crossing_pass.cpp"
 #include <hwy/foreach_target.h>
 #include "radial/query/crossing_decision-inl.hpp"
+#include "simd/packed_ranges-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {
 namespace {
 
+using simd::HWY_NAMESPACE::range_excess;
 using simd::HWY_NAMESPACE::store_compacted;
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -25,19 +27,10 @@ constexpr DU du;
 /// Which of the 8-DOPs from `first` on hold the point.
 HWY_INLINE hn::Mask<DU> dops_holding(const EntryView& entries, std::size_t first, std::size_t last, Words box,
                                      Words diagonal) {
-#if HWY_TARGET == HWY_SCALAR
-  static_cast<void>(last);
-  const bool held =
-      holds(entries.axis[first], hn::GetLane(box)) && holds(entries.diagonal[first], hn::GetLane(diagonal));
-  return hn::MaskFromVec(hn::Set(du, held ? ~0u : 0u));
-#else
-  constexpr hn::Repartition<std::uint8_t, DU> bytes;
-  const auto excess = [&](const std::uint32_t* from, Words point) {
-    return hn::SaturatedSub(hn::BitCast(bytes, hn::LoadU(du, from + first)), hn::BitCast(bytes, point));
-  };
-  const auto either = hn::Or(excess(entries.axis, box), excess(entries.diagonal, diagonal));
-  return hn::And(hn::Eq(hn::BitCast(du, either), hn::Zero(du)), hn::FirstN(du, last - first));
-#endif
+  const auto axis = hn::LoadU(du, entries.axis + first),
+             of_diagonal = hn::LoadU(du, entries.diagonal + first);
+  const auto excess = hn::Or(range_excess(du, axis, box), range_excess(du, of_diagonal, diagonal));
+  return hn::And(hn::Eq(excess, hn::Zero(du)), hn::FirstN(du, last - first));
 }
 
 void find_candidates_any(const EntryView& entries, std::span<const CellPlace> places, std::uint32_t* end,
@@ -81,8 +74,7 @@ HWY_INLINE std::size_t gather_candidates(const CubeView& cube, const NearPoints&
                                          Pairs& pairs) {
   const CellRow row = cube.entries.row[points.cell[i]].half_at(points.box[i]);
   const Words box = hn::Set(du, points.box[i]), diagonal = hn::Set(du, constants.diagonal[i]);
-  constexpr hn::Rebind<std::uint16_t, DU> du16;
-  const auto number = hn::Set(du16, static_cast<std::uint16_t>(i));
+  const Words number = hn::Set(du, static_cast<std::uint32_t>(i));
   const Words relevant = hn::Set(du, points.relevant[i] >> 8);
   for (std::size_t first = row.first; first < row.last && count <= Pairs::most; first += hn::Lanes(du)) {
     const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint8_t, DU>(), cube.nearest + first));
@@ -91,7 +83,7 @@ HWY_INLINE std::size_t gather_candidates(const CubeView& cube, const NearPoints&
     // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
     if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
     store_compacted(du, hn::LoadU(du, cube.entries.triangle + first), holding, pairs.triangle.data() + count);
-    hn::StoreU(number, du16, pairs.point.data() + count);
+    hn::StoreU(number, du, pairs.point.data() + count);
     count += hn::CountTrue(du, holding);
   }
   return count;
@@ -114,7 +106,6 @@ HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
   // Four pairs side by side; without vectors one, of which each form is a "vector".
   constexpr hn::CappedTag<float, 4> d4;
   constexpr hn::RebindToUnsigned<decltype(d4)> du4;
-  constexpr hn::Rebind<std::uint16_t, decltype(du4)> du16;
   using V = hn::Vec<decltype(d4)>;
   constexpr std::size_t side_by_side = hn::MaxLanes(d4), ahead = 32;
   const std::size_t last = std::max(pairs.count, std::size_t{1}) - 1;
@@ -151,8 +142,7 @@ HWY_INLINE void evaluate_edges(const CubeView& cube, const NearPoints& points,
     store_compacted(d4, s, kept, out.s.data() + end);
     store_compacted(d4, error[3], kept, out.error.data() + end);
     store_compacted(du4, hn::LoadU(du4, pairs.triangle.data() + i), kept_words, out.triangle.data() + end);
-    store_compacted(du4, hn::PromoteTo(du4, hn::LoadU(du16, pairs.point.data() + i)), kept_words,
-                    out.point.data() + end);
+    store_compacted(du4, hn::LoadU(du4, pairs.point.data() + i), kept_words, out.point.data() + end);
     end += hn::CountTrue(d4, kept);
   }
   out.close(end);
@@ -188,7 +178,7 @@ std::size_t inside_points_any(const CubeView& cube, const NearPoints& points, fl
     tried += pairs.count;
     if (last == first) {
       // More triangles at one point than there is capacity for.
-      found.point[found.count++] = {points.point[last++], no_index, 0, false, true};
+      found.point[found.count++] = FoundPoint::left_open(points.point[last++]);
     }
     first = last;
   }

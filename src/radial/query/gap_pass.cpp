@@ -5,7 +5,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "radial/query/gap_pass.cpp"
 #include <hwy/foreach_target.h>
-#include "radial/query/double_vectors-inl.hpp"
+#include "radial/exact/double_vectors-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::radial::HWY_NAMESPACE {

@@ -131,28 +131,24 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
     greatest = hn::Add(squared, hn::MulAdd(hn::Mul(two, furthest), hn::Add(along, slack), greatest));
   }
   const Projection place(d, ax, ay, az);
-  // With L the length of (1, u, w), L <= (L^2 + c^2) / 2c for any c, and M^2 = 1 + max(u^2, w^2), L M <= (L^2
-  // + M^2) / 2: 4 and 2 percent too much at most, and no roots.
-  constexpr float c = 1.3f, rounded = 1 + 0x1p-20f;
-  const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w), sum = hn::Add(uu, ww);
-  const auto length =
-      hn::MulAdd(sum, hn::Set(d, rounded / (2 * c)), hn::Set(d, rounded * (1 + c * c) / (2 * c)));
-  const auto product = hn::MulAdd(hn::Add(sum, hn::Max(uu, ww)), hn::Set(d, 0.5f), one);
-  // A cap with that sine moves a coordinate of the face by at most this, in cells.
+  // With L the length of (1, u, w) and M that of (1, max(|u|, |w|)), a cap with that sine moves a coordinate of
+  // the face by at most sine L M / (1 - sine L).
+  const auto uu = hn::Mul(place.u, place.u), ww = hn::Mul(place.w, place.w);
+  const auto length = hn::Sqrt(hn::Add(one, hn::Add(uu, ww)));
   const auto opening = hn::Mul(sine, length);
-  const auto cells = hn::Div(hn::Mul(hn::Mul(sine, hn::Set(d, finest_cells * (1 + 0x1p-10f))), product),
-                             hn::Sub(one, opening));
+  const auto moved =
+      hn::Div(hn::Mul(opening, hn::Sqrt(hn::Add(one, hn::Max(uu, ww)))), hn::Sub(one, opening));
+  const auto cells = hn::Mul(moved, hn::Set(d, finest_cells * (1 + 0x1p-10f)));
   const auto level = level_for(hn::Add(cells, hn::Set(d, 0.01f)));
   const auto has_cells = hn::And(certain, hn::Lt(opening, hn::Set(d, 0.75f)));
   const auto in_pyramid = hn::And(hn::RebindMask(di, has_cells), hn::Lt(level, hn::Set(di, cube.levels)));
   const auto index =
       hn::IfThenElseZero(in_pyramid, pyramid_index(cube, place, hn::IfThenElseZero(in_pyramid, level)));
-  // What is too wide for the pyramid is held against all directions.
-  const auto entry = hn::IfThenElse(hn::RebindMask(du, in_pyramid), hn::GatherIndex(du, cube.pyramid, index),
-                                    hn::Set(du, cube.all_radii));
+  const auto entry = hn::GatherIndex(du, cube.pyramid, index);
   const auto reached = reach(interval_codes(d, cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
                              interval_codes(d, cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-  return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, certain)));
+  // What is too wide for the pyramid may be near.
+  return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, in_pyramid)));
 }
 
 template <bool translated>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "condyle/pose.hpp"
@@ -37,6 +36,11 @@ struct FoundPoint {
   std::uint32_t point, triangle;
   std::int16_t winding;
   bool away_from_centre, uncertain;
+
+  /// One that is left to exact arithmetic.
+  static constexpr FoundPoint left_open(std::uint32_t point) noexcept {
+    return {.point = point, .triangle = no_index, .winding = 0, .away_from_centre = false, .uncertain = true};
+  }
 };
 struct FoundPoints {
   std::size_t count;
@@ -68,9 +72,7 @@ inline constexpr std::size_t most_pairs = 4096;
 /// Triangles whose 8-DOPs hold a point, with the number of the point among the near ones.
 struct Pairs {
   static constexpr std::size_t most = most_pairs, padding = 3 * vector_padding;
-  std::array<std::uint32_t, most + padding> triangle;
-  std::array<std::uint16_t, most + padding> point;
-  static_assert(points_per_batch <= std::numeric_limits<std::uint16_t>::max());
+  std::array<std::uint32_t, most + padding> triangle, point;
   std::size_t count;
 };
 
@@ -116,7 +118,7 @@ struct Decisions {
   std::array<std::uint32_t, points_per_batch + vector_padding> kept;
 };
 
-/// What inside_points() writes on its way, 140 kB.
+/// What inside_points() writes on its way, 150 kB.
 struct CrossingScratch {
   Pairs pairs;
   QueryConstants constants;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "radial/exact/ray_scan.hpp"
 
@@ -42,9 +41,15 @@ FloatPose float_pose(const Pose& X, const Vec3& centre) {
 BlockColumns blocks_of(const PointBlocks& points, std::size_t level) {
   const auto column = [&](PointBlocks::Column c) { return points.block(level, c); };
   using P = PointBlocks;
-  return {column(P::axis_x),       column(P::axis_y),  column(P::axis_z),
-          column(P::chord),        column(P::nearest), column(P::furthest),
-          column(P::mean_inverse), column(P::spread),  points.block_count(level)};
+  return {.axis_x = column(P::axis_x),
+          .axis_y = column(P::axis_y),
+          .axis_z = column(P::axis_z),
+          .chord = column(P::chord),
+          .nearest = column(P::nearest),
+          .furthest = column(P::furthest),
+          .mean_inverse = column(P::mean_inverse),
+          .spread = column(P::spread),
+          .count = points.block_count(level)};
 }
 
 PointColumns points_of(const PointBlocks& points) {
@@ -176,9 +181,8 @@ void decide_one_by_one(const PointBlocks& points, PenetrationScratch& scratch, A
   FoundPoints& all = scratch.found;
   for (std::size_t first = 0; first < points.size(); first += points_per_batch) {
     all.count = std::min(points_per_batch, points.size() - first);
-    for (std::size_t i = 0; i < all.count; ++i) {
-      all.point[i] = {static_cast<std::uint32_t>(first + i), no_index, 0, false, true};
-    }
+    for (std::size_t i = 0; i < all.count; ++i)
+      all.point[i] = FoundPoint::left_open(static_cast<std::uint32_t>(first + i));
     answers.add(all, nullptr);
   }
 }
@@ -207,7 +211,7 @@ void penetrations(const ExactView& table, const std::optional<CubeView>& cube, c
 
   const BlockColumns blocks = blocks_of(points, 0), groups = blocks_of(points, 1);
   constexpr std::size_t fan = PointBlocks::fan, groups_per_batch = blocks_per_batch / fan;
-  constexpr std::size_t sets_per_batch = 16, few_groups = 4;
+  constexpr std::size_t sets_per_batch = 16;
   std::array<std::uint32_t, sets_per_batch> set;
   std::array<std::uint32_t, sets_per_batch * fan + vector_padding> near_group;
   std::array<std::uint32_t, blocks_per_batch + vector_padding> near_block;
@@ -215,13 +219,8 @@ void penetrations(const ExactView& table, const std::optional<CubeView>& cube, c
   for (std::size_t first_set = 0; first_set < set_count; first_set += sets_per_batch) {
     const std::size_t sets = std::min(sets_per_batch, set_count - first_set);
     for (std::size_t i = 0; i < sets; ++i) set[i] = static_cast<std::uint32_t>(first_set + i);
-    // Of few groups hardly one is off the surface: rejecting them is not worth its time.
-    std::size_t group_count = groups.count;
-    if (groups.count <= few_groups) {
-      std::iota(near_group.begin(), near_group.begin() + few_groups, 0u);
-    } else {
-      group_count = near_blocks(search->cube, groups, search->pose, set.data(), sets, near_group.data());
-    }
+    const std::size_t group_count =
+        near_blocks(search->cube, groups, search->pose, set.data(), sets, near_group.data());
     for (std::size_t first = 0; first < group_count; first += groups_per_batch) {
       const std::size_t group_last = std::min(first + groups_per_batch, group_count);
       const std::size_t count = near_blocks(search->cube, blocks, search->pose, near_group.data() + first,

@@ -7,7 +7,7 @@
 
 namespace condyle::radial {
 
-/// What the passes of a penetration query write: 220 kB, on the heap; a table keeps one between queries. What is
+/// What the passes of a penetration query write: 230 kB, on the heap; a table keeps one between queries. What is
 /// left on the stack stays below 16 kB.
 struct PenetrationScratch {
   NearPoints near;

@@ -93,8 +93,10 @@ namespace {
 /// four times that, and the smallest number that counts.
 BoxScale::Axis axis_of(double from, double cells_per_mm, Index cells, double units_per_mm) noexcept {
   const double parts = 256.0 * cells;
-  return {static_cast<float>(from * units_per_mm), static_cast<float>(256 * cells_per_mm / units_per_mm),
-          static_cast<float>(parts * 0x1p-22 + 0x1p-6), static_cast<float>(parts - 1)};
+  return {.origin = static_cast<float>(from * units_per_mm),
+          .per_unit = static_cast<float>(256 * cells_per_mm / units_per_mm),
+          .slack = static_cast<float>(parts * 0x1p-22 + 0x1p-6),
+          .last = static_cast<float>(parts - 1)};
 }
 
 }  // namespace

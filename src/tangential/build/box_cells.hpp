@@ -69,8 +69,10 @@ class BoxScale {
       const float moved = (from - axis.origin) * axis.per_unit + outwards * axis.slack;
       return static_cast<std::int32_t>(std::min(std::max(moved, 0.0f), axis.last));
     };
-    return {side(rho_, boxes.rho_low[triangle], -1), side(rho_, boxes.rho_high[triangle], 1),
-            side(z_, boxes.z_low[triangle], -1), side(z_, boxes.z_high[triangle], 1)};
+    return {.rho_low = side(rho_, boxes.rho_low[triangle], -1),
+            .rho_high = side(rho_, boxes.rho_high[triangle], 1),
+            .z_low = side(z_, boxes.z_low[triangle], -1),
+            .z_high = side(z_, boxes.z_high[triangle], 1)};
   }
 
  private:

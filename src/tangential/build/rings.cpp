@@ -11,13 +11,18 @@ Rings build_rings(const TriMesh& mesh, const AxisFrame& frame, std::size_t cells
   const double scale = boxes.scale / vertices.units_per_mm;
   RingLists lists(vertices, triangles, boxes, cells);
   FreeDirections free_directions = find_free_directions(vertices, triangles, boxes, lists.grid(), scale);
-  return {frame, std::move(vertices.exact), std::move(triangles),
-          scale, std::move(lists),          std::move(free_directions)};
+  return {.frame = frame,
+          .vertices = std::move(vertices.exact),
+          .triangles = std::move(triangles),
+          .scale = scale,
+          .lists = std::move(lists),
+          .free_directions = std::move(free_directions)};
 }
 
 RingTableSize size_of(const Rings& rings) noexcept {
   const std::size_t cells = rings.grid().cells();
-  RingTableSize size{cells, rings.lists.entries(), 0, 0, rings.lists.longest(), 0, 0};
+  RingTableSize size{};
+  size.cells = cells, size.entries = rings.lists.entries(), size.longest_list = rings.lists.longest();
   for (std::size_t cell = 0; cell < cells; ++cell) size.cells_in_use += !rings.lists.of(cell).empty();
   size.bytes = rings.lists.bytes() + rings.free_directions.bytes() +
                rings.triangles.size() * sizeof(Triangle) + rings.vertices.size() * sizeof(AxisVertex);

@@ -70,7 +70,7 @@ void write_results(CircleBatch& batch, const Rings& rings, std::size_t begin, st
 
 void append_arcs(CircleBatch& batch, std::size_t* counts, std::vector<OccupiedArc>& arcs) {
   arcs.reserve(arcs.size() + batch.most_arcs());
-  for (const Index circle : batch.circles_with_arcs()) {
+  for (std::size_t circle = 0; circle < batch.circles().size(); ++circle) {
     const std::size_t before = arcs.size();
     const auto classified = batch.classify(circle);
     append_arcs(classified.winding, classified.crossings, arcs);

@@ -133,27 +133,6 @@ std::span<const CircleCrossing> CircleBatch::crossings_of(std::size_t circle) {
   return crossings;
 }
 
-/// Whether the free direction of its cell gives the winding number of a point that is not on the surface.
-bool CircleBatch::is_anchored(std::size_t circle, FreeDirections::Anchor anchor) const noexcept {
-  const double least_radius = least_anchored_radius * rings_.scale;
-  const bool is_far = circles_.point[circle].squared_radius >= least_radius * least_radius;
-  return (anchor.direction != FreeDirections::none) & is_far;
-}
-
-std::span<const Index> CircleBatch::circles_with_arcs() {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < circles_.size(); ++i) {
-    const FreeDirections::Anchor anchor = rings_.free_directions.of(circles_.cell[i].cell);
-    const bool is_outside = is_anchored(i, anchor) & (anchor.winding <= 0);
-    const std::size_t begin = begin_of(i), end = end_[i];
-    const Index holding = holding_[i];
-    const bool is_met = (end != begin) | (holding != no_index);
-    with_arcs_[count] = static_cast<Index>(i);
-    count += is_met | !is_outside;
-  }
-  return std::span(with_arcs_).first(count);
-}
-
 CircleBatch::Classified CircleBatch::classify(std::size_t circle) {
   const auto crossings = crossings_of(circle);
   const bool on_surface = holding_[circle] != no_index;
@@ -171,7 +150,10 @@ int CircleBatch::winding_ahead_of(std::size_t circle, bool on_surface,
   const CirclePoint& point = circles_.point[circle];
   const CircleCell& cell = circles_.cell[circle];
   const FreeDirections::Anchor anchor = rings_.free_directions.of(cell.cell);
-  if (!on_surface && is_anchored(circle, anchor)) return winding_from(anchor, point, crossings);
+  const double least_radius = least_anchored_radius * rings_.scale;
+  const bool is_anchored =
+      anchor.direction != FreeDirections::none && point.squared_radius >= least_radius * least_radius;
+  if (!on_surface && is_anchored) return winding_from(anchor, point, crossings);
   if (point.x == 0 && point.y == 0) return on_surface ? 0 : winding_on_axis(rings_, point.at());
   return winding_outwards(rings_, circle_through(point.at(), rings_.scale), cell, work_);
 }

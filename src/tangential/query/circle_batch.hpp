@@ -40,9 +40,6 @@ class CircleBatch {
   };
   Classified classify(std::size_t circle);
 
-  /// Circles that may have arcs, ascending: all but those that cross no surface and are known to be outside,
-  /// which are most. Without a branch: which circles these are cannot be predicted.
-  std::span<const Index> circles_with_arcs();
   /// Of one circle, in order.
   std::span<const CircleCrossing> crossings_of(std::size_t circle);
 
@@ -58,7 +55,6 @@ class CircleBatch {
   void decide_exactly(std::size_t circle, Index triangle);
   int winding_ahead_of(std::size_t circle, bool on_surface, std::span<const CircleCrossing> crossings);
   std::size_t begin_of(std::size_t circle) const noexcept { return circle == 0 ? 0 : end_[circle - 1]; }
-  bool is_anchored(std::size_t circle, FreeDirections::Anchor anchor) const noexcept;
 
   const Rings& rings_;
   LocatedCircles circles_;
@@ -69,7 +65,6 @@ class CircleBatch {
   std::size_t crossing_count_ = 0;
   std::array<std::size_t, most> end_;
   std::array<Index, most> holding_;  ///< The first triangle that holds the point.
-  std::array<Index, most> with_arcs_;
   std::vector<CircleCrossing> exact_;
   TangentialWork work_;
 };

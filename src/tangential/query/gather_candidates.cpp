@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "tangential/query/gather_candidates.cpp"
 #include <hwy/foreach_target.h>
 
-#include "simd/prelude-inl.hpp"
+#include "simd/packed_ranges-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::tangential::HWY_NAMESPACE {
@@ -17,20 +17,6 @@ namespace simd = simd::HWY_NAMESPACE;
 
 using D = hn::CappedTag<std::uint32_t, 16>;
 constexpr D d;
-
-/// Boxes that hold the circle: none of their bytes exceeds its own.
-HWY_INLINE hn::Mask<D> holding(hn::Vec<D> boxes, hn::Vec<D> circle) {
-#if HWY_TARGET == HWY_SCALAR
-  const CellBox box = hn::GetLane(boxes), at = hn::GetLane(circle);
-  bool held = true;
-  for (int byte = 0; byte < 32; byte += 8) held &= (box >> byte & 0xff) <= (at >> byte & 0xff);
-  return hn::MaskFromVec(hn::Set(d, held ? ~0u : 0u));
-#else
-  constexpr hn::Repartition<std::uint8_t, D> bytes;
-  const auto excess = hn::SaturatedSub(hn::BitCast(bytes, boxes), hn::BitCast(bytes, circle));
-  return hn::Eq(hn::BitCast(d, excess), hn::Zero(d));
-#endif
-}
 
 std::size_t gather_any(const RingLists& lists, std::span<const CircleCell> circles, std::size_t first,
                        CandidatePairs& pairs) {
@@ -45,7 +31,8 @@ std::size_t gather_any(const RingLists& lists, std::span<const CircleCell> circl
     for (Index i = begin; i < end; i += static_cast<Index>(hn::MaxLanes(d))) {
       hn::Vec<D> triangles, boxes;
       hn::LoadInterleaved2(d, &entries[i].triangle, triangles, boxes);
-      const auto held = hn::And(holding(boxes, bytes), hn::FirstN(d, end - i));
+      const auto held =
+          hn::And(hn::Eq(simd::range_excess(d, boxes, bytes), hn::Zero(d)), hn::FirstN(d, end - i));
       hn::StoreU(number, d, pairs.circle.data() + count);
       simd::store_compacted(d, triangles, held, pairs.triangle.data() + count);
       count += hn::CountTrue(d, held);
