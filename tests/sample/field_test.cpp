@@ -39,8 +39,8 @@ TEST(Field, APlateIsHalfAsThickAsItsInterpolatedRadius) {
   // Over the centroid of the centres the radius is the mean, and the height is measured at right angles.
   const Vec3 centroid = (a.centre + b.centre + c.centre) / 3;
   const Vec3 normal = (b.centre - a.centre).cross(c.centre - a.centre).normalized();
-  EXPECT_NEAR(plate(a, b, c, centroid + 6 * normal).value, 2, 1e-12);
-  EXPECT_NEAR(plate(a, b, c, centroid - 6 * normal).value, 2, 1e-12);
+  EXPECT_NEAR(Plate(a, b, c)(centroid + 6 * normal).value, 2, 1e-12);
+  EXPECT_NEAR(Plate(a, b, c)(centroid - 6 * normal).value, 2, 1e-12);
 }
 
 TEST(Field, ATubeIsTheDistanceToItsTorus) {
@@ -84,7 +84,7 @@ void expect_gradient(const Field& field, const Box& box, const std::string& name
 TEST(Field, GradientsAreThoseOfTheValuesAndNowhereSteep) {
   const Box box = {Vec3(-10, -10, -10), Vec3(20, 20, 12)};
   expect_gradient([](const Vec3& p) { return bar(a, b, p); }, box, "bar");
-  expect_gradient([](const Vec3& p) { return plate(a, b, c, p); }, box, "plate");
+  expect_gradient(Plate(a, b, c), box, "plate");
   const Circle circle = {{1, 2, 3}, Vec3(2, -1, 2) / 3, 10};
   expect_gradient([&](const Vec3& p) { return tube(circle, 2, p); }, box, "tube");
   expect_gradient([](const Vec3& p) { return joined(ball(a, p), ball(b, p), 6); }, box, "joined");
@@ -134,9 +134,10 @@ TEST(Skeleton, SkippingFarPiecesChangesNothing) {
 TEST(Projection, LaysPointsOnTheSphereWithinItsTolerance) {
   const Field sphere = [](const Vec3& p) { return ball({Vec3(1, 2, 3), 20}, p); };
   for (const Vec3& p : {Vec3(25, 2, 3), Vec3(1, 2, 4), Vec3(-3, 9, 14)}) {
-    const Vec3 laid = laid_on(sphere, p);
+    const auto [laid, gradient] = laid_on(sphere, p);
     EXPECT_NEAR((laid - Vec3(1, 2, 3)).norm(), 20, laid_tolerance);
     EXPECT_LT((laid - Vec3(1, 2, 3)).cross(p - Vec3(1, 2, 3)).norm(), 1e-9 * 20 * 25);
+    EXPECT_EQ(gradient, sphere(laid).gradient);
   }
 }
 
@@ -145,8 +146,8 @@ TEST(Projection, LaysPointsOnACreaseWhereStepsAlternate) {
   const Field wedge = [](const Vec3& p) {
     return joined(half_space(Vec3(0.6, 0.8, 0), 0, p), half_space(Vec3(-0.6, 0.8, 0), 0, p), 1e-12);
   };
-  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(0, 3, 0))).value), laid_tolerance);
-  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(1e-3, -3, 0))).value), laid_tolerance);
+  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(0, 3, 0)).point).value), laid_tolerance);
+  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(1e-3, -3, 0)).point).value), laid_tolerance);
 }
 
 TEST(Projection, SaysWhereThereIsNoSurfaceToLayOn) {
