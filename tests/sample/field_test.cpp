@@ -131,6 +131,45 @@ TEST(Skeleton, SkippingFarPiecesChangesNothing) {
   }
 }
 
+TEST(Skeleton, UpToALimitItIsWhatItIsWithoutOne) {
+  const std::vector<Ball> balls = {a, b, c, {{12, 10, 3}, 2}};
+  const std::vector<std::array<Index, 3>> both = {{0, 1, 2}, {1, 3, 2}};
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> around(-15, 25);
+  int below = 0, skipped = 0;
+  for (const Skeleton& skeleton : {Skeleton::sheet(balls, both), Skeleton::chain(balls)}) {
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p(around(random), around(random), around(random));
+      const FieldValue whole = skeleton(p), found = skeleton.up_to(10, p);
+      if (whole.value <= 10) {
+        EXPECT_EQ(found.value, whole.value);
+        EXPECT_EQ(found.gradient, whole.gradient);
+        ++below;
+      } else {
+        EXPECT_TRUE(found.value == whole.value || std::isinf(found.value));
+        skipped += std::isinf(found.value);
+      }
+    }
+  }
+  EXPECT_GT(below, 300);
+  EXPECT_GT(skipped, 300);
+}
+
+TEST(Field, APlateSaidToBeAboveAValueIs) {
+  const Plate plate(a, b, c);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> near(-15, 20), value(-5, 10);
+  int above = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p(near(random), near(random), near(random));
+    const double bound = value(random);
+    if (!plate.is_above(bound, p)) continue;
+    EXPECT_GT(plate(p).value, bound);
+    ++above;
+  }
+  EXPECT_GT(above, 1000);
+}
+
 TEST(Projection, LaysPointsOnTheSphereWithinItsTolerance) {
   const Field sphere = [](const Vec3& p) { return ball({Vec3(1, 2, 3), 20}, p); };
   for (const Vec3& p : {Vec3(25, 2, 3), Vec3(1, 2, 4), Vec3(-3, 9, 14)}) {
