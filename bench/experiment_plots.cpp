@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "condyle/io/whole_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "log_plot.hpp"
 
 namespace bench {
@@ -115,7 +115,8 @@ void write_plots(const ExperimentResult& result, const std::filesystem::path& fo
                                                           {"accuracy", accuracy_plot(result, question)}};
     for (const auto& [name, plot] : plots)
       if (has_any_cost(plot))
-        condyle::write_whole_file(folder / fmt::format("{}_{}.svg", name, name_of(question)), svg_text(plot));
+        condyle::io::write_whole_file(folder / fmt::format("{}_{}.svg", name, name_of(question)),
+                                      svg_text(plot));
   }
 }
 

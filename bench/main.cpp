@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "baseline.hpp"
-#include "condyle/io/whole_file.hpp"
 #include "experiment_plots.hpp"
 #include "experiment_tables.hpp"
 #include "goals.hpp"
+#include "io/file/whole_file.hpp"
 #include "machine.hpp"
 #include "questions.hpp"
 #include "scenes.hpp"
@@ -105,12 +105,12 @@ class LazyScene {
 
 void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
   if (!options.plots.empty()) write_plots(experiment, options.plots);
-  if (!options.json.empty()) condyle::write_whole_file(options.json, to_json(report).dump(1) + "\n");
+  if (!options.json.empty()) condyle::io::write_whole_file(options.json, to_json(report).dump(1) + "\n");
   if (!options.baseline.empty())
-    condyle::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
+    condyle::io::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
   if (options.csv.empty()) return;
   for (const Table& table : report.tables)
-    if (table.head.is_long) condyle::write_whole_file(options.csv, csv_text(table));
+    if (table.head.is_long) condyle::io::write_whole_file(options.csv, csv_text(table));
 }
 
 /// The tables of the experiment, and what it could not do.

@@ -78,9 +78,10 @@ int size_of(std::string_view name) {
 
 /// All resolutions in the poses of the coarsest, which are made from its first contacts.
 Scene sample_bones(std::string_view name) {
-  condyle::SampleHip coarsest = condyle::sample_hip({}, condyle::Scenario::one);
-  std::vector<ScenePose> poses = poses_to_contact(coarsest.hip_bone, coarsest.femur);
-  condyle::SampleHip hip = condyle::sample_hip({}, static_cast<condyle::Scenario>(size_of(name)));
+  condyle::SampleHip hip = condyle::sample_hip({}, condyle::Scenario::one);
+  std::vector<ScenePose> poses = poses_to_contact(hip.hip_bone, hip.femur);
+  const auto scenario = static_cast<condyle::Scenario>(size_of(name));
+  if (scenario != condyle::Scenario::one) hip = condyle::sample_hip({}, scenario);
   return {joint(name, Side::right, {"hip bone", std::move(hip.hip_bone)}, {"femur", std::move(hip.femur)}),
           std::move(poses)};
 }

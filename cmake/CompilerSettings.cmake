@@ -1,4 +1,4 @@
-# What every Condyle target is compiled with: settings_for(target).
+# What every Condyle target is compiled with: condyle_settings_for(target).
 
 # A project that Condyle is part of decides these for itself.
 if(PROJECT_IS_TOP_LEVEL)
@@ -14,7 +14,7 @@ if(PROJECT_IS_TOP_LEVEL)
   endif()
 endif()
 
-function(settings_for target)
+function(condyle_settings_for target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion

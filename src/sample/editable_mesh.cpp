@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
+#include <cstddef>
 
 namespace condyle::sample {
 namespace {
@@ -21,26 +21,33 @@ EditableMesh::EditableMesh(const TriMesh& mesh) : triangle_(mesh.triangles), aro
   vertex_count_ = position_.size();
 }
 
+Index EditableMesh::next_around(Index t, Index v) const noexcept {
+  return triangle_[t][(corner_of(triangle_[t], v) + 1) % 3];
+}
+
 std::vector<Index> EditableMesh::neighbours(Index v) const {
   std::vector<Index> found;
-  for (const Index t : around_[v]) found.push_back(triangle_[t][(corner_of(triangle_[t], v) + 1) % 3]);
+  for (const Index t : around_[v]) found.push_back(next_around(t, v));
   std::sort(found.begin(), found.end());
   return found;
 }
 
 std::vector<std::pair<Index, Index>> EditableMesh::edges() const {
   std::vector<std::pair<Index, Index>> found;
+  found.reserve(3 * vertex_count_);
   for (Index a = 0; a < vertex_end(); ++a) {
-    for (const Index b : neighbours(a)) {
-      if (a < b) found.emplace_back(a, b);
+    const auto first = static_cast<std::ptrdiff_t>(found.size());
+    for (const Index t : around_[a]) {
+      if (const Index b = next_around(t, a); a < b) found.emplace_back(a, b);
     }
+    std::sort(found.begin() + first, found.end());
   }
   return found;
 }
 
 Index EditableMesh::triangle_with(Index a, Index b) const noexcept {
   for (const Index t : around_[a]) {
-    if (triangle_[t][(corner_of(triangle_[t], a) + 1) % 3] == b) return t;
+    if (next_around(t, a) == b) return t;
   }
   return no_index;
 }
@@ -56,11 +63,11 @@ std::optional<EdgeStar> EditableMesh::star(Index a, Index b) const noexcept {
 
 bool EditableMesh::can_collapse(const EdgeStar& edge) const {
   if (around_[edge.left].size() <= 3 || around_[edge.right].size() <= 3) return false;
-  const auto near_a = neighbours(edge.a), near_b = neighbours(edge.b);
-  std::vector<Index> shared;
-  std::set_intersection(near_a.begin(), near_a.end(), near_b.begin(), near_b.end(),
-                        std::back_inserter(shared));
-  return shared.size() == 2;
+  int shared = 0;
+  for (const Index s : around_[edge.a]) {
+    for (const Index t : around_[edge.b]) shared += next_around(s, edge.a) == next_around(t, edge.b);
+  }
+  return shared == 2;
 }
 
 void EditableMesh::replace_corner(Index t, Index from, Index to) noexcept {

@@ -62,6 +62,8 @@ class EditableMesh {
   void replace_corner(Index t, Index from, Index to) noexcept;
   void detach(Index v, Index t) noexcept;
   Index triangle_with(Index a, Index b) const noexcept;
+  /// The corner after v of a triangle at v.
+  Index next_around(Index t, Index v) const noexcept;
 
   std::vector<Vec3> position_;
   std::vector<Triangle> triangle_;  ///< removed ones start with no_index

@@ -28,9 +28,11 @@ constexpr double margin_around = 10;
 /// The pieces of one femur, blended in this order.
 struct FemurPieces {
   Ball head;
-  Ball neck_inside_head, neck_upper_foot, neck_lower_foot;
+  Ball neck_upper_foot, neck_lower_foot;
+  Plate neck;
   Skeleton shaft;
   Ball greater_tip, greater_side, greater_back;
+  Plate greater;
   Ball lesser, lesser_root;
   std::optional<Cam> cam;
   Vec3 distal;
@@ -39,10 +41,10 @@ struct FemurPieces {
 
   FieldValue operator()(const Vec3& p) const noexcept {
     FieldValue bone = shaft(p);
-    bone = joined(bone, plate(greater_tip, greater_side, greater_back, p), 14 * scale);
+    bone = joined(bone, greater(p), 14 * scale);
     bone = joined(bone, bar(lesser_root, lesser, p), 12 * scale);
     bone = joined(bone, bar(greater_back, lesser, p), 10 * scale);
-    bone = joined(bone, plate(neck_inside_head, neck_upper_foot, neck_lower_foot, p), 10 * scale);
+    bone = joined(bone, neck(p), 10 * scale);
     bone = joined(bone, ball(head, p), 7 * scale);
     if (cam) bone = joined(bone, (*cam)(p), cam->seam(p));
     return common(bone, half_space(distal, cut, p), 8 * scale);
@@ -76,9 +78,10 @@ FemurPieces femur_without_cam(const HipParameters& hip) {
   femur.distal = axes.distal;
   femur.cut = (axes.foot + hip.shaft_length_mm * axes.distal).dot(axes.distal);
   femur.head = {Vec3::Zero(), hip.head_radius_mm};
-  femur.neck_inside_head = {0.3 * hip.head_radius_mm * axes.neck, neck_radius};
+  const Ball neck_inside_head = {0.3 * hip.head_radius_mm * axes.neck, neck_radius};
   femur.neck_upper_foot = {axes.foot - 0.5 * neck_radius * across, neck_radius};
   femur.neck_lower_foot = {axes.foot + 0.5 * neck_radius * across, neck_radius};
+  femur.neck = Plate(neck_inside_head, femur.neck_upper_foot, femur.neck_lower_foot);
   // Widest below the trochanters; its lower end lies beyond the cut.
   const Ball shaft_end = {axes.foot + (hip.shaft_length_mm + 10 * scale) * axes.distal, 13.5 * scale};
   const std::array<Ball, 3> shaft = {at(4, 0, 0, 17), at(-50, 0, 0, 13.5), shaft_end};
@@ -86,6 +89,7 @@ FemurPieces femur_without_cam(const HipParameters& hip) {
   femur.greater_tip = at(31, -12, 13, 9);
   femur.greater_side = at(8, -3, 15, 12);
   femur.greater_back = at(16, -15, 10, 9.5);
+  femur.greater = Plate(femur.greater_tip, femur.greater_side, femur.greater_back);
   femur.lesser_root = at(-16, -8, -10, 10);
   femur.lesser = at(-17, -14, -17, 7.5);
   return femur;

@@ -48,6 +48,9 @@ struct Solid {
   std::vector<Ball> details;
 };
 
+/// Far above the rounding of values at some hundred millimetres: what bounds leave room for.
+inline constexpr double rounding_mm = 1e-6;
+
 /// A box around balls and what is stretched over them.
 Box box_around(std::span<const Ball> balls);
 
@@ -64,8 +67,29 @@ FieldValue ball(const Ball& a, const Vec3& p) noexcept;
 /// one ball inside the other.
 FieldValue bar(const Ball& a, const Ball& b, const Vec3& p) noexcept;
 
-/// A plate over three balls: distance to the triangle, less the radius interpolated over it.
-FieldValue plate(const Ball& a, const Ball& b, const Ball& c, const Vec3& p) noexcept;
+/// A plate over three balls: distance to the triangle, less the radius interpolated over it. What does not
+/// depend on the point is computed once.
+class Plate {
+ public:
+  Plate() = default;
+  Plate(const Ball& a, const Ball& b, const Ball& c) noexcept;
+
+  FieldValue operator()(const Vec3& p) const noexcept;
+
+  /// Whether the value is certainly above another one, for the price of a root: a disc around the triangle is
+  /// no farther away than the triangle, and the plate is nowhere thicker than at its largest ball.
+  bool is_above(double value, const Vec3& p) const noexcept;
+
+ private:
+  Ball a_ = {Vec3::Zero(), 0}, b_ = a_, c_ = a_;
+  Vec3 normal_ = Vec3::Zero();   ///< twice the area long
+  Vec3 upwards_ = Vec3::Zero();  ///< of length one
+  double length_ = 0;
+  /// Gradients of the barycentric coordinates of b and c: p's shadow in the plate is a + v ab + w ac.
+  Vec3 grad_v_ = Vec3::Zero(), grad_w_ = Vec3::Zero();
+  Ball disc_ = a_;  ///< around the triangle, in its plane
+  double thickest_ = 0;
+};
 
 /// Distance to a tube around a circle. No gradient on the circle itself and on its axis, where no direction
 /// is nearer than others.

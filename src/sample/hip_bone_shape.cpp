@@ -86,8 +86,11 @@ struct HipBonePieces {
 
   FieldValue operator()(const Vec3& p) const noexcept {
     const Vec3 nominal = p / scale;
-    FieldValue bone = joined(ilium_sheet(nominal), ring(nominal), 10);
-    for (const Skeleton& tip : tips) bone = joined(bone, tip(nominal), 8);
+    // What is larger than the rest by the width of the seam has no part in it.
+    constexpr double ring_seam = 10, tip_seam = 8;
+    FieldValue bone = ring(nominal);
+    bone = joined(ilium_sheet.up_to(bone.value + ring_seam, nominal), bone, ring_seam);
+    for (const Skeleton& tip : tips) bone = joined(bone, tip.up_to(bone.value + tip_seam, nominal), tip_seam);
     bone.value *= scale;
 
     const Ball shell = {Vec3::Zero(), socket.radius + socket_wall * scale};

@@ -24,19 +24,20 @@ Vec3 bisected(const Field& solid, Vec3 inside, Vec3 outside) {
 
 }  // namespace
 
-Vec3 laid_on(const Field& solid, const Vec3& p) {
+Laid laid_on(const Field& solid, const Vec3& p) {
   Vec3 at = p;
   std::optional<Vec3> inside, outside;
   for (int i = 0; i < newton_steps; ++i) {
     const auto [value, gradient] = solid(at);
     const double slope = gradient.norm();
-    if (std::abs(value) <= laid_tolerance / 4 * slope) return at;
+    if (std::abs(value) <= laid_tolerance / 4 * slope) return {at, gradient};
     if (!(slope > 0)) break;
     (value < 0 ? inside : outside) = at;
     at -= std::clamp(value / slope, -longest_step, longest_step) / slope * gradient;
   }
   if (!inside || !outside) throw MeshError("sample: a point could not be laid on the surface");
-  return bisected(solid, *inside, *outside);
+  const Vec3 point = bisected(solid, *inside, *outside);
+  return {point, solid(point).gradient};
 }
 
 }  // namespace condyle::sample

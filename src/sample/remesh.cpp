@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
-#include <queue>
 #include <tuple>
 
 #include "condyle/error.hpp"
+#include "sample/edge_queue.hpp"
 #include "sample/editable_mesh.hpp"
 #include "sample/projection.hpp"
 
@@ -39,12 +40,18 @@ double sharpest_cosine(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
 class Remesher {
  public:
   Remesher(const TriMesh& start, const Field& solid, const Sizing& sizing)
-      : mesh_(start), solid_(solid), sizing_(sizing) {}
+      : mesh_(start), solid_(solid), sizing_(sizing), outward_(start.vertices.size()) {}
 
   void lay_all() {
     for (Index v = 0; v < mesh_.vertex_end(); ++v) {
-      if (mesh_.has_vertex(v)) mesh_.move(v, laid_on(solid_, mesh_.position(v)));
+      if (mesh_.has_vertex(v)) place(v, laid_on(solid_, mesh_.position(v)));
     }
+  }
+
+  /// Instead of laying them, for vertices on the surface.
+  void look_where_surface_faces() {
+    for (Index v = 0; v < mesh_.vertex_end(); ++v)
+      outward_[v] = solid_(mesh_.position(v)).gradient.normalized();
   }
 
   /// Edge length, in units of the sizing, at which equilateral triangles make the wanted count.
@@ -61,21 +68,26 @@ class Remesher {
 
   /// Collapses edges shorter than `length`, shortest first, until `least_count` vertices are left.
   void collapse_shorter_than(double length, std::size_t least_count) {
-    using Entry = std::tuple<double, Index, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> shortest;
-    const auto offer = [&](Index a, Index b) {
+    double longest = std::numeric_limits<double>::min();
+    std::vector<EdgeQueue::Edge> at_first;
+    for (const auto& [a, b] : mesh_.edges()) {
       const double relative = relative_length(a, b);
-      if (relative < length) shortest.emplace(relative, std::min(a, b), std::max(a, b));
-    };
-    for (const auto& [a, b] : mesh_.edges()) offer(a, b);
+      if (!(relative < length)) continue;
+      at_first.emplace_back(relative, a, b);
+      longest = std::max(longest, relative);
+    }
+    EdgeQueue shortest(longest);
+    for (const auto& edge : at_first) shortest.push(edge);
     while (!shortest.empty() && mesh_.vertex_count() > least_count) {
-      const auto [relative, a, b] = shortest.top();
-      shortest.pop();
+      const auto [relative, a, b] = shortest.pop();
       // An entry whose ends moved since is stale: its edge was offered again with its new length.
+      if (!mesh_.has_vertex(a) || !mesh_.has_vertex(b) || relative != relative_length(a, b)) continue;
       const auto edge = mesh_.star(a, b);
-      if (!edge || relative != relative_length(a, b)) continue;
-      if (!collapse(*edge)) continue;
-      for (const Index n : mesh_.neighbours(a)) offer(a, n);
+      if (!edge || !collapse(*edge)) continue;
+      for (const Index n : mesh_.neighbours(a)) {
+        const double now = relative_length(a, n);
+        if (now < length) shortest.push({now, std::min(a, n), std::max(a, n)});
+      }
     }
   }
 
@@ -124,6 +136,11 @@ class Remesher {
   TriMesh packed() const { return mesh_.packed(); }
 
  private:
+  void place(Index v, const Laid& laid) {
+    mesh_.move(v, laid.point);
+    outward_[v] = laid.gradient.normalized();
+  }
+
   double relative_length(Index a, Index b) const {
     const Vec3& p = mesh_.position(a);
     const Vec3& q = mesh_.position(b);
@@ -131,16 +148,19 @@ class Remesher {
   }
 
   void split(Index a, Index b) {
-    mesh_.split(*mesh_.star(a, b), laid_on(solid_, (mesh_.position(a) + mesh_.position(b)) / 2));
+    const Laid middle = laid_on(solid_, (mesh_.position(a) + mesh_.position(b)) / 2);
+    mesh_.split(*mesh_.star(a, b), middle.point);
+    outward_.push_back(middle.gradient.normalized());
   }
 
   bool collapse(const EdgeStar& edge) {
     if (!mesh_.can_collapse(edge)) return false;
-    const Vec3 p = laid_on(solid_, (mesh_.position(edge.a) + mesh_.position(edge.b)) / 2);
-    const Vec3 outward = solid_(p).gradient.normalized();
+    const auto [p, gradient] = laid_on(solid_, (mesh_.position(edge.a) + mesh_.position(edge.b)) / 2);
+    const Vec3 outward = gradient.normalized();
     if (!stays_unfolded(edge.a, edge.b, p, outward) || !stays_unfolded(edge.b, edge.a, p, outward))
       return false;
     mesh_.collapse(edge, p);
+    outward_[edge.a] = outward;
     return true;
   }
 
@@ -158,8 +178,8 @@ class Remesher {
       const Vec3 before = area_normal(now[0], now[1], now[2]), after = area_normal(then[0], then[1], then[2]);
       if (after.dot(outward) <= least_lay_cosine * after.norm()) return false;
       // A sliver has no normal to speak of: it may turn.
-      const bool was_sliver = sharpest_cosine(now[0], now[1], now[2]) > sliver_cosine;
-      if (!was_sliver && turned_too_far(before, after)) return false;
+      if (turned_too_far(before, after) && !(sharpest_cosine(now[0], now[1], now[2]) > sliver_cosine))
+        return false;
     }
     return true;
   }
@@ -196,10 +216,10 @@ class Remesher {
     }
     if (!(total > 0)) return;
     const Vec3& now = mesh_.position(v);
-    const Vec3 outward = solid_(now).gradient.normalized();
+    const Vec3& outward = outward_[v];
     const Vec3 pull = sum / total - now;
-    const Vec3 p = laid_on(solid_, now + (pull - pull.dot(outward) * outward));
-    if (stays_unfolded(v, no_index, p, solid_(p).gradient.normalized())) mesh_.move(v, p);
+    const Laid laid = laid_on(solid_, now + (pull - pull.dot(outward) * outward));
+    if (stays_unfolded(v, no_index, laid.point, laid.gradient.normalized())) place(v, laid);
   }
 
   /// Cosine of 10 degrees: a triangle with a smaller angle than that is a sliver.
@@ -208,6 +228,7 @@ class Remesher {
   EditableMesh mesh_;
   const Field& solid_;
   const Sizing& sizing_;
+  std::vector<Vec3> outward_;  ///< the surface's normal at each vertex
 };
 
 }  // namespace
@@ -237,6 +258,7 @@ TriMesh remeshed(const TriMesh& start, const Field& solid, const Sizing& sizing,
 
 TriMesh refined(const TriMesh& mesh, const Field& solid, const Sizing& sizing, std::size_t vertex_count) {
   Remesher remesher(mesh, solid, sizing);
+  remesher.look_where_surface_faces();
   remesher.reach(vertex_count);
   remesher.flip_all();
   remesher.relax_once();

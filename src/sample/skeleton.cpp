@@ -104,7 +104,10 @@ Skeleton Skeleton::sheet(std::span<const Ball> control, std::span<const std::arr
   sheet.balls_.assign(control.begin(), control.end());
   Triangles split(triangles.begin(), triangles.end());
   for (int level = 0; level < sheet_levels; ++level) subdivide_sheet(sheet.balls_, split);
-  for (const auto& [a, b, c] : split) sheet.pieces_.push_back({a, b, c});
+  for (const auto& [a, b, c] : split) {
+    sheet.pieces_.push_back({a, b, c});
+    sheet.plates_.emplace_back(sheet.balls_[a], sheet.balls_[b], sheet.balls_[c]);
+  }
   sheet.group(std::size_t{1} << (2 * sheet_levels));
   return sheet;
 }
@@ -123,40 +126,51 @@ Ball Skeleton::around(std::size_t first, std::size_t last) const {
 
 void Skeleton::group(std::size_t pieces_per_group) {
   for (std::size_t i = 0; i < pieces_.size(); ++i) around_piece_.push_back(around(i, i + 1));
+  assert(pieces_per_group % pieces_per_block == 0);
+  for (std::size_t first = 0; first < pieces_.size(); first += pieces_per_block)
+    around_block_.push_back(around(first, std::min(first + pieces_per_block, pieces_.size())));
   for (std::size_t first = 0; first < pieces_.size(); first += pieces_per_group) {
     const std::size_t last = std::min(first + pieces_per_group, pieces_.size());
     groups_.push_back({around(first, last), first, last});
   }
+  assert(groups_.size() <= most_groups);
 }
 
-FieldValue Skeleton::operator()(const Vec3& p) const noexcept {
-  FieldValue nearest = {std::numeric_limits<double>::infinity(), Vec3::Zero()};
-  const auto visit = [&](const Group& group) {
-    for (std::size_t i = group.first; i < group.last; ++i) {
+FieldValue Skeleton::up_to(double most, const Vec3& p) const noexcept {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double limit = most + rounding_mm;
+  FieldValue nearest = {limit, Vec3::Zero()};
+  const auto visit_block = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       const Ball& around_piece = around_piece_[i];
       const double reach = nearest.value + around_piece.radius;
       if (reach <= 0 || (p - around_piece.centre).squaredNorm() >= reach * reach) continue;
-      const auto& [a, b, c] = pieces_[i];
+      if (!plates_.empty() && plates_[i].is_above(nearest.value, p)) continue;
       const FieldValue piece =
-          c == b ? bar(balls_[a], balls_[b], p) : plate(balls_[a], balls_[b], balls_[c], p);
+          plates_.empty() ? bar(balls_[pieces_[i].a], balls_[pieces_[i].b], p) : plates_[i](p);
       if (piece.value < nearest.value) nearest = piece;
     }
   };
-  // The group that looks nearest goes first: most others are then out at one comparison.
-  const auto bound = [&](const Group& group) {
-    return (p - group.around.centre).norm() - group.around.radius;
+  const auto visit = [&](const Group& group) {
+    for (std::size_t begin = group.first; begin < group.last; begin += pieces_per_block) {
+      const Ball& around_block = around_block_[begin / pieces_per_block];
+      const double reach = nearest.value + around_block.radius + rounding_mm;
+      if (reach < 0 || (p - around_block.centre).squaredNorm() > reach * reach) continue;
+      visit_block(begin, std::min(begin + pieces_per_block, group.last));
+    }
   };
+  // The group that looks nearest goes first: most others are then out at one comparison.
+  std::array<double, most_groups> bound;
   std::size_t first = 0;
-  double least = std::numeric_limits<double>::infinity();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const double here = bound(groups_[g]);
-    if (here < least) least = here, first = g;
+    bound[g] = (p - groups_[g].around.centre).norm() - groups_[g].around.radius;
+    if (bound[g] < bound[first]) first = g;
   }
-  if (!groups_.empty()) visit(groups_[first]);
+  if (!groups_.empty() && bound[first] < nearest.value) visit(groups_[first]);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (g != first && bound(groups_[g]) < nearest.value) visit(groups_[g]);
+    if (g != first && bound[g] < nearest.value) visit(groups_[g]);
   }
-  return nearest;
+  return nearest.value < limit ? nearest : FieldValue{none, Vec3::Zero()};
 }
 
 }  // namespace condyle::sample

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,12 @@ class Skeleton {
   static Skeleton sheet(std::span<const Ball> control, std::span<const std::array<Index, 3>> triangles);
 
   /// The union of all pieces, without filled seams: they meet nearly tangentially.
-  FieldValue operator()(const Vec3& p) const noexcept;
+  FieldValue operator()(const Vec3& p) const noexcept {
+    return up_to(std::numeric_limits<double>::infinity(), p);
+  }
+
+  /// The same where the value is at most this; elsewhere the same or infinity, which is found much sooner.
+  FieldValue up_to(double most, const Vec3& p) const noexcept;
 
   std::span<const Ball> balls() const noexcept { return balls_; }
 
@@ -34,6 +40,7 @@ class Skeleton {
   struct Piece {
     Index a, b, c;
   };
+  static constexpr std::size_t most_groups = 32, pieces_per_block = 8;
   /// Consecutive pieces [first, last) inside one ball: far away, the ball alone shows that they cannot be
   /// nearest.
   struct Group {
@@ -45,7 +52,9 @@ class Skeleton {
 
   std::vector<Ball> balls_;
   std::vector<Piece> pieces_;
+  std::vector<Plate> plates_;  ///< of a sheet's pieces; empty for a chain
   std::vector<Ball> around_piece_;
+  std::vector<Ball> around_block_;  ///< of pieces_per_block consecutive pieces
   std::vector<Group> groups_;
 };
 

@@ -20,7 +20,7 @@ TriMesh meshed(const Solid& solid, const Meshing& meshing, std::size_t triangles
   };
   TriMesh mesh = remeshed(start, solid.field, meshing.sizing, vertices_for(base));
   for (std::size_t level = 0; level < levels; ++level) {
-    mesh = mesh::subdivided(mesh, [&](const Vec3& midpoint) { return laid_on(solid.field, midpoint); });
+    mesh = mesh::subdivided(mesh, [&](const Vec3& midpoint) { return laid_on(solid.field, midpoint).point; });
   }
   if (mesh.triangles.size() == triangles) return mesh;
   return refined(mesh, solid.field, meshing.sizing, vertices_for(triangles));

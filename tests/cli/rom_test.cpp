@@ -8,7 +8,7 @@
 
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/whole_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "mesh/subdivide.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -91,7 +91,7 @@ TEST_F(RomCommand, WritesEveryFileAndOnlyWhole) {
   const std::string command = std::string("rom joint.toml --out out --json") + small_map;
   const Ran ran = run(command);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_EQ(read_whole_file(here / "out/rom.json"), ran.out);
+  EXPECT_EQ(io::read_whole_file(here / "out/rom.json"), ran.out);
   for (const char* name : {"limits.csv", "limits.svg", "clock_face.svg", "map.csv", "map_flexion.svg",
                            "map_extension.svg", "map_free_range.svg"})
     EXPECT_TRUE(fs::exists(here / "out" / name)) << name;
@@ -113,7 +113,7 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
   EXPECT_EQ(fixed, read_mesh(here / "post.ply").mesh);
   EXPECT_EQ(read_mesh(here / "out/zone_01_flexion_mobile.vtp").mesh.triangles,
             read_mesh(here / "arm.ply").mesh.triangles);
-  const std::string bytes = read_whole_file(here / "out/zone_01_flexion_mobile.vtp");
+  const std::string bytes = io::read_whole_file(here / "out/zone_01_flexion_mobile.vtp");
   for (const char* name :
        {"radial_depth_mm", "ray_to_normal_deg", "tangential_depth_deg", "tangential_depth_mm", "in_zone"})
     EXPECT_NE(bytes.find(name), bytes.npos) << name;
@@ -138,7 +138,7 @@ TEST_F(RomCommand, GivesTheSameBytesOnOneThreadAndOnMany) {
                   .exit_code,
               0);
   for (const auto& entry : fs::directory_iterator(here / "out1"))
-    EXPECT_EQ(read_whole_file(entry.path()), read_whole_file(here / "out4" / entry.path().filename()))
+    EXPECT_EQ(io::read_whole_file(entry.path()), io::read_whole_file(here / "out4" / entry.path().filename()))
         << entry.path();
 }
 
@@ -197,8 +197,8 @@ Ran run_interrupted(const fs::path& folder, const std::string& arguments) {
                               "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -qs 'map points' '" + err +
                               "'; do sleep 0.1; done; kill -INT $p; wait $p; }";
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_whole_file(caught / "out"),
-          read_whole_file(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, io::read_whole_file(caught / "out"),
+          io::read_whole_file(err)};
 }
 
 /// The last of the lines, without the progress before it.

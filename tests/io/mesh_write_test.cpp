@@ -17,7 +17,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/whole_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle {
@@ -85,9 +85,9 @@ TEST_F(WrittenMesh, IsReadBackBitForBit) {
 TEST_F(WrittenMesh, TakesFloatsWhereTheyLoseNothing) {
   for (const char* name : {"a.ply", "a.vtp"}) {
     write_mesh(folder_ / name, float_valued());
-    const auto with_floats = read_whole_file(folder_ / name);
+    const auto with_floats = io::read_whole_file(folder_ / name);
     write_mesh(folder_ / name, double_valued());
-    const auto with_doubles = read_whole_file(folder_ / name);
+    const auto with_doubles = io::read_whole_file(folder_ / name);
     if (std::string_view(name) == "a.ply") {
       const std::size_t vertices = float_valued().vertices.size(),
                         triangles = float_valued().triangles.size();
@@ -105,7 +105,7 @@ TEST_F(WrittenMesh, HasTheSameBytesEveryTime) {
                two = folder_ / (std::string("two") + extension);
     write_mesh(one, double_valued());
     write_mesh(two, double_valued());
-    EXPECT_EQ(read_whole_file(one), read_whole_file(two));
+    EXPECT_EQ(io::read_whole_file(one), io::read_whole_file(two));
   }
 }
 

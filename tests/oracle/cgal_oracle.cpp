@@ -5,11 +5,16 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
+#include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/hilbert_sort.h>
+#include <CGAL/property_map.h>
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.hpp"
 
@@ -43,7 +48,24 @@ CgalMesh surface_mesh(const TriMesh& mesh) {
   return out;
 }
 
+Kernel::Iso_cuboid_3 box_around(const Triangles& triangles, std::size_t first, std::size_t last) {
+  CGAL::Bbox_3 box;
+  for (std::size_t i = first; i < last; ++i) box += triangles[i].bbox();
+  return Kernel::Iso_cuboid_3(box);
+}
+
 }  // namespace
+
+TriMesh in_spatial_order(const TriMesh& mesh) {
+  using Placed = std::pair<Kernel::Point_3, Triangle>;
+  std::vector<Placed> placed;
+  for (const Triangle& t : mesh.triangles) placed.emplace_back(point(mesh.vertices[t[0]]), t);
+  CGAL::hilbert_sort(placed.begin(), placed.end(),
+                     CGAL::Spatial_sort_traits_adapter_3<Kernel, CGAL::First_of_pair_property_map<Placed>>());
+  TriMesh sorted = {mesh.vertices, {}};
+  for (const auto& [at, t] : placed) sorted.triangles.push_back(t);
+  return sorted;
+}
 
 struct CgalOracle::Trees {
   explicit Trees(const TriMesh& mesh)
@@ -53,6 +75,19 @@ struct CgalOracle::Trees {
         tree(triangles.begin(), triangles.end()) {
     tree.build();
     side(point(mesh.vertices[0]));  // builds its tree now, before threads ask
+  }
+
+  /// visit(number) of the others, on all threads, but for runs of triangles whose box meets none of ours.
+  template <class Visit>
+  void visit_near(const Triangles& others, const Visit& visit) const {
+    constexpr std::size_t run = 32, grain = 8;
+    core::parallel_chunks((others.size() + run - 1) / run, grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t first = run * begin; first < std::min(run * end, others.size()); first += run) {
+        const std::size_t last = std::min(first + run, others.size());
+        if (!tree.do_intersect(box_around(others, first, last))) continue;
+        for (std::size_t i = first; i < last; ++i) visit(i);
+      }
+    });
   }
 
   CgalMesh surface;
@@ -78,18 +113,23 @@ std::vector<PointState> CgalOracle::states(PointsView points) const {
   return states;
 }
 
+bool CgalOracle::meets(const TriMesh& other) const {
+  const Triangles others = triangles_of(other);
+  std::atomic<bool> meets = false;
+  trees_->visit_near(others, [&](std::size_t i) {
+    if (!meets && trees_->tree.do_intersect(others[i])) meets = true;
+  });
+  return meets;
+}
+
 std::vector<TrianglePair> CgalOracle::pairs(const TriMesh& other) const {
   const Triangles others = triangles_of(other);
   tbb::enumerable_thread_specific<std::vector<TrianglePair>> found;
-  core::parallel_chunks(others.size(), 256, [&](std::size_t first, std::size_t last) {
+  trees_->visit_near(others, [&](std::size_t i) {
     std::vector<Triangles::const_iterator> hits;
-    auto& mine = found.local();
-    for (std::size_t i = first; i < last; ++i) {
-      hits.clear();
-      trees_->tree.all_intersected_primitives(others[i], std::back_inserter(hits));
-      for (const auto& hit : hits) {
-        mine.push_back({static_cast<Index>(hit - trees_->triangles.begin()), static_cast<Index>(i)});
-      }
+    trees_->tree.all_intersected_primitives(others[i], std::back_inserter(hits));
+    for (const auto& hit : hits) {
+      found.local().push_back({static_cast<Index>(hit - trees_->triangles.begin()), static_cast<Index>(i)});
     }
   });
   std::vector<TrianglePair> pairs;

@@ -3,11 +3,15 @@
 #include <memory>
 #include <vector>
 
+#include "condyle/contact.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/point_state.hpp"
-#include "condyle/contact.hpp"
 
 namespace condyle::test {
+
+/// The triangles in another order, neighbours in space beside each other: an oracle is asked faster for whether
+/// it meets them.
+TriMesh in_spatial_order(const TriMesh& mesh);
 
 /// CGAL with exact predicates, asked the same questions: an oracle that shares no code with the library.
 class CgalOracle {
@@ -22,6 +26,9 @@ class CgalOracle {
 
   /// Pairs (triangle of this mesh, triangle of the other) that share a point, ascending.
   std::vector<TrianglePair> pairs(const TriMesh& other) const;
+
+  /// Whether there is such a pair.
+  bool meets(const TriMesh& other) const;
 
   /// Smallest distance from a point to the surface, mm.
   double min_distance(PointsView points) const;

@@ -47,12 +47,10 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
   const Motion motion = hip_motions()[number];
   const MotionLimit limit = RangeOfMotion(joint, {.bearing = {.rule = BearingRule::count}}).limit(motion);
   const CgalOracle oracle(joint.fixed.mesh);
+  const TriMesh mobile = test::in_spatial_order(joint.mobile.mesh);
   const auto touching = [&](Angle turned) {
     const Angle by = motion.sense == RotationSense::positive ? turned : -turned;
-    return !oracle
-                .pairs(
-                    posed(pose_at(joint.side, turned_by(motion.start, motion.vary, by)), joint.mobile.mesh))
-                .empty();
+    return oracle.meets(posed(pose_at(joint.side, turned_by(motion.start, motion.vary, by)), mobile));
   };
   if (limit.end.reason == LimitReason::contact_at_start) {
     EXPECT_TRUE(touching(Angle()));

@@ -1,13 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <random>
+#include <cmath>
+#include <numbers>
 #include <thread>
 
 #include "condyle/error.hpp"
 #include "condyle/radial.hpp"
 #include "mesh/subdivide.hpp"
-#include "radial/query/point_blocks.hpp"
+#include "radial/penetration_cases.hpp"
 #include "simd/instruction_set.hpp"
 #include "support/parameter_names.hpp"
 #include "support/shared_data.hpp"
@@ -17,8 +17,14 @@ namespace condyle {
 namespace {
 
 using test::box;
+using test::Compared;
+using test::expect_plain_answers;
 using test::flipped;
 using test::joined;
+using test::points_near_surface;
+using test::pose_of;
+using test::random_points;
+using test::some_poses;
 using test::sphere;
 
 /// Every test runs on each instruction set that the machine has.
@@ -29,94 +35,6 @@ class PenetrationsOn : public testing::TestWithParam<simd::InstructionSet> {
 
 INSTANTIATE_TEST_SUITE_P(EveryInstructionSet, PenetrationsOn, testing::ValuesIn(simd::instruction_sets()),
                          [](const auto& set) { return set.param.name; });
-
-Pose pose_of(double angle, const Vec3& axis, const Vec3& translation) {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
-  X.translation() = translation;
-  return X;
-}
-
-/// The identity, rotations about the centre, and rotations with ever larger translations.
-std::vector<Pose> some_poses(std::size_t count, double largest_translation, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<Pose> poses = {Pose::Identity()};
-  for (std::size_t i = 1; i < count; ++i) {
-    const double size = i % 3 == 0 ? 0 : largest_translation * std::pow(10, -static_cast<double>(i % 4));
-    const Vec3 axis(uniform(random), uniform(random), uniform(random));
-    const Vec3 along(uniform(random), uniform(random), uniform(random));
-    poses.push_back(pose_of(3 * uniform(random), axis, size * along));
-  }
-  return poses;
-}
-
-Points random_points(std::size_t count, double reach, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> uniform(-reach, reach);
-  Points points;
-  for (std::size_t i = 0; i < count; ++i)
-    points.push_back({uniform(random), uniform(random), uniform(random)});
-  return points;
-}
-
-/// Points of the mesh's surface, moved along their rays by the given factor.
-Points points_near_surface(const TriMesh& mesh, std::size_t count, double factor, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  Points points;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto t = static_cast<Index>(random() % mesh.triangles.size());
-    double s = unit(random), r = unit(random);
-    if (s + r > 1) s = 1 - s, r = 1 - r;
-    if (i % 4 == 0) s = 0;
-    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    points.push_back(factor * (a + s * (b - a) + r * (c - a)));
-  }
-  return points;
-}
-
-/// The same surface behind the paper's map, whose rows have neither 8-DOPs nor edge functions.
-RadialTable reference_of(const RadialTable& table) {
-  return RadialTable(table.mesh(), {DirectionMapKind::cartesian, 24});
-}
-
-/// What the plain query says of the posed points that are not outside, in the order of the sorted ones.
-Penetrations plain(const RadialTable& table, PointsView points, const SortedPoints& sorted, const Pose& X) {
-  const RadialResults hits = table.query(posed(X, points));
-  Penetrations out;
-  for (const Index i : sorted.blocks().index()) {
-    if (hits.state[i] == PointState::outside) continue;
-    out.point.push_back(i);
-    out.state.push_back(hits.state[i]);
-    out.winding.push_back(hits.winding[i]);
-    out.triangle.push_back(hits.triangle[i]);
-    out.depth_mm.push_back(std::abs(hits.radial_gap_mm[i]));
-    out.direction.push_back(hits.direction[i]);
-    out.ray_to_normal.push_back(hits.ray_to_normal[i]);
-  }
-  return out;
-}
-
-struct Compared {
-  std::size_t found = 0;
-  PenetrationWork work;
-};
-
-Compared expect_plain_answers(const RadialTable& table, const Points& points, const std::vector<Pose>& poses,
-                              const Vec3& centre = Vec3::Zero()) {
-  const SortedPoints sorted(points, centre);
-  const RadialTable reference = reference_of(table);
-  Compared compared;
-  Penetrations out;
-  for (const Pose& X : poses) {
-    table.penetrations(sorted, X, out, &compared.work);
-    table.add_ray_to_normal(points, X, out);
-    EXPECT_EQ(out, plain(reference, points, sorted, X));
-    compared.found += out.size();
-  }
-  return compared;
-}
 
 TriMesh cavity(double radius, int levels) {
   return joined(box(Vec3::Constant(-2 * radius), Vec3::Constant(2 * radius)),
@@ -308,172 +226,6 @@ TEST(Penetrations, ManyPosesOnAllThreadsAreThoseOneByOne) {
   }
 }
 
-/// Every vertex by up to `size`, the same for the same seed.
-Points jiggled(const Points& points, double size, unsigned seed) {
-  const Points by = random_points(points.size(), size, seed);
-  Points moved;
-  for (std::size_t i = 0; i < points.size(); ++i) moved.push_back(points[i] + by[i]);
-  return moved;
-}
-
-TEST(RadialTableUpdate, AfterAllVerticesMovedAnswersAreThoseOfANewTable) {
-  const Points points = random_points(800, 1.5, 21);
-  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
-    TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
-    RadialTable table(mesh, {map, 16});
-    for (unsigned frame = 0; frame < 3; ++frame) {
-      mesh.vertices = jiggled(mesh.vertices, 0.01, frame);
-      table.update(mesh.vertices);
-      const RadialTable made_anew(mesh, {map, 16});
-      EXPECT_EQ(table.mesh(), mesh);
-      EXPECT_EQ(table.query(points), made_anew.query(points));
-      expect_plain_answers(table, points, some_poses(4, 0.2, frame));
-    }
-  }
-}
-
-TEST(RadialTableUpdate, AfterSomeVerticesMovedAnswersAreThoseOfANewTable) {
-  const Points points = random_points(800, 1.6, 22);
-  std::mt19937 random(23);
-  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
-    TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4);
-    RadialTable table(mesh, {map, 24});
-    for (unsigned frame = 0; frame < 12; ++frame) {
-      // Near ones and far apart ones, little and much, nearer to the centre than any before.
-      std::vector<Index> moved;
-      for (Index i = 0; i < mesh.vertices.size(); ++i) {
-        if (frame % 2 == 0 ? random() % 50 == 0 : mesh.vertices[i].x() > 0.9) moved.push_back(i);
-      }
-      Points positions;
-      for (const Index i : moved) positions.push_back((frame % 3 == 0 ? 0.93 : 1.01) * mesh.vertices[i]);
-      for (std::size_t k = 0; k < moved.size(); ++k) mesh.vertices.set(moved[k], positions[k]);
-      ASSERT_FALSE(moved.empty());
-      table.update(moved, positions);
-      const RadialTable made_anew(mesh, {map, 24});
-      EXPECT_EQ(table.mesh(), mesh);
-      EXPECT_EQ(table.query(points), made_anew.query(points));
-      expect_plain_answers(table, points, some_poses(4, 0.2, frame));
-      expect_plain_answers(table, points_near_surface(mesh, 100, 1, frame), {Pose::Identity()});
-    }
-  }
-}
-
-/// Update by update, each of another kind: all vertices or some, little or much, back to where they were.
-void expect_answers_after_updates(TriMesh mesh, int cells_per_side, double reach) {
-  RadialTable table(mesh, {DirectionMapKind::cube, cells_per_side});
-  const Points at_first = mesh.vertices, points = random_points(400, reach, 27);
-  const SortedPoints sorted(points);
-  const std::vector<Pose> poses = some_poses(3, 0.1 * reach, 28);
-  std::vector<Index> patch;
-  for (Index i = 0; i < mesh.vertices.size(); i += 1 + i % 7) patch.push_back(i);
-  for (unsigned frame = 0; frame < 14; ++frame) {
-    const double size = reach * (frame % 4 == 3 ? 0.05 : 1e-4);
-    const Points moved = frame % 5 == 4 ? at_first : jiggled(mesh.vertices, size, frame);
-    if (frame % 3 == 1) {
-      Points positions;
-      for (const Index i : patch) positions.push_back(moved[i]);
-      for (std::size_t k = 0; k < patch.size(); ++k) mesh.vertices.set(patch[k], positions[k]);
-      table.update(patch, positions);
-    } else {
-      mesh.vertices = moved;
-      table.update(moved);
-    }
-    const RadialTable made_anew(mesh, {DirectionMapKind::cube, cells_per_side});
-    EXPECT_EQ(table.mesh(), mesh);
-    EXPECT_EQ(table.winding_at_centre(), made_anew.winding_at_centre());
-    EXPECT_EQ(table.query(points), made_anew.query(points));
-    Penetrations updated, anew;
-    for (const Pose& X : poses) {
-      table.penetrations(sorted, X, updated);
-      made_anew.penetrations(sorted, X, anew);
-      EXPECT_EQ(updated, anew);
-    }
-    expect_plain_answers(table, points, poses);
-    expect_plain_answers(table, points_near_surface(mesh, 60, 1, frame), {Pose::Identity()});
-  }
-}
-
-TEST_P(PenetrationsOn, AfterUpdatesOfAllKindsAnswersAreThoseOfANewTable) {
-  expect_answers_after_updates(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3), 16, 1.5);
-  // About the centre; triangles larger than cells; the centre close to a box's faces, whose triangles are
-  // projected on most faces of the cube.
-  expect_answers_after_updates(sphere({0.1, 0.2, -0.1}, 1, 3), 24, 1.2);
-  expect_answers_after_updates(test::torus(2, 0.7, 12, 8), 32, 3);
-  expect_answers_after_updates(box({-0.05, -1, -1}, {1, 1.2, 1.1}), 8, 1.5);
-}
-
-TEST(RadialTableUpdate, ASurfaceThatPassesTheCentreChangesWhatIsInside) {
-  TriMesh mesh = sphere({0.3, 0.2, 1.5}, 1, 3);
-  RadialTable table(mesh);
-  EXPECT_EQ(table.winding_at_centre(), 0);
-  std::vector<Index> all(mesh.vertices.size());
-  for (Index i = 0; i < all.size(); ++i) all[i] = i;
-  const Points points = random_points(500, 1.5, 24);
-  for (const double shift : {-1.2, 0.1, -0.05, 1.2}) {
-    for (const Index i : all) mesh.vertices.set(i, mesh.vertices[i] + Vec3(0, 0, shift));
-    table.update(all, mesh.vertices);
-    const RadialTable made_anew(mesh);
-    EXPECT_EQ(table.winding_at_centre(), made_anew.winding_at_centre());
-    EXPECT_EQ(table.query(points), made_anew.query(points));
-    expect_plain_answers(table, points, some_poses(3, 0.2, 25));
-  }
-}
-
-/// The first triangle moved so that it holds the origin.
-Points with_the_centre_on_the_surface(const TriMesh& mesh) {
-  Points moved = mesh.vertices;
-  const auto& [a, b, c] = mesh.triangles[0];
-  moved.set(a, {1, 0, 0}), moved.set(b, {-1, 1, 0}), moved.set(c, {-1, -1, 0});
-  return moved;
-}
-
-TEST(RadialTableUpdate, AfterARefusedUpdateTheTableIsWhatItWasBefore) {
-  const Points points = random_points(500, 1.5, 29);
-  const SortedPoints sorted(points);
-  for (const DirectionMapKind map : {DirectionMapKind::cube, DirectionMapKind::cartesian}) {
-    const TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3);
-    const RadialTable before(mesh, {map, 16});
-    RadialTable table = before;
-    const Points refused = with_the_centre_on_the_surface(mesh);
-    std::vector<Index> moved(mesh.triangles[0].begin(), mesh.triangles[0].end());
-    Points positions;
-    for (const Index v : moved) positions.push_back(refused[v]);
-    const auto expect_as_before = [&] {
-      EXPECT_EQ(table.mesh(), mesh);
-      EXPECT_EQ(table.winding_at_centre(), before.winding_at_centre());
-      EXPECT_EQ(table.query(points), before.query(points));
-      Penetrations out, expected;
-      table.penetrations(sorted, Pose::Identity(), out);
-      before.penetrations(sorted, Pose::Identity(), expected);
-      EXPECT_EQ(out, expected);
-    };
-    EXPECT_THROW(table.update(refused), MeshError);
-    expect_as_before();
-    EXPECT_THROW(table.update(moved, positions), MeshError);
-    expect_as_before();
-    // What follows after that counts again.
-    table.update(jiggled(mesh.vertices, 0.01, 1));
-    EXPECT_THROW(table.update(moved, positions), MeshError);
-    table.update(mesh.vertices);
-    expect_as_before();
-  }
-}
-
-TEST(RadialTableUpdate, PositionsThatAreNotFiniteAndVerticesThatAreNotThereAreRefused) {
-  const TriMesh mesh = sphere({0, 0, 3}, 1, 1);
-  RadialTable table(mesh);
-  Points nowhere = mesh.vertices;
-  nowhere.set(2, {0, std::numeric_limits<double>::quiet_NaN(), 0});
-  EXPECT_THROW(table.update(nowhere), MeshError);
-  const std::vector<Index> one = {2}, absent = {static_cast<Index>(mesh.vertices.size())};
-  Points position;
-  position.push_back(nowhere[2]);
-  EXPECT_THROW(table.update(one, position), MeshError);
-  position.set(0, {0, 0, 0});
-  EXPECT_THROW(table.update(absent, position), UsageError);
-  EXPECT_EQ(table.mesh(), mesh);
-}
-
 TEST(RadialTable, ManyThreadsThatAskFirstGetTheSameAnswers) {
   const RadialTable table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 4));
   const SortedPoints points(random_points(500, 1.5, 30));
@@ -495,11 +247,6 @@ TEST(RadialTable, ATableThatOnlyAnswersQueriesBuildsNoRadii) {
   EXPECT_EQ(table.table_size().bytes, built);
   table.prepare_penetrations();
   EXPECT_GT(table.table_size().bytes, built);
-}
-
-TEST(RadialTableUpdate, ANumberOfVerticesThatIsNotTheMeshsIsRefused) {
-  RadialTable table(sphere({0, 0, 3}, 1, 1));
-  EXPECT_THROW(table.update(Points(3)), UsageError);
 }
 
 TEST(InstructionSets, TheBestComesFirst) {

@@ -39,8 +39,8 @@ TEST(Field, APlateIsHalfAsThickAsItsInterpolatedRadius) {
   // Over the centroid of the centres the radius is the mean, and the height is measured at right angles.
   const Vec3 centroid = (a.centre + b.centre + c.centre) / 3;
   const Vec3 normal = (b.centre - a.centre).cross(c.centre - a.centre).normalized();
-  EXPECT_NEAR(plate(a, b, c, centroid + 6 * normal).value, 2, 1e-12);
-  EXPECT_NEAR(plate(a, b, c, centroid - 6 * normal).value, 2, 1e-12);
+  EXPECT_NEAR(Plate(a, b, c)(centroid + 6 * normal).value, 2, 1e-12);
+  EXPECT_NEAR(Plate(a, b, c)(centroid - 6 * normal).value, 2, 1e-12);
 }
 
 TEST(Field, ATubeIsTheDistanceToItsTorus) {
@@ -84,7 +84,7 @@ void expect_gradient(const Field& field, const Box& box, const std::string& name
 TEST(Field, GradientsAreThoseOfTheValuesAndNowhereSteep) {
   const Box box = {Vec3(-10, -10, -10), Vec3(20, 20, 12)};
   expect_gradient([](const Vec3& p) { return bar(a, b, p); }, box, "bar");
-  expect_gradient([](const Vec3& p) { return plate(a, b, c, p); }, box, "plate");
+  expect_gradient(Plate(a, b, c), box, "plate");
   const Circle circle = {{1, 2, 3}, Vec3(2, -1, 2) / 3, 10};
   expect_gradient([&](const Vec3& p) { return tube(circle, 2, p); }, box, "tube");
   expect_gradient([](const Vec3& p) { return joined(ball(a, p), ball(b, p), 6); }, box, "joined");
@@ -131,12 +131,52 @@ TEST(Skeleton, SkippingFarPiecesChangesNothing) {
   }
 }
 
+TEST(Skeleton, UpToALimitItIsWhatItIsWithoutOne) {
+  const std::vector<Ball> balls = {a, b, c, {{12, 10, 3}, 2}};
+  const std::vector<std::array<Index, 3>> both = {{0, 1, 2}, {1, 3, 2}};
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> around(-15, 25);
+  int below = 0, skipped = 0;
+  for (const Skeleton& skeleton : {Skeleton::sheet(balls, both), Skeleton::chain(balls)}) {
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 p(around(random), around(random), around(random));
+      const FieldValue whole = skeleton(p), found = skeleton.up_to(10, p);
+      if (whole.value <= 10) {
+        EXPECT_EQ(found.value, whole.value);
+        EXPECT_EQ(found.gradient, whole.gradient);
+        ++below;
+      } else {
+        EXPECT_TRUE(found.value == whole.value || std::isinf(found.value));
+        skipped += std::isinf(found.value);
+      }
+    }
+  }
+  EXPECT_GT(below, 300);
+  EXPECT_GT(skipped, 300);
+}
+
+TEST(Field, APlateSaidToBeAboveAValueIs) {
+  const Plate plate(a, b, c);
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> near(-15, 20), value(-5, 10);
+  int above = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3 p(near(random), near(random), near(random));
+    const double bound = value(random);
+    if (!plate.is_above(bound, p)) continue;
+    EXPECT_GT(plate(p).value, bound);
+    ++above;
+  }
+  EXPECT_GT(above, 1000);
+}
+
 TEST(Projection, LaysPointsOnTheSphereWithinItsTolerance) {
   const Field sphere = [](const Vec3& p) { return ball({Vec3(1, 2, 3), 20}, p); };
   for (const Vec3& p : {Vec3(25, 2, 3), Vec3(1, 2, 4), Vec3(-3, 9, 14)}) {
-    const Vec3 laid = laid_on(sphere, p);
+    const auto [laid, gradient] = laid_on(sphere, p);
     EXPECT_NEAR((laid - Vec3(1, 2, 3)).norm(), 20, laid_tolerance);
     EXPECT_LT((laid - Vec3(1, 2, 3)).cross(p - Vec3(1, 2, 3)).norm(), 1e-9 * 20 * 25);
+    EXPECT_EQ(gradient, sphere(laid).gradient);
   }
 }
 
@@ -145,8 +185,8 @@ TEST(Projection, LaysPointsOnACreaseWhereStepsAlternate) {
   const Field wedge = [](const Vec3& p) {
     return joined(half_space(Vec3(0.6, 0.8, 0), 0, p), half_space(Vec3(-0.6, 0.8, 0), 0, p), 1e-12);
   };
-  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(0, 3, 0))).value), laid_tolerance);
-  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(1e-3, -3, 0))).value), laid_tolerance);
+  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(0, 3, 0)).point).value), laid_tolerance);
+  EXPECT_LT(std::abs(wedge(laid_on(wedge, Vec3(1e-3, -3, 0)).point).value), laid_tolerance);
 }
 
 TEST(Projection, SaysWhereThereIsNoSurfaceToLayOn) {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "condyle/error.hpp"
 #include "sample/contour.hpp"
+#include "sample/edge_queue.hpp"
 #include "sample/editable_mesh.hpp"
 #include "sample/projection.hpp"
 #include "sample/self_intersection.hpp"
@@ -69,6 +71,28 @@ TEST(Contour, RefusesASurfaceThatLeavesTheBox) {
   Solid solid = ball_solid(Vec3::Zero(), 5);
   solid.box.high.z() = 2;
   EXPECT_THROW(contoured(solid, 1), MeshError);
+}
+
+TEST(EdgeQueue, TheShortestIsFirstWhateverWasPushedInBetween) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> length(0, 3);  // some longer than the queue was made for
+  EdgeQueue queue(2);
+  std::set<EdgeQueue::Edge> waiting;
+  int taken = 0;
+  for (Index i = 0; i < 20000 || !waiting.empty(); ++i) {
+    if (i < 20000 && i % 3 != 2) {
+      // Few lengths in the first range: equal ones are told apart by their vertices.
+      const EdgeQueue::Edge edge = {i % 2 ? length(random) : 0.25 * (i % 5), i % 7, i};
+      waiting.insert(edge), queue.push(edge);
+      continue;
+    }
+    ASSERT_FALSE(queue.empty());
+    ASSERT_EQ(queue.pop(), *waiting.begin());
+    waiting.erase(waiting.begin());
+    ++taken;
+  }
+  EXPECT_TRUE(queue.empty());
+  EXPECT_GT(taken, 10000);
 }
 
 TEST(EditableMesh, RandomEditsKeepTheMeshSound) {

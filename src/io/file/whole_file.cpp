@@ -1,4 +1,4 @@
-#include "condyle/io/whole_file.hpp"
+#include "io/file/whole_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 
 #include "condyle/error.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 struct Close {
@@ -73,4 +73,4 @@ void write_whole_file(const std::filesystem::path& path, std::string_view bytes)
   if (error) fail(error.message());
 }
 
-}  // namespace condyle
+}  // namespace condyle::io

@@ -8,14 +8,14 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "io/file/quoted.hpp"
+#include "io/file/in_quotes.hpp"
 
 namespace condyle {
 namespace {
 
 [[noreturn]] void fail(std::string_view text) {
   throw UsageError(fmt::format(
-      "map: {} is not of the form flexion=-20:120:1 (first, last and step in degrees)", io::quoted(text)));
+      "map: {} is not of the form flexion=-20:120:1 (first, last and step in degrees)", io::in_quotes(text)));
 }
 
 double number(std::string_view digits, std::string_view text) {

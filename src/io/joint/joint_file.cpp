@@ -8,8 +8,8 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/repair_text.hpp"
-#include "condyle/io/whole_file.hpp"
 #include "io/file/format_version.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/joint/toml_table.hpp"
 
 namespace condyle {
@@ -19,7 +19,7 @@ using io::TomlTable;
 
 toml::table parsed(const std::filesystem::path& path) {
   try {
-    return toml::parse(read_whole_file(path), path.string());
+    return toml::parse(io::read_whole_file(path), path.string());
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     std::replace_if(

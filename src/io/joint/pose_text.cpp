@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "condyle/error.hpp"
-#include "io/file/quoted.hpp"
+#include "io/file/in_quotes.hpp"
 
 namespace condyle {
 namespace {
@@ -36,7 +36,7 @@ const AngleName& angle_name(std::string_view name) {
   throw UsageError(
       fmt::format("pose: unknown angle {}; there are flexion, adduction and internal_rotation, and "
                   "extension, abduction and external_rotation with the opposite sign",
-                  io::quoted(name)));
+                  io::in_quotes(name)));
 }
 
 double degrees_from(std::string_view text, std::string_view name) {
@@ -45,9 +45,9 @@ double degrees_from(std::string_view text, std::string_view name) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() ||
       digits.starts_with("-") != text.starts_with("-"))
-    throw UsageError(fmt::format("pose: {}={} is not a number of degrees", name, io::quoted(text)));
+    throw UsageError(fmt::format("pose: {}={} is not a number of degrees", name, io::in_quotes(text)));
   if (!std::isfinite(value))
-    throw UsageError(fmt::format("pose: {} must be finite, not {}", name, io::quoted(text)));
+    throw UsageError(fmt::format("pose: {} must be finite, not {}", name, io::in_quotes(text)));
   return value;
 }
 
@@ -60,7 +60,7 @@ JointAngles parse_pose(std::string_view text, JointKind kind) {
     at += word.size();
     const std::size_t equals = word.find('=');
     if (equals == word.npos)
-      throw UsageError(fmt::format("pose: {} is not of the form flexion=90", io::quoted(word)));
+      throw UsageError(fmt::format("pose: {} is not of the form flexion=90", io::in_quotes(word)));
     const AngleName& known = angle_name(word.substr(0, equals));
     auto& value = degrees[static_cast<std::size_t>(known.angle)];
     if (value) throw UsageError(fmt::format("pose: {} is given twice", name_of(known.angle)));
@@ -96,8 +96,8 @@ std::string_view name_of(JointAngle angle) noexcept {
 JointAngle joint_angle_named(std::string_view name) {
   for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
     if (name_of(angle) == name) return angle;
-  throw UsageError(
-      fmt::format("unknown angle {}; there are flexion, adduction and internal_rotation", io::quoted(name)));
+  throw UsageError(fmt::format("unknown angle {}; there are flexion, adduction and internal_rotation",
+                               io::in_quotes(name)));
 }
 
 }  // namespace condyle

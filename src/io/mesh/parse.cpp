@@ -6,19 +6,11 @@
 namespace condyle::io {
 namespace {
 
-constexpr std::size_t longest_quote = 40;  // characters: enough to find the place, short enough for one line
-
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
 }  // namespace
-
-std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text.substr(0, longest_quote)) out += c >= ' ' && c <= '~' ? c : '?';
-  return out + (text.size() > longest_quote ? "...'" : "'");
-}
 
 std::string lower_case(std::string_view text) {
   std::string out(text);

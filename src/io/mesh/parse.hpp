@@ -18,6 +18,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/mesh.hpp"
+#include "io/file/in_quotes.hpp"
 
 /// What the mesh readers have in common. They are our own, every format: VTK's drop digits of a double (STL,
 /// OBJ, PLY readers keep floats), merge with tolerances, read past a truncation and print, and believe any
@@ -39,9 +40,6 @@ struct Source {
 
   [[noreturn]] void fail(std::string_view what) const { throw FileError(fmt::format("{}: {}", name, what)); }
 };
-
-/// A part of a file made fit for a message: in quotes, short, on one line.
-std::string in_quotes(std::string_view text);
 
 /// ASCII only, whatever the locale.
 std::string lower_case(std::string_view text);

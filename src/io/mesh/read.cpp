@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "condyle/error.hpp"
-#include "condyle/io/whole_file.hpp"
 #include "condyle/repair.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle {
@@ -81,9 +81,9 @@ MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view n
 }
 
 MeshFile read_mesh(const std::filesystem::path& path) {
-  check_is_file(path);
+  io::check_is_file(path);
   const auto format = format_of(path);
-  return read_mesh(read_whole_file(path), format, path.string());
+  return read_mesh(io::read_whole_file(path), format, path.string());
 }
 
 }  // namespace condyle

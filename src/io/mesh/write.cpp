@@ -22,7 +22,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/whole_file.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
 
 static_assert(std::endian::native == std::endian::little,
@@ -76,8 +76,8 @@ void write_ply(const std::filesystem::path& path, const TriMesh& mesh) {
   if (mesh.vertices.size() > std::numeric_limits<std::int32_t>::max()) {
     throw FileError(path.string() + ": cannot be written: more vertices than a PLY file can number");
   }
-  write_whole_file(path, is_float_valued(mesh.vertices) ? ply_bytes<float>(mesh, "float")
-                                                        : ply_bytes<double>(mesh, "double"));
+  io::write_whole_file(path, is_float_valued(mesh.vertices) ? ply_bytes<float>(mesh, "float")
+                                                            : ply_bytes<double>(mesh, "double"));
 }
 
 template <class Array>
@@ -158,7 +158,7 @@ std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arra
 
 void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
                std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays) {
-  write_whole_file(path, vtp_bytes(mesh, point_arrays, cell_arrays));
+  io::write_whole_file(path, vtp_bytes(mesh, point_arrays, cell_arrays));
 }
 
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {

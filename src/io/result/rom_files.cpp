@@ -8,8 +8,8 @@
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/output_folder.hpp"
-#include "condyle/io/whole_file.hpp"
 #include "condyle/io/zone_result.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/result/clock_contacts.hpp"
 #include "io/result/plot_clock_face.hpp"
 #include "io/result/plot_limits.hpp"
@@ -35,10 +35,10 @@ void write_zones(OutputFolder& out, const RomResult& result) {
 
 void write_map(OutputFolder& out, const MotionMap& map, std::string_view joint_name) {
   const auto draw = [&](std::string_view name, io::MapView view) {
-    write_whole_file(out.file(fmt::format("map_{}.svg", name)),
-                     io::map_plot(io::plot_of(map, view, joint_name)));
+    io::write_whole_file(out.file(fmt::format("map_{}.svg", name)),
+                         io::map_plot(io::plot_of(map, view, joint_name)));
   };
-  write_whole_file(out.file("map.csv"), map_csv(map));
+  io::write_whole_file(out.file("map.csv"), map_csv(map));
   draw(movement_name(map.grid.vary, RotationSense::positive), io::MapView::positive_limit);
   draw(movement_name(map.grid.vary, RotationSense::negative), io::MapView::negative_limit);
   draw("free_range", io::MapView::free_range);
@@ -48,7 +48,7 @@ void write_map(OutputFolder& out, const MotionMap& map, std::string_view joint_n
 void write_bearing(OutputFolder& out, const RomResult& result) {
   if (!result.bearing.surface) return;
   const auto& marks = result.bearing.surface->triangles;
-  const MeshArray bearing{"bearing", std::vector<double>(marks.begin(), marks.end())};
+  const MeshArray bearing{"bearing", marks};
   write_vtp(out.file("bearing.vtp"), result.joint.mobile.mesh, {}, {&bearing, 1});
 }
 
@@ -57,16 +57,17 @@ void write_bearing(OutputFolder& out, const RomResult& result) {
 void write_rom(const std::filesystem::path& folder, const RomResult& result) {
   OutputFolder out(folder);
   const std::string& name = result.joint.name;
-  write_whole_file(out.file("rom.json"), rom_json(result));
-  write_whole_file(out.file("limits.csv"), rom_csv(result));
-  write_whole_file(out.file("limits.svg"), io::limits_plot({name, "How far each motion turns from its start"},
-                                                           result.limits, result.bands));
+  io::write_whole_file(out.file("rom.json"), rom_json(result));
+  io::write_whole_file(out.file("limits.csv"), rom_csv(result));
+  io::write_whole_file(
+      out.file("limits.svg"),
+      io::limits_plot({name, "How far each motion turns from its start"}, result.limits, result.bands));
   if (result.joint.kind == JointKind::ball)
-    write_whole_file(out.file("clock_face.svg"),
-                     io::clock_face_plot({name,
-                                          "Where motions end, seen from the joint centre in the sagittal "
-                                          "plane: 12 superior, 3 anterior"},
-                                         io::clock_contacts(result)));
+    io::write_whole_file(out.file("clock_face.svg"),
+                         io::clock_face_plot({name,
+                                              "Where motions end, seen from the joint centre in the sagittal "
+                                              "plane: 12 superior, 3 anterior"},
+                                             io::clock_contacts(result)));
   write_bearing(out, result);
   write_zones(out, result);
   if (result.map) write_map(out, *result.map, name);

@@ -6,8 +6,8 @@
 
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/whole_file.hpp"
 #include "io/file/format_version.hpp"
+#include "io/file/whole_file.hpp"
 
 namespace condyle {
 namespace {
@@ -46,8 +46,8 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
   const Body hip_bone = {"hip bone", "hip_bone.ply"}, femur = {"femur", "femur.ply"};
   write_mesh(out.file(hip_bone.mesh), hip.hip_bone);
   write_mesh(out.file(femur.mesh), hip.femur);
-  write_whole_file(out.file("hip.toml"),
-                   joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
+  io::write_whole_file(out.file("hip.toml"),
+                       joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
 }
 
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side) {
@@ -56,7 +56,7 @@ void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilag
   write_mesh(out.file(acetabular.mesh), cartilages.acetabular);
   write_mesh(out.file(femoral.mesh), cartilages.femoral);
   const std::string name = fmt::format("cartilages of the sample {} hip", name_of(side));
-  write_whole_file(out.file("cartilages.toml"), joint_file_text(name, acetabular, femoral, side));
+  io::write_whole_file(out.file("cartilages.toml"), joint_file_text(name, acetabular, femoral, side));
 }
 
 }  // namespace condyle

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace condyle {
+namespace condyle::io {
 
 /// Raises FileError for a file that is missing, a folder, or something else that is not a regular file.
 void check_is_file(const std::filesystem::path& path);
@@ -17,4 +17,4 @@ std::string read_whole_file(const std::filesystem::path& path);
 /// stays. Raises FileError.
 void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
 
-}  // namespace condyle
+}  // namespace condyle::io
