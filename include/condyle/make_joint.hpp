@@ -43,6 +43,9 @@ struct FrameDescription {
   std::variant<std::monostate, Vec3, CentreFit> centre = {};
   std::variant<FrameDirections, PelvisLandmarks, AnteriorPelvicPlane, FemurLandmarks, TransepicondylarAxis>
       axes = {};
+  /// The mobile body's own axes: zero angles are where they and `axes` coincide, and the pose in which the mobile mesh is
+  /// given follows from both.
+  std::optional<FemurLandmarks> mobile_axes = {};
 };
 
 /// All that makes a joint of two meshes.
@@ -52,7 +55,8 @@ struct JointDescription {
   Side side = Side::right;
   LengthUnit units = LengthUnit::millimetres;  ///< of both meshes
   FrameDescription frame = {};
-  JointAngles reference_pose = {};  ///< the pose in which the mobile mesh is given
+  /// The pose in which the mobile mesh is given; zero where the frame has mobile_axes.
+  JointAngles reference_pose = {};
 };
 
 /// What became of a mesh on its way into the joint.
@@ -68,6 +72,8 @@ struct JointPlacement {
   std::optional<CylinderFit> cylinder;   ///< the fit that gave the axis of a hinge
   Angle axis_rotation;                   ///< from the Z axis of the description to the fitted one
   AxisErrors axis_errors{0, 0, 0};       ///< of the directions as given; removed
+  JointAngles reference_pose = {};       ///< as described, or as it follows from the landmarks of both bodies
+  bool pose_from_landmarks = false;      ///< of both bodies
   BodyPlacement fixed, mobile;
   std::vector<std::string> notes;  ///< one line each: which axes were corrected, what was fitted
 };
@@ -80,7 +86,7 @@ struct PlacedJoint {
 /// Places both bodies, whose meshes are in W, in the joint frame:
 ///
 ///     p_F = X_WF^-1 p_W                        fixed vertices
-///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices
+///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices; with mobile_axes X_WM^-1 p_W
 ///
 /// Each coordinate, conversion from metres included, is computed in extended precision and rounded once. With
 /// millimetres, the centre 0, the standard axes and a reference pose of zero, vertices keep every bit.

@@ -140,6 +140,12 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
     notes.push_back(
         formatted("axes made orthonormal: lengths were off by %.1e and %.1e, the right angle by %.1e",
                   errors.anterior_length, errors.superior_length, errors.right_angle));
+  if (const JointAngles& pose = placement.reference_pose; placement.pose_from_landmarks)
+    notes.push_back(
+        formatted("the landmarks of both bodies give the reference pose: flexion %.2f, adduction %.2f, "
+                  "internal rotation "
+                  "%.2f degrees",
+                  pose.flexion.degrees(), pose.adduction.degrees(), pose.internal_rotation.degrees()));
   if (placement.sphere) {
     const SphereFit& fit = placement.sphere->fit;
     notes.push_back(
@@ -159,6 +165,27 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
   return notes;
 }
 
+/// X_MW at zero angles, and the reference pose that goes with it.
+Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPlacement& placement) {
+  const Side side = description.side;
+  if (!description.frame.mobile_axes) {
+    placement.reference_pose = description.reference_pose;
+    return pose_at(side, description.reference_pose).inverse() * X_FW;
+  }
+  if (description.kind != JointKind::ball) throw UsageError("frame: a hinge takes the landmarks of one body");
+  if (description.reference_pose != JointAngles{})
+    throw UsageError("reference_pose: follows from the landmarks of both bodies: leave it out");
+  try {
+    const Pose X_WM =
+        frame_from_landmarks(placement.X_WF.translation(), side, *description.frame.mobile_axes);
+    placement.reference_pose = angles_at(side, X_FW * X_WM);
+    placement.pose_from_landmarks = true;
+    return X_WM.inverse();
+  } catch (const UsageError& error) {
+    throw UsageError(std::string("frame: ") + error.what());
+  }
+}
+
 }  // namespace
 
 PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile) {
@@ -169,10 +196,10 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   placement.X_WF = frame_of(description, fixed, mobile, placement);
 
   const Pose X_FW = placement.X_WF.inverse();
-  const Pose X_MF = pose_at(description.side, description.reference_pose).inverse();
+  const Pose X_MW = mobile_frame(description, X_FW, placement);
   const double scale = scale_of(description.units);
   fixed.mesh = placed(X_FW, scale, fixed);
-  mobile.mesh = placed(X_MF * X_FW, scale, mobile);
+  mobile.mesh = placed(X_MW, scale, mobile);
   placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
   placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
   placement.notes = notes_on(placement);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -224,6 +225,40 @@ TEST_F(ReadJoint, LandmarksGiveTheAxes) {
   EXPECT_TRUE(knee.report.placement.X_WF.translation() == Vec3(0, -400, 0));
 }
 
+TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
+  // The scan has the femur flexed, adducted and turned in: its epicondyles are where that pose brings them.
+  const JointAngles scan{Angle::degrees(12), Angle::degrees(4), Angle::degrees(-7)};
+  const Pose X = pose_at(Side::right, scan);
+  const auto text = [](const char* key, const Vec3& p) {
+    std::ostringstream line;
+    line.precision(17);
+    line << key << " = [" << p.x() << ", " << p.y() << ", " << p.z() << "]\n";
+    return line.str();
+  };
+  const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
+  const std::string pelvis =
+      "right_asis = [0, 0, 120]\nleft_asis = [0, 0, -120]\npubic_symphysis = [0, -90, 0]\n";
+  const std::string both =
+      replaced(plain, axes,
+               "[frame.landmarks]\n" + pelvis + text("medial_epicondyle", X * Vec3(0, -400, -40)) +
+                   text("lateral_epicondyle", X * Vec3(0, -400, 40)));
+  write_mesh(folder / "femur.ply", posed(X, femur_like()));
+  const auto [joint, report] = read(both);
+  const JointAngles& found = report.placement.reference_pose;
+  EXPECT_NEAR(found.flexion.degrees(), 12, 1e-12);
+  EXPECT_NEAR(found.adduction.degrees(), 4, 1e-12);
+  EXPECT_NEAR(found.internal_rotation.degrees(), -7, 1e-12);
+  const TriMesh neutral = femur_like();
+  for (std::size_t v = 0; v < neutral.vertices.size(); ++v)
+    ASSERT_LT((joint.mobile.mesh.vertices()[v] - neutral.vertices[v]).norm(), 1e-10);
+  EXPECT_NE(report.notes.back().find("flexion 12.00, adduction 4.00"), std::string::npos)
+      << report.notes.back();
+  EXPECT_TRUE(refusal(both + "[reference_pose]\nflexion = 3\n").ends_with("leave it out"));
+  EXPECT_NE(
+      refusal(replaced(both, pelvis, pelvis + "hip_centre = [0, 0, 0]\n")).find("hip_centre: unknown key"),
+      std::string::npos);
+}
+
 TEST_F(ReadJoint, ACentreIsAlsoTakenInTheFilesUnits) {
   const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
   write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
@@ -317,6 +352,8 @@ TEST_F(ReadJoint, UnknownKeysAreRefusedEverywhere) {
   EXPECT_EQ(refusal_of("[frame]\n", "[frame]\ncenter = 5\n").substr(0, 34),
             "line 13: frame.center: unknown key");
   EXPECT_EQ(refusal_of("units", "unit = 1\nunits").substr(0, 25), "line 5: unit: unknown key");
+  EXPECT_NE(refusal_of("[mobile]\n", "[mobile]\nnaem = \"femur\"\n").find("(did you mean \"name\"?)"),
+            std::string::npos);
   EXPECT_EQ(refusal_of("[mobile]\n", "[mobile]\ncolour = 1\n").substr(0, 35),
             "line 10: mobile.colour: unknown key");
   EXPECT_EQ(refusal(plain + std::string("[reference_pose]\nflex = 1\n")).substr(0, 40),
@@ -366,8 +403,8 @@ TEST_F(ReadJoint, MissingFilesAreNamed) {
     read_joint(path);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find((folder / "none.ply").string()), std::string::npos)
-        << error.what();
+    EXPECT_EQ(std::string(error.what()),
+              path.string() + ": mobile.mesh: there is no file " + (folder / "none.ply").string());
   }
 }
 

@@ -84,13 +84,19 @@ CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
 /// else is there.
 void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameDescription& frame) {
   const auto point = [&](std::string_view key) { return lengths.required_point(landmarks, key); };
-  if (landmarks.has("medial_epicondyle") || landmarks.has("lateral_epicondyle")) {
-    const Vec3 medial = point("medial_epicondyle"), lateral = point("lateral_epicondyle");
-    if (landmarks.has("hip_centre"))
-      frame.axes = TransepicondylarAxis{medial, lateral, point("hip_centre")};
+  const bool of_pelvis = landmarks.has("right_asis") || landmarks.has("left_asis");
+  const bool of_femur = landmarks.has("medial_epicondyle") || landmarks.has("lateral_epicondyle");
+  if (of_femur) {
+    const FemurLandmarks femur{point("medial_epicondyle"), point("lateral_epicondyle")};
+    if (of_pelvis)
+      frame.mobile_axes = femur;
+    else if (landmarks.has("hip_centre"))
+      frame.axes =
+          TransepicondylarAxis{femur.medial_epicondyle, femur.lateral_epicondyle, point("hip_centre")};
     else
-      frame.axes = FemurLandmarks{medial, lateral};
-  } else {
+      frame.axes = femur;
+  }
+  if (of_pelvis || !of_femur) {
     // One side's spines do not fix where the midline is: both sides are required by name.
     const Vec3 right = point("right_asis"), left = point("left_asis");
     if (landmarks.has("pubic_symphysis"))
@@ -119,7 +125,7 @@ void read_centre(io::TomlTable& table, const Lengths& lengths, FrameDescription&
     return;
   }
   const auto* text = "must be [x, y, z] or \"fit\"";
-  if (!table.has("centre")) table.fail("centre", "is missing");
+  if (!table.has("centre")) table.fail_missing("centre");
   if (table.is_text("centre")) {
     if (*table.text("centre") != "fit") table.fail("centre", text);
     frame.centre = centre_fit(table, lengths);

@@ -83,7 +83,7 @@ std::string to_text(const LoadedJoint& loaded) {
     const char sense = joint.side == Side::right ? '+' : '-';
     out += fmt::format(", then adduction about {0}X, then internal rotation about {0}Y", sense);
   }
-  out += fmt::format("\n  reference pose {}\n", to_text(report.file.joint.reference_pose));
+  out += fmt::format("\n  reference pose {}\n", to_text(report.placement.reference_pose));
   out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
          text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
   for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
@@ -100,7 +100,7 @@ std::string to_json(const LoadedJoint& loaded) {
            {"units_of_meshes", report.file.joint.units == LengthUnit::metres ? "m" : "mm"},
            {"centre_mm", io::numbers(placement.X_WF.translation())}};
   for (const auto& [name, axis] : axes_of(placement.X_WF)) out["axes"][name] = io::numbers(axis);
-  const JointAngles& reference = report.file.joint.reference_pose;
+  const JointAngles& reference = report.placement.reference_pose;
   out["reference_pose_deg"] = {{"flexion", reference.flexion.degrees()},
                                {"adduction", reference.adduction.degrees()},
                                {"internal_rotation", reference.internal_rotation.degrees()}};
