@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 
 #include "condyle/error.hpp"
+#include "kinematics/hip_anatomy.hpp"
+#include "kinematics/socket_rim.hpp"
 
 namespace condyle {
 namespace {
@@ -16,88 +17,10 @@ namespace {
 /// vertices to search cost less.
 constexpr double largest_head_reach = 90;
 
-/// The socket is looked for within this many head radii of the head's centre, with a radius up to the other.
-constexpr double socket_reach = 1.5, largest_socket = 1.4;
-
-/// Wider than any joint space between bones, mm: surface further off is not the socket's.
-constexpr double widest_joint_space = 10;
-/// How far a socket may reach into the head where the two overlap, mm.
-constexpr double deepest_overlap = 2;
-
-/// The rim is measured in so many sectors around the socket's opening, and must be found in most of them.
-constexpr std::size_t rim_sectors = 36, fewest_rim_sectors = 24;
-
 std::string text(const char* format, double a, double b = 0) {
   std::array<char, 160> line{};
   std::snprintf(line.data(), line.size(), format, a, b);
   return line.data();
-}
-
-/// The vertices of the fixed body that face the head's centre across the joint space.
-class SocketSeenFrom {
- public:
-  SocketSeenFrom(const TriMesh& fixed, const Sphere& head) : head_(head) {
-    Points normals(fixed.vertices.size());
-    for (std::size_t t = 0; t < fixed.triangles.size(); ++t) {
-      const Vec3 a = fixed.corner(t, 0);
-      const Vec3 normal = (fixed.corner(t, 1) - a).cross(fixed.corner(t, 2) - a);
-      for (const Index v : fixed.triangles[t]) normals.set(v, normals[v] + normal);
-    }
-    for (std::size_t v = 0; v < fixed.vertices.size(); ++v) {
-      const Vec3 ray = fixed.vertices[v] - head.centre;
-      const double gap = ray.norm() - head.radius;
-      if (gap < -deepest_overlap || gap > widest_joint_space || !(normals[v].dot(ray) < 0)) continue;
-      rays_.push_back(ray);
-      facing_ -= normals[v].dot(ray) / (ray.squaredNorm()) * ray;
-    }
-  }
-
-  /// The smallest tenth of the gaps where the socket ends, seen in sectors around its opening.
-  ///
-  ///       opening           In each sector the vertex that lies farthest towards the opening
-  ///     .    ^    .         and still faces the head's centre is the rim's.
-  ///    (  .  |  .  )
-  ///     \ head    /
-  std::optional<double> rim_gap_mm() const {
-    if (rays_.empty() || !(facing_.norm() > 0)) return std::nullopt;
-    const Vec3 opening = -facing_.normalized(), x = opening.unitOrthogonal(), y = opening.cross(x);
-    struct Crest {
-      double towards_opening = -1, gap = 0;
-      bool found = false;
-    };
-    std::array<Crest, rim_sectors> crests{};
-    for (const Vec3& ray : rays_) {
-      const double turn = std::atan2(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
-      Crest& crest = crests[std::min(static_cast<std::size_t>(turn * rim_sectors), rim_sectors - 1)];
-      const double towards = ray.dot(opening) / ray.norm();
-      if (crest.found && towards <= crest.towards_opening) continue;
-      crest = {towards, ray.norm() - head_.radius, true};
-    }
-    std::vector<double> gaps;
-    for (const Crest& crest : crests)
-      if (crest.found) gaps.push_back(crest.gap);
-    if (gaps.size() < fewest_rim_sectors) return std::nullopt;
-    const auto tenth = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 10);
-    std::nth_element(gaps.begin(), tenth, gaps.end());
-    return *tenth;
-  }
-
- private:
-  Sphere head_;
-  std::vector<Vec3> rays_;
-  Vec3 facing_ = Vec3::Zero();  ///< into the socket, by area
-};
-
-std::optional<Sphere> fitted_socket(const TriMesh& fixed, const Sphere& head) {
-  try {
-    return find_sphere(fixed, {.part = SphericalPart::socket,
-                               .smallest_radius = 0.9 * head.radius,
-                               .largest_radius = largest_socket * head.radius,
-                               .within = Sphere{head.centre, socket_reach * head.radius}})
-        .fit.sphere;
-  } catch (const MeshError&) {
-    return std::nullopt;
-  }
 }
 
 std::vector<std::uint8_t> triangles_within(const TriMesh& mesh, const Vec3& centre, double radius) {
@@ -155,7 +78,8 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
                 text(": the sphere found as its head has its centre %.1f mm from the joint centre, "
                      "more than %g",
                      off, farthest_head_centre_mm));
-  surface.rim_gap_mm = SocketSeenFrom(joint.fixed.mesh, surface.head).rim_gap_mm();
+  if (const auto rim = kinematics::socket_rim(joint.fixed.mesh, surface.head))
+    surface.rim_gap_mm = rim->gap_mm;
   surface.margin_mm = options.margin_mm.value_or(
       std::min(usual_bearing_margin_mm,
                surface.rim_gap_mm.value_or(usual_bearing_margin_mm + rim_reserve_mm) - rim_reserve_mm));
@@ -165,7 +89,8 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   surface.triangles = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
   if (surface.count() == surface.triangles.size())
     return none(joint.mobile.name + ": all of it would be bearing surface");
-  surface.socket = fitted_socket(joint.fixed.mesh, surface.head);
+  if (const auto socket = kinematics::find_socket(joint.fixed.mesh, surface.head))
+    surface.socket = socket->fit.sphere;
   return {std::move(surface), {}};
 }
 

@@ -1,0 +1,208 @@
+#include "condyle/io/propose_joint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "condyle/inspect.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/version.hpp"
+#include "io/file/format_version.hpp"
+#include "kinematics/hip_anatomy.hpp"
+
+namespace condyle {
+namespace {
+
+/// Axes that segmentations and models come in, in the frame of the meshes.
+struct KnownAxes {
+  std::string_view name;
+  Vec3 anterior, superior;
+
+  Vec3 right() const { return anterior.cross(superior); }
+};
+
+const std::array known_axes{KnownAxes{"RAS (x right, y anterior, z superior)", {0, 1, 0}, {0, 0, 1}},
+                            KnownAxes{"LPS (x left, y posterior, z superior)", {0, -1, 0}, {0, 0, 1}},
+                            KnownAxes{"joint axes (x anterior, y superior, z right)", {1, 0, 0}, {0, 1, 0}}};
+
+/// Least cosines, for what a hip's bones do whoever they belong to: the femur hangs within 45 degrees of straight down,
+/// the hip bone lies at least 17 degrees to the midline, the socket opens at least 17 degrees to the side and 3 forwards.
+constexpr double hangs = 0.7, to_midline = 0.3, opens_to_side = 0.3, opens_forwards = 0.05;
+
+double degrees(double cosine) {
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+bool agrees(const kinematics::HipAnatomy& hip, const KnownAxes& axes, Side side) {
+  const Vec3 lateral = side == Side::right ? axes.right() : Vec3(-axes.right());
+  return hip.towards_femur.dot(axes.superior) < -hangs && hip.towards_pelvis.dot(lateral) < -to_midline &&
+         (!hip.opening ||
+          (hip.opening->dot(lateral) > opens_to_side && hip.opening->dot(axes.anterior) > opens_forwards));
+}
+
+struct Found {
+  const KnownAxes* axes;
+  Side side;
+};
+
+/// Frames and sides that agree with the bones; without a socket's opening front and back are not told apart.
+std::vector<Found> agreeing(const kinematics::HipAnatomy& hip, const std::optional<Side>& given) {
+  std::vector<Found> found;
+  for (const KnownAxes& axes : known_axes)
+    for (const Side side : {Side::right, Side::left})
+      if ((!given || *given == side) && agrees(hip, axes, side)) found.push_back({&axes, side});
+  return found;
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+std::string numbers(const Vec3& v) {
+  return fmt::format("[{:g}, {:g}, {:g}]", v.x(), v.y(), v.z());
+}
+
+/// Writes lines of a joint file: keys that are told, and keys that are not as comments.
+class Lines {
+ public:
+  void add(const std::string& line) { text_ += line + "\n"; }
+  void key(std::string_view key, const std::string& value, const std::string& evidence) {
+    add(fmt::format("{} = {}  # {}", key, value, evidence));
+  }
+  void missing(std::string_view key, std::string_view choices, const std::string& why) {
+    add(fmt::format("# {} = {}  # to fill in: {}", key, choices, why));
+    to_fill_in_.push_back(fmt::format("{}: {}", key, why));
+  }
+
+  JointProposal proposal() && { return {std::move(text_), std::move(to_fill_in_)}; }
+
+ private:
+  std::string text_;
+  std::vector<std::string> to_fill_in_;
+};
+
+struct LoadedMesh {
+  TriMesh mesh;
+  LikelyUnit unit;
+};
+
+LoadedMesh load(const std::filesystem::path& path) {
+  LoadedMesh loaded{read_mesh(path).mesh, {}};
+  loaded.unit = likely_unit(loaded.mesh);
+  return loaded;
+}
+
+void scale(TriMesh& mesh, double factor) {
+  for (auto* coordinates : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z})
+    for (double& value : *coordinates) value *= factor;
+}
+
+void add_body(Lines& lines, std::string_view role, const std::filesystem::path& mesh,
+              const std::filesystem::path& joint_file) {
+  const auto folder = std::filesystem::absolute(joint_file).parent_path();
+  const auto from_folder = std::filesystem::absolute(mesh).lexically_normal().lexically_proximate(folder);
+  lines.add(fmt::format("\n[{}]", role));
+  lines.add("name = " + in_quotes(mesh.stem().string()));
+  lines.add("mesh = " + in_quotes(from_folder.generic_string()));
+}
+
+}  // namespace
+
+JointProposal propose_joint(const ProposalRequest& request) {
+  LoadedMesh fixed = load(request.fixed), mobile = load(request.mobile);
+  Lines lines;
+  lines.add(fmt::format(
+      "# Proposed by condyle init {} from the two meshes below. Behind each value stands what told it;",
+      version));
+  lines.add("# lines that begin with # and a key could not be told and are to be filled in.");
+  lines.add(fmt::format("condyle = {}", io::format_version));
+  lines.add("name = " + in_quotes(request.mobile.stem().string() + " in " + request.fixed.stem().string()));
+
+  const bool same_unit = mobile.unit.unit && fixed.unit.unit == mobile.unit.unit;
+  const LengthUnit units = request.units.value_or(mobile.unit.unit.value_or(LengthUnit::millimetres));
+  const std::string unit_text = units == LengthUnit::metres ? "\"m\"" : "\"mm\"";
+  if (units == LengthUnit::metres) scale(fixed.mesh, 1000), scale(mobile.mesh, 1000);
+  const auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
+  if (hip) {
+    lines.key("kind", "\"ball\"",
+              fmt::format("told by a head of radius {:.2f} mm, {:.0f} % of a sphere{}",
+                          hip->head.fit.sphere.radius, 100 * hip->head.coverage,
+                          hip->socket ? fmt::format(", in a socket of radius {:.2f} mm",
+                                                    hip->socket->fit.sphere.radius)
+                                      : std::string(", without a spherical socket round it")));
+  } else {
+    lines.missing("kind", "\"ball\" or \"hinge\"", "no head was found on the mobile body near the fixed one");
+  }
+
+  const auto found = hip ? agreeing(*hip, request.side) : std::vector<Found>{};
+  if (request.side)
+    lines.key("side", in_quotes(name_of(*request.side)), "given");
+  else if (found.size() == 1)
+    lines.key("side", in_quotes(name_of(found[0].side)),
+              "told by the axes below and where the hip bone lies");
+  else
+    lines.missing("side", "\"right\" or \"left\"",
+                  found.empty() ? "no usual axes agree with the bones"
+                                : "more than one pair of axes and side agrees with the bones");
+  if (request.units)
+    lines.key("units", unit_text, "given");
+  else if (same_unit)
+    lines.key("units", unit_text, "told by the size of the meshes: " + mobile.unit.reason);
+  else
+    lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
+
+  add_body(lines, "fixed", request.fixed, request.joint_file);
+  add_body(lines, "mobile", request.mobile, request.joint_file);
+
+  lines.add("\n[frame]");
+  if (hip) {
+    const Sphere& head = hip->head.fit.sphere;
+    lines.key(
+        "centre", "\"fit\"",
+        fmt::format(
+            "the head's centre, ({:.2f}, {:.2f}, {:.2f}) mm in the frame of the meshes, rms {:.2f} mm{}",
+            head.centre.x(), head.centre.y(), head.centre.z(), hip->head.fit.rms_residual,
+            hip->socket ? fmt::format("; the socket's is {:.2f} mm from it",
+                                      (hip->socket->fit.sphere.centre - head.centre).norm())
+                        : std::string()));
+  } else {
+    lines.missing("centre", "[x, y, z]", "nothing was fitted");
+  }
+  if (found.size() == 1) {
+    const auto& [axes, side] = found[0];
+    const Vec3 lateral = side == Side::right ? axes->right() : Vec3(-axes->right());
+    lines.key("anterior", numbers(axes->anterior),
+              fmt::format("{}: of the axes in use the ones that agree", axes->name));
+    lines.key(
+        "superior", numbers(axes->superior),
+        fmt::format(
+            "the femur hangs {:.0f} degrees from straight down, the hip bone lies {:.0f} degrees from the "
+            "way to the midline",
+            degrees(-hip->towards_femur.dot(axes->superior)), degrees(-hip->towards_pelvis.dot(lateral))));
+    if (hip->opening)
+      lines.add(
+          fmt::format("# the socket opens {:.0f} degrees from straight to the side, {:.0f} forwards of it",
+                      degrees(hip->opening->dot(lateral)),
+                      std::atan2(hip->opening->dot(axes->anterior), hip->opening->dot(lateral)) * 180 /
+                          std::numbers::pi));
+  } else {
+    std::string why = !hip            ? "no head was found to tell them by"
+                      : found.empty() ? "the bones agree with none of the axes in use"
+                                      : "the bones agree with more than one of the axes in use";
+    for (const auto& [axes, side] : found) why += fmt::format("; {} of a {} hip", axes->name, name_of(side));
+    lines.missing("anterior", "[x, y, z]", why);
+    lines.missing("superior", "[x, y, z]", "as anterior");
+  }
+  return std::move(lines).proposal();
+}
+
+}  // namespace condyle

@@ -1,0 +1,64 @@
+#include "kinematics/hip_anatomy.hpp"
+
+#include "condyle/error.hpp"
+#include "kinematics/socket_rim.hpp"
+
+namespace condyle::kinematics {
+namespace {
+
+/// The socket is looked for within this many head radii of the head's centre, with a radius up to the other.
+constexpr double socket_reach = 1.5, largest_socket = 1.4;
+
+Vec3 area_centroid(const TriMesh& mesh) {
+  Vec3 moment = Vec3::Zero();
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double size = (b - a).cross(c - a).norm() / 2;
+    area += size;
+    moment += size * ((a + b + c) / 3);
+  }
+  return area > 0 ? Vec3(moment / area) : moment;
+}
+
+/// A ball that holds all vertices, somewhat larger than it must be.
+Sphere ball_around(const TriMesh& mesh) {
+  Vec3 low = mesh.vertices[0], high = low;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    low = low.cwiseMin(mesh.vertices[v]);
+    high = high.cwiseMax(mesh.vertices[v]);
+  }
+  return {(low + high) / 2, (high - low).norm() / 2};
+}
+
+}  // namespace
+
+std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head) {
+  try {
+    return find_sphere(fixed, {.part = SphericalPart::socket,
+                               .smallest_radius = 0.9 * head.radius,
+                               .largest_radius = largest_socket * head.radius,
+                               .within = Sphere{head.centre, socket_reach * head.radius}});
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
+std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& femur) {
+  if (hip_bone.vertices.size() == 0) return std::nullopt;
+  HipAnatomy anatomy{};
+  try {
+    // Near the hip bone there are no condyles.
+    anatomy.head = find_sphere(femur, {.within = ball_around(hip_bone)});
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+  const Sphere& head = anatomy.head.fit.sphere;
+  anatomy.socket = find_socket(hip_bone, head);
+  anatomy.towards_femur = (area_centroid(femur) - head.centre).normalized();
+  anatomy.towards_pelvis = (area_centroid(hip_bone) - head.centre).normalized();
+  if (const auto rim = socket_rim(hip_bone, head)) anatomy.opening = rim->opening;
+  return anatomy;
+}
+
+}  // namespace condyle::kinematics

@@ -1,0 +1,127 @@
+#include "condyle/io/propose_joint.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+/// Joint files proposed for real hips in the frames and units that meshes come in, and for what is no hip.
+
+namespace condyle::test {
+namespace {
+
+/// From the joint axes of the shared hips (X anterior, Y superior, Z right) to those of an image.
+enum class Axes { joint, ras, lps };
+
+TriMesh as_exported(TriMesh mesh, Axes axes, double scale) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const Vec3 p = scale * mesh.vertices[v];
+    mesh.vertices.set(v, axes == Axes::joint ? p
+                         : axes == Axes::ras ? Vec3(p.z(), p.x(), p.y())
+                                             : Vec3(-p.z(), -p.x(), p.y()));
+  }
+  return mesh;
+}
+
+struct Hip {
+  const char* folder;
+  const char* fixed;
+  const char* mobile;
+  Side side;
+  friend void PrintTo(const Hip& hip, std::ostream* out) { *out << hip.folder; }
+};
+const Hip hips[] = {{"hip_vhf_right", "hip_bone.ply", "femur.ply", Side::right},
+                    {"hip_libhip_m1_left", "coarse/hip_bone_2442.ply", "coarse/femur_1542.ply", Side::left}};
+
+class ProposedHip : public testing::TestWithParam<Hip> {
+ protected:
+  void SetUp() override {
+    const auto data = shared_data();
+    if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+    fixed_ = read_ply(*data / GetParam().folder / GetParam().fixed);
+    mobile_ = read_ply(*data / GetParam().folder / GetParam().mobile);
+  }
+  JointProposal proposed(Axes axes, double scale, std::optional<Side> side = {}) const {
+    write_mesh(folder_ / "bone.ply", as_exported(fixed_, axes, scale));
+    write_mesh(folder_ / "thigh.ply", as_exported(mobile_, axes, scale));
+    return propose_joint({folder_ / "bone.ply", folder_ / "thigh.ply", folder_ / "joint.toml", side, {}});
+  }
+  LoadedJoint read(const std::string& toml) const {
+    std::ofstream(folder_ / "joint.toml") << toml;
+    return read_joint(folder_ / "joint.toml");
+  }
+  static std::vector<double> limits(const Joint& joint) {
+    std::vector<double> out;
+    for (const MotionLimit& limit : RangeOfMotion(joint).limits(hip_motions()))
+      out.push_back(limit.end.turned.degrees());
+    return out;
+  }
+
+  TemporaryFolder folder_;
+  TriMesh fixed_, mobile_;
+};
+INSTANTIATE_TEST_SUITE_P(SharedData, ProposedHip, testing::ValuesIn(hips),
+                         [](const auto& hip) { return hip.param.folder; });
+
+TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
+  write_mesh(folder_ / "bone.ply", fixed_);
+  write_mesh(folder_ / "thigh.ply", mobile_);
+  const std::string side = GetParam().side == Side::right ? "right" : "left";
+  const auto by_hand =
+      limits(read("condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"" + side +
+                  "\"\nunits = \"mm\"\n[fixed]\nmesh = \"bone.ply\"\n[mobile]\nmesh = \"thigh.ply\"\n"
+                  "[frame]\ncentre = \"fit\"\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n")
+                 .joint);
+  for (const Axes axes : {Axes::joint, Axes::ras, Axes::lps}) {
+    for (const double scale : {1.0, 0.001}) {
+      if (axes == Axes::joint && scale != 1) continue;
+      SCOPED_TRACE(testing::Message() << static_cast<int>(axes) << " " << scale);
+      const JointProposal proposal = proposed(axes, scale);
+      EXPECT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
+      const LoadedJoint loaded = read(proposal.toml);
+      EXPECT_EQ(loaded.joint.side, GetParam().side);
+      const auto found = limits(loaded.joint);
+      for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_NEAR(found[i], by_hand[i], 0.1) << hip_motions()[i].name;
+    }
+  }
+}
+
+TEST_P(ProposedHip, OfTheWrongSideIsNotGuessed) {
+  const Side wrong = GetParam().side == Side::right ? Side::left : Side::right;
+  const JointProposal proposal = proposed(Axes::ras, 1, wrong);
+  ASSERT_EQ(proposal.to_fill_in.size(), 2u);
+  EXPECT_TRUE(proposal.to_fill_in[0].starts_with("anterior: the bones agree with none"));
+  EXPECT_THROW(read(proposal.toml), FileError) << "not to be read before it is filled in";
+}
+
+TEST_P(ProposedHip, OfExchangedBodiesHasNoHead) {
+  write_mesh(folder_ / "bone.ply", fixed_);
+  write_mesh(folder_ / "thigh.ply", mobile_);
+  const JointProposal proposal =
+      propose_joint({folder_ / "thigh.ply", folder_ / "bone.ply", folder_ / "joint.toml", {}, {}});
+  EXPECT_FALSE(proposal.to_fill_in.empty());
+}
+
+TEST(ProposedJoint, OfTwoBoxesIsToBeFilledIn) {
+  const TemporaryFolder folder;
+  write_mesh(folder / "a \"quoted\".ply", box({-20, -20, -20}, {20, 20, 20}));
+  write_mesh(folder / "b.ply", box({30, -20, -20}, {300, 20, 20}));
+  const JointProposal proposal = propose_joint(
+      {folder / "a \"quoted\".ply", folder / "b.ply", folder / "sub" / "joint.toml", {}, LengthUnit::metres});
+  std::vector<std::string> keys;
+  for (const std::string& line : proposal.to_fill_in) keys.push_back(line.substr(0, line.find(':')));
+  EXPECT_EQ(keys, (std::vector<std::string>{"kind", "side", "centre", "anterior", "superior"}));
+  EXPECT_NE(proposal.toml.find("mesh = \"../a \\\"quoted\\\".ply\""), std::string::npos) << proposal.toml;
+  EXPECT_NE(proposal.toml.find("units = \"m\"  # given"), std::string::npos);
+  EXPECT_THROW(propose_joint({folder / "none.ply", folder / "b.ply", folder / "j.toml", {}, {}}), FileError);
+}
+
+}  // namespace
+}  // namespace condyle::test
