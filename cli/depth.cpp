@@ -67,8 +67,7 @@ void add_depth(CLI::App& app) {
       app.add_subcommand("depth", "Where and how deep two bones penetrate each other in one pose");
   command->footer(
       "Example: condyle sample hip --out sample\n"
-      "         condyle depth sample/hip.toml --pose \"flexion=110 adduction=10 internal_rotation=30\" --out "
-      "deep");
+      "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
   command->add_option(

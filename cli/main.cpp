@@ -11,12 +11,15 @@
 #include <memory>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "answer.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/overlap_options.hpp"
 #include "condyle/version.hpp"
+#include "core/near_name.hpp"
+#include "help_formatter.hpp"
 #include "interrupt.hpp"
 
 namespace {
@@ -55,25 +58,55 @@ int fail(ExitCode code, std::string message) {
 
 /// What is wrong with the command line, with the commands there are where none was given.
 std::string describe(const CLI::ParseError& error, const CLI::App& app) {
-  if (!app.get_subcommands().empty()) return app.get_subcommands().front()->get_name() + ": " + error.what();
+  if (!app.get_subcommands().empty()) {
+    const CLI::App& command = *app.get_subcommands().front();
+    std::string text = command.get_name() + ": " + error.what();
+    const auto unexpected = app.remaining(true);
+    if (unexpected.empty()) return text;
+    std::vector<std::string> options;
+    for (const CLI::Option* option : command.get_options())
+      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+    return text +
+           condyle::core::did_you_mean(unexpected.front().substr(0, unexpected.front().find('=')), options);
+  }
   std::string commands;
-  for (const CLI::App* command : app.get_subcommands(nullptr))
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
     commands += (commands.empty() ? "" : ", ") + command->get_name();
+    names.push_back(command->get_name());
+  }
   const auto unknown = app.remaining();
-  if (!unknown.empty()) return fmt::format("unknown command '{}'; there are {}", unknown.front(), commands);
+  if (!unknown.empty())
+    return fmt::format("unknown command '{}'{}; there are {}", unknown.front(),
+                       condyle::core::did_you_mean(unknown.front(), names), commands);
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
     return fmt::format("a command is needed: {}", commands);
   return error.what();
+}
+
+/// The arguments as the parser takes them, the last one first: `help rom` is `rom --help`.
+std::vector<std::string> arguments(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
 }
 
 int run(int argc, char** argv) {
   CLI::App app(
       "Condyle computes where the bones of a joint run into each other, how deep, and along which direction.",
       "condyle");
-  app.set_version_flag("--version", "condyle " + std::string(condyle::version));
+  app.formatter(std::make_shared<cli::HelpFormatter>());
+  app.set_version_flag("-V,--version", "condyle " + std::string(condyle::version));
   app.require_subcommand(1);
   app.fallthrough();
-  app.footer(exit_codes);
+  app.footer(std::string("Example: condyle sample hip --out sample\n"
+                         "         condyle rom sample/hip.toml --band\n"
+                         "         condyle help rom\n") +
+             exit_codes);
 
   std::unique_ptr<tbb::global_control> limit;
   app.add_option_function<int>(
@@ -85,6 +118,7 @@ int run(int argc, char** argv) {
          "Most threads to use; all cores if not given. Results are the same for any number")
       ->check(CLI::Range(1, 4096));
 
+  cli::add_init(app);
   cli::add_inspect(app);
   cli::add_frame(app);
   cli::add_depth(app);
@@ -92,7 +126,7 @@ int run(int argc, char** argv) {
   cli::add_sample(app);
 
   try {
-    app.parse(argc, argv);
+    app.parse(arguments(argc, argv));
   } catch (const CLI::Success& request) {  // --help or --version
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
     cli::print(version ? app.version() + "\n" : app.help());

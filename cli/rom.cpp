@@ -28,6 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
 
 struct Options {
@@ -40,15 +41,34 @@ struct Options {
   BearingOptions bearing;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   ReferenceContact reference_contact = ReferenceContact::refuse;
+  Task task = Task::limits;
   AnswerForm form = AnswerForm::text;
 };
 
-/// The motions named, all where none is.
+/// The motions named, all where none is. A name may be a list parted by commas.
 std::vector<Motion> chosen_motions(const std::vector<Motion>& known, const std::vector<std::string>& names) {
   if (names.empty()) return known;
   std::vector<Motion> chosen;
-  for (const std::string& name : names) chosen.push_back(motion_named(known, name));
+  for (const std::string& list : names)
+    for (const std::string& name : CLI::detail::split(list, ',')) chosen.push_back(motion_named(known, name));
   return chosen;
+}
+
+/// One line per motion: its name, what varies and how far, and what is held.
+std::string list_of(const std::vector<Motion>& motions) {
+  std::size_t widest = 0;
+  for (const Motion& motion : motions) widest = std::max(widest, motion.name.size());
+  std::string text;
+  for (const Motion& motion : motions) {
+    const auto degrees = [&](JointAngle angle) { return angle_of(motion.start, angle).degrees(); };
+    const double from = degrees(motion.vary), to = from + sign_of(motion.sense) * motion.range.degrees();
+    text += fmt::format("{:<{}}  {} from {:g} to {:g}", motion.name, widest, name_of(motion.vary), from, to);
+    for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
+      if (angle != motion.vary && degrees(angle) != 0)
+        text += fmt::format(", {} {:g}", name_of(angle), degrees(angle));
+    text += "\n";
+  }
+  return text;
 }
 
 /// The angle that is neither.
@@ -154,10 +174,12 @@ std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const RangeOptions& opt
 void run(const Options& options) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
-  const std::vector<Motion> motions = chosen_motions(
-      with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
+  const std::vector<Motion> known =
+      with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions);
+  const std::vector<Motion> motions = chosen_motions(known, options.motions);
+  if (options.task == Task::list_motions) return print(list_of(motions));
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
-  const RangeOptions asked = range_options(options, loaded.report.file.joint.reference_pose);
+  const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose);
   std::optional<ZoneFinder> finder;
   if (options.past_deg)
     finder.emplace(joint, ZoneOptions{.bearing = options.bearing, .past = Angle::degrees(*options.past_deg)});
@@ -209,9 +231,14 @@ void add_rom(CLI::App& app) {
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  command->add_option("--motion", options->motions, "A motion by its name; all if not given")
+  command
+      ->add_option("--motion", options->motions,
+                   "A motion by its name, or several parted by commas; all if not given")
       ->expected(1)
       ->take_all();
+  command->add_flag_callback(
+      "--list-motions", [options] { options->task = Task::list_motions; },
+      "Say which motions there are, degrees from where to where, and end");
   auto* map =
       command
           ->add_option(

@@ -107,7 +107,7 @@ TEST_F(Command, FrameAnswersInTextAndJson) {
 }
 
 TEST_F(Command, WrongUsageEndsWithTwo) {
-  expect_refused(2, "", "a command is needed: inspect, frame");
+  expect_refused(2, "", "a command is needed: init, inspect, frame");
   expect_refused(2, "inspekt femur.ply", "unknown command 'inspekt'");
   expect_refused(2, "inspect", "MESH is required");
   expect_refused(2, "frame", "JOINT is required");
@@ -176,6 +176,34 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
     EXPECT_NE(ran.out, "") << arguments;
   }
   EXPECT_TRUE(run("--version").out.starts_with("condyle "));
+  EXPECT_EQ(run("-V").out, run("--version").out);
+  EXPECT_EQ(run("help rom").out, run("rom --help").out);
+  EXPECT_EQ(run("help").out, run("--help").out);
+}
+
+TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
+  for (const char* command :
+       {"", "inspect", "frame", "depth", "rom", "sample", "sample hip", "sample cartilages"}) {
+    SCOPED_TRACE(command);
+    std::istringstream help(run(std::string(command) + " --help").out);
+    bool has_example = false;
+    for (std::string line; std::getline(help, line);) {
+      EXPECT_LE(line.size(), 100u) << line;
+      has_example = has_example || line.find("condyle ") != line.npos;
+    }
+    EXPECT_TRUE(has_example || std::string(command) == "sample");
+  }
+}
+
+TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
+  expect_refused(2, "insepct femur.ply", "unknown command 'insepct' (did you mean \"inspect\"?)");
+  expect_refused(2, "frame right_hip.toml --jsno", "(did you mean \"--json\"?)");
+  expect_refused(2, "rom right_hip.toml --bnad=40", "(did you mean \"--band\"?)");
+  write_joint("centre = \"fit\"", "center = \"fit\"");
+  expect_refused(3, "frame right_hip.toml",
+                 "frame.centre: is missing; there is \"center\" (did you mean \"centre\"?)");
+  write_joint("mesh = \"femur.ply\"", "mesh = \"femurr.ply\"");
+  expect_refused(3, "frame right_hip.toml", "right_hip.toml: mobile.mesh: there is no file ");
 }
 
 /// The examples in the help of every command, run as they stand.

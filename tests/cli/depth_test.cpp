@@ -3,10 +3,10 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "condyle/contact.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
-#include "condyle/contact.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

@@ -145,7 +145,7 @@ TEST_F(RomCommand, GivesTheSameBytesOnOneThreadAndOnMany) {
 TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
   expect_refused(2, "rom", "JOINT is required");
   expect_refused(2, "rom joint.toml --motion fadirr --out out",
-                 "unknown motion \"fadirr\"; there are flexion, extension, ");
+                 "unknown motion \"fadirr\" (did you mean \"fadir\"?); there are flexion, extension, ");
   expect_refused(2, "rom joint.toml --out out --map flexion=10:0:1 adduction=0:1:1", "ends before it begins");
   expect_refused(2, "rom joint.toml --out out --map flexion=0:99999:1 adduction=0:9999:1",
                  "1000000000 points");
@@ -166,6 +166,44 @@ TEST_F(RomCommand, WrongUsageIsOneLineAndExitCodeTwo) {
   expect_refused(2, "rom joint.toml --out out --past nan", "past the limit");
   expect_refused(2, "rom joint.toml --out out --allow-depth -1", "depth");
   expect_refused(2, "rom joint.toml --out out --allow-depth 1 --exclude-reference-contacts", "excludes");
+}
+
+TEST_F(RomCommand, TakesMotionsInAnyCaseAndAsLists) {
+  const Ran ran = run("rom joint.toml --motion FADIR,Flexion --motion faber --json");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  std::vector<std::string> names;
+  const Json answer = Json::parse(ran.out);
+  for (const Json& motion : answer["motions"]) names.push_back(motion["name"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"fadir", "flexion", "faber"}));
+}
+
+TEST_F(RomCommand, ListsItsMotions) {
+  const Ran ran = run("rom joint.toml --list-motions");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(
+      ran.out.find(
+          "fadir                            internal_rotation from 0 to 120, flexion 90, adduction 15\n"),
+      std::string::npos)
+      << ran.out;
+  EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 12);
+}
+
+TEST_F(RomCommand, BandsStandBesideLimitsAndInEveryFile) {
+  expect_refused(2, "rom joint.toml --out out --band=3", "20 samples or more");
+  expect_refused(2, "rom joint.toml --out out --seed 4", "requires --band");
+  const Ran ran = run("rom joint.toml --motion flexion --band=40 --sigma-axes 0 --sigma-surface 0 --out out");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("\xC2\xB0 ("), std::string::npos) << ran.out;
+  EXPECT_NE(ran.out.find("band: 5 to 95 % of 40 joints"), std::string::npos);
+  const Json json = Json::parse(std::ifstream(here / "out" / "rom.json"));
+  EXPECT_EQ(json["band"]["samples"], 40);
+  const Json& band = json["motions"][0]["band"];
+  EXPECT_LT(band["p5_deg"], band["median_deg"]);
+  EXPECT_LT(band["median_deg"], band["p95_deg"]);
+  EXPECT_EQ(band["width_from"]["axes_deg"], 0.0);
+  EXPECT_EQ(run("rom joint.toml --motion flexion --band=40 --threads 1 --json").out,
+            run("rom joint.toml --motion flexion --band=40 --threads 2 --json").out);
+  EXPECT_NE(run("rom joint.toml").out.find("band unknown"), std::string::npos);
 }
 
 TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {

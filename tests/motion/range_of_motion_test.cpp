@@ -232,8 +232,21 @@ TEST(HipMotions, UnknownNamesAreRefusedWithThoseThereAre) {
     motion_named(hip_motions(), "flexoin");
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("\"flexoin\"; there are flexion, extension"), std::string::npos);
+    EXPECT_NE(std::string(error.what())
+                  .find("\"flexoin\" (did you mean \"flexion\"?); there are flexion, extension"),
+              std::string::npos);
   }
+}
+
+TEST(HipMotions, AreFoundInAnyCaseButFirstAsWritten) {
+  const auto motions = hip_motions();
+  EXPECT_EQ(motion_named(motions, "FADIR").name, "fadir");
+  EXPECT_EQ(motion_named(motions, "Internal rotation at 90 flexion").name, "internal_rotation_at_90_flexion");
+  Motion own = motions.front();
+  own.name = "FADIR";
+  const auto all = with_own_motions(motions, std::vector{own});
+  EXPECT_EQ(motion_named(all, "FADIR").name, "FADIR");
+  EXPECT_EQ(motion_named(all, "Fadir").name, "fadir");
 }
 
 TEST(HipMotions, ImpossibleOnesAreRefusedByName) {

@@ -20,8 +20,17 @@ struct LoadedBody {
   BodyReport report;
 };
 
-LoadedBody load(const BodyEntry& entry) {
-  MeshFile file = read_mesh(entry.mesh);
+/// `key` and the joint file are named where the mesh cannot be opened: it may be the key that is wrong.
+MeshFile read_mesh_of(const BodyEntry& entry, std::string_view key, const std::filesystem::path& joint_file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(entry.mesh, ignored))
+    throw FileError(
+        fmt::format("{}: {}.mesh: there is no file {}", joint_file.string(), key, entry.mesh.string()));
+  return read_mesh(entry.mesh);
+}
+
+LoadedBody load(const BodyEntry& entry, std::string_view key, const std::filesystem::path& joint_file) {
+  MeshFile file = read_mesh_of(entry, key, joint_file);
   BodyReport report{entry.mesh, 0, 0, file.welded_vertices, {}};
   try {
     report.repairs = repair_mesh(file.mesh, entry.repairs);
@@ -82,7 +91,7 @@ std::vector<std::string> notes_on(const JointReport& report) {
 
 LoadedJoint read_joint(const std::filesystem::path& path) {
   JointFile file = read_joint_file(path);
-  LoadedBody fixed = load(file.fixed), mobile = load(file.mobile);
+  LoadedBody fixed = load(file.fixed, "fixed", file.path), mobile = load(file.mobile, "mobile", file.path);
   PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
   JointReport report{
       std::move(file), std::move(fixed.report), std::move(mobile.report), std::move(made.placement), {}};

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <vector>
 
 #include "condyle/error.hpp"
+#include "core/near_name.hpp"
 
 namespace condyle::io {
 namespace {
@@ -151,10 +153,22 @@ std::size_t TomlTable::required_word(std::string_view key, std::initializer_list
   fail(key, fmt::format("must be \"{}\", not \"{}\"", fmt::join(words, "\" or \""), word));
 }
 
+void TomlTable::fail_missing(std::string_view key) const {
+  std::vector<std::string> unread;
+  for (const auto& [name, node] : *table_)
+    if (!known_.contains(name.str())) unread.emplace_back(name.str());
+  const std::string near = core::near_name(key, unread);
+  if (near.empty()) fail(key, "is missing");
+  fail(key, fmt::format("is missing; there is \"{}\" (did you mean \"{}\"?)", near, key));
+}
+
 void TomlTable::finish() const {
   for (const auto& [key, node] : *table_)
-    if (!known_.contains(key.str()))
-      fail(key.str(), fmt::format("unknown key; known here: {}", fmt::join(known_, ", ")));
+    if (!known_.contains(key.str())) {
+      const std::vector<std::string> names(known_.begin(), known_.end());
+      fail(key.str(), fmt::format("unknown key{}; known here: {}", core::did_you_mean(key.str(), names),
+                                  fmt::join(known_, ", ")));
+    }
 }
 
 }  // namespace condyle::io

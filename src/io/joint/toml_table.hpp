@@ -29,6 +29,8 @@ class TomlTable {
   /// Throws FileError "file: line 7: frame.centre: what is wrong"; the table's own line where the key is
   /// missing.
   [[noreturn]] void fail(std::string_view key, std::string_view what) const;
+  /// Of a key that must be there; names one that was most likely meant to be it.
+  [[noreturn]] void fail_missing(std::string_view key) const;
 
   /// The key's value, or nothing where it is not there. A wrong type fails.
   std::optional<std::string> text(std::string_view key);
@@ -44,7 +46,7 @@ class TomlTable {
   /// The same, where the key must be there.
   template <class T>
   T required(std::string_view key, const std::optional<T>& value) const {
-    if (!value) fail(key, "is missing");
+    if (!value) fail_missing(key);
     return *value;
   }
 

@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "core/near_name.hpp"
 
 namespace condyle {
 namespace {
@@ -17,6 +18,16 @@ constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
 }
 
 constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
+
+/// Of the Latin alphabet; blanks and hyphens as the names have them.
+std::string in_small_letters(std::string_view name) {
+  std::string small(name);
+  for (char& c : small) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c == ' ' || c == '-') c = '_';
+  }
+  return small;
+}
 
 }  // namespace
 
@@ -62,12 +73,21 @@ std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<con
 }
 
 const Motion& motion_named(std::span<const Motion> motions, std::string_view name) {
-  const auto found =
-      std::find_if(motions.begin(), motions.end(), [&](const Motion& motion) { return motion.name == name; });
+  const auto is_named = [&](const auto& form) {
+    return std::find_if(motions.begin(), motions.end(),
+                        [&](const Motion& motion) { return form(motion.name) == form(name); });
+  };
+  auto found = is_named([](std::string_view as_written) { return std::string(as_written); });
+  if (found == motions.end()) found = is_named(in_small_letters);
   if (found != motions.end()) return *found;
-  std::string names;
-  for (const Motion& motion : motions) names += (names.empty() ? "" : ", ") + motion.name;
-  throw UsageError("unknown motion \"" + std::string(name) + "\"; there are " + names);
+  std::vector<std::string> names;
+  std::string list;
+  for (const Motion& motion : motions) {
+    names.push_back(motion.name);
+    list += (list.empty() ? "" : ", ") + motion.name;
+  }
+  throw UsageError("unknown motion \"" + std::string(name) + "\"" +
+                   core::did_you_mean(in_small_letters(name), names) + "; there are " + list);
 }
 
 void check_motion(const Motion& motion, JointKind kind) {

@@ -1,0 +1,80 @@
+#include "help_formatter.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+namespace condyle::cli {
+namespace {
+
+constexpr std::size_t line_width = 100, description_column = 32;
+
+/// Broken between words, lines after the first indented; lines of the text stay lines, with what they begin with.
+std::string wrapped(const std::string& text, std::size_t first_column, std::size_t indent) {
+  std::string out;
+  std::istringstream lines(text);
+  std::size_t column = first_column;
+  for (std::string line; std::getline(lines, line);) {
+    if (!out.empty()) out += "\n", column = 0;
+    const std::size_t blanks = std::min(line.find_first_not_of(' '), line.size());
+    out += line.substr(0, blanks), column += blanks;
+    std::istringstream words(line);
+    bool begins = true;
+    for (std::string word; words >> word; begins = false) {
+      if (!begins && column + 1 + word.size() > line_width) {
+        out += "\n" + std::string(indent, ' ');
+        column = indent;
+      } else if (!begins) {
+        out += " ", ++column;
+      }
+      out += word, column += word.size();
+    }
+  }
+  return out;
+}
+
+/// A name and, from one column on, what it is.
+std::string entry(std::string name, const std::string& description) {
+  name = "  " + name;
+  if (description.empty()) return name + "\n";
+  if (name.size() + 2 > description_column)
+    name += "\n" + std::string(description_column, ' ');
+  else
+    name.resize(description_column, ' ');
+  return name + wrapped(description, description_column, description_column) + "\n";
+}
+
+}  // namespace
+
+std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
+  std::string name = make_option_name(option, is_positional);
+  // A flag's default value, which its description says.
+  if (const auto brace = name.find('{'); brace != name.npos) name.erase(brace);
+  if (!option->get_option_text().empty())
+    name += " " + option->get_option_text();
+  else if (option->get_type_size() != 0 && !option->get_type_name().empty())
+    name += " " + option->get_type_name();
+  std::vector<std::string> others;
+  for (const CLI::Option* other : option->get_excludes()) others.push_back(other->get_name());
+  std::sort(others.begin(), others.end());
+  std::string description = make_option_desc(option);
+  for (std::size_t i = 0; i < others.size(); ++i) description += (i == 0 ? "; not with " : ", ") + others[i];
+  return entry(std::move(name), description);
+}
+
+std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
+  return entry(command->get_name(), command->get_description());
+}
+
+std::string HelpFormatter::make_description(const CLI::App* app) const {
+  return wrapped(CLI::Formatter::make_description(app), 0, 0) + "\n";
+}
+
+std::string HelpFormatter::make_footer(const CLI::App* app) const {
+  const std::string footer = app->get_footer();
+  return footer.empty() ? "" : wrapped(footer, 0, 2) + "\n";
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,32 @@
+#include "core/near_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace condyle::core {
+namespace {
+
+const std::vector<std::string> names{"centre", "anterior", "superior", "fit_body", "fit_within"};
+
+TEST(NearName, IsTheOneThatWasMeant) {
+  EXPECT_EQ(near_name("center", names), "centre");
+  EXPECT_EQ(near_name("centr", names), "centre");
+  EXPECT_EQ(near_name("anteroir", names), "anterior");
+  EXPECT_EQ(near_name("fit_bodie", names), "fit_body");
+}
+
+TEST(NearName, IsNoneWhereNoneIsNear) {
+  for (const char* word : {"", "x", "landmarks", "exteriors_", "rim"})
+    EXPECT_EQ(near_name(word, names), "") << word;
+  EXPECT_EQ(near_name("ab", std::vector<std::string>{"cd", "abc"}), "abc");
+  EXPECT_EQ(near_name("ab", std::vector<std::string>{"ad"}), "") << "half of it is another";
+}
+
+TEST(NearName, IsAskedForInWords) {
+  EXPECT_EQ(did_you_mean("center", names), " (did you mean \"centre\"?)");
+  EXPECT_EQ(did_you_mean("zzz", names), "");
+}
+
+}  // namespace
+}  // namespace condyle::core
