@@ -49,7 +49,7 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
   const double wall = watch.wall_seconds(), processor = watch.processor_seconds();
 
   std::int64_t free = 0;
-  for (const auto& point : map.points) free += point.free_at_start() ? 1 : 0;
+  for (const auto& point : map.points) free += point.from_start.free_at_start() ? 1 : 0;
   const auto points = static_cast<double>(map.points.size());
   report.table(map_head).add({joint.name, step, static_cast<std::int64_t>(map.points.size()), free,
                               std::int64_t{tbb::this_task_arena::max_concurrency()}, wall, processor,

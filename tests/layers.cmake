@@ -13,7 +13,7 @@ set(kinematics_uses core mesh)
 set(radial_uses core simd mesh)
 set(tangential_uses core simd mesh)
 set(contact_uses core mesh kinematics radial tangential)
-set(motion_uses core mesh kinematics radial contact)
+set(motion_uses core mesh kinematics radial tangential contact)
 set(sample_uses core mesh)
 set(io_uses core mesh kinematics contact motion sample)
 

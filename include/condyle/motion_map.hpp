@@ -8,7 +8,7 @@
 
 #include "condyle/range_of_motion.hpp"
 
-/// The combined range of motion: both limits of one joint angle over a grid of the other two.
+/// The combined range of motion: the free angles of one joint angle over a grid of the other two.
 /// docs/mathematics.md, section 6.
 
 namespace condyle {
@@ -28,8 +28,7 @@ struct GridAxis {
 /// each fill gigabytes.
 inline constexpr std::size_t most_map_points = 10'000'000;
 
-/// What a map shows: for every pair of values of the two held angles, from the start value of the third, how
-/// far that one changes either way.
+/// What a map shows: for every pair of values of the two held angles, which values of the third are free.
 ///
 ///     column.count()
 ///     +---+---+---+
@@ -53,11 +52,11 @@ struct MapGrid {
 /// a hinge, or more than most_map_points (saying how many).
 void check_grid(const MapGrid& grid, JointKind kind);
 
-/// Limits over a grid. At a point in contact at the start there is no free range, even if there is one
-/// elsewhere on its rotation.
+/// Free angles over a grid. A point in contact at the start may be free elsewhere on its rotation, and one that is free
+/// at the start may have more free intervals beyond contact.
 struct MotionMap {
   MapGrid grid;
-  std::vector<RotationLimits> points;  ///< grid.size(), row by row
+  std::vector<FreeAngles> points;  ///< grid.size(), row by row
 
   /// Of all searches together.
   SearchWork work() const noexcept;
@@ -71,14 +70,14 @@ struct MapControl {
   std::stop_token stop = {};
 };
 
-/// Computes all points, on all threads. Each point's limits are those of RangeOfMotion: the same bits whatever
+/// Computes all points, on all threads. Each point's answer is that of RangeOfMotion: the same bits whatever
 /// the threads. Throws as check_grid().
 MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint);
 /// The same; empty where it was stopped before all points were done.
 std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
                                     const MapControl& control);
 
-/// How much of the space of joint angles is free, by the trapezoidal rule over the grid: the error of the
+/// How much of the space of joint angles is free, all intervals of every point together, by the trapezoidal rule over the grid: the error of the
 /// volume goes with the square of the step where limits change smoothly.
 ///
 /// Three angles are coordinates of rotations, and equal boxes of them are not equally many rotations: near

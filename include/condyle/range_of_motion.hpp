@@ -50,12 +50,32 @@ std::vector<Motion> built_in_motions(JointKind kind);
 /// Built-in motions with the user's: one of a known name replaces it in its place, others follow in order.
 std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own);
 
-/// The motion of that name. Throws UsageError with the names there are.
+/// The motion of that name; where none has it as written, the first that has it in any case, with blanks or hyphens for
+/// underscores. Throws UsageError with the names there are.
 const Motion& motion_named(std::span<const Motion> motions, std::string_view name);
 
 /// Throws UsageError where this kind of joint has no such motion: a range that is not above 0 and at
 /// most a full turn, an angle that is not finite, or a hinge turned or held in another angle than flexion.
 void check_motion(const Motion& motion, JointKind kind);
+
+/// Angles between which nothing meets.
+struct FreeInterval {
+  Angle low, high;  ///< of the varied angle less its start: low <= high, both in the range
+  /// `turned` of either is measured from `start` in its sense where the start is in the interval, else from the
+  /// interval's middle. Either ends by contact or at the end of the range.
+  Limit at_low, at_high;
+
+  bool holds_start() const noexcept { return low <= Angle() && high >= Angle(); }
+};
+
+/// All angles of one joint angle that are free.
+struct FreeAngles {
+  RotationLimits from_start;
+  std::vector<FreeInterval> intervals;  ///< ascending
+
+  /// The one that holds the start, else the nearest to it, the lower of two as near; null where nothing is free.
+  const FreeInterval* nearest_to_start() const noexcept;
+};
 
 /// How a head lies in its socket where a motion ends.
 struct HeadAtLimit {
@@ -123,6 +143,12 @@ class RangeOfMotion {
   /// How far one angle changes from this start either way. The start must be finite, the range as
   /// RotationRange says, and on a hinge flexion is the only angle. May be called from any thread.
   RotationLimits both_limits(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
+
+  /// All intervals of one angle that are free within the range: the one that holds the start, if the start is free, has
+  /// the limits of both_limits(); others lie beyond contact. Intervals below 1e-9 rad are none. Some milliseconds where
+  /// the fixed mesh is closed, else more. Throws UsageError for a range of more than half a turn either way. May be
+  /// called from any thread.
+  FreeAngles free_angles(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
 
   JointKind kind() const noexcept;
   Side side() const noexcept;

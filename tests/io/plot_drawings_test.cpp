@@ -112,8 +112,9 @@ TEST(LimitsPlot, Stays_inside_its_canvas_for_many_motions_with_long_names) {
 }
 
 MapPlot map_of(int columns, int rows, LimitReason kind) {
-  MapPlot map{heading, "limit of internal rotation", "flexion, degrees", "adduction, degrees", {}, {}, {},
-              {}};
+  MapPlot map{
+      heading, "limit of internal rotation", "flexion, degrees", "adduction, degrees", {}, {}, {}, {}, {},
+      {}};
   for (int i = 0; i < columns; ++i) map.x.push_back(10 * i - 20);
   for (int j = 0; j < rows; ++j) map.y.push_back(5 * j - 40);
   for (int k = 0; k < columns * rows; ++k) map.values.push_back(k), map.reasons.push_back(kind);
@@ -143,12 +144,48 @@ TEST(MapPlot, Fills_the_whole_plane_with_its_lowest_band) {
 
 TEST(MapPlot, Leaves_out_points_in_contact_at_the_start_and_says_so) {
   MapPlot map = map_of(5, 4, LimitReason::contact);
-  EXPECT_FALSE(has_text(map_plot(map), "in contact at the start"));
+  EXPECT_FALSE(has_text(map_plot(map), "free nowhere"));
   map.reasons[0] = LimitReason::contact_at_start;
   map.values[0] = 1e9;  // not read
   const std::string plot = map_plot(map);
-  EXPECT_TRUE(has_text(plot, "in contact at the start"));
+  EXPECT_TRUE(has_text(plot, "free nowhere"));
   EXPECT_EQ(elements_named(plot, "path")[0].attributes.at("d"), "M92,372 229,516 640,516 640,84 92,84Z");
+}
+
+TEST(MapPlot, Marks_points_not_free_at_the_start_and_islands_cell_by_cell) {
+  MapPlot map = map_of(5, 4, LimitReason::contact);
+  map.starts_in_contact.assign(20, false), map.has_islands.assign(20, false);
+  EXPECT_EQ(map_plot(map), map_plot(map_of(5, 4, LimitReason::contact)));
+  map.starts_in_contact[6] = map.starts_in_contact[7] = true;
+  map.has_islands[19] = true;
+  map.reasons[0] = LimitReason::end_of_range;
+  const std::string plot = map_plot(map);
+  EXPECT_TRUE(has_text(plot, "not free at the start"));
+  EXPECT_TRUE(has_text(plot, "free again beyond contact"));
+  const auto cells_of = [&](std::string_view paint) {
+    auto cells = filled(plot, "rectangle", paint);
+    return cells.empty() ? filled(plot, "rect", paint) : cells;
+  };
+  // Patterns in the order in which the plot makes them; one more rectangle each in the legend, where there is one.
+  const auto end = cells_of("url(#hatch2)"), start = cells_of("url(#hatch3)"),
+             islands = cells_of("url(#hatch4)");
+  ASSERT_EQ(end.size(), 2u);
+  ASSERT_EQ(start.size(), 2u);
+  ASSERT_EQ(islands.size(), 2u);
+  // Columns are 137 px apart from 92 on, rows 144 px from 516 upwards: half a cell at the corner, two cells inside.
+  EXPECT_EQ(end[0].number("width"), 68.5);
+  EXPECT_EQ(end[0].number("height"), 72);
+  EXPECT_EQ(start[0].number("x"), 92 + 68.5);
+  EXPECT_EQ(start[0].number("width"), 2 * 137);
+  EXPECT_EQ(start[0].number("height"), 144);
+  EXPECT_EQ(islands[0].number("y"), 84);
+}
+
+TEST(MapPlot, Has_no_colour_beyond_the_highest_value) {
+  MapPlot map = map_of(9, 7, LimitReason::end_of_range);
+  for (std::size_t i = 0; i < map.values.size(); ++i) map.values[i] = i % 9 == 0 ? 20 : 180;
+  EXPECT_FALSE(has_text(map_plot(map), "200"));
+  EXPECT_TRUE(has_text(map_plot(map), "180"));
 }
 
 TEST(ClockFace, Puts_twelve_on_top_and_three_to_the_right) {

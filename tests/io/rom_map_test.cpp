@@ -40,8 +40,8 @@ TEST(MapCsv, HasALinePerPointWithBothLimitsToTheLastBit) {
     ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,", &x, &y, &lower, &upper), 4);
     EXPECT_EQ(x, -10 + 2.5 * static_cast<double>(i % 9));
     EXPECT_EQ(y, -20 + 10.0 * static_cast<double>(i / 9));
-    EXPECT_EQ(lower, -map.points[i].negative.turned.degrees());
-    EXPECT_EQ(upper, map.points[i].positive.turned.degrees());
+    EXPECT_EQ(lower, -map.points[i].from_start.negative.turned.degrees());
+    EXPECT_EQ(upper, map.points[i].from_start.positive.turned.degrees());
   }
   EXPECT_FALSE(std::getline(in, line));
 }
@@ -78,9 +78,11 @@ TEST(PlotOfMap, ShowsLimitsAsAnglesFromTheStartAndTheFreeRangeAsTheirSum) {
   EXPECT_EQ(free.quantity, "free range of flexion");
   ASSERT_EQ(free.values.size(), 45u);
   for (std::size_t i = 0; i < 45; ++i) {
-    EXPECT_EQ(positive.values[i], map.points[i].positive.turned.degrees());
+    EXPECT_EQ(positive.values[i], map.points[i].from_start.positive.turned.degrees());
     EXPECT_GE(negative.values[i], 0);
-    EXPECT_EQ(free.values[i], (map.points[i].negative.turned + map.points[i].positive.turned).degrees());
+    EXPECT_EQ(
+        free.values[i],
+        (map.points[i].from_start.negative.turned + map.points[i].from_start.positive.turned).degrees());
   }
 }
 

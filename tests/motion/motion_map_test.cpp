@@ -37,8 +37,8 @@ void expect_same_end(const Limit& a, const Limit& b) {
 void expect_same_points(const MotionMap& a, const MotionMap& b) {
   ASSERT_EQ(a.points.size(), b.points.size());
   for (std::size_t i = 0; i < a.points.size(); ++i) {
-    expect_same_end(a.points[i].negative, b.points[i].negative);
-    expect_same_end(a.points[i].positive, b.points[i].positive);
+    expect_same_end(a.points[i].from_start.negative, b.points[i].from_start.negative);
+    expect_same_end(a.points[i].from_start.positive, b.points[i].from_start.positive);
   }
 }
 
@@ -71,10 +71,10 @@ TEST(MotionMap, HoldsTheLimitsOfEachPoint) {
                         {Angle::degrees(flexion), Angle::degrees(adduction), Angle()},
                         Angle::degrees(180)};
     const MotionLimit limit = joint.limit(motion);
-    EXPECT_EQ(map.points[i].positive.turned, limit.end.turned);
-    EXPECT_EQ(map.points[i].positive.reason, limit.end.reason);
+    EXPECT_EQ(map.points[i].from_start.positive.turned, limit.end.turned);
+    EXPECT_EQ(map.points[i].from_start.positive.reason, limit.end.reason);
     contacts += limit.end.reason == LimitReason::contact;
-    starts += !map.points[i].free_at_start();
+    starts += !map.points[i].from_start.free_at_start();
   }
   EXPECT_GT(contacts, 5u);
   EXPECT_GT(starts, 0u);

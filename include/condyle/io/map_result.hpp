@@ -16,6 +16,10 @@ std::string map_text(const MotionMap& map);
 /// as values of that angle, how they end, and the contact points. Numbers to the last bit.
 std::string map_csv(const MotionMap& map);
 
+/// One line per free interval of every grid point, with a header line: the held angles, both ends as values of the
+/// varied angle, whether it holds the start, how the ends came about, and the contact points.
+std::string map_intervals_csv(const MotionMap& map);
+
 /// "flexion" or "extension", and so on: the clinical word for changing an angle in this sense.
 std::string_view movement_name(JointAngle angle, RotationSense sense) noexcept;
 

@@ -9,8 +9,8 @@
 namespace condyle::io {
 
 /// Direction of the limit's contact on the socket's clock, the sagittal one: 12 superior and 3 anterior on
-/// either side. None for a hinge and without contact.
-std::optional<double> clock_hour(const Joint& joint, const MotionLimit& limit);
+/// either side. None for a hinge, without contact, and far from the rim.
+std::optional<double> clock_hour(const RomResult& result, const MotionLimit& limit);
 
 /// Where on that clock the motions end that end in contact.
 std::vector<ClockContact> clock_contacts(const RomResult& result);

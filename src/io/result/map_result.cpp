@@ -11,6 +11,14 @@
 namespace condyle {
 namespace {
 
+/// Headings of what csv_of() writes.
+std::string end_columns(std::string_view end) {
+  return fmt::format(
+      ",{0}_reason,{0}_contact_kind,{0}_error_bound_deg,{0}_bearing_contact_deg,"
+      "{0}_contact_x_mm,{0}_contact_y_mm,{0}_contact_z_mm",
+      end);
+}
+
 std::string csv_of(const Limit& end) {
   std::string text = fmt::format(
       ",{},{},{},{}", name_of(end.reason), end.reason == LimitReason::end_of_range ? "" : name_of(end.kind()),
@@ -47,6 +55,11 @@ std::string map_text(const MotionMap& map) {
   };
   line(RotationSense::positive, summary.positive_ends);
   line(RotationSense::negative, summary.negative_ends);
+  if (summary.free_elsewhere > 0)
+    text +=
+        fmt::format("  in contact at start but free at other angles: {} points\n", summary.free_elsewhere);
+  if (summary.with_islands > 0)
+    text += fmt::format("  free again beyond contact: {} points\n", summary.with_islands);
   return text + fmt::format("  free volume        {:.6g} deg^3, {:.6g} deg^3 weighted by cos(adduction)\n",
                             summary.volume.plain_deg3, summary.volume.cosine_weighted_deg3);
 }
@@ -56,19 +69,31 @@ std::string map_csv(const MotionMap& map) {
   const std::string_view varied = name_of(grid.vary);
   std::string text = fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg", name_of(grid.column.angle),
                                  name_of(grid.row.angle), varied);
-  for (const char* end : {"lower", "upper"})
-    text += fmt::format(
-        ",{0}_reason,{0}_contact_kind,{0}_error_bound_deg,{0}_bearing_contact_deg,"
-        "{0}_contact_x_mm,{0}_contact_y_mm,{0}_contact_z_mm",
-        end);
+  for (const char* end : {"lower", "upper"}) text += end_columns(end);
   text += "\n";
   const std::size_t columns = grid.column.count();
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const Limit &negative = map.points[i].negative, &positive = map.points[i].positive;
+    const Limit &negative = map.points[i].from_start.negative, &positive = map.points[i].from_start.positive;
     text += fmt::format("{},{},{},{}{}{}\n", grid.column.value_deg(i % columns),
                         grid.row.value_deg(i / columns), (grid.start - negative.turned).degrees(),
                         (grid.start + positive.turned).degrees(), csv_of(negative), csv_of(positive));
   }
+  return text;
+}
+
+std::string map_intervals_csv(const MotionMap& map) {
+  const MapGrid& grid = map.grid;
+  std::string text = fmt::format("{0}_deg,{1}_deg,{2}_low_deg,{2}_high_deg,holds_start",
+                                 name_of(grid.column.angle), name_of(grid.row.angle), name_of(grid.vary));
+  for (const char* end : {"low", "high"}) text += end_columns(end);
+  text += "\n";
+  const std::size_t columns = grid.column.count();
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    for (const FreeInterval& free : map.points[i].intervals)
+      text += fmt::format("{},{},{},{},{}{}{}\n", grid.column.value_deg(i % columns),
+                          grid.row.value_deg(i / columns), (grid.start + free.low).degrees(),
+                          (grid.start + free.high).degrees(), free.holds_start() ? 1 : 0, csv_of(free.at_low),
+                          csv_of(free.at_high));
   return text;
 }
 

@@ -17,14 +17,18 @@ struct ReasonCounts {
 /// What a map comes to.
 struct MapSummary {
   ReasonCounts negative_ends, positive_ends;
+  std::size_t free_elsewhere = 0;  ///< points in contact at the start that are free at other angles
+  std::size_t with_islands = 0;    ///< points with a free interval beyond the one that is drawn
   FreeVolume volume;
 };
 
 inline MapSummary summarise(const MotionMap& map) {
   MapSummary summary;
-  for (const RotationLimits& point : map.points) {
-    ++summary.negative_ends.of[static_cast<std::size_t>(point.negative.reason)];
-    ++summary.positive_ends.of[static_cast<std::size_t>(point.positive.reason)];
+  for (const FreeAngles& point : map.points) {
+    ++summary.negative_ends.of[static_cast<std::size_t>(point.from_start.negative.reason)];
+    ++summary.positive_ends.of[static_cast<std::size_t>(point.from_start.positive.reason)];
+    summary.free_elsewhere += !point.from_start.free_at_start() && !point.intervals.empty();
+    summary.with_islands += point.intervals.size() > 1;
   }
   summary.volume = free_volume(map);
   return summary;

@@ -35,8 +35,9 @@ Bands bands_for(std::span<const double> values) {
   if (low > high) return {0, 1, 0};
   // No band is narrower than a degree: the contours of a nearly level field would show its rounding.
   const double step = std::max(tick_step(std::max(high - low, 1.0), most_bands - 1), 1.0);
-  const double first = std::floor(low / step);
-  return {first * step, step, static_cast<int>(std::floor(high / step) - first) + 1};
+  // No band beyond the highest value: where limits end at the end of the range, none is higher.
+  const double first = std::floor(low / step), last = std::max(std::ceil(high / step), first + 1);
+  return {first * step, step, static_cast<int>(last - first)};
 }
 
 /// The values, NaN where there is none.
@@ -72,8 +73,63 @@ void draw_frame(SvgCanvas& canvas, double right_px) {
   canvas.rectangle({left, top}, right_px - left, bottom - top, {.stroke = palette::axis});
 }
 
+bool any(const std::vector<bool>& marks) {
+  return std::find(marks.begin(), marks.end(), true) != marks.end();
+}
+
+/// Half way to the neighbours of each value, and as far beyond the outer ones, cut off at the frame.
+std::vector<double> cell_borders(const std::vector<double>& values, const PlotScale& scale) {
+  std::vector<double> borders;
+  borders.push_back(scale(values.front()));
+  for (std::size_t i = 0; i + 1 < values.size(); ++i)
+    borders.push_back(scale((values[i] + values[i + 1]) / 2));
+  borders.push_back(scale(values.back()));
+  return borders;
+}
+
+/// Covers the cells of the points that are marked, neighbours in a row at once.
+template <class Marked>
+void cover_cells(SvgCanvas& canvas, const MapPlot& map, const PlotScale& x, const PlotScale& y,
+                 const Marked& marked, std::string_view paint) {
+  const std::vector<double> across = cell_borders(map.x, x), up = cell_borders(map.y, y);
+  for (std::size_t row = 0; row < map.y.size(); ++row)
+    for (std::size_t first = 0; first < map.x.size(); ++first) {
+      if (!marked(row * map.x.size() + first)) continue;
+      std::size_t last = first;
+      while (last + 1 < map.x.size() && marked(row * map.x.size() + last + 1)) ++last;
+      canvas.rectangle({across[first], up[row + 1]}, across[last + 1] - across[first], up[row] - up[row + 1],
+                       {.fill = paint});
+      first = last;
+    }
+}
+
+/// The value of a contour at the middle of its longest line, where the line is long enough to carry it.
+void label_contour(SvgCanvas& canvas, const std::vector<Ring>& lines, std::string_view words) {
+  constexpr double size = 10;
+  const auto longest = std::max_element(lines.begin(), lines.end(),
+                                        [](const Ring& a, const Ring& b) { return a.size() < b.size(); });
+  if (longest == lines.end() || longest->size() < 8) return;
+  const ScreenPoint at = (*longest)[longest->size() / 2];
+  const double width = text_width(words, size);
+  if (at.x < left + width || at.x > right - width || at.y < top + size || at.y > bottom - size) return;
+  canvas.rectangle({at.x - width / 2 - 1, at.y - size / 2 - 1}, width + 2, size + 2,
+                   {.fill = palette::paper});
+  canvas.text({at.x, at.y + size / 3}, words, {.size = size, .anchor = TextAnchor::middle});
+}
+
+/// Paints of what is hatched.
+struct Hatches {
+  std::string nowhere, at_end, not_at_start, islands;
+
+  explicit Hatches(SvgCanvas& canvas)
+      : nowhere(canvas.hatch("#b5b5b5")),
+        at_end(canvas.hatch("#555555")),
+        not_at_start(canvas.hatch(palette::vermilion)),
+        islands(canvas.dots("#222222")) {}
+};
+
 /// What the hatchings mean, in one row below the plot.
-void draw_legend(SvgCanvas& canvas, const MapPlot& map, std::string_view at_start, std::string_view at_end) {
+void draw_legend(SvgCanvas& canvas, const MapPlot& map, const Hatches& hatches) {
   double x = left;
   const auto entry = [&](std::string_view ground, std::string_view hatch, std::string_view words) {
     canvas.rectangle({x, legend_y - 10}, 24, 13,
@@ -83,9 +139,12 @@ void draw_legend(SvgCanvas& canvas, const MapPlot& map, std::string_view at_star
     x += 32 + text_width(words, 12) + 24;
   };
   if (any_of_reason(map, LimitReason::contact_at_start))
-    entry(palette::light_grey, at_start, "in contact at the start already");
+    entry(palette::light_grey, hatches.nowhere, "free nowhere");
+  if (any(map.starts_in_contact))
+    entry(sequential_colour(0.7), hatches.not_at_start, "not free at the start");
+  if (any(map.has_islands)) entry(sequential_colour(0.7), hatches.islands, "free again beyond contact");
   if (any_of_reason(map, LimitReason::end_of_range))
-    entry(sequential_colour(1), at_end, "end of the range asked for, no contact");
+    entry(sequential_colour(1), hatches.at_end, "no contact up to the end of the range");
 }
 
 void draw_colour_bar(SvgCanvas& canvas, const Bands& bands, std::string_view quantity) {
@@ -108,31 +167,34 @@ void draw_contours(SvgCanvas& canvas, const MapPlot& map) {
   const std::vector<double> values = known_values(map);
   const PlotScale x = scale_over(map.x, left, right), y = scale_over(map.y, bottom, top);
   const Bands bands = bands_for(values);
-  const std::string at_start = canvas.hatch("#b5b5b5"), at_end = canvas.hatch("#555555");
+  const Hatches hatches(canvas);
 
   canvas.rectangle({left, top}, right - left, bottom - top, {.fill = palette::light_grey});
-  canvas.rectangle({left, top}, right - left, bottom - top, {.fill = at_start});
+  canvas.rectangle({left, top}, right - left, bottom - top, {.fill = hatches.nowhere});
   const GridField field{map.x, map.y, values};
+  std::vector<std::vector<Ring>> lines;
   for (int k = 0; k < bands.count; ++k) {
     const ContourRegion region = region_at_or_above(field, bands.level(k));
     const std::string colour = bands.colour(k);
     canvas.region(on_screen(region.rings, x, y), {.fill = colour});
-    for (const Ring& line : region.lines)
-      canvas.polyline(on_screen(line, x, y), {.stroke = palette::paper, .stroke_width = 0.6});
+    lines.push_back(on_screen(region.lines, x, y));
+    for (const Ring& line : lines.back())
+      canvas.polyline(line, {.stroke = palette::paper, .stroke_width = 0.6});
   }
-  if (any_of_reason(map, LimitReason::end_of_range)) {
-    std::vector<double> ended(values.size());
-    for (std::size_t i = 0; i < ended.size(); ++i)
-      ended[i] = std::isnan(values[i]) ? none : map.reasons[i] == LimitReason::end_of_range ? 1 : 0;
-    // Only between points that all ended so: at 1, not half way to the next point that has a contact.
-    const ContourRegion region = region_at_or_above({map.x, map.y, ended}, 1);
-    canvas.region(on_screen(region.rings, x, y), {.fill = at_end});
-  }
+  const auto cover = [&](const auto& marked, std::string_view paint) {
+    cover_cells(canvas, map, x, y, marked, paint);
+  };
+  cover([&](std::size_t i) { return map.reasons[i] == LimitReason::end_of_range; }, hatches.at_end);
+  if (any(map.starts_in_contact))
+    cover([&](std::size_t i) { return map.starts_in_contact[i]; }, hatches.not_at_start);
+  if (any(map.has_islands)) cover([&](std::size_t i) { return map.has_islands[i]; }, hatches.islands);
+  for (int k = 1; k < bands.count; ++k)
+    label_contour(canvas, lines[static_cast<std::size_t>(k)], tick_text(bands.level(k), bands.step));
   draw_frame(canvas, right);
   draw_bottom_axis(canvas, x, bottom, axis_steps, map.x_label);
   draw_left_axis(canvas, y, left, axis_steps, map.y_label);
   draw_colour_bar(canvas, bands, map.quantity);
-  draw_legend(canvas, map, at_start, at_end);
+  draw_legend(canvas, map, hatches);
 }
 
 /// A map along one held angle: the limit as a curve, broken where there is none.
@@ -180,12 +242,12 @@ void draw_curve(SvgCanvas& canvas, const MapPlot& map) {
     const Ink ink{.stroke = palette::vermilion, .stroke_width = 2};
     canvas.line({at, legend_y - 8}, {at + 8, legend_y}, ink);
     canvas.line({at, legend_y}, {at + 8, legend_y - 8}, ink);
-    canvas.text({at + 18, legend_y + 1}, "in contact at the start already", {.size = 12});
+    canvas.text({at + 18, legend_y + 1}, "free nowhere", {.size = 12});
     at += 250;
   }
   if (hollow) {
     canvas.circle({at + 4, legend_y - 4}, 3.5, {.fill = palette::paper, .stroke = palette::blue});
-    canvas.text({at + 18, legend_y + 1}, "end of the range asked for, no contact", {.size = 12});
+    canvas.text({at + 18, legend_y + 1}, "no contact up to the end of the range", {.size = 12});
   }
 }
 

@@ -17,11 +17,14 @@ struct MapPlot {
   std::vector<double> x, y;          ///< degrees, ascending, at least one of each
   std::vector<double> values;        ///< degrees, at row * x.size() + column; read where there is a value
   std::vector<LimitReason> reasons;  ///< as many; no value for contact_at_start, at least it for end_of_range
+  /// As many, or none where none is so: points that are free, but not at the start; points with other free intervals.
+  std::vector<bool> starts_in_contact, has_islands;
 };
 
-/// The map as filled contours with a colour bar, SVG text. Points in contact at the start are left out and
-/// hatched; where the range ends without contact the colour is hatched. A map of one row or column
-/// has no area to fill and is drawn as a curve.
+/// The map as filled contours with labels and a colour bar, SVG text. Points that are free nowhere are left out and
+/// hatched; the cells around points whose range ends without contact, that are not free at the start, or that have
+/// other free intervals too, are hatched over the colour. A map of one row or column has no area to fill and is drawn
+/// as a curve.
 std::string map_plot(const MapPlot& map);
 
 /// What of a map is drawn.

@@ -22,12 +22,28 @@ std::vector<double> values_of(const GridAxis& axis) {
   return values;
 }
 
-/// Of the free range: an end without contact leaves it open.
-LimitReason reason_of(const RotationLimits& point) noexcept {
-  if (!point.free_at_start()) return LimitReason::contact_at_start;
-  const bool ended = point.negative.reason == LimitReason::end_of_range ||
-                     point.positive.reason == LimitReason::end_of_range;
-  return ended ? LimitReason::end_of_range : LimitReason::contact;
+/// At the ends of the interval that is drawn; where nothing is free, in contact.
+LimitReason reason_of(const FreeInterval* free, MapView view) noexcept {
+  if (!free) return LimitReason::contact_at_start;
+  const bool low_open = free->at_low.reason == LimitReason::end_of_range;
+  const bool high_open = free->at_high.reason == LimitReason::end_of_range;
+  const bool open = view == MapView::positive_limit   ? high_open
+                    : view == MapView::negative_limit ? low_open
+                                                      : low_open || high_open;
+  return open ? LimitReason::end_of_range : LimitReason::contact;
+}
+
+/// Where the interval ends, from the start; below zero where it does not reach the start.
+double value_of(const FreeInterval& free, MapView view) noexcept {
+  switch (view) {
+    case MapView::positive_limit:
+      return free.high.degrees();
+    case MapView::negative_limit:
+      return (-free.low).degrees();
+    case MapView::free_range:
+      return (free.high - free.low).degrees();
+  }
+  return 0;
 }
 
 std::string quantity_of(JointAngle varied, MapView view) {
@@ -57,22 +73,12 @@ MapPlot plot_of(const MotionMap& map, MapView view, std::string_view joint_name)
   plot.y_label = axis_label(grid.row.angle);
   plot.x = values_of(grid.column);
   plot.y = values_of(grid.row);
-  for (const RotationLimits& point : map.points) {
-    const Limit &negative = point.negative, &positive = point.positive;
-    switch (view) {
-      case MapView::positive_limit:
-        plot.values.push_back(positive.turned.degrees());
-        plot.reasons.push_back(positive.reason);
-        break;
-      case MapView::negative_limit:
-        plot.values.push_back(negative.turned.degrees());
-        plot.reasons.push_back(negative.reason);
-        break;
-      case MapView::free_range:
-        plot.values.push_back((negative.turned + positive.turned).degrees());
-        plot.reasons.push_back(reason_of(point));
-        break;
-    }
+  for (const FreeAngles& point : map.points) {
+    const FreeInterval* drawn = point.nearest_to_start();
+    plot.values.push_back(drawn ? value_of(*drawn, view) : 0);
+    plot.reasons.push_back(reason_of(drawn, view));
+    plot.starts_in_contact.push_back(!point.from_start.free_at_start() && drawn);
+    plot.has_islands.push_back(point.intervals.size() > 1);
   }
   return plot;
 }

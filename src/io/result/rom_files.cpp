@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -33,12 +35,50 @@ void write_zones(OutputFolder& out, const RomResult& result) {
   }
 }
 
+/// The grid as a flat surface in degrees, columns along x and rows along y, with what is free at its points.
+void write_map_surface(const std::filesystem::path& path, const MotionMap& map) {
+  const std::size_t columns = map.grid.column.count(), rows = map.grid.row.count();
+  TriMesh surface;
+  std::vector<double> lower, upper, width;
+  std::vector<std::int32_t> intervals;
+  std::vector<std::uint8_t> free_at_start;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    surface.vertices.push_back(
+        {map.grid.column.value_deg(i % columns), map.grid.row.value_deg(i / columns), 0});
+    const FreeAngles& point = map.points[i];
+    const FreeInterval* drawn = point.nearest_to_start();
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    lower.push_back(drawn ? (map.grid.start + drawn->low).degrees() : none);
+    upper.push_back(drawn ? (map.grid.start + drawn->high).degrees() : none);
+    double free = 0;
+    for (const FreeInterval& interval : point.intervals) free += (interval.high - interval.low).degrees();
+    width.push_back(free);
+    intervals.push_back(static_cast<std::int32_t>(point.intervals.size()));
+    free_at_start.push_back(point.from_start.free_at_start() ? 1 : 0);
+  }
+  for (std::size_t row = 0; row + 1 < rows; ++row)
+    for (std::size_t column = 0; column + 1 < columns; ++column) {
+      const auto a = static_cast<Index>(row * columns + column), b = a + 1;
+      const auto d = static_cast<Index>(a + columns), c = d + 1;
+      surface.triangles.push_back({a, b, c});
+      surface.triangles.push_back({a, c, d});
+    }
+  const MeshArray arrays[] = {{"lower_deg", std::move(lower)},
+                              {"upper_deg", std::move(upper)},
+                              {"free_width_deg", std::move(width)},
+                              {"free_intervals", std::move(intervals)},
+                              {"free_at_start", std::move(free_at_start)}};
+  write_vtp(path, surface, arrays, {});
+}
+
 void write_map(OutputFolder& out, const MotionMap& map, std::string_view joint_name) {
   const auto draw = [&](std::string_view name, io::MapView view) {
     io::write_whole_file(out.file(fmt::format("map_{}.svg", name)),
                          io::map_plot(io::plot_of(map, view, joint_name)));
   };
   io::write_whole_file(out.file("map.csv"), map_csv(map));
+  io::write_whole_file(out.file("map_intervals.csv"), map_intervals_csv(map));
+  if (map.grid.row.count() > 1 && map.grid.column.count() > 1) write_map_surface(out.file("map.vtp"), map);
   draw(movement_name(map.grid.vary, RotationSense::positive), io::MapView::positive_limit);
   draw(movement_name(map.grid.vary, RotationSense::negative), io::MapView::negative_limit);
   draw("free_range", io::MapView::free_range);

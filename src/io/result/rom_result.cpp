@@ -139,7 +139,7 @@ Json motion_json(const RomResult& result, std::size_t i) {
             {"joint_space_mm", limit.head ? nullable(limit.head->joint_space_mm) : Json(nullptr)},
             {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
             {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
-            {"clock_hour", nullable(io::clock_hour(result.joint, limit))},
+            {"clock_hour", nullable(io::clock_hour(result, limit))},
             {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
                                         {"mobile", json_of(contact->mobile_feature)}}
                                  : Json(nullptr)},
@@ -182,6 +182,26 @@ Json json_of(const GridAxis& axis) {
           {"count", axis.count()}};
 }
 
+/// Of the points whose free angles are not the one interval about the start: all of them.
+Json other_intervals_json(const MotionMap& map) {
+  const std::size_t columns = map.grid.column.count();
+  Json points = Json::array();
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const auto& intervals = map.points[i].intervals;
+    if (intervals.empty() || (intervals.size() == 1 && intervals.front().holds_start())) continue;
+    Json of_point = Json::array();
+    for (const FreeInterval& free : intervals)
+      of_point.push_back({{"low_deg", (map.grid.start + free.low).degrees()},
+                          {"high_deg", (map.grid.start + free.high).degrees()},
+                          {"low_reason", name_of(free.at_low.reason)},
+                          {"high_reason", name_of(free.at_high.reason)}});
+    points.push_back({{"column_deg", map.grid.column.value_deg(i % columns)},
+                      {"row_deg", map.grid.row.value_deg(i / columns)},
+                      {"intervals", std::move(of_point)}});
+  }
+  return points;
+}
+
 Json json_of(const MotionMap& map) {
   const MapSummary summary = summarise(map);
   return {{"vary", name_of(map.grid.vary)},
@@ -192,6 +212,9 @@ Json json_of(const MotionMap& map) {
           {"points", map.points.size()},
           {"negative_ends", json_of(summary.negative_ends)},
           {"positive_ends", json_of(summary.positive_ends)},
+          {"free_elsewhere", summary.free_elsewhere},
+          {"with_islands", summary.with_islands},
+          {"other_intervals", other_intervals_json(map)},
           {"free_volume_deg3", summary.volume.plain_deg3},
           {"free_volume_cosine_weighted_deg3", summary.volume.cosine_weighted_deg3},
           {"row_free_area_deg2", summary.volume.row_area_deg2}};
@@ -391,7 +414,7 @@ std::string rom_text(const RomResult& result) {
   };
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
-      clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
+      clock{Align::right, {"sagittal clock"}}, bearing{Align::right, {"bearing (deg)"}},
       centres{Align::right, {"centres (mm)"}}, space{Align::right, {"space (mm)"}};
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
     const MotionLimit& limit = result.limits[i];
@@ -408,7 +431,7 @@ std::string rom_text(const RomResult& result) {
     centres.cells.push_back(distance ? fmt::format("{:.2f}", *limit.head->centre_distance_mm) : "-");
     const bool spaced = limit.head && limit.head->joint_space_mm;
     space.cells.push_back(spaced ? fmt::format("{:.2f}", *limit.head->joint_space_mm) : "-");
-    const auto hour = io::clock_hour(result.joint, limit);
+    const auto hour = io::clock_hour(result, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
   const Joint& joint = result.joint;
@@ -420,6 +443,10 @@ std::string rom_text(const RomResult& result) {
               ? table_text(std::array{name, turned, reason, clock, point, bearing, centres, space})
               : table_text(std::array{name, turned, reason, clock, point});
   text += band_text(result);
+  if (std::any_of(result.limits.begin(), result.limits.end(), [](const MotionLimit& limit) {
+        return limit.motion.name == "fadir" || limit.motion.name == "faber";
+      }))
+    text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   if (result.map) text += map_text(*result.map);
   return text + fmt::format("  {}\n", io::scope_note);
 }
@@ -453,7 +480,7 @@ std::string rom_csv(const RomResult& result) {
                         end.error_bound.degrees(), name_of(motion.vary),
                         motion.sense == RotationSense::positive ? "positive" : "negative",
                         motion.range.degrees(), angles(motion.start), angles(limit.angles_at_limit()));
-    const auto hour = io::clock_hour(result.joint, limit);
+    const auto hour = io::clock_hour(result, limit);
     const auto& contact = end.contact;
     text += contact ? fmt::format("{},{},{},{}", point(contact->fixed_point), point(contact->mobile_point),
                                   text_of(contact->fixed_feature), text_of(contact->mobile_feature))

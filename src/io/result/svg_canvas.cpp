@@ -192,14 +192,22 @@ void SvgCanvas::text(ScreenPoint base, std::string_view words, const TextStyle& 
       style.bold ? " font-weight=\"bold\"" : "", turn, xml_escaped(words));
 }
 
-std::string SvgCanvas::hatch(std::string_view colour) {
+std::string SvgCanvas::pattern(std::string_view placing, const std::string& content) {
   const std::string id = fmt::format("hatch{}", ++hatches_);
   definitions_ += fmt::format(
-      "<pattern id=\"{}\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\" "
-      "patternTransform=\"rotate(45)\"><line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"6\" stroke=\"{}\" "
-      "stroke-width=\"1.6\"/></pattern>\n",
-      id, colour);
+      "<pattern id=\"{}\" width=\"6\" height=\"6\" patternUnits=\"userSpaceOnUse\"{}>{}</pattern>\n", id,
+      placing, content);
   return fmt::format("url(#{})", id);
+}
+
+std::string SvgCanvas::hatch(std::string_view colour) {
+  return pattern(
+      " patternTransform=\"rotate(45)\"",
+      fmt::format("<line x1=\"0\" y1=\"0\" x2=\"0\" y2=\"6\" stroke=\"{}\" stroke-width=\"1.6\"/>", colour));
+}
+
+std::string SvgCanvas::dots(std::string_view colour) {
+  return pattern("", fmt::format("<circle cx=\"3\" cy=\"3\" r=\"0.9\" fill=\"{}\"/>", colour));
 }
 
 std::string SvgCanvas::document() const {

@@ -77,12 +77,15 @@ class SvgCanvas {
 
   /// Diagonal hatching as a paint: the value to give as `fill`. One per canvas and colour.
   std::string hatch(std::string_view colour);
+  /// The same of dots.
+  std::string dots(std::string_view colour);
 
   /// The whole document, ending in a newline.
   std::string document() const;
 
  private:
   void shape(std::string_view element, const std::string& geometry, const Ink& ink);
+  std::string pattern(std::string_view placing, const std::string& content);
 
   double width_, height_;
   std::string title_, definitions_, body_;

@@ -90,7 +90,7 @@ void check_grid(const MapGrid& grid, JointKind kind) {
 
 SearchWork MotionMap::work() const noexcept {
   SearchWork sum;
-  for (const RotationLimits& point : points) sum += point.work;
+  for (const FreeAngles& point : points) sum += point.from_start.work;
   return sum;
 }
 
@@ -101,7 +101,7 @@ MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint) {
 std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
                                     const MapControl& control) {
   check_grid(grid, joint.kind());
-  MotionMap map{grid, std::vector<RotationLimits>(grid.size())};
+  MotionMap map{grid, std::vector<FreeAngles>(grid.size())};
   const Order order(grid);
   std::size_t done = 0;
   std::mutex reporting;
@@ -113,7 +113,7 @@ std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& jo
   core::parallel_chunks(map.points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) {
       const std::size_t point = order.point(i);
-      map.points[point] = joint.both_limits(grid.vary, grid.start_of(point), grid.range);
+      map.points[point] = joint.free_angles(grid.vary, grid.start_of(point), grid.range);
       report();
     }
   });
@@ -127,19 +127,19 @@ FreeVolume free_volume(const MotionMap& map) {
   const std::size_t columns = grid.column.count();
   volume.row_area_deg2.resize(grid.row.count());
   for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const Limit &negative = map.points[i].negative, &positive = map.points[i].positive;
-    const double width = (negative.turned + positive.turned).degrees();
     const double column_weight = trapezoid(grid.column, i % columns);
     const double weight = trapezoid(grid.row, i / columns) * column_weight;
     const JointAngles at = grid.start_of(i);
-    const double low = (at.adduction - negative.turned).radians();
-    const double high = (at.adduction + positive.turned).radians();
-    const double weighted_width = grid.vary == JointAngle::adduction
-                                      ? Angle::radians(std::sin(high) - std::sin(low)).degrees()
-                                      : std::cos(at.adduction.radians()) * width;
-    volume.row_area_deg2[i / columns] += width * column_weight;
-    volume.plain_deg3 += width * weight;
-    volume.cosine_weighted_deg3 += weighted_width * weight;
+    for (const FreeInterval& free : map.points[i].intervals) {
+      const double width = (free.high - free.low).degrees();
+      const double low = (at.adduction + free.low).radians(), high = (at.adduction + free.high).radians();
+      const double weighted_width = grid.vary == JointAngle::adduction
+                                        ? Angle::radians(std::sin(high) - std::sin(low)).degrees()
+                                        : std::cos(at.adduction.radians()) * width;
+      volume.row_area_deg2[i / columns] += width * column_weight;
+      volume.plain_deg3 += width * weight;
+      volume.cosine_weighted_deg3 += weighted_width * weight;
+    }
   }
   return volume;
 }

@@ -2,13 +2,16 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "condyle/tangential.hpp"
 #include "core/parallel.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "motion/rom/overlap.hpp"
+#include "motion/search/contact_set.hpp"
 #include "motion/search/first_contact.hpp"
 
 namespace condyle {
@@ -16,17 +19,37 @@ namespace {
 
 /// One body as it counts: its features, and the numbers its triangles have in the whole mesh.
 struct CountingBody {
+  Mesh mesh;
   motion::FeatureTree tree;
   std::vector<Index> triangle_in_whole;
 
   explicit CountingBody(motion::PartOfMesh part)
-      : tree(std::move(part.mesh)), triangle_in_whole(std::move(part.triangle_in_whole)) {}
+      : mesh(std::move(part.mesh)), tree(mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
+
+  /// The vertices that its triangles use.
+  Points used_vertices() const {
+    Points used;
+    for (const Vec3& v : tree.vertices()) used.push_back(v);
+    return used;
+  }
 
   Feature in_whole(Feature feature) const noexcept {
     if (feature.kind == FeatureKind::face) feature.id = triangle_in_whole[feature.id];
     return feature;
   }
 };
+
+/// Narrower ones may be what rounding leaves between two contacts, and are none.
+constexpr Angle narrowest_interval = Angle::radians(1e-9);
+
+/// Taken off the ends of arcs, which err by 1e-7 rad at most; narrower arcs are not worth their sorting.
+constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees(4);
+
+/// The body that turned in a search.
+enum class Turning { fixed, mobile };
+
+/// Coarser than usual: such a table is asked once.
+constexpr RingTableOptions coarse_rings{.cells_per_triangle = 0.03};
 
 /// With the bodies in each other's role.
 ContactWitness exchanged(const ContactWitness& contact) {
@@ -63,7 +86,8 @@ struct RangeOfMotion::Parts {
   BearingFinding bearing;
   LeftOut left_out;
   CountingBody fixed;
-  MobilePart ending;                    ///< what ends motions
+  MobilePart ending;  ///< what ends motions
+  Points ending_vertices;
   std::unique_ptr<MobilePart> sliding;  ///< the bearing surface, where it does not count
   motion::RotationTable flexion_table;
 
@@ -73,6 +97,10 @@ struct RangeOfMotion::Parts {
     std::optional<motion::TurningBody> sliding;
     std::optional<Angle> flexion;
     std::unique_ptr<motion::RotationTable> adduction_table;
+    /// The fixed body about the axis whose contacts it last collected.
+    std::optional<motion::TurningBody> resting;
+    std::optional<RingTable> rings;
+    std::optional<Vec3> axis_F;
 
     explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), ending(parts.ending.body.tree) {
       if (parts.sliding) sliding.emplace(parts.sliding->body.tree);
@@ -89,6 +117,7 @@ struct RangeOfMotion::Parts {
         left_out(counting.left_out),
         fixed(std::move(counting.fixed)),
         ending(std::move(counting.mobile), side),
+        ending_vertices(ending.body.used_vertices()),
         sliding(counting.bearing ? std::make_unique<MobilePart>(std::move(*counting.bearing), side)
                                  : nullptr),
         flexion_table(fixed.tree, flexion_axis(side)),
@@ -116,13 +145,15 @@ struct RangeOfMotion::Parts {
         : vary == JointAngle::adduction       ? search(adduction_table(worker, start), turning, X_FM)
                                               : search(flexion_table, turning, X_FM);
     for (Limit* limit : {&limits.negative, &limits.positive})
-      if (limit->contact) finish(*limit->contact, part, vary);
+      if (limit->contact)
+        finish(*limit->contact, part,
+               vary == JointAngle::internal_rotation ? Turning::fixed : Turning::mobile);
     return limits;
   }
 
   /// As the search reports it, in terms of the whole bodies and labelled.
-  void finish(ContactWitness& contact, const MobilePart& part, JointAngle vary) const {
-    if (vary == JointAngle::internal_rotation) contact = exchanged(contact);
+  void finish(ContactWitness& contact, const MobilePart& part, Turning turning) const {
+    if (turning == Turning::fixed) contact = exchanged(contact);
     contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
     contact.mobile_feature = part.body.in_whole(contact.mobile_feature);
     if (!bearing.surface) return;
@@ -130,6 +161,42 @@ struct RangeOfMotion::Parts {
                             ? &part == sliding.get()
                             : bearing.surface->holds(whole_mobile, contact.mobile_feature);
     contact.kind = slides ? ContactKind::bearing : ContactKind::impingement;
+  }
+
+  /// Angles at which what ends motions meets the fixed body's surface, over a full turn, and those at which one of its
+  /// vertices is inside. What is in `known` is not looked at and is in the answer.
+  core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
+                              std::vector<core::Arc> known) const {
+    const Pose X_FM = pose_at(side, start);
+    const AxisFrame axis(Vec3::Zero(), axis_of(vary, side, start));
+    if (!worker.resting) worker.resting.emplace(fixed.tree);
+    if (!worker.axis_F || *worker.axis_F != axis.direction()) {
+      worker.resting->start_at(axis, Pose::Identity());
+      if (fixed.mesh.is_closed()) worker.rings.emplace(fixed.mesh, axis, coarse_rings);
+      worker.axis_F = axis.direction();
+    }
+    // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Most contact is told so,
+    // without a pair of triangles; what is left are the ends of intervals.
+    if (worker.rings) {
+      const OccupiedArcs arcs = worker.rings->occupied_arcs(posed(X_FM, ending_vertices.view()));
+      for (std::size_t v = 0; v < arcs.size(); ++v)
+        for (const OccupiedArc& arc : arcs.of(v)) {
+          const Angle width = arc.end - arc.begin - arc_slack * 2;
+          if (width > narrowest_arc) known.push_back({arc.begin + arc_slack, width});
+        }
+    }
+    worker.ending.start_at(axis, X_FM);
+    return motion::contact_set(*worker.resting, worker.ending, core::ArcSet(known));
+  }
+
+  /// Limits of what ends motions about the axis for which contact_angles() was last asked.
+  RotationLimits limits_about_axis(Worker& worker, const JointAngles& start,
+                                   const RotationRange& range) const {
+    worker.ending.start_at(worker.resting->frame(), pose_at(side, start));
+    RotationLimits limits = motion::first_contact(*worker.resting, worker.ending, range);
+    for (Limit* limit : {&limits.negative, &limits.positive})
+      if (limit->contact) finish(*limit->contact, ending, Turning::mobile);
+    return limits;
   }
 
   HeadAtLimit head_at(const JointAngles& angles) const {
@@ -181,6 +248,51 @@ RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& st
   limits.positive.bearing_contact = before(limits.positive, bearing.positive);
   limits.work += bearing.work;
   return limits;
+}
+
+FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
+                                      const RotationRange& range) const {
+  if (!(range.negative >= Angle::degrees(-180) && range.negative <= Angle() && range.positive >= Angle() &&
+        range.positive <= Angle::degrees(180)))
+    throw UsageError("free angles: a range goes from at most half a turn back over 0 to half a turn on");
+  FreeAngles free{both_limits(vary, start, range), {}};
+  const RotationLimits& from_start = free.from_start;
+  std::vector<core::Arc> known;
+  if (from_start.free_at_start()) {
+    known.push_back({-from_start.negative.turned, from_start.negative.turned + from_start.positive.turned});
+    free.intervals.push_back(
+        {-from_start.negative.turned, from_start.positive.turned, from_start.negative, from_start.positive});
+  }
+  Parts::Worker& worker = parts_->workers.local();
+  const Angle full_turn = Angle::radians(two_pi);
+  for (const core::Arc& gap :
+       parts_->contact_angles(worker, vary, start, std::move(known)).complement().arcs()) {
+    for (const Angle shift : {-full_turn, Angle()}) {
+      const Angle low = std::max(gap.start + shift, range.negative);
+      const Angle high = std::min(gap.start + gap.width + shift, range.positive);
+      if (!(high - low > narrowest_interval)) continue;
+      // The gap is free or, one body inside the other, all contact; its ends are told as limits are.
+      const Angle middle = low + (high - low) * 0.5;
+      const RotationLimits both = parts_->limits_about_axis(
+          worker, turned_by(start, vary, middle), {range.negative - middle, range.positive - middle});
+      if (both.free_at_start())
+        free.intervals.push_back(
+            {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});
+    }
+  }
+  std::sort(free.intervals.begin(), free.intervals.end(),
+            [](const FreeInterval& a, const FreeInterval& b) { return a.low < b.low; });
+  return free;
+}
+
+const FreeInterval* FreeAngles::nearest_to_start() const noexcept {
+  const auto distance = [](const FreeInterval& interval) {
+    return std::max({interval.low.radians(), -interval.high.radians(), 0.0});
+  };
+  const auto nearest =
+      std::min_element(intervals.begin(), intervals.end(),
+                       [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+  return nearest == intervals.end() ? nullptr : &*nearest;
 }
 
 MotionLimit RangeOfMotion::limit(const Motion& motion) const {

@@ -39,11 +39,12 @@ core::Arc window(const CylinderBox& turning, const CylinderBox& resting) {
   return arc(from, from + turning.theta_width + resting.theta_width);
 }
 
-/// The angles at which some triangle of one subtree meets the other body.
+/// The angles at which some triangle of one subtree meets the other body. Body is const RotationTable or TurningBody.
+template <class Body>
 class Collector {
  public:
-  Collector(const RotationTable& resting, const RotationTable& turning)
-      : resting_(resting), turning_(turning) {}
+  Collector(Body& resting, Body& turning, core::ArcSet known = {})
+      : resting_(resting), turning_(turning), found_(std::move(known)) {}
 
   core::ArcSet run(Index turning_root) {
     push(turning_root, 0);
@@ -52,6 +53,7 @@ class Collector {
       open_.pop_back();
       const auto &m = turning_.tree().nodes()[pair.turning], &f = resting_.tree().nodes()[pair.resting];
       if (m.is_leaf() && f.is_leaf()) {
+        turning_.leaf_features(pair.turning), resting_.leaf_features(pair.resting);
         compare({m.first, m.last}, {f.first, f.last});
       } else {
         split(turning_.tree(), resting_.tree(), pair, [&](Index a, Index b) { push(a, b); });
@@ -126,8 +128,8 @@ class Collector {
     fresh_.clear();
   }
 
-  const RotationTable& resting_;
-  const RotationTable& turning_;
+  Body& resting_;
+  Body& turning_;
   std::vector<NodePair> open_;
   std::vector<ContactEvent> events_;
   std::vector<core::Arc> fresh_;
@@ -160,11 +162,17 @@ core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turn
   const auto roots = subtrees(turning.tree());
   std::vector<core::ArcSet> parts(roots.size());
   core::parallel_chunks(roots.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) parts[i] = Collector(resting, turning).run(roots[i]);
+    for (std::size_t i = first; i < last; ++i)
+      parts[i] = Collector<const RotationTable>(resting, turning).run(roots[i]);
   });
   core::ArcSet all;
   for (const core::ArcSet& part : parts) all = all.united(part);
   return all;
+}
+
+core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known) {
+  if (resting.tree().empty() || turning.tree().empty()) return known;
+  return Collector<TurningBody>(resting, turning, known).run(0);
 }
 
 }  // namespace condyle::motion

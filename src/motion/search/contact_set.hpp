@@ -24,4 +24,8 @@ namespace condyle::motion {
 /// Threads share the work; the result does not depend on how many.
 core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turning);
 
+/// The same of bodies that are made ready as far as it is looked at, on one thread. Angles in `known` are of contact
+/// for certain, or nobody's concern: they are in the answer and are not looked at.
+core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known);
+
 }  // namespace condyle::motion

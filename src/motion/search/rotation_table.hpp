@@ -81,6 +81,7 @@ class TurningBody {
   void start_at(const AxisFrame& frame_R, const Pose& X_RT);
 
   const FeatureTree& tree() const noexcept { return *tree_; }
+  const AxisFrame& frame() const noexcept { return frame_; }
   /// A point at the start pose, in the frame of the axis, in the body's own coordinates.
   Vec3 to_own(const Vec3& at_start) const noexcept { return X_RT_.inverse() * frame_.from_axis(at_start); }
 
