@@ -42,6 +42,7 @@ struct Options {
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   ReferenceContact reference_contact = ReferenceContact::refuse;
   Task task = Task::limits;
+  ClockPlane clock = ClockPlane::sagittal;
   AnswerForm form = AnswerForm::text;
 };
 
@@ -171,6 +172,15 @@ std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const RangeOptions& opt
   }
 }
 
+/// The clock that is wanted; throws MeshError where the socket has none.
+ClockFace clock_of(const Options& options, const Joint& joint, const BearingFinding& bearing) {
+  if (options.clock == ClockPlane::sagittal) return sagittal_clock();
+  const auto clock = bearing.surface ? find_rim_clock(joint.fixed.mesh, bearing.surface->head) : std::nullopt;
+  if (!clock)
+    throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
+  return *clock;
+}
+
 void run(const Options& options) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
@@ -210,6 +220,8 @@ void run(const Options& options) {
                          .limits = found.limits,
                          .bearing = found.bearing,
                          .bearing_rule = found.bearing_rule,
+                         .clock = clock_of(options, joint, found.bearing),
+                         .clock_plane = options.clock,
                          .terms = found.terms,
                          .depths = found.depths,
                          .zones = zones,
@@ -282,6 +294,16 @@ void add_rom(CLI::App& app) {
                                "With --band: of the rotation about each axis, 1 degree if not said"));
   for_band(command->add_option("--sigma-surface", options->sigma_surface_mm,
                                "With --band: of each surface along its normals, 0.25 mm if not said"));
+  command
+      ->add_option_function<std::string>(
+          "--clock",
+          [options](const std::string& name) {
+            options->clock = name == "rim" ? ClockPlane::rim : ClockPlane::sagittal;
+          },
+          "Where contacts are read on the socket's clock: in the sagittal plane, or in that of the rim with "
+          "6 at the notch")
+      ->check(CLI::IsMember({"sagittal", "rim"}))
+      ->option_text("sagittal|rim (sagittal)");
   command->add_option("--out", options->out,
                       "Folder for rom.json, limits.csv, limits.svg, clock_face.svg and bearing.vtp, map.csv "
                       "and map_*.svg of a map, "

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "condyle/angle.hpp"
+#include "condyle/fit.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/mesh.hpp"
 
@@ -36,6 +37,14 @@ ClockFace clock_face(const Vec3& normal);
 /// positions refer to the opening plane itself; between the two a position moves by up to half an hour or so,
 /// depending on inclination and version.
 ClockFace sagittal_clock();
+
+/// The acetabular clock in the plane of the rim: the plane fitted to the rim as the head sees it, 6 o'clock at the
+/// acetabular notch, where published clock positions have it. Head and mesh in F. Empty where no rim or no notch is
+/// found, or the plane leaves no 3 o'clock.
+std::optional<ClockFace> find_rim_clock(const TriMesh& fixed, const Sphere& head);
+
+/// Which of the two a position refers to.
+enum class ClockPlane { sagittal, rim };
 
 /// The femoral neck: from the head's centre outwards, in M.
 struct NeckAxis {

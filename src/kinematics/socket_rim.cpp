@@ -1,5 +1,6 @@
 #include "kinematics/socket_rim.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -45,27 +46,98 @@ Facing facing(const TriMesh& fixed, const Sphere& head) {
 ///     .    ^    .         and still faces the head's centre is the rim's.
 ///    (  .  |  .  )
 ///     \ head    /
-std::optional<double> rim_gap(const std::vector<Vec3>& rays, const Vec3& opening, double head_radius) {
+struct Crest {
+  Vec3 ray = Vec3::Zero();
+  double towards_opening = -1, gap = 0;
+  bool found = false;
+};
+using Crests = std::array<Crest, sectors>;
+
+Crests crests_of(const std::vector<Vec3>& rays, const Vec3& opening, double head_radius) {
   const Vec3 x = opening.unitOrthogonal(), y = opening.cross(x);
-  struct Crest {
-    double towards_opening = -1, gap = 0;
-    bool found = false;
-  };
-  std::array<Crest, sectors> crests{};
+  Crests crests{};
   for (const Vec3& ray : rays) {
     const double turn = std::atan2(ray.dot(y), ray.dot(x)) / (2 * std::numbers::pi) + 0.5;
     Crest& crest = crests[std::min(static_cast<std::size_t>(turn * sectors), sectors - 1)];
     const double towards = ray.dot(opening) / ray.norm();
     if (crest.found && towards <= crest.towards_opening) continue;
-    crest = {towards, ray.norm() - head_radius, true};
+    crest = {ray, towards, ray.norm() - head_radius, true};
   }
+  return crests;
+}
+
+double quantile(std::vector<double> values, double q) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+std::vector<double> gaps_of(const Crests& crests) {
   std::vector<double> gaps;
   for (const Crest& crest : crests)
     if (crest.found) gaps.push_back(crest.gap);
-  if (gaps.size() < fewest_sectors) return std::nullopt;
-  const auto tenth = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 10);
-  std::nth_element(gaps.begin(), tenth, gaps.end());
-  return *tenth;
+  return gaps;
+}
+
+struct Plane {
+  Vec3 point, normal;
+  double height(const Vec3& p) const { return (p - point).dot(normal); }
+};
+
+Plane plane_through(const std::vector<Vec3>& points, const Vec3& side) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& p : points) mean += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : points) spread += (p - mean) * (p - mean).transpose();
+  Vec3 normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  if (normal.dot(side) < 0) normal = -normal;
+  return {mean, normal};
+}
+
+/// Least squares again and again without the third of the points that is farthest off: a notch is no larger.
+Plane rim_plane(const Crests& crests, const Vec3& opening) {
+  constexpr int rounds = 4;
+  std::vector<Vec3> all;
+  for (const Crest& crest : crests)
+    if (crest.found) all.push_back(crest.ray);
+  Plane plane = plane_through(all, opening);
+  for (int round = 0; round < rounds; ++round) {
+    std::vector<double> off;
+    for (const Vec3& p : all) off.push_back(std::abs(plane.height(p)));
+    const double most = quantile(off, 2.0 / 3);
+    std::vector<Vec3> near;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (off[i] <= most) near.push_back(all[i]);
+    plane = plane_through(near, opening);
+  }
+  return plane;
+}
+
+std::optional<RimPlane> plane_with_notch(const Crests& crests, const Vec3& opening) {
+  /// mm; and as many sectors of the notch are averaged over either way.
+  constexpr double least_notch = 4;
+  constexpr std::size_t reach = 3;
+  const Plane plane = rim_plane(crests, opening);
+  const double usual_gap = quantile(gaps_of(crests), 0.5);
+  std::array<double, sectors> depth{};
+  for (std::size_t i = 0; i < sectors; ++i)
+    if (crests[i].found)
+      depth[i] = std::max(crests[i].gap - usual_gap, 0.0) + std::max(-plane.height(crests[i].ray), 0.0);
+  const auto around = [&](std::size_t i) {
+    return depth[(i + sectors - 1) % sectors] + depth[i] + depth[(i + 1) % sectors];
+  };
+  std::size_t deepest = 0;
+  for (std::size_t i = 1; i < sectors; ++i)
+    if (around(i) > around(deepest)) deepest = i;
+  if (!(around(deepest) / 3 >= least_notch)) return std::nullopt;
+  Vec3 towards = Vec3::Zero();
+  for (std::size_t k = 0; k <= 2 * reach; ++k) {
+    const std::size_t i = (deepest + sectors - reach + k) % sectors;
+    towards += depth[i] * (crests[i].ray - plane.point);
+  }
+  towards -= towards.dot(plane.normal) * plane.normal;
+  if (!(towards.norm() > 0)) return std::nullopt;
+  return RimPlane{plane.normal, towards.normalized()};
 }
 
 }  // namespace
@@ -74,7 +146,10 @@ std::optional<SocketRim> socket_rim(const TriMesh& fixed, const Sphere& head) {
   const Facing found = facing(fixed, head);
   if (!(found.into_socket.norm() > 0)) return std::nullopt;
   const Vec3 opening = -found.into_socket.normalized();
-  return SocketRim{opening, rim_gap(found.rays, opening, head.radius)};
+  const Crests crests = crests_of(found.rays, opening, head.radius);
+  const std::vector<double> gaps = gaps_of(crests);
+  if (gaps.size() < fewest_sectors) return SocketRim{opening, {}, {}};
+  return SocketRim{opening, quantile(gaps, 0.1), plane_with_notch(crests, opening)};
 }
 
 }  // namespace condyle::kinematics

@@ -62,8 +62,11 @@ std::vector<std::string> lines_of(const std::string& text) {
 TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   const Joint joint = arm_and_post();
   const std::vector<MotionLimit> limits = some_limits();
-  const Json json =
-      Json::parse(rom_json({joint, limits, {some_bearing(), {}}, BearingRule::leave_out, {"a term"}}));
+  const Json json = Json::parse(rom_json({.joint = joint,
+                                          .limits = limits,
+                                          .bearing = {some_bearing(), {}},
+                                          .bearing_rule = BearingRule::leave_out,
+                                          .terms = {"a term"}}));
   EXPECT_EQ(json["condyle"], 1);
   EXPECT_EQ(json["joint"], "arm and post");
   EXPECT_EQ(json["fixed"], "post");
@@ -147,8 +150,11 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   const Joint joint = arm_and_post();
   const std::vector<MotionLimit> limits = some_limits();
-  const auto lines = lines_of(
-      rom_text({joint, limits, {some_bearing(), {}}, BearingRule::leave_out, {"left out: nothing"}}));
+  const auto lines = lines_of(rom_text({.joint = joint,
+                                        .limits = limits,
+                                        .bearing = {some_bearing(), {}},
+                                        .bearing_rule = BearingRule::leave_out,
+                                        .terms = {"left out: nothing"}}));
   ASSERT_EQ(lines.size(), 10u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];

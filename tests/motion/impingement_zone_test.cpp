@@ -49,6 +49,39 @@ TEST(ClockFace, RefusesPlanesWithoutTwelveOrThree) {
     EXPECT_THROW(clock_face(normal), UsageError);
 }
 
+/// A bowl about the origin, open along `opening`, whose rim is cut away around `notch`.
+TriMesh bowl(const Vec3& opening, const Vec3& notch, double notch_width_deg) {
+  TriMesh shell = sphere({0, 0, 0}, 27, 5), bowl{shell.vertices, {}};
+  for (const Triangle& t : shell.triangles) {
+    const Vec3 middle = (shell.vertices[t[0]] + shell.vertices[t[1]] + shell.vertices[t[2]]) / 81;
+    const Vec3 in_plane = (middle - middle.dot(opening) * opening).normalized();
+    const bool in_notch = in_plane.dot(notch) > std::cos(notch_width_deg / 2 * deg);
+    if (middle.dot(opening) < (in_notch ? -0.55 : 0.0)) bowl.triangles.push_back({t[0], t[2], t[1]});
+  }
+  return bowl;
+}
+
+TEST(RimClock, LiesInThePlaneOfTheRimWithSixAtTheNotch) {
+  for (const double side : {1.0, -1.0}) {
+    // Opening to the side, down and forwards, the notch down and a little forwards.
+    const Vec3 opening = Vec3(0.3, -0.65, side * 0.7).normalized();
+    const Vec3 notch = (Vec3(0.25, -1, 0) - Vec3(0.25, -1, 0).dot(opening) * opening).normalized();
+    const auto clock = find_rim_clock(bowl(opening, notch, 50), {{0, 0, 0}, 24});
+    ASSERT_TRUE(clock);
+    // Sectors are 10 degrees wide and triangles of the bowl 3.
+    EXPECT_GT(clock->twelve.dot(-notch), std::cos(7 * deg));
+    EXPECT_LT(std::abs(clock->twelve.dot(opening)), std::sin(5 * deg));
+    EXPECT_LT(std::abs(clock->three.dot(opening)), std::sin(5 * deg));
+    EXPECT_GT(clock->three.x(), 0);
+    EXPECT_NEAR(clock->hour_of(notch), 6, 0.25);
+  }
+}
+
+TEST(RimClock, IsNotInventedWithoutANotchOrARim) {
+  EXPECT_FALSE(find_rim_clock(bowl(Vec3::UnitZ(), Vec3::UnitX(), 0), {{0, 0, 0}, 24}));
+  EXPECT_FALSE(find_rim_clock(box({100, 100, 100}, {110, 110, 110}), {{0, 0, 0}, 24}));
+}
+
 /// A head of radius 24 with a bar of half width 9 along the direction.
 TriMesh head_and_neck(const Vec3& direction) {
   TriMesh bar = box({-9, -9, 10}, {9, 9, 80});

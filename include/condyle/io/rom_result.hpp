@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/clock_face.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
@@ -25,6 +26,9 @@ struct RomResult {
   /// What contacts are told apart by, and whether bearing contact counts.
   BearingFinding bearing = {};
   BearingRule bearing_rule = BearingRule::count;
+  /// The clock on which contacts are read, and which one it is.
+  ClockFace clock = sagittal_clock();
+  ClockPlane clock_plane = ClockPlane::sagittal;
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
   std::vector<std::string> terms = {};
   /// One per limit where a depth was allowed, none where limits are exact.

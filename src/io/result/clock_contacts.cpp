@@ -15,8 +15,9 @@ constexpr double farthest_rim = 1.6;
 std::optional<double> clock_hour(const RomResult& result, const MotionLimit& limit) {
   if (result.joint.kind != JointKind::ball || !limit.end.contact) return std::nullopt;
   const Vec3& point = limit.end.contact->fixed_point;
-  if (result.bearing.surface && point.norm() > farthest_rim * result.bearing.surface->head.radius) return std::nullopt;
-  return sagittal_clock().hour_of(point);
+  if (result.bearing.surface && point.norm() > farthest_rim * result.bearing.surface->head.radius)
+    return std::nullopt;
+  return result.clock.hour_of(point);
 }
 
 std::vector<ClockContact> clock_contacts(const RomResult& result) {

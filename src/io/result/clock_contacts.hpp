@@ -8,7 +8,7 @@
 
 namespace condyle::io {
 
-/// Direction of the limit's contact on the socket's clock, the sagittal one: 12 superior and 3 anterior on
+/// Direction of the limit's contact on the result's clock: 12 superior and 3 anterior on
 /// either side. None for a hinge, without contact, and far from the rim.
 std::optional<double> clock_hour(const RomResult& result, const MotionLimit& limit);
 

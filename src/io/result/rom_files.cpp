@@ -103,11 +103,15 @@ void write_rom(const std::filesystem::path& folder, const RomResult& result) {
       out.file("limits.svg"),
       io::limits_plot({name, "How far each motion turns from its start"}, result.limits, result.bands));
   if (result.joint.kind == JointKind::ball)
-    io::write_whole_file(out.file("clock_face.svg"),
-                         io::clock_face_plot({name,
-                                              "Where motions end, seen from the joint centre in the sagittal "
-                                              "plane: 12 superior, 3 anterior"},
-                                             io::clock_contacts(result)));
+    io::write_whole_file(
+        out.file("clock_face.svg"),
+        io::clock_face_plot(
+            {name, result.clock_plane == ClockPlane::rim
+                       ? "Where motions end, seen from the joint centre in the plane of the rim: "
+                         "6 at the notch, 3 anterior"
+                       : "Where motions end, seen from the joint centre in the sagittal plane: "
+                         "12 superior, 3 anterior"},
+            io::clock_contacts(result)));
   write_bearing(out, result);
   write_zones(out, result);
   if (result.map) write_map(out, *result.map, name);

@@ -397,6 +397,7 @@ std::string rom_json(const RomResult& result) {
             {"mobile", result.joint.mobile.name},
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
+            {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},
             {"terms", result.terms},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
   json["motions"] = Json::array();
@@ -414,8 +415,9 @@ std::string rom_text(const RomResult& result) {
   };
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
-      clock{Align::right, {"sagittal clock"}}, bearing{Align::right, {"bearing (deg)"}},
-      centres{Align::right, {"centres (mm)"}}, space{Align::right, {"space (mm)"}};
+      clock{Align::right, {result.clock_plane == ClockPlane::rim ? "rim clock" : "sagittal clock"}},
+      bearing{Align::right, {"bearing (deg)"}}, centres{Align::right, {"centres (mm)"}},
+      space{Align::right, {"space (mm)"}};
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
     const MotionLimit& limit = result.limits[i];
     name.cells.push_back(limit.motion.name);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "kinematics/socket_rim.hpp"
 
 namespace condyle {
 namespace {
@@ -42,6 +43,14 @@ ClockFace clock_face(const Vec3& normal) {
 
 ClockFace sagittal_clock() {
   return {Vec3::UnitY(), Vec3::UnitX()};
+}
+
+std::optional<ClockFace> find_rim_clock(const TriMesh& fixed, const Sphere& head) {
+  const auto rim = kinematics::socket_rim(fixed, head);
+  if (!rim || !rim->plane) return std::nullopt;
+  const Vec3 twelve = -rim->plane->notch, across = rim->plane->normal.cross(twelve);
+  if (std::abs(across.x()) < smallest_sine) return std::nullopt;
+  return ClockFace{twelve, across.x() > 0 ? across : Vec3(-across)};
 }
 
 std::optional<NeckAxis> find_neck_axis(const TriMesh& mobile, double head_radius_mm) {
