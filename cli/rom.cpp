@@ -22,6 +22,7 @@
 #include "condyle/io/rom_result.hpp"
 #include "condyle/motion_map.hpp"
 #include "map.hpp"
+#include "notes.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -40,6 +41,7 @@ struct Options {
   BearingOptions bearing;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   ReferenceContact reference_contact = ReferenceContact::refuse;
+  Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
@@ -158,6 +160,7 @@ void run(const Options& options) {
       with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions), options.motions);
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
   const RangeOptions asked = range_options(options, loaded.report.file.joint.reference_pose);
+  const std::vector<JointNote> notes = noted(loaded, options.strictness);
   std::optional<ZoneFinder> finder;
   if (options.past_deg)
     finder.emplace(joint, ZoneOptions{.bearing = options.bearing, .past = Angle::degrees(*options.past_deg)});
@@ -189,6 +192,7 @@ void run(const Options& options) {
                          .bearing = found.bearing,
                          .bearing_rule = found.bearing_rule,
                          .terms = found.terms,
+                         .notes = notes,
                          .depths = found.depths,
                          .zones = zones,
                          .map = map ? &*map : nullptr,
@@ -261,6 +265,7 @@ void add_rom(CLI::App& app) {
                       "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  add_strict(*command, options->strictness);
   command->callback([options] { run(*options); });
 }
 

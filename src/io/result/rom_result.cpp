@@ -375,6 +375,7 @@ std::string rom_json(const RomResult& result) {
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
             {"terms", result.terms},
+            {"notes", io::notes_json(result.notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
