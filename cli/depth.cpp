@@ -12,6 +12,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "mesh/require_solid.hpp"
+#include "notes.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -24,6 +25,7 @@ struct Options {
   Method method = Method::radial;
   std::string about = "flexion";
   Scope scope = Scope::vertices_and_pairs;
+  Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
@@ -51,7 +53,7 @@ void run(const Options& options) {
   const Joint& joint = loaded.joint;
   const JointAngles angles = parse_pose(options.pose, joint.kind);
   if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
-  const DepthQuestion question{joint, angles, pose_at(joint.side, angles)};
+  const DepthQuestion question{joint, angles, pose_at(joint.side, angles), noted(loaded, options.strictness)};
   const JointContact contact(joint);
   const DepthResult result = options.method == Method::radial
                                  ? by_radial(question, contact)
@@ -92,6 +94,7 @@ void add_depth(CLI::App& app) {
       "Accept open meshes: intersecting triangle pairs, and vertices only against a body that is closed");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  add_strict(*command, options->strictness);
   command->callback([options] { run(*options); });
 }
 

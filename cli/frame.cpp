@@ -3,22 +3,26 @@
 #include <CLI/Formatter.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "answer.hpp"
 #include "commands.hpp"
 #include "condyle/io/frame_result.hpp"
+#include "notes.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct Options {
   std::string joint;
+  Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
 void run(const Options& options) {
   const LoadedJoint joint = read_joint(options.joint);
-  print(options.form == AnswerForm::json ? to_json(joint) : to_text(joint));
+  const std::vector<JointNote> notes = noted(joint, options.strictness);
+  print(options.form == AnswerForm::json ? to_json(joint, notes) : to_text(joint));
 }
 
 }  // namespace
@@ -26,11 +30,12 @@ void run(const Options& options) {
 void add_frame(CLI::App& app) {
   auto* command =
       app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
-  command->footer("Example: condyle frame right_hip.toml --json");
+  command->footer("Example: condyle frame right_hip.toml --json --strict");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  add_strict(*command, options->strictness);
   command->callback([options] { run(*options); });
 }
 

@@ -22,6 +22,7 @@
 #include "condyle/io/rom_result.hpp"
 #include "condyle/motion_map.hpp"
 #include "map.hpp"
+#include "notes.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -43,6 +44,7 @@ struct Options {
   ReferenceContact reference_contact = ReferenceContact::refuse;
   Task task = Task::limits;
   ClockPlane clock = ClockPlane::sagittal;
+  Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
 
@@ -190,6 +192,7 @@ void run(const Options& options) {
   if (options.task == Task::list_motions) return print(list_of(motions));
   const std::optional<MapGrid> grid = grid_of(options, joint.kind);
   const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose);
+  const std::vector<JointNote> notes = noted(loaded, options.strictness);
   std::optional<ZoneFinder> finder;
   if (options.past_deg)
     finder.emplace(joint, ZoneOptions{.bearing = options.bearing, .past = Angle::degrees(*options.past_deg)});
@@ -223,6 +226,7 @@ void run(const Options& options) {
                          .clock = clock_of(options, joint, found.bearing),
                          .clock_plane = options.clock,
                          .terms = found.terms,
+                         .notes = notes,
                          .depths = found.depths,
                          .zones = zones,
                          .map = map ? &*map : nullptr,
@@ -310,6 +314,7 @@ void add_rom(CLI::App& app) {
                       "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  add_strict(*command, options->strictness);
   command->callback([options] { run(*options); });
 }
 

@@ -24,6 +24,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/fit.hpp"
 #include "condyle/make_joint.hpp"
+#include "condyle/joint_checks.hpp"
 
 // One pose.
 #include "condyle/point_state.hpp"

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
 
 /// The centre of a ball joint, from the surface of its head or socket, and the axis of a hinge, from the
@@ -38,12 +39,15 @@ struct SphereSearch {
   double smallest_radius = 10;  ///< heads of children's femora and of adult humeri lie well inside
   double largest_radius = 45;
   std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered
+  std::size_t resamples = 0;          ///< fits to resampled parts of the surface, for a bound on the centre
 };
 
 /// A spherical part of a surface.
 struct SphericalPatch {
   SphereFit fit;
   double coverage;  ///< its area over that of the whole sphere; a femoral head has 0.6 to 0.8
+  /// Of the centre, mm: 95 % of fits to resampled parts lie within. Where resamples were asked for.
+  std::optional<double> centre_bound_mm = {};
 };
 
 /// The spherical part of a surface that covers most of its sphere: found without a hint, fitted only to the
@@ -63,11 +67,19 @@ struct CylinderFit {
   double rms_residual;          ///< of the distance to the axis minus the radius, mm
   double largest_residual;      ///< its largest magnitude, mm
   std::vector<Index> vertices;  ///< used, ascending
+  double coverage = 0;          ///< the share of a turn about the axis in which there are vertices
+  /// Of the direction, and of the axis beside its point, mm: 95 % of fits to resampled parts lie within. Given by
+  /// find_cylinder().
+  std::optional<Angle> direction_bound = {};
+  std::optional<double> axis_bound_mm = {};
 };
 
 /// The cylinder near `start` that minimises the sum of squared distances of these points to it. Throws
 /// MeshError where the points leave it undetermined (fewer than five, or all on one line or plane).
 CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, const Cylinder& start);
+
+/// Parts of one surface that give axes farther apart give no axis.
+inline constexpr Angle largest_direction_bound = Angle::degrees(15);
 
 /// Where a cylindrical part is looked for. Lengths in mm.
 struct CylinderSearch {
@@ -79,7 +91,9 @@ struct CylinderSearch {
 /// The cylindrical part of a surface that has most area for its radius squared (the angle around the axis
 /// times the length in radii, so that a long and full one wins): found without a hint, fitted only to the
 /// vertices of that part. On a whole long bone that is its shaft: limit the search to the condyles to get
-/// those. Deterministic. Throws MeshError where no part of the surface is cylindrical.
+/// those, and inside a ball the part with most area is taken and may be as imperfect as a talar dome, whose residuals
+/// are a twentieth of its radius. Deterministic. Throws MeshError where no part of the surface is cylindrical, or where
+/// its parts do not agree on a direction within largest_direction_bound.
 CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search = {});
 
 }  // namespace condyle

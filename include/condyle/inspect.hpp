@@ -36,6 +36,13 @@ struct BoundaryLoop {
   Vec3 centre;  ///< Mean of the edges' middles: where to look for it.
 };
 
+/// Two triangles of one mesh, the smaller number first.
+struct TriangleCrossing {
+  Index first, second;
+
+  friend bool operator==(const TriangleCrossing&, const TriangleCrossing&) = default;
+};
+
 /// Triangles that hang together over edges, two triangles' or more. Solids that touch in a vertex are two
 /// components.
 struct MeshComponent {
@@ -94,6 +101,8 @@ struct MeshReport {
   Finding<Index> duplicate_vertices;
   /// Closed, with negative volume; numbers in `components`.
   Finding<Index> inverted_components;
+  /// Share a point and no vertex.
+  Finding<TriangleCrossing> self_crossings;
 
   std::vector<MeshComponent> components;  ///< By first triangle.
 
@@ -109,7 +118,7 @@ struct MeshReport {
   bool is_closed() const noexcept { return unbalanced_edges.count == 0; }
 };
 
-/// Looks at everything once, in n log n.
+/// Looks at everything once, in n log n unless it crosses itself all over.
 MeshReport inspect(const Mesh& mesh);
 
 /// The report's guess of the unit, without the rest of it. Linear.

@@ -67,13 +67,14 @@ struct BodyPlacement {
 
 /// How the meshes came into the joint frame, for checking.
 struct JointPlacement {
-  Pose X_WF;                             ///< the joint frame in W, mm
-  std::optional<SphericalPatch> sphere;  ///< the fit that gave the centre of a ball
-  std::optional<CylinderFit> cylinder;   ///< the fit that gave the axis of a hinge
-  Angle axis_rotation;                   ///< from the Z axis of the description to the fitted one
-  AxisErrors axis_errors{0, 0, 0};       ///< of the directions as given; removed
-  JointAngles reference_pose = {};       ///< as described, or as it follows from the landmarks of both bodies
-  bool pose_from_landmarks = false;      ///< of both bodies
+  Pose X_WF;                                ///< the joint frame in W, mm
+  std::optional<SphericalPatch> sphere;     ///< the fit that gave the centre of a ball
+  std::optional<CylinderFit> cylinder;      ///< the fit that gave the axis of a hinge
+  BodyRole fitted_body = BodyRole::mobile;  ///< that either was fitted to
+  Angle axis_rotation;                      ///< from the Z axis of the description to the fitted one
+  AxisErrors axis_errors{0, 0, 0};          ///< of the directions as given; removed
+  JointAngles reference_pose = {};   ///< as described, or as it follows from the landmarks of both bodies
+  bool pose_from_landmarks = false;  ///< of both bodies
   BodyPlacement fixed, mobile;
   std::vector<std::string> notes;  ///< one line each: which axes were corrected, what was fitted
 };

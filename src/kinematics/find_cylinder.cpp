@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
+#include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
 
 namespace condyle {
@@ -36,8 +37,23 @@ constexpr double smallest_cosine = 0.866;
 /// ... and its distance within 3 robust deviations, at least and at most these parts of the radius.
 constexpr double deviations_kept = 3;
 constexpr double narrowest_band = 1e-6;
-constexpr double first_band = 0.10;
-constexpr double widest_band = 0.05;
+
+/// How round a part must be, and which of two is better.
+struct Strictness {
+  double first_band, widest_band;  ///< parts of the radius
+  bool in_radii;                   ///< area in squared radii, so that a long and full one wins; else area
+};
+constexpr Strictness strictly{0.10, 0.05, true};
+
+/// Somebody who gives a ball says where to look: what is most of the surface there may be a talar dome (rms residual of
+/// a twentieth of the radius, three of which are kept), and is not outdone by a rounded edge. On a whole bone such bands
+/// would make one cylinder of a shaft and its condyles.
+constexpr Strictness loosely{0.20, 0.15, false};
+
+/// The strict part tells the axis better, where there is one: a dome and the flanks below it are one loose cylinder. On
+/// an uneven dome it is a piece that happens to look round, whose direction (cosine of 5 degrees) or area (share) is
+/// not that of the loose part.
+constexpr double agreeing_direction = 0.996, least_share = 0.4;
 
 /// A candidate this near (in radii, and cosine of 10 degrees) to a part already found would grow into the
 /// same part.
@@ -46,14 +62,14 @@ constexpr double same_direction = 0.985;
 
 /// What a cylindrical part must have: rays spread around the axis (the smaller eigenvalue of the mean of u
 /// u^T across it is 1/2 for a half circle, 0.1 for an arc of 64 degrees) and a length, in radii: the strip
-/// where a sphere touches a cylinder from inside is at most 2 sqrt(2 widest_band) = 0.63 radii long.
+/// where a sphere touches a cylinder from inside is at most 2 sqrt(2 widest_band) = 0.63 radii long, in a ball 1.1.
 constexpr double smallest_spread = 0.10;
 constexpr double smallest_length = 1.0;
 constexpr std::size_t fewest_vertices = 12;
 
 struct Candidate {
   Cylinder cylinder;
-  double score;  ///< area in squared radii
+  double score;  ///< area, in squared radii where strict
 };
 
 bool belongs(const kinematics::SurfacePoint& p, const Cylinder& c, double band) noexcept {
@@ -99,7 +115,7 @@ std::vector<Index> spread_evenly(const std::vector<kinematics::SurfacePoint>& po
 }
 
 std::vector<Candidate> candidates(const std::vector<kinematics::SurfacePoint>& points,
-                                  const CylinderSearch& search) {
+                                  const CylinderSearch& search, const Strictness& strict) {
   const auto scored = spread_evenly(points, scored_vertices);
   std::vector<Candidate> found;
   for (const Index first : spread_evenly(points, first_vertices)) {
@@ -113,8 +129,8 @@ std::vector<Candidate> candidates(const std::vector<kinematics::SurfacePoint>& p
       if (!cylinder) continue;
       double area = 0;
       for (const Index i : scored)
-        if (belongs(points[i], *cylinder, widest_band * cylinder->radius)) area += points[i].area;
-      found.push_back({*cylinder, area / (cylinder->radius * cylinder->radius)});
+        if (belongs(points[i], *cylinder, strict.widest_band * cylinder->radius)) area += points[i].area;
+      found.push_back({*cylinder, strict.in_radii ? area / (cylinder->radius * cylinder->radius) : area});
     }
   }
   const std::size_t kept = std::min(found.size(), candidates_kept);
@@ -126,8 +142,8 @@ std::vector<Candidate> candidates(const std::vector<kinematics::SurfacePoint>& p
 
 struct Part {
   CylinderFit fit;
-  double
-      score;  ///< area in squared radii, the angle around the axis times the length in radii; 0 for a strip
+  /// Area; where strict in squared radii: the angle around the axis times the length in radii. 0 for a strip.
+  double score;
 };
 
 bool near(const Cylinder& a, const Cylinder& b) noexcept {
@@ -137,7 +153,7 @@ bool near(const Cylinder& a, const Cylinder& b) noexcept {
 }
 
 double score(const std::vector<kinematics::SurfacePoint>& points, const std::vector<Index>& part,
-             const Cylinder& c) {
+             const Cylinder& c, const Strictness& strict) {
   Eigen::Matrix3d rays = Eigen::Matrix3d::Zero();
   double area = 0, low = 0, high = 0;
   for (const Index i : part) {
@@ -152,15 +168,15 @@ double score(const std::vector<kinematics::SurfacePoint>& points, const std::vec
   const Vec3 spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rays / area, Eigen::EigenvaluesOnly).eigenvalues();
   if (spread[1] < smallest_spread || high - low < smallest_length * c.radius) return 0;
-  return area / (c.radius * c.radius);
+  return strict.in_radii ? area / (c.radius * c.radius) : area;
 }
 
 /// Fits, keeps what lies within the band of the fit, connected, and fits again until the same vertices come
 /// back.
 std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
-                          Cylinder cylinder, const CylinderSearch& search) {
+                          Cylinder cylinder, const CylinderSearch& search, const Strictness& strict) {
   constexpr int most_rounds = 60;
-  double band = first_band * cylinder.radius;
+  double band = strict.first_band * cylinder.radius;
   std::vector<Index> part;
   for (int round = 0; round < most_rounds; ++round) {
     std::vector<Index> on;
@@ -180,35 +196,112 @@ std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::Sur
     cylinder = fit.cylinder;
     if (cylinder.radius < search.smallest_radius || cylinder.radius > search.largest_radius)
       return std::nullopt;
-    if (same) return Part{std::move(fit), score(points, part, cylinder)};
+    if (same) return Part{std::move(fit), score(points, part, cylinder, strict)};
     std::vector<double> residuals;
     for (const Index v : vertices)
       residuals.push_back((mesh.vertices[v] - cylinder.point).cross(cylinder.direction).norm() -
                           cylinder.radius);
     band = std::clamp(deviations_kept * kinematics::robust_deviation(std::move(residuals)),
-                      narrowest_band * cylinder.radius, widest_band * cylinder.radius);
+                      narrowest_band * cylinder.radius, strict.widest_band * cylinder.radius);
   }
   return std::nullopt;
+}
+
+/// Bounds from patches: so many sectors about the axis, and so many slices along it.
+constexpr int sectors = 9, slices = 3;
+
+void add_bounds(const TriMesh& mesh, CylinderFit& fit) {
+  const Cylinder c = fit.cylinder;
+  double low = 0, high = 0;
+  for (const Index v : fit.vertices) {
+    const double height = (mesh.vertices[v] - c.point).dot(c.direction);
+    low = std::min(low, height), high = std::max(high, height);
+  }
+  const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
+  const auto block_of = [&](Index v) {
+    const Vec3 q = mesh.vertices[v] - c.point;
+    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5,
+                 height = (q.dot(c.direction) - low) / (high - low);
+    const auto part = [](double share, int parts) {
+      return std::min(static_cast<int>(share * parts), parts - 1);
+    };
+    return std::int64_t{part(turn, sectors)} * slices + part(height, slices);
+  };
+  constexpr std::size_t unknowns = 5;
+  const auto resamples = kinematics::resampled(fit.vertices, kinematics::usual_resamples, unknowns, block_of);
+  std::vector<double> turns, shifts;
+  for (const std::vector<Index>& drawn : resamples.draws) {
+    try {
+      const Cylinder other = fit_cylinder(mesh.vertices, drawn, c).cylinder;
+      shifts.push_back((other.point - c.point).cross(other.direction).norm());
+      turns.push_back(
+          std::atan2(other.direction.cross(c.direction).norm(), std::abs(other.direction.dot(c.direction))));
+    } catch (const MeshError&) {  // no axis at all
+      shifts.push_back(c.radius);
+      turns.push_back(two_pi / 4);
+    }
+  }
+  fit.direction_bound = Angle::radians(kinematics::upper_bound_of(std::move(turns)) * resamples.widening);
+  fit.axis_bound_mm = kinematics::upper_bound_of(std::move(shifts)) * resamples.widening;
+}
+
+/// With loose bands the belt of a ball is long enough to be a cylinder; a sphere fits it much better.
+bool is_belt_of_a_ball(const TriMesh& mesh, const CylinderFit& fit) {
+  try {
+    return fit_sphere(mesh.vertices, fit.vertices).rms_residual < fit.rms_residual / 2;
+  } catch (const MeshError&) {
+    return false;
+  }
+}
+
+std::optional<Part> best_part(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
+                              const CylinderSearch& search, const Strictness& strict) {
+  std::vector<Part> parts;
+  if (points.size() >= fewest_vertices) {
+    for (const Candidate& candidate : candidates(points, search, strict)) {
+      const auto known = [&](const Part& part) { return near(candidate.cylinder, part.fit.cylinder); };
+      if (std::any_of(parts.begin(), parts.end(), known)) continue;
+      if (auto part = grown(mesh, points, candidate.cylinder, search, strict))
+        parts.push_back(std::move(*part));
+    }
+  }
+  const auto best = std::max_element(parts.begin(), parts.end(),
+                                     [](const Part& a, const Part& b) { return a.score < b.score; });
+  if (best == parts.end() || best->score == 0) return std::nullopt;
+  return std::move(*best);
+}
+
+std::optional<Part> best_part(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
+                              const CylinderSearch& search) {
+  auto strict = best_part(mesh, points, search, strictly);
+  if (!search.within) return strict;
+  auto loose = best_part(mesh, points, search, loosely);
+  if (loose && is_belt_of_a_ball(mesh, loose->fit)) return std::nullopt;
+  if (!loose || !strict) return loose;
+  const Cylinder &s = strict->fit.cylinder, &l = loose->fit.cylinder;
+  const bool agree = std::abs(s.direction.dot(l.direction)) >= agreeing_direction &&
+                     strict->score * s.radius * s.radius >= least_share * loose->score;
+  return agree ? std::move(strict) : std::move(loose);
 }
 
 }  // namespace
 
 CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search) {
   const auto points = kinematics::surface_points(mesh, search.within);
-  std::vector<Part> parts;
-  if (points.size() >= fewest_vertices) {
-    for (const Candidate& candidate : candidates(points, search)) {
-      const auto known = [&](const Part& part) { return near(candidate.cylinder, part.fit.cylinder); };
-      if (std::any_of(parts.begin(), parts.end(), known)) continue;
-      if (auto part = grown(mesh, points, candidate.cylinder, search)) parts.push_back(std::move(*part));
-    }
-  }
-  const auto best = std::max_element(parts.begin(), parts.end(),
-                                     [](const Part& a, const Part& b) { return a.score < b.score; });
-  if (best == parts.end() || best->score == 0) {
+  auto best = best_part(mesh, points, search);
+  if (!best) {
     std::ostringstream message;
     message << "no cylindrical part with a radius from " << search.smallest_radius << " to "
             << search.largest_radius << " mm among " << points.size() << " vertices";
+    throw MeshError(message.str());
+  }
+  add_bounds(mesh, best->fit);
+  if (const Angle bound = *best->fit.direction_bound; bound > largest_direction_bound) {
+    std::ostringstream message;
+    message << "the best cylindrical part, of radius " << best->fit.cylinder.radius
+            << " mm with rms residual " << best->fit.rms_residual << " mm over " << best->fit.vertices.size()
+            << " vertices, leaves its axis open: parts of it give directions up to " << bound.degrees()
+            << " degrees off";
     throw MeshError(message.str());
   }
   return std::move(best->fit);

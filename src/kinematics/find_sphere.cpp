@@ -3,13 +3,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <sstream>
 #include <unordered_map>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
+#include "kinematics/resampling.hpp"
 #include "kinematics/surface_points.hpp"
 
 namespace condyle {
@@ -49,6 +52,9 @@ constexpr double deviations_kept = 3;
 constexpr double narrowest_band = 1e-6;
 constexpr double first_band = 0.10;
 constexpr double widest_band = 0.05;
+
+/// Robust deviations from a socket within which a vertex belongs to it and not to its fossa's floor.
+constexpr double floor_deviations = 3;
 
 /// What a spherical part must have: a tenth of its sphere, and rays spread in all three directions. The
 /// smallest eigenvalue of the mean of u u^T is 1/3 for a hemisphere and 0.15 for a cap of 48 degrees; for the
@@ -220,6 +226,78 @@ std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::Sur
   return std::nullopt;
 }
 
+/// A socket without the floor of its fossa, which lies a few millimetres deeper and draws the sphere towards it: fitted to
+/// the nearer two thirds of the part, again until they stay the same (concentration steps of least trimmed squares,
+/// Rousseeuw and Van Driessen 2006), then to all that lies within the deviations of these.
+SphericalPatch without_floor(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
+                             SphericalPatch whole) {
+  constexpr int most_rounds = 100;
+  SphereFit fit = whole.fit;
+  std::vector<Index> part;  // positions in `points`; both are ascending by vertex
+  for (std::size_t i = 0; i < points.size() && part.size() < fit.vertices.size(); ++i)
+    if (points[i].vertex == whole.fit.vertices[part.size()]) part.push_back(static_cast<Index>(i));
+  const auto distance = [&](Index i) {
+    return std::abs((points[i].position - fit.sphere.centre).norm() - fit.sphere.radius);
+  };
+  const auto held = static_cast<std::ptrdiff_t>(part.size() * 2 / 3);
+  const auto refitted = [&](std::vector<Index> kept) {
+    std::sort(kept.begin(), kept.end());
+    fit = fit_sphere(mesh.vertices, kinematics::vertices_of(points, kept));
+    return kept;
+  };
+  std::vector<Index> kept = part;
+  try {
+    for (int round = 0; round < most_rounds; ++round) {
+      std::vector<Index> nearer = part;
+      std::nth_element(nearer.begin(), nearer.begin() + held, nearer.end(), [&](Index a, Index b) {
+        return std::pair(distance(a), a) < std::pair(distance(b), b);
+      });
+      nearer.resize(static_cast<std::size_t>(held));
+      nearer = refitted(std::move(nearer));
+      if (std::exchange(kept, nearer) == nearer) break;
+    }
+    std::vector<double> distances;
+    for (const Index i : part) distances.push_back(distance(i));
+    const double band = std::max(floor_deviations * kinematics::robust_deviation(std::move(distances)),
+                                 narrowest_band * fit.sphere.radius);
+    std::vector<Index> all;
+    std::copy_if(part.begin(), part.end(), std::back_inserter(all),
+                 [&](Index i) { return distance(i) <= band; });
+    kept = refitted(std::move(all));
+    return measured(points, kept, std::move(fit)).patch;
+  } catch (const MeshError&) {
+    return whole;
+  }
+}
+
+/// Bound on the centre from patches: cells of a cube about it.
+double centre_bound(const TriMesh& mesh, const SphereFit& fit, std::size_t resamples) {
+  constexpr int across = 2;
+  const Vec3 centre = fit.sphere.centre;
+  const auto block_of = [&](Index v) {
+    const Vec3 ray = mesh.vertices[v] - centre;
+    Eigen::Index axis = 0;
+    const double largest = ray.cwiseAbs().maxCoeff(&axis);
+    const auto part = [&](Eigen::Index other) {
+      const double share = largest > 0 ? (ray[other] / largest + 1) / 2 : 0;
+      return std::min(static_cast<std::int64_t>(share * across), std::int64_t{across - 1});
+    };
+    const std::int64_t face = 2 * axis + (ray[axis] > 0 ? 1 : 0);
+    return (face * across + part((axis + 1) % 3)) * across + part((axis + 2) % 3);
+  };
+  constexpr std::size_t unknowns = 4;
+  const auto drawn_parts = kinematics::resampled(fit.vertices, resamples, unknowns, block_of);
+  std::vector<double> moves;
+  for (const std::vector<Index>& drawn : drawn_parts.draws) {
+    try {
+      moves.push_back((fit_sphere(mesh.vertices, drawn).sphere.centre - centre).norm());
+    } catch (const MeshError&) {  // no centre at all
+      moves.push_back(fit.sphere.radius);
+    }
+  }
+  return kinematics::upper_bound_of(std::move(moves)) * drawn_parts.widening;
+}
+
 }  // namespace
 
 SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
@@ -249,6 +327,9 @@ SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
   const auto best = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
     return a.patch.coverage < b.patch.coverage;
   });
+  if (search.part == SphericalPart::socket) best->patch = without_floor(mesh, points, std::move(best->patch));
+  if (search.resamples > 0)
+    best->patch.centre_bound_mm = centre_bound(mesh, best->patch.fit, search.resamples);
   return std::move(best->patch);
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "condyle/error.hpp"
@@ -104,6 +105,19 @@ Vec3 largest_component_positive(const Vec3& direction) noexcept {
   return direction[largest] < 0 ? Vec3(-direction) : direction;
 }
 
+/// The share of a turn in which there are vertices: of so many sectors. Coarser than the edges of any bone fitted.
+double share_of_turn(PointsView points, std::span<const Index> vertices, const Axis& axis) {
+  constexpr std::size_t sectors = 36;
+  std::array<bool, sectors> taken{};
+  const auto [e1, e2] = across(axis.direction);
+  for (const Index v : vertices) {
+    const Vec3 q = points[v] - axis.point;
+    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
+    taken[std::min(static_cast<std::size_t>(turn * sectors), sectors - 1)] = true;
+  }
+  return static_cast<double>(std::count(taken.begin(), taken.end(), true)) / sectors;
+}
+
 }  // namespace
 
 CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, const Cylinder& start) {
@@ -137,7 +151,8 @@ CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, con
       {axis.point, largest_component_positive(axis.direction), mean_distance(points, vertices, axis)},
       std::sqrt(sum_of_squares(points, vertices, axis) / count),
       0,
-      {vertices.begin(), vertices.end()}};
+      {vertices.begin(), vertices.end()},
+      share_of_turn(points, vertices, axis)};
   for (const Index v : vertices) {
     const double distance = (points[v] - axis.point).cross(axis.direction).norm();
     fit.largest_residual = std::max(fit.largest_residual, std::abs(distance - fit.cylinder.radius));

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "kinematics/resampling.hpp"
 
 namespace condyle {
 namespace {
@@ -95,12 +96,14 @@ Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& place
 
 Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& body,
                   JointPlacement& placement) {
+  placement.fitted_body = fit.body;
   const Mesh mesh = placed(Pose::Identity(), scale_of(description.units), body);
   try {
     if (description.kind == JointKind::ball) {
       SphereSearch search;
       search.part = fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head;
       search.within = fit.within;
+      search.resamples = kinematics::usual_resamples;
       placement.sphere = find_sphere(mesh, search);
     } else {
       placement.cylinder = find_cylinder(mesh, {.within = fit.within});
@@ -150,17 +153,19 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
     const SphereFit& fit = placement.sphere->fit;
     notes.push_back(
         formatted("centre fitted: sphere of radius %.3f mm over %zu vertices, %.0f %% of the sphere, rms "
-                  "residual %.3f mm, largest %.3f mm",
+                  "residual %.3f mm, largest %.3f mm; centre within %.2f mm by resampling",
                   fit.sphere.radius, fit.vertices.size(), 100 * placement.sphere->coverage, fit.rms_residual,
-                  fit.largest_residual));
+                  fit.largest_residual, placement.sphere->centre_bound_mm.value_or(0)));
   }
   if (placement.cylinder) {
     const CylinderFit& fit = *placement.cylinder;
-    notes.push_back(
-        formatted("axis fitted: cylinder of radius %.3f mm over %zu vertices, rms residual %.3f mm, "
-                  "largest %.3f mm; axes rotated by %.2f degrees to it",
-                  fit.cylinder.radius, fit.vertices.size(), fit.rms_residual, fit.largest_residual,
-                  placement.axis_rotation.degrees()));
+    notes.push_back(formatted(
+        "axis fitted: cylinder of radius %.3f mm over %zu vertices, %.0f %% of a turn, rms residual "
+        "%.3f mm, largest %.3f mm; direction within %.2f degrees and axis within %.2f mm by resampling; "
+        "axes rotated by %.2f degrees to it",
+        fit.cylinder.radius, fit.vertices.size(), 100 * fit.coverage, fit.rms_residual, fit.largest_residual,
+        fit.direction_bound.value_or(Angle()).degrees(), fit.axis_bound_mm.value_or(0),
+        placement.axis_rotation.degrees()));
   }
   return notes;
 }

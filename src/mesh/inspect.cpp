@@ -14,6 +14,7 @@
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/edge_table.hpp"
 #include "mesh/enclosed_volume.hpp"
+#include "mesh/self_crossings.hpp"
 
 namespace condyle {
 namespace {
@@ -208,6 +209,12 @@ void measure_components(Edges& edges, DisjointSets& fans, MeshReport& report) {
   if (report.is_closed()) report.signed_volume = total.value();
 }
 
+void find_self_crossings(const TriMesh& mesh, MeshReport& report) {
+  const mesh::SelfCrossings found = mesh::self_crossings(mesh);
+  report.self_crossings.count = found.pairs;
+  if (found.first) report.self_crossings.first = {(*found.first)[0], (*found.first)[1]};
+}
+
 void measure_surface(Edges& edges, MeshReport& report) {
   const TriMesh& mesh = edges.mesh;
   report.bounds = mesh::bounds_of_surface(mesh);
@@ -271,6 +278,7 @@ MeshReport inspect(const Mesh& mesh) {
   find_bad_edges(edges, report);
   find_boundary_loops(edges, report);
   find_non_manifold_vertices(mesh, fans, report);
+  find_self_crossings(mesh, report);
   measure_surface(edges, report);
   measure_components(edges, fans, report);
   report.likely_unit = likely_unit_of_size(report.bounds.diagonal());

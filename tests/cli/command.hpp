@@ -17,6 +17,9 @@ struct Ran {
 Ran run_condyle(const std::filesystem::path& folder, const std::string& arguments,
                 const std::string& redirections = "");
 
+/// What is left of standard error besides notes on a joint, which may come before an error.
+std::string without_notes(const std::string& text);
+
 /// Whether a text is one line "condyle: ..." and nothing else.
 bool is_one_error_line(const std::string& text);
 

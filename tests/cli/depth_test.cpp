@@ -146,7 +146,12 @@ TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
   write_mesh(folder / "sample/hip_bone.ply", open);
   expect_refused(4, "depth sample/hip.toml", "hip_bone.ply: an open boundary of 3 edges near (");
   expect_refused(4, "depth sample/hip.toml --method tangential --out result", "--pairs-only");
-  const Json json = answer(std::string("depth sample/hip.toml --pairs-only ") + deep);
+  const Ran ran = run(std::string("depth sample/hip.toml --pairs-only --json ") + deep);
+  EXPECT_EQ(ran.err,
+            "condyle: note: open_mesh: hip bone is open: one body inside the other would not be seen\n");
+  const Json json = Json::parse(ran.out);
+  ASSERT_EQ(json["notes"].size(), 1u);
+  EXPECT_EQ(json["notes"][0]["code"], "open_mesh");
   EXPECT_TRUE(json["mobile_vertices_inside"].is_null());
   EXPECT_FALSE(json["fixed_vertices_inside"].is_null());
   EXPECT_GT(json["triangle_pairs"], 0);
@@ -157,6 +162,27 @@ TEST_F(SampleJointCommand, AMeshOfInvertedOrientationIsRefusedWithItsRepair) {
   expect_refused(4, "depth sample/hip.toml", "femur.ply: inverted orientation");
   edit_joint("mesh = \"femur.ply\"", "mesh = \"femur.ply\"\nrepair = [\"flip_inverted\"]");
   EXPECT_FALSE(answer("depth sample/hip.toml")["in_contact"]);
+}
+
+TEST_F(SampleJointCommand, WhatLooksWrongIsNotedByEveryCommandAndAnErrorWhenStrict) {
+  EXPECT_EQ(run("frame sample/hip.toml --strict").err, "");
+  EXPECT_EQ(answer("depth sample/hip.toml --strict")["notes"], Json::array());
+  edit_joint("side = \"right\"", "side = \"left\"");
+  for (const char* command :
+       {"frame sample/hip.toml", "depth sample/hip.toml", "rom sample/hip.toml --motion flexion"}) {
+    const Ran ran = run(command + std::string(" --json"));
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("condyle: note: wrong_side: the side is left, but "))
+        << command << ran.err;
+    EXPECT_EQ(without_notes(ran.err), "");
+    const Json notes = Json::parse(ran.out)["notes"];
+    ASSERT_EQ(notes.size(), 1u) << command;
+    EXPECT_EQ(notes[0]["code"], "wrong_side");
+    EXPECT_TRUE(notes[0]["text"].get<std::string>().starts_with("the side is left")) << command;
+    expect_refused(4, command + std::string(" --strict"), "hip.toml: wrong_side: the side is left");
+  }
+  expect_refused(4, "depth sample/hip.toml --strict --out nothing", "(--strict)");
+  expect_refused(4, "rom sample/hip.toml --strict --out nothing", "(--strict)");
 }
 
 TEST_F(SampleJointCommand, ACentreOnTheSurfaceIsRefused) {

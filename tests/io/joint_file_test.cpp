@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/joint_checks.hpp"
 #include "core/predicates.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
@@ -293,14 +294,34 @@ TEST_F(ReadJoint, MeshesInContradictingUnitsAreRefusedNamingBoth) {
   EXPECT_NE(message.find("femur.ply like metres"), message.npos) << message;
 }
 
-TEST_F(ReadJoint, AUnitThatDoesNotFitTheMeshesIsReportedButFollowed) {
+TEST_F(ReadJoint, AUnitThatDoesNotFitTheMeshesIsNotedButFollowed) {
   write_mesh(folder / "hip_bone.ply", scaled(pelvis_like(), 0.001));
   write_mesh(folder / "femur.ply", scaled(femur_like(), 0.001));
   const auto [joint, report] = read(plain);
   EXPECT_EQ(joint.mobile.mesh, scaled(femur_like(), 0.001));
-  ASSERT_EQ(report.notes.size(), 2u);
-  EXPECT_NE(report.notes[1].find("femur.ply: the file says millimetres"), std::string::npos)
-      << report.notes[1];
+  const auto notes = check_joint(joint, report.placement);
+  ASSERT_EQ(notes.size(), 2u);
+  for (const JointNote& note : notes) EXPECT_EQ(note.code, JointNoteCode::unlikely_size) << note.text;
+  EXPECT_NE(notes[1].text.find("is it in metres?"), std::string::npos) << notes[1].text;
+}
+
+TEST_F(ReadJoint, ScannerAxesAreNamedByOneKey) {
+  const std::string axes = "anterior = [1.0, 0.0, 0.0]\nsuperior = [0.0, 1.0, 0.0]\n";
+  for (const auto& [name, anterior] :
+       {std::pair{"LPS", "[0.0, -1.0, 0.0]"}, std::pair{"RAS", "[0.0, 1.0, 0.0]"}}) {
+    const auto named = read(replaced(plain, axes, std::string("axes = \"") + name + "\"\n"));
+    const auto spelt =
+        read(replaced(plain, axes, std::string("anterior = ") + anterior + "\nsuperior = [0, 0, 1]\n"));
+    EXPECT_EQ(named.joint.mobile.mesh.vertices(), spelt.joint.mobile.mesh.vertices()) << name;
+    EXPECT_EQ(named.report.placement.X_WF.linear().col(1), Vec3(Vec3::UnitZ()));
+    EXPECT_TRUE(named.report.notes.empty());
+  }
+  EXPECT_NE(
+      refusal(replaced(plain, axes, "axes = \"LAS\"\n")).find("must be \"LPS\" or \"RAS\", not \"LAS\""),
+      std::string::npos);
+  EXPECT_NE(refusal(replaced(plain, axes, "axes = \"LPS\"\nsuperior = [0, 0, 1]\n"))
+                .find("frame.superior: frame.axes gives the axes already"),
+            std::string::npos);
 }
 
 TEST_F(ReadJoint, AMissingKeyIsNamed) {

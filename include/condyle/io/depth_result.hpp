@@ -7,6 +7,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/joint_checks.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
 
@@ -17,6 +18,7 @@ struct DepthQuestion {
   const Joint& joint;
   JointAngles angles;
   Pose X_FM;
+  std::vector<JointNote> notes = {};  ///< what looks wrong with the joint
 };
 
 /// A rotation axis, by its joint angle and as a direction in F.

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "condyle/io/joint_file.hpp"
+#include "condyle/joint_checks.hpp"
 
 /// What `condyle frame` shows: how a joint was made of its file. Keys of the JSON are listed in
 /// docs/joint-file.md.
@@ -11,6 +13,6 @@ namespace condyle {
 
 /// For people, and for programs: whole documents that end with a newline.
 std::string to_text(const LoadedJoint& joint);
-std::string to_json(const LoadedJoint& joint);
+std::string to_json(const LoadedJoint& joint, std::span<const JointNote> notes);
 
 }  // namespace condyle

@@ -44,7 +44,7 @@ struct JointReport {
   JointFile file;
   BodyReport fixed, mobile;
   JointPlacement placement;
-  /// One line each: what was converted, repaired, fitted, or looks wrong.
+  /// One line each: what was converted, repaired or fitted. What looks wrong is for check_joint().
   std::vector<std::string> notes;
 };
 

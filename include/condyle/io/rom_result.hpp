@@ -10,6 +10,7 @@
 #include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/joint_checks.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -31,6 +32,8 @@ struct RomResult {
   ClockPlane clock_plane = ClockPlane::sagittal;
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
   std::vector<std::string> terms = {};
+  /// What looks wrong with the joint.
+  std::span<const JointNote> notes = {};
   /// One per limit where a depth was allowed, none where limits are exact.
   std::span<const DepthLimit> depths = {};
   /// One per limit where zones were computed, none where not.

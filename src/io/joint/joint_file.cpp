@@ -109,9 +109,17 @@ void read_landmarks(io::TomlTable& landmarks, const Lengths& lengths, FrameDescr
 
 void read_axes(io::TomlTable& table, const Lengths& lengths, FrameDescription& frame) {
   if (auto landmarks = table.table("landmarks")) {
-    for (const auto key : {"anterior", "superior"})
+    for (const auto key : {"axes", "anterior", "superior"})
       if (table.has(key)) table.fail(key, "frame.landmarks gives the axes already: leave one of the two out");
     read_landmarks(*landmarks, lengths, frame);
+    return;
+  }
+  if (table.has("axes")) {
+    for (const auto key : {"anterior", "superior"})
+      if (table.has(key)) table.fail(key, "frame.axes gives the axes already: leave one of the two out");
+    // Both are named by where x, y and z point: Left Posterior Superior, Right Anterior Superior.
+    const bool lps = table.required_word("axes", {"LPS", "RAS"}) == 0;
+    frame.axes = FrameDirections{Vec3(0, lps ? -1 : 1, 0), Vec3::UnitZ()};
     return;
   }
   const auto anterior = table.triple("anterior"), superior = table.triple("superior");

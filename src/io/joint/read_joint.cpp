@@ -10,10 +10,6 @@
 namespace condyle {
 namespace {
 
-std::string_view name_of(LengthUnit unit) noexcept {
-  return unit == LengthUnit::metres ? "metres" : "millimetres";
-}
-
 /// A body by its file: that is what errors name.
 struct LoadedBody {
   Body body;
@@ -59,14 +55,6 @@ std::string file_name(const BodyReport& body) {
   return body.mesh.filename().string();
 }
 
-/// The unit is what the file says; meshes that look otherwise are reported.
-void note_doubtful_unit(const BodyReport& body, const LikelyUnit& likely, LengthUnit units,
-                        std::vector<std::string>& notes) {
-  if (likely.unit != units)
-    notes.push_back(
-        fmt::format("{}: the file says {}, but {}", file_name(body), name_of(units), likely.reason));
-}
-
 void note_repairs(const BodyReport& body, std::vector<std::string>& notes) {
   if (body.welded_vertices > 0)
     notes.push_back(fmt::format("{}: merged {} duplicate vertices", file_name(body), body.welded_vertices));
@@ -76,11 +64,9 @@ void note_repairs(const BodyReport& body, std::vector<std::string>& notes) {
 
 std::vector<std::string> notes_on(const JointReport& report) {
   std::vector<std::string> notes;
-  const LengthUnit units = report.file.joint.units;
   const JointPlacement& placement = report.placement;
-  note_doubtful_unit(report.fixed, placement.fixed.likely_unit, units, notes);
-  note_doubtful_unit(report.mobile, placement.mobile.likely_unit, units, notes);
-  if (units == LengthUnit::metres) notes.push_back("meshes and lengths converted from metres to mm");
+  if (report.file.joint.units == LengthUnit::metres)
+    notes.push_back("meshes and lengths converted from metres to mm");
   note_repairs(report.fixed, notes);
   note_repairs(report.mobile, notes);
   notes.insert(notes.end(), placement.notes.begin(), placement.notes.end());

@@ -16,7 +16,7 @@ Json pose_json(const Pose& X) {
 }  // namespace
 
 Json depth_header(const DepthQuestion& question, const char* method) {
-  const auto& [joint, angles, X_FM] = question;
+  const auto& [joint, angles, X_FM, notes] = question;
   return {{"condyle", format_version},
           {"joint", joint.name},
           {"fixed", joint.fixed.name},
@@ -27,11 +27,13 @@ Json depth_header(const DepthQuestion& question, const char* method) {
            {{"flexion", angles.flexion.degrees()},
             {"adduction", angles.adduction.degrees()},
             {"internal_rotation", angles.internal_rotation.degrees()}}},
-          {"X_FM", pose_json(X_FM)}};
+          {"X_FM", pose_json(X_FM)},
+          {"notes", notes_json(notes)}};
 }
 
 std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
-  const auto& [joint, angles, X_FM] = question;
+  const Joint& joint = question.joint;
+  const JointAngles& angles = question.angles;
   return fmt::format("{}: {} in {}, flexion {:g}, adduction {:g}, internal rotation {:g} deg\n", joint.name,
                      joint.mobile.name, joint.fixed.name, angles.flexion.degrees(),
                      angles.adduction.degrees(), angles.internal_rotation.degrees()) +

@@ -52,6 +52,7 @@ Json json_of(const SphericalPatch& head) {
           {"rms_residual_mm", head.fit.rms_residual},
           {"largest_residual_mm", head.fit.largest_residual},
           {"coverage", head.coverage},
+          {"centre_bound_mm", io::nullable(head.centre_bound_mm)},
           {"vertex_count", head.fit.vertices.size()},
           {"vertices", head.fit.vertices}};
 }
@@ -62,6 +63,9 @@ Json json_of(const CylinderFit& fit, Angle axis_rotation) {
           {"direction", io::numbers(fit.cylinder.direction)},
           {"rms_residual_mm", fit.rms_residual},
           {"largest_residual_mm", fit.largest_residual},
+          {"coverage", fit.coverage},
+          {"direction_bound_deg", fit.direction_bound ? Json(fit.direction_bound->degrees()) : Json()},
+          {"axis_bound_mm", io::nullable(fit.axis_bound_mm)},
           {"axis_rotation_deg", axis_rotation.degrees()},
           {"vertex_count", fit.vertices.size()},
           {"vertices", fit.vertices}};
@@ -90,7 +94,7 @@ std::string to_text(const LoadedJoint& loaded) {
   return out;
 }
 
-std::string to_json(const LoadedJoint& loaded) {
+std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
   Json out{{"file", report.file.path.string()},
@@ -109,7 +113,8 @@ std::string to_json(const LoadedJoint& loaded) {
                                     : Json();
   out["fixed"] = json_of(joint.fixed, report.fixed, placement.fixed.bounds);
   out["mobile"] = json_of(joint.mobile, report.mobile, placement.mobile.bounds);
-  out["notes"] = report.notes;
+  out["done"] = report.notes;
+  out["notes"] = io::notes_json(notes);
   return io::document(out);
 }
 

@@ -20,6 +20,9 @@ std::string text_of(Index element) {
 std::string text_of(const Edge& edge) {
   return fmt::format("{}-{}", edge.from, edge.to);
 }
+std::string text_of(const TriangleCrossing& pair) {
+  return fmt::format("triangles {} and {}", pair.first, pair.second);
+}
 std::string text_of(const BoundaryLoop& loop) {
   return fmt::format("{} edges from vertex {}, near ({:.6g}, {:.6g}, {:.6g})", loop.edges, loop.first.from,
                      loop.centre.x(), loop.centre.y(), loop.centre.z());
@@ -30,6 +33,9 @@ Json json_of(Index element) {
 }
 Json json_of(const Edge& edge) {
   return {edge.from, edge.to};
+}
+Json json_of(const TriangleCrossing& pair) {
+  return {pair.first, pair.second};
 }
 Json json_of(const BoundaryLoop& loop) {
   return {{"edges", loop.edges}, {"first_edge", json_of(loop.first)}, {"centre", io::numbers(loop.centre)}};
@@ -45,6 +51,7 @@ void for_each_finding(const MeshReport& r, const Visit& visit) {
   visit("non_manifold_vertices", "non-manifold vertices", r.non_manifold_vertices);
   visit("inconsistent_edges", "edges with inconsistent winding", r.inconsistent_edges);
   visit("inverted_components", "components of inverted orientation", r.inverted_components);
+  visit("self_crossings", "pairs of triangles that cross", r.self_crossings);
   visit("duplicate_triangles", "duplicate triangles", r.duplicate_triangles);
   visit("degenerate_triangles", "degenerate triangles", r.degenerate_triangles);
   visit("duplicate_vertices", "duplicate vertices", r.duplicate_vertices);

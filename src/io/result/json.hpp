@@ -2,8 +2,10 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 
+#include "condyle/joint_checks.hpp"
 #include "condyle/points.hpp"
 
 /// What all JSON answers have in common.
@@ -25,6 +27,13 @@ Json nullable(const std::optional<Value>& value) {
 
 inline Json numbers(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
+}
+
+/// What looks wrong with a joint, under `notes` in every answer for one.
+inline Json notes_json(std::span<const JointNote> notes) {
+  Json list = Json::array();
+  for (const JointNote& note : notes) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  return list;
 }
 
 /// A whole document; bytes of a name that are not UTF-8 are replaced.

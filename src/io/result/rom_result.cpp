@@ -399,6 +399,7 @@ std::string rom_json(const RomResult& result) {
             {"bearing", bearing_json(result)},
             {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},
             {"terms", result.terms},
+            {"notes", io::notes_json(result.notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));

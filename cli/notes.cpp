@@ -1,0 +1,34 @@
+#include "notes.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <string>
+
+#include "answer.hpp"
+#include "condyle/error.hpp"
+
+namespace condyle::cli {
+
+void add_strict(CLI::App& command, Strictness& strictness) {
+  command.add_flag_callback(
+      "--strict", [&strictness] { strictness = Strictness::errors; },
+      "Answer nothing, with exit code 4, where something looks wrong with the joint: side, axes, units, "
+      "centre, meshes");
+}
+
+std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness) {
+  std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
+  if (strictness == Strictness::errors && !notes.empty()) {
+    std::string all;
+    for (const JointNote& each : notes)
+      all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name_of(each.code), each.text);
+    throw MeshError(fmt::format("{}: {} (--strict)", joint.report.file.path.string(), all));
+  }
+  for (const JointNote& each : notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+  return notes;
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "condyle/io/joint_file.hpp"
+#include "condyle/joint_checks.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace condyle::cli {
+
+/// What notes on a joint are: remarks beside an answer, or errors instead of it.
+enum class Strictness { notes, errors };
+
+/// --strict for a command that answers for a joint; `strictness` is written while arguments are read.
+void add_strict(CLI::App& command, Strictness& strictness);
+
+/// Looks at a joint as it was read and says each note on standard error, before anything is computed: what fails later
+/// may fail for that. Where notes are errors, throws MeshError with all of them.
+std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness);
+
+}  // namespace condyle::cli

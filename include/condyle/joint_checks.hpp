@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/make_joint.hpp"
+
+/// What looks wrong with a joint: a side, axes, units or a centre that its meshes contradict, and meshes that not every
+/// question can be asked of. docs/joint-file.md has the table.
+
+namespace condyle {
+
+enum class JointNoteCode : std::uint8_t {
+  unlikely_size,             ///< No bone is so large or small.
+  open_mesh,                 ///< It has no inside.
+  inverted_mesh,             ///< Its volume is negative.
+  self_crossings,            ///< Over more than a sliver of its surface.
+  swapped_bodies,            ///< The head is on the fixed body.
+  low_coverage,              ///< Little of a sphere or of a turn was there to fit.
+  uncertain_fit,             ///< Parts of the surface give different centres or axes.
+  centre_off_head,           ///< The joint centre is not that of the head.
+  head_socket_apart,         ///< Head and socket have different centres.
+  socket_smaller_than_head,  ///< By their fitted radii.
+  axes_not_upright,          ///< Superior does not point up the bones.
+  axes_turned,               ///< Front and side are both exchanged, as where LPS is read as RAS.
+  wrong_side,                ///< The hip bone lies lateral of its socket.
+  mirrored,                  ///< Only front and back are exchanged.
+  bodies_disagree,           ///< The two bodies are of different sides.
+};
+
+/// As in files: "wrong_side".
+std::string_view name_of(JointNoteCode code) noexcept;
+
+struct JointNote {
+  JointNoteCode code;
+  std::string text;  ///< one sentence
+};
+
+/// A joint centre farther than this from that of the head, mm: limits change by 2 to 6 degrees with each millimetre.
+inline constexpr double farthest_from_head_mm = 2;
+/// Head and socket of the hips at hand are 1 mm apart: cartilage is thicker above than below.
+inline constexpr double farthest_head_from_socket_mm = 1.5;
+
+/// Looks at a joint as make_joint() placed it. Changes nothing and decides nothing: an answer stays what it is. Checks
+/// that do not apply say nothing: those of anatomy are for hips, known by a ball joint with most of a head on the
+/// mobile body, a shaft beyond it, and a socket round it on the fixed one.
+///
+///           hip bone
+///         |  mass: above and medial     ^ superior
+///          \   of the socket            |
+///           (  o )  opens forwards,     +--> lateral, front towards the reader
+///             / \    outwards, down
+///            neck: outwards, down
+///
+/// Searches both surfaces for spheres: half a second for 50,000 triangles, less where a fit gave the centre.
+std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement);
+
+}  // namespace condyle

@@ -1,0 +1,330 @@
+#include "condyle/joint_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "mesh/enclosed_volume.hpp"
+#include "mesh/self_crossings.hpp"
+
+namespace condyle {
+namespace {
+
+/// What human bones and their cartilages span, mm: as for likely_unit().
+constexpr double shortest_bone = 20, longest_bone = 1000, mm_per_m = 1000;
+
+/// The share of the surface that may cross itself unmentioned: 5 mm by 5 on a femur. Letters engraved into a real hip
+/// bone take a twentieth of it, two overlapping pieces of bone ten times as much.
+constexpr double largest_crossing_share = 5e-4;
+
+/// Of a sphere: femoral heads have 0.7 and more, half resected ones 0.4; sockets have 0.3.
+constexpr double fullest_stray_sphere = 0.4, least_socket_coverage = 0.2;
+/// Of a turn: a talar dome has a third.
+constexpr double least_cylinder_coverage = 0.2;
+
+/// Bounds of a good fit: a head's is 0.1 mm, a cylinder's of a whole turn less than a degree.
+constexpr double largest_centre_bound_mm = 1, largest_axis_bound_deg = 5;
+
+/// As the search for a bearing surface: a head near the joint centre, and how near one must be to be taken for it.
+constexpr double largest_head_reach = 90, farthest_stray_sphere = 5;
+
+/// The socket is looked for within so many head radii of the head's centre, with a radius up to the other.
+constexpr double socket_reach = 1.5, largest_socket = 1.4;
+
+/// A shaft or a hip bone has its mass farther from the head's centre than this, in radii; a cartilage has not.
+constexpr double least_lever = 1;
+
+/// Cosines. Right hips show 0.25 to 0.65 forwards and outwards, wrong ones as much the other way; and 0.75 to 1 upwards.
+constexpr double wrong_way = -0.1, upright = 0.3;
+
+/// printf into a string; for pieces of less than 200 characters.
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+class Notes {
+ public:
+  void add(JointNoteCode code, std::string text) { notes_.push_back({code, std::move(text)}); }
+  std::vector<JointNote> take() { return std::move(notes_); }
+
+ private:
+  std::vector<JointNote> notes_;
+};
+
+Vec3 centre_of_mass(const TriMesh& mesh) {
+  Vec3 sum = Vec3::Zero();
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double here = (b - a).cross(c - a).norm();
+    sum += here * (a + b + c) / 3;
+    area += here;
+  }
+  return area > 0 ? Vec3(sum / area) : Vec3(Vec3::Zero());
+}
+
+/// From the sphere's centre to where its part of the surface is missing: along the neck of a head, out of a socket.
+/// Zero where the part is nearly all of a sphere.
+Vec3 open_side(const TriMesh& mesh, const SphericalPatch& patch) {
+  std::vector<std::uint8_t> on(mesh.vertices.size());
+  for (const Index v : patch.fit.vertices) on[v] = 1;
+  Vec3 sum = Vec3::Zero();
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto [i, j, k] = mesh.triangles[t];
+    if (!(on[i] & on[j] & on[k])) continue;
+    const Vec3 a = mesh.vertices[i], b = mesh.vertices[j], c = mesh.vertices[k];
+    const double here = (b - a).cross(c - a).norm();
+    sum -= here * ((a + b + c) / 3 - patch.fit.sphere.centre).normalized();
+    area += here;
+  }
+  constexpr double whole = 0.05;  // a femoral head has 0.2, a socket 0.5
+  return sum.norm() > whole * area ? sum.normalized() : Vec3(Vec3::Zero());
+}
+
+std::optional<SphericalPatch> found_sphere(const TriMesh& mesh, const SphereSearch& search) {
+  try {
+    return find_sphere(mesh, search);
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
+/// The sphere round the joint centre, which bearing surfaces are told by; where it is not most of a head, one anywhere.
+std::optional<SphericalPatch> head_of(const Mesh& mesh) {
+  auto near_centre = found_sphere(mesh, {.within = Sphere{Vec3::Zero(), largest_head_reach}});
+  if (near_centre && near_centre->coverage >= fullest_stray_sphere) return near_centre;
+  auto anywhere = found_sphere(mesh, {});
+  if (anywhere && anywhere->coverage >= fullest_stray_sphere) return anywhere;
+  return near_centre;
+}
+
+/// The head that the centre was fitted to, if it was, in M; there its centre is the origin.
+std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& placement) {
+  if (!placement.sphere || placement.fitted_body != BodyRole::mobile) return head_of(joint.mobile.mesh);
+  SphericalPatch head = *placement.sphere;
+  head.fit.sphere.centre = Vec3::Zero();
+  return head;
+}
+
+std::optional<SphericalPatch> socket_round(const Mesh& fixed, const Sphere& head) {
+  return found_sphere(fixed, {.part = SphericalPart::socket,
+                              .smallest_radius = 0.9 * head.radius,
+                              .largest_radius = largest_socket * head.radius,
+                              .within = Sphere{head.centre, socket_reach * head.radius}});
+}
+
+/// False where the size is no bone's: what is searched for in mm is then not found.
+bool check_size(const Body& body, Notes& notes) {
+  const double size = mesh::bounds_of_surface(body.mesh).diagonal();
+  if (size >= shortest_bone && size <= longest_bone) return true;
+  const bool in_metres = size * mm_per_m >= shortest_bone && size * mm_per_m <= longest_bone;
+  const bool in_mm = size / mm_per_m >= shortest_bone && size / mm_per_m <= longest_bone;
+  notes.add(JointNoteCode::unlikely_size,
+            body.name + formatted(" is %.4g mm across in the units stated, and no bone is%s", size,
+                                  in_metres ? ": is it in metres?"
+                                  : in_mm   ? ": is it in millimetres?"
+                                            : ""));
+  return false;
+}
+
+void check_surface(const Body& body, Notes& notes) {
+  if (!body.mesh.is_closed())
+    notes.add(JointNoteCode::open_mesh, body.name + " is open: one body inside the other would not be seen");
+  else if (mesh::enclosed_volume(body.mesh) < 0)
+    notes.add(
+        JointNoteCode::inverted_mesh,
+        body.name +
+            " has inverted orientation, its volume is negative: it is mirrored, or needs flip_inverted");
+  const mesh::SelfCrossings crossings = mesh::self_crossings(body.mesh);
+  if (crossings.pairs == 0) return;
+  double crossing = 0, area = 0;
+  for (std::size_t t = 0; t < body.mesh.triangles().size(); ++t) {
+    const Vec3 a = body.mesh.corner(t, 0);
+    const double here = (body.mesh.corner(t, 1) - a).cross(body.mesh.corner(t, 2) - a).norm();
+    area += here;
+    if (crossings.crosses[t]) crossing += here;
+  }
+  if (crossing > largest_crossing_share * area)
+    notes.add(
+        JointNoteCode::self_crossings,
+        body.name +
+            formatted(" crosses itself: %zu pairs of triangles, the first %u and %u, on %.2g %% of its "
+                      "surface; inside and outside are uncertain there",
+                      crossings.pairs, (*crossings.first)[0], (*crossings.first)[1], 100 * crossing / area));
+}
+
+void check_fit(const Joint& joint, const JointPlacement& placement, Notes& notes) {
+  const std::string& fixed = joint.fixed.name;
+  const std::string& name = placement.fitted_body == BodyRole::fixed ? fixed : joint.mobile.name;
+  if (const auto& sphere = placement.sphere) {
+    const double least =
+        placement.fitted_body == BodyRole::fixed ? least_socket_coverage : fullest_stray_sphere;
+    if (sphere->coverage < least)
+      notes.add(JointNoteCode::low_coverage,
+                "the centre was fitted to " + formatted("%.0f %% of a sphere on ", 100 * sphere->coverage) +
+                    name + ": too little for a " + (&name == &fixed ? "socket" : "head"));
+    if (sphere->centre_bound_mm && *sphere->centre_bound_mm > largest_centre_bound_mm)
+      notes.add(JointNoteCode::uncertain_fit,
+                "parts of the sphere fitted to " + name +
+                    formatted(" give centres up to %.1f mm apart from it", *sphere->centre_bound_mm));
+  }
+  if (const auto& cylinder = placement.cylinder) {
+    if (cylinder->coverage < least_cylinder_coverage)
+      notes.add(
+          JointNoteCode::low_coverage,
+          "the axis was fitted to " + formatted("%.0f %% of a turn on ", 100 * cylinder->coverage) + name);
+    if (cylinder->direction_bound && cylinder->direction_bound->degrees() > largest_axis_bound_deg)
+      notes.add(JointNoteCode::uncertain_fit,
+                "parts of the cylinder fitted to " + name +
+                    formatted(" give axes up to %.1f degrees off it", cylinder->direction_bound->degrees()));
+  }
+}
+
+void check_centres(const Joint& joint, const Sphere& head, const std::optional<SphericalPatch>& socket,
+                   Notes& notes) {
+  const std::string& mobile = joint.mobile.name;
+  if (const double off = head.centre.norm(); off > farthest_from_head_mm)
+    notes.add(JointNoteCode::centre_off_head,
+              formatted("the joint centre is %.1f mm from that of the head of ", off) + mobile +
+                  formatted(", a sphere of radius %.1f mm about (%.1f, %.1f, %.1f)", head.radius,
+                            head.centre.x(), head.centre.y(), head.centre.z()));
+  if (!socket) return;
+  const Sphere& cup = socket->fit.sphere;
+  if (const double apart = (cup.centre - head.centre).norm(); apart > farthest_head_from_socket_mm)
+    notes.add(JointNoteCode::head_socket_apart,
+              formatted("head and socket have their centres %.1f mm apart", apart));
+  if (cup.radius < head.radius)
+    notes.add(
+        JointNoteCode::socket_smaller_than_head,
+        formatted("the socket has a radius of %.2f mm, the head one of %.2f mm", cup.radius, head.radius));
+}
+
+/// Cosines that are positive on a hip of the side stated, in the axes stated.
+struct Evidence {
+  double medial, anterior, superior;
+};
+
+/// Of the hip bone: its mass is up, inwards and a little behind, its socket opens the other way.
+Evidence of_hip_bone(const Vec3& mass, const Vec3& opening, double rightwards) {
+  const Vec3 both = (mass.normalized() - opening) / 2;
+  return {-rightwards * both.z(), -both.x(), both.y()};
+}
+
+void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPatch& socket, Notes& notes) {
+  const double rightwards = joint.side == Side::right ? 1 : -1;
+  const Vec3 mass = centre_of_mass(joint.fixed.mesh) - socket.fit.sphere.centre;
+  const Vec3 shaft = centre_of_mass(joint.mobile.mesh) - head.fit.sphere.centre;
+  if (mass.norm() < least_lever * socket.fit.sphere.radius ||
+      shaft.norm() < least_lever * head.fit.sphere.radius)
+    return;
+  const std::string &fixed = joint.fixed.name, &mobile = joint.mobile.name;
+  const Evidence bone = of_hip_bone(mass, open_side(joint.fixed.mesh, socket), rightwards);
+  if (bone.superior < upright) {
+    notes.add(JointNoteCode::axes_not_upright,
+              fixed + " does not lie above its socket: superior does not point up");
+    return;
+  }
+  if (-shaft.normalized().y() < upright) {
+    notes.add(
+        JointNoteCode::axes_not_upright,
+        mobile + " does not hang down from its head at zero angles: superior or the reference pose is wrong");
+    return;
+  }
+  const double neck_outwards = rightwards * open_side(joint.mobile.mesh, head).z();
+  const std::string side = joint.side == Side::right ? "right" : "left";
+  const bool lateral = bone.medial < wrong_way, backwards = bone.anterior < wrong_way;
+  if (lateral && backwards)
+    notes.add(
+        JointNoteCode::axes_turned,
+        fixed +
+            " lies lateral of its socket, which opens backwards: the axes are turned by 180 degrees about "
+            "superior, as where LPS coordinates are read as RAS");
+  else if (lateral ? neck_outwards > -wrong_way : neck_outwards < wrong_way)
+    notes.add(JointNoteCode::bodies_disagree, fixed + (lateral ? " lies lateral" : " lies medial") +
+                                                  " of its socket and the neck of " + mobile +
+                                                  (lateral ? " points outwards" : " points inwards") +
+                                                  ": one of the two is mirrored or of the other side");
+  else if (lateral)
+    notes.add(JointNoteCode::wrong_side, "the side is " + side + ", but " + fixed +
+                                             " lies lateral of its socket: it is the other side's or "
+                                             "mirrored, or the axes are turned by a quarter");
+  else if (backwards)
+    notes.add(JointNoteCode::mirrored,
+              "the socket of " + fixed +
+                  " opens backwards: front and back are mirrored, or the axes are turned by a quarter");
+}
+
+void check_ball(const Joint& joint, const JointPlacement& placement, Notes& notes) {
+  const auto head = head_of(joint, placement);
+  if (!head || head->coverage < fullest_stray_sphere) {
+    const auto on_fixed = head_of(joint.fixed.mesh);
+    if (on_fixed && on_fixed->coverage >= fullest_stray_sphere)
+      notes.add(JointNoteCode::swapped_bodies, joint.fixed.name + " has a head and " + joint.mobile.name +
+                                                   " has none: are the bodies exchanged?");
+    else if (head && !placement.sphere && head->fit.sphere.centre.norm() <= farthest_stray_sphere)
+      notes.add(JointNoteCode::low_coverage,
+                formatted("the sphere about the joint centre is %.0f %% of one on ", 100 * head->coverage) +
+                    joint.mobile.name + ": too little for a head, and bearing contact is told by it");
+    return;
+  }
+  const auto socket = socket_round(joint.fixed.mesh, head->fit.sphere);
+  check_centres(joint, head->fit.sphere, socket, notes);
+  if (socket) check_hip(joint, *head, *socket, notes);
+}
+
+}  // namespace
+
+std::string_view name_of(JointNoteCode code) noexcept {
+  switch (code) {
+    case JointNoteCode::unlikely_size:
+      return "unlikely_size";
+    case JointNoteCode::open_mesh:
+      return "open_mesh";
+    case JointNoteCode::inverted_mesh:
+      return "inverted_mesh";
+    case JointNoteCode::self_crossings:
+      return "self_crossings";
+    case JointNoteCode::swapped_bodies:
+      return "swapped_bodies";
+    case JointNoteCode::low_coverage:
+      return "low_coverage";
+    case JointNoteCode::uncertain_fit:
+      return "uncertain_fit";
+    case JointNoteCode::centre_off_head:
+      return "centre_off_head";
+    case JointNoteCode::head_socket_apart:
+      return "head_socket_apart";
+    case JointNoteCode::socket_smaller_than_head:
+      return "socket_smaller_than_head";
+    case JointNoteCode::axes_not_upright:
+      return "axes_not_upright";
+    case JointNoteCode::axes_turned:
+      return "axes_turned";
+    case JointNoteCode::wrong_side:
+      return "wrong_side";
+    case JointNoteCode::mirrored:
+      return "mirrored";
+    case JointNoteCode::bodies_disagree:
+      return "bodies_disagree";
+  }
+  return "";
+}
+
+std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement) {
+  Notes notes;
+  const bool fixed_is_bone = check_size(joint.fixed, notes), mobile_is_bone = check_size(joint.mobile, notes);
+  for (const Body* body : {&joint.fixed, &joint.mobile}) check_surface(*body, notes);
+  check_fit(joint, placement, notes);
+  if (joint.kind == JointKind::ball && fixed_is_bone && mobile_is_bone) check_ball(joint, placement, notes);
+  return notes.take();
+}
+
+}  // namespace condyle

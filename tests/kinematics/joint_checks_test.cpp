@@ -1,0 +1,258 @@
+#include "condyle/joint_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+#include <numbers>
+
+#include "support/shared_data.hpp"
+#include "support/test_meshes.hpp"
+
+/// Wrong set-ups of real hips are each answered with their note, right ones with none.
+
+namespace condyle {
+namespace {
+
+using Code = JointNoteCode;
+
+struct Hip {
+  Side side;
+  TriMesh hip_bone, femur;
+};
+
+const Hip& vhf() {
+  static const auto folder = *test::shared_data() / "hip_vhf_right";
+  static const Hip hip{Side::right, test::read_ply(folder / "hip_bone.ply"),
+                       test::read_ply(folder / "femur.ply")};
+  return hip;
+}
+const Hip& libhip() {
+  static const auto folder = *test::shared_data() / "hip_libhip_m1_left";
+  static const Hip hip{Side::left, test::read_ply(folder / "hip_bone.ply"),
+                       test::read_ply(folder / "femur.ply")};
+  return hip;
+}
+/// The same hip with a tenth of the triangles, for what needs no more.
+const Hip& coarse_libhip() {
+  static const auto folder = *test::shared_data() / "hip_libhip_m1_left/coarse";
+  static const Hip hip{Side::left, test::read_ply(folder / "hip_bone_2442.ply"),
+                       test::read_ply(folder / "femur_1542.ply")};
+  return hip;
+}
+
+/// A hip as its user describes it.
+struct HipSetUp {
+  JointDescription joint;
+  TriMesh fixed, mobile;
+};
+
+HipSetUp right_set_up(const Hip& hip) {
+  HipSetUp set_up{{.name = "hip", .side = hip.side}, hip.hip_bone, hip.femur};
+  set_up.joint.frame.centre = Vec3(Vec3::Zero());
+  return set_up;
+}
+
+std::vector<JointNote> notes_on(const HipSetUp& set_up) {
+  const auto [joint, placement] =
+      make_joint(set_up.joint, {"hip bone", set_up.fixed}, {"femur", set_up.mobile});
+  return check_joint(joint, placement);
+}
+
+TriMesh turned(const TriMesh& mesh, const Eigen::Matrix3d& by) {
+  TriMesh out = mesh;
+  for (std::size_t v = 0; v < out.vertices.size(); ++v) out.vertices.set(v, by * mesh.vertices[v]);
+  return out;
+}
+TriMesh scaled(const TriMesh& mesh, double by) {
+  return turned(mesh, by * Eigen::Matrix3d::Identity());
+}
+TriMesh moved(const TriMesh& mesh, const Vec3& by) {
+  Pose X = Pose::Identity();
+  X.translation() = by;
+  return posed(X, mesh);
+}
+/// Mirrored across a coordinate plane, as segmentation software does to a bone whose axes it mixes up.
+TriMesh mirrored_only(const TriMesh& mesh, int axis) {
+  Eigen::Matrix3d M = Eigen::Matrix3d::Identity();
+  M(axis, axis) = -1;
+  return turned(mesh, M);
+}
+TriMesh mirrored(const TriMesh& mesh, int axis) {
+  return test::flipped(mirrored_only(mesh, axis));
+}
+TriMesh without_some_triangles(TriMesh mesh) {
+  mesh.triangles.erase(mesh.triangles.begin() + 100, mesh.triangles.begin() + 103);
+  return mesh;
+}
+
+/// What a scanner's axes x, y, z are in the hip frame (X anterior, Y superior, Z right), as rows.
+Eigen::Matrix3d to_lps() {
+  Eigen::Matrix3d M;
+  M << 0, 0, -1, -1, 0, 0, 0, 1, 0;
+  return M;
+}
+
+const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+
+struct Case {
+  const char* name;
+  const Hip& (*hip)();
+  std::function<void(HipSetUp&)> wrong;
+  std::vector<Code> codes;
+  friend void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+};
+
+std::function<void(HipSetUp&)> with_axes(const Vec3& anterior, const Vec3& superior) {
+  return [=](HipSetUp& s) { s.joint.frame.axes = FrameDirections{anterior, superior}; };
+}
+std::function<void(HipSetUp&)> with_centre(const Vec3& centre) {
+  return [=](HipSetUp& s) { s.joint.frame.centre = centre; };
+}
+
+const std::vector<Case> wrong_set_ups{
+    {"OtherSide", vhf, [](HipSetUp& s) { s.joint.side = Side::left; }, {Code::wrong_side}},
+    {"OtherSideOfALeftHip", libhip, [](HipSetUp& s) { s.joint.side = Side::right; }, {Code::wrong_side}},
+    {"AxesTurnedAboutSuperior", vhf, with_axes(-x, y), {Code::axes_turned}},
+    {"LpsReadAsRas",
+     coarse_libhip,
+     [](HipSetUp& s) {
+       s.fixed = turned(s.fixed, to_lps()), s.mobile = turned(s.mobile, to_lps());
+       s.joint.frame.axes = FrameDirections{y, z};
+     },
+     {Code::axes_turned}},
+    {"UpsideDown", vhf, with_axes(x, -y), {Code::axes_not_upright}},
+    {"SuperiorIsAnotherAxis", vhf, with_axes(x, z), {Code::axes_not_upright}},
+    {"UpsideDownAndBackToFront", coarse_libhip, with_axes(-x, -y), {Code::axes_not_upright}},
+    {"MillimetresCalledMetres",
+     vhf,
+     [](HipSetUp& s) { s.joint.units = LengthUnit::metres; },
+     {Code::unlikely_size, Code::unlikely_size}},
+    {"MetresCalledMillimetres",
+     vhf,
+     [](HipSetUp& s) { s.fixed = scaled(s.fixed, 1e-3), s.mobile = scaled(s.mobile, 1e-3); },
+     {Code::unlikely_size, Code::unlikely_size}},
+    {"CentreOffBy3mm", vhf, with_centre({0, -3, 0}), {Code::centre_off_head}},
+    {"CentreOffBy50mm", vhf, with_centre({-30, 40, 0}), {Code::centre_off_head}},
+    {"CentreAtTheOtherEndOfTheFemur", vhf, with_centre({0, -400, 0}), {Code::centre_off_head}},
+    {"SwappedBodies", vhf, [](HipSetUp& s) { std::swap(s.fixed, s.mobile); }, {Code::swapped_bodies}},
+    {"MirroredSideToSide",
+     vhf,
+     [](HipSetUp& s) { s.fixed = mirrored(s.fixed, 2), s.mobile = mirrored(s.mobile, 2); },
+     {Code::wrong_side}},
+    {"MirroredFrontToBack",
+     vhf,
+     [](HipSetUp& s) { s.fixed = mirrored(s.fixed, 0), s.mobile = mirrored(s.mobile, 0); },
+     {Code::mirrored}},
+    {"MirroredInsideOut",
+     vhf,
+     [](HipSetUp& s) { s.fixed = mirrored_only(s.fixed, 2), s.mobile = mirrored_only(s.mobile, 2); },
+     {Code::inverted_mesh, Code::inverted_mesh}},
+    {"FemurOfTheOtherSide",
+     vhf,
+     [](HipSetUp& s) { s.mobile = mirrored(s.mobile, 2); },
+     {Code::bodies_disagree}},
+    {"HipBoneOfTheOtherSide",
+     coarse_libhip,
+     [](HipSetUp& s) { s.fixed = mirrored(s.fixed, 2); },
+     {Code::bodies_disagree}},
+    {"ReversedFemur", vhf, [](HipSetUp& s) { s.mobile = test::flipped(s.mobile); }, {Code::inverted_mesh}},
+    {"ReversedHipBone", vhf, [](HipSetUp& s) { s.fixed = test::flipped(s.fixed); }, {Code::inverted_mesh}},
+    {"OpenFemur", vhf, [](HipSetUp& s) { s.mobile = without_some_triangles(s.mobile); }, {Code::open_mesh}},
+    {"OpenHipBone", vhf, [](HipSetUp& s) { s.fixed = without_some_triangles(s.fixed); }, {Code::open_mesh}},
+    {"SecondSurfaceThroughTheFemur",
+     vhf,
+     [](HipSetUp& s) {
+       s.mobile = test::joined(s.mobile, moved(s.mobile, {0.4, 0, 0}));
+     },
+     {Code::self_crossings}},
+    {"HeadPulledFromItsSocket",
+     vhf,
+     [](HipSetUp& s) {
+       s.mobile = moved(s.mobile, {0, -3, 2});
+       s.joint.frame.centre = CentreFit{};
+     },
+     {Code::head_socket_apart}},
+    {"HeadLargerThanItsSocket",
+     vhf,
+     [](HipSetUp& s) { s.mobile = scaled(s.mobile, 1.1); },
+     {Code::socket_smaller_than_head}},
+    {"CentreFittedToACondyle",
+     vhf,
+     [](HipSetUp& s) {
+       s.joint.frame.centre = CentreFit{.within = Sphere{{0, -400, 0}, 80}};
+     },
+     {Code::low_coverage}},
+    {"ThighFlexedInTheScan",
+     vhf,
+     [](HipSetUp& s) {
+       s.mobile = turned(s.mobile, Eigen::AngleAxisd(std::numbers::pi / 2, z).toRotationMatrix());
+     },
+     {Code::axes_not_upright}},
+};
+
+class WrongSetUp : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(SharedHips, WrongSetUp, testing::ValuesIn(wrong_set_ups),
+                         [](const auto& wrong) { return wrong.param.name; });
+
+TEST_P(WrongSetUp, IsAnsweredWithItsNote) {
+  if (!test::shared_data()) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  HipSetUp set_up = right_set_up(GetParam().hip());
+  GetParam().wrong(set_up);
+  std::vector<Code> codes;
+  std::string texts;
+  for (const JointNote& note : notes_on(set_up)) {
+    codes.push_back(note.code);
+    texts += std::string(name_of(note.code)) + ": " + note.text + '\n';
+    EXPECT_EQ(note.text.find('\n'), std::string::npos) << note.text;
+  }
+  EXPECT_EQ(codes, GetParam().codes) << texts;
+}
+
+TEST(RightSetUp, IsAnsweredWithoutANote) {
+  if (!test::shared_data()) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const auto expect_none = [](const HipSetUp& set_up, const char* what) {
+    for (const JointNote& note : notes_on(set_up)) ADD_FAILURE() << what << ": " << note.text;
+  };
+  for (const Hip* hip : {&vhf(), &libhip(), &coarse_libhip()}) {
+    HipSetUp set_up = right_set_up(*hip);
+    expect_none(set_up, "as stated");
+    set_up.joint.frame.centre = CentreFit{};
+    expect_none(set_up, "centre fitted to the head");
+  }
+  HipSetUp in_lps = right_set_up(coarse_libhip());
+  in_lps.fixed = turned(in_lps.fixed, to_lps()), in_lps.mobile = turned(in_lps.mobile, to_lps());
+  in_lps.joint.frame.axes = FrameDirections{-y, z};
+  expect_none(in_lps, "LPS called LPS");
+  HipSetUp other = right_set_up(vhf());
+  other.fixed = mirrored(other.fixed, 2), other.mobile = mirrored(other.mobile, 2);
+  other.joint.side = Side::left;
+  expect_none(other, "mirrored to the left and called left");
+}
+
+TEST(JointChecks, ThatDoNotApplyAreSilent) {
+  // No head, no socket, a hinge, and a head in a socket without anatomy.
+  const auto notes_of = [](JointKind kind, TriMesh fixed, TriMesh mobile) {
+    JointDescription joint{.name = "joint", .kind = kind};
+    return notes_on({joint, std::move(fixed), std::move(mobile)});
+  };
+  const TriMesh post = test::box({40, -120, -50}, {60, -80, 50}),
+                arm = test::box({-1, -100, -2}, {1, -10, 2});
+  EXPECT_TRUE(notes_of(JointKind::ball, post, arm).empty());
+  EXPECT_TRUE(notes_of(JointKind::hinge, post, test::sphere({7, 0, 0}, 20, 4)).empty());
+  const TriMesh head =
+      test::joined(test::sphere({0, 0, 0}, 24, 4), test::box({-10, -400, -10}, {10, -40, 10}));
+  EXPECT_TRUE(notes_of(JointKind::ball, test::socket({0, 0, 0}, 26, 60, 3), head).empty());
+}
+
+TEST(JointChecks, AllCodesHaveNamesOfTheirOwn) {
+  std::vector<std::string_view> names;
+  for (int code = 0; code <= static_cast<int>(Code::bodies_disagree); ++code)
+    names.push_back(name_of(static_cast<Code>(code)));
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  EXPECT_FALSE(names.front().empty());
+}
+
+}  // namespace
+}  // namespace condyle
