@@ -5,6 +5,7 @@
 #include <string>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
@@ -24,6 +25,7 @@ struct Options {
   Method method = Method::radial;
   std::string about = "flexion";
   Scope scope = Scope::vertices_and_pairs;
+  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
@@ -33,7 +35,7 @@ DepthResult by_radial(const DepthQuestion& question, const JointContact& contact
 }
 
 DepthResult by_tangential(const DepthQuestion& question, const JointContact& contact, JointAngle about) {
-  const RotationAxis axis{about, axis_of(about, question.joint.side, question.angles)};
+  const RotationAxis axis{about, axis_of(about, question.joint.side, question.pose.angles())};
   return depth_result(question, axis, contact.tangential(question.X_FM, axis.direction_F));
 }
 
@@ -46,17 +48,19 @@ void require_solids(const LoadedJoint& loaded) {
   }
 }
 
-void run(const Options& options) {
+void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
-  const JointAngles angles = parse_pose(options.pose, joint.kind);
+  const PoseDegrees pose = parse_pose(options.pose, joint.kind);
   if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
-  const DepthQuestion question{joint, angles, pose_at(joint.side, angles)};
+  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  const DepthQuestion question{joint, pose, pose_at(joint.side, pose.angles()), &from};
   const JointContact contact(joint);
   const DepthResult result = options.method == Method::radial
                                  ? by_radial(question, contact)
                                  : by_tangential(question, contact, joint_angle_named(options.about));
-  if (!options.out.empty()) write_depth(options.out, question, result);
+  if (!options.out.empty())
+    say_written(write_depth(options.out, question, result, options.where->vtp_encoding));
   print(options.form == AnswerForm::json ? result.json : result.text);
 }
 
@@ -84,15 +88,14 @@ void add_depth(CLI::App& app) {
       ->option_text("radial|tangential (radial)");
   command->add_option("--about", options->about, "The angle about whose axis the tangential method rotates")
       ->option_text("flexion|adduction|internal_rotation (flexion)");
-  command->add_option(
-      "--out", options->out,
-      "Folder for fixed.vtp, mobile.vtp (both in the fixed body's joint frame), pairs.csv and depth.json");
+  command->add_option("--out", options->out, "Folder for fixed.vtp, mobile.vtp, pairs.csv and depth.json");
+  add_where(*command, options->where);
   command->add_flag_callback(
       "--pairs-only", [options] { options->scope = Scope::pairs_only; },
       "Accept open meshes: intersecting triangle pairs, and vertices only against a body that is closed");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/io/frame_result.hpp"
 
@@ -16,9 +17,10 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-void run(const Options& options) {
+void run(const Options& options, const CLI::App& command) {
   const LoadedJoint joint = read_joint(options.joint);
-  print(options.form == AnswerForm::json ? to_json(joint) : to_text(joint));
+  const Provenance from = provenance_of(joint, words_of(command));
+  print(options.form == AnswerForm::json ? to_json(joint, &from) : to_text(joint));
 }
 
 }  // namespace
@@ -31,7 +33,7 @@ void add_frame(CLI::App& app) {
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace condyle::cli

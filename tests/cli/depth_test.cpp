@@ -1,12 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "command.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/io/file_digest.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
+#include "io/file/whole_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -15,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+using io::read_whole_file;
 
 constexpr const char* deep = "--pose \"flexion=130 internal_rotation=20\"";
 const JointAngles deep_angles{Angle::degrees(130), {}, Angle::degrees(20)};
@@ -121,7 +126,7 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
 
   std::ifstream csv(folder / "deep/pairs.csv");
   std::string line;
-  std::getline(csv, line);
+  while (std::getline(csv, line) && line.starts_with('#')) continue;
   EXPECT_EQ(line, "fixed_triangle,mobile_triangle");
   std::size_t rows = 0;
   while (std::getline(csv, line)) ++rows;
@@ -138,6 +143,65 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
       EXPECT_NE(text.find("Name=\"" + std::string(array) + "\""), text.npos) << name << " " << array;
     }
   }
+}
+
+TEST_F(SampleJointCommand, ThePoseIsEchoedToTheDigit) {
+  // Through radians and back 57 and 0.7 are other numbers in the last place.
+  const std::string pose = " --pose \"flexion=57 abduction=0.7 external_rotation=0\"";
+  const std::string text = run("depth sample/hip.toml --json" + pose).out;
+  const Json json = Json::parse(text);
+  EXPECT_EQ(json["pose_deg"]["flexion"].get<double>(), 57);
+  EXPECT_EQ(json["pose_deg"]["adduction"].get<double>(), -0.7);
+  EXPECT_FALSE(std::regex_search(text, std::regex("-0(\\.0)?[^.0-9]"))) << text;
+  EXPECT_NE(
+      run("depth sample/hip.toml" + pose).out.find("flexion 57, adduction -0.7, internal rotation 0 deg"),
+      std::string::npos);
+}
+
+TEST_F(SampleJointCommand, EveryFileSaysWhereItComesFrom) {
+  const Ran ran =
+      run(std::string("--threads 1 depth --out deep --frame joint --json sample/hip.toml ") + deep);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json from = Json::parse(ran.out)["provenance"];
+  EXPECT_EQ(from["command"], Json({"depth", "sample/hip.toml", "--pose", "flexion=130 internal_rotation=20",
+                                   "--frame", "joint"}));
+  const std::string femur = read_whole_file(folder / "sample/femur.ply");
+  EXPECT_EQ(from["mobile_mesh"]["path"], "sample/femur.ply");
+  EXPECT_EQ(from["mobile_mesh"]["bytes"], femur.size());
+  EXPECT_EQ(from["mobile_mesh"]["sha256"], digest_of(femur).sha256);
+  EXPECT_EQ(from["fixed_mesh"]["joint_from_source"],
+            Json({{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}));
+  const std::string sha = from["fixed_mesh"]["sha256"];
+  EXPECT_NE(read_whole_file(folder / "deep/pairs.csv").find(sha), std::string::npos);
+  for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"})
+    EXPECT_NE(read_whole_file(folder / name).find("Name=\"fixed_mesh\""), std::string::npos) << name;
+  EXPECT_NE(ran.err.find("wrote deep/fixed.vtp, deep/mobile.vtp, deep/pairs.csv, deep/depth.json"),
+            ran.err.npos)
+      << ran.err;
+
+  // Neither the folder nor the number of threads is part of it: runs compare.
+  ASSERT_EQ(run(std::string("depth sample/hip.toml --threads 4 --out again --frame joint ") + deep).exit_code,
+            0);
+  for (const auto& entry : fs::directory_iterator(folder / "deep"))
+    EXPECT_EQ(read_whole_file(entry.path()), read_whole_file(folder / "again" / entry.path().filename()));
+}
+
+TEST_F(SampleJointCommand, InTheSourceFrameMeshesLieOnTheirFiles) {
+  edit_joint("centre = [0.0, 0.0, 0.0]", "centre = [1.0, 2.0, -3.0]");
+  const std::string command = std::string("depth sample/hip.toml --json --out deep --ascii ") + deep;
+  const Json joint = Json::parse(run(command).out),
+             source = Json::parse(run(command + " --frame source").out);
+  EXPECT_EQ(source["provenance"]["frame"], "source");
+  EXPECT_EQ(source["max_radial_depth_mm"], joint["max_radial_depth_mm"]);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(source["deepest_point_mm"][k].get<double>() - joint["deepest_point_mm"][k].get<double>(),
+                (std::array{1, 2, -3})[k], 1e-12);
+  const TriMesh fixed = read_mesh(folder / "deep/fixed.vtp").mesh,
+                file = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  ASSERT_EQ(fixed.triangles, file.triangles);
+  for (std::size_t v = 0; v < file.vertices.size(); ++v)
+    EXPECT_LT((fixed.vertices[v] - file.vertices[v]).norm(), 1e-12) << v;
+  EXPECT_EQ(read_whole_file(folder / "deep/fixed.vtp").find("appended"), std::string::npos);
 }
 
 TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
@@ -175,6 +239,7 @@ TEST_F(SampleJointCommand, WrongUsageEndsWithTwo) {
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=ninety\"", "flexion='ninety' is not a number");
   expect_refused(2, "depth sample/hip.toml --method normal", "--method");
   expect_refused(2, "depth sample/hip.toml --method tangential --about twist", "unknown angle 'twist'");
+  expect_refused(2, "depth sample/hip.toml --frame world", "unknown frame 'world'");
   expect_refused(2, "depth", "JOINT is required");
   expect_refused(2, "sample", "");
   expect_refused(2, "sample hip", "--out is required");

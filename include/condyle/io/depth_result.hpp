@@ -6,6 +6,8 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
@@ -15,8 +17,12 @@ namespace condyle {
 /// The pose that a result belongs to.
 struct DepthQuestion {
   const Joint& joint;
-  JointAngles angles;
+  PoseDegrees pose;  ///< as it was given
   Pose X_FM;
+  /// Where the answer comes from and in which frame it is given; null: not known, and the joint frame.
+  const Provenance* provenance = nullptr;
+
+  AnswerFrame frame() const { return provenance ? provenance->frame : AnswerFrame{}; }
 };
 
 /// A rotation axis, by its joint angle and as a direction in F.
@@ -50,9 +56,10 @@ DepthResult depth_result(const DepthQuestion& question, const RadialContact& con
 DepthResult depth_result(const DepthQuestion& question, const RotationAxis& axis,
                          const TangentialContact& contact);
 
-/// Writes fixed.vtp and mobile.vtp (both in the fixed body's joint frame), pairs.csv and depth.json into a
-/// folder, all or none. Throws FileError.
-void write_depth(const std::filesystem::path& folder, const DepthQuestion& question,
-                 const DepthResult& result);
+/// Writes fixed.vtp and mobile.vtp (both in the fixed body's frame), pairs.csv and depth.json into a
+/// folder, all or none; files of an earlier result go. Returns what was written. Throws FileError.
+std::vector<std::filesystem::path> write_depth(const std::filesystem::path& folder,
+                                               const DepthQuestion& question, const DepthResult& result,
+                                               VtpEncoding encoding = VtpEncoding::binary);
 
 }  // namespace condyle

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/provenance.hpp"
 
 /// What `condyle frame` shows: how a joint was made of its file. Keys of the JSON are listed in
 /// docs/joint-file.md.
@@ -11,6 +12,6 @@ namespace condyle {
 
 /// For people, and for programs: whole documents that end with a newline.
 std::string to_text(const LoadedJoint& joint);
-std::string to_json(const LoadedJoint& joint);
+std::string to_json(const LoadedJoint& joint, const Provenance* from = nullptr);
 
 }  // namespace condyle

@@ -7,34 +7,32 @@
 namespace condyle::io {
 namespace {
 
-Json pose_json(const Pose& X) {
+Json matrix_json(const Pose& X) {
   Json rows = Json::array();
-  for (int i = 0; i < 4; ++i) rows.push_back({X(i, 0), X(i, 1), X(i, 2), X(i, 3)});
+  for (int i = 0; i < 4; ++i)
+    rows.push_back({X(i, 0) + 0.0, X(i, 1) + 0.0, X(i, 2) + 0.0, X(i, 3) + 0.0});  // no -0
   return rows;
 }
 
 }  // namespace
 
 Json depth_header(const DepthQuestion& question, const char* method) {
-  const auto& [joint, angles, X_FM] = question;
+  const auto& [joint, pose, X_FM, provenance] = question;
   return {{"condyle", format_version},
           {"joint", joint.name},
           {"fixed", joint.fixed.name},
           {"mobile", joint.mobile.name},
           {"side", joint.side == Side::right ? "right" : "left"},
           {"method", method},
-          {"pose_deg",
-           {{"flexion", angles.flexion.degrees()},
-            {"adduction", angles.adduction.degrees()},
-            {"internal_rotation", angles.internal_rotation.degrees()}}},
-          {"X_FM", pose_json(X_FM)}};
+          {"pose_deg", pose_json(pose)},
+          {"X_FM", matrix_json(X_FM)}};
 }
 
 std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
-  const auto& [joint, angles, X_FM] = question;
-  return fmt::format("{}: {} in {}, flexion {:g}, adduction {:g}, internal rotation {:g} deg\n", joint.name,
-                     joint.mobile.name, joint.fixed.name, angles.flexion.degrees(),
-                     angles.adduction.degrees(), angles.internal_rotation.degrees()) +
+  const auto& [joint, pose, X_FM, provenance] = question;
+  return fmt::format("{}: {} in {}, flexion {}, adduction {}, internal rotation {} deg\n", joint.name,
+                     joint.mobile.name, joint.fixed.name, pose.flexion, pose.adduction,
+                     pose.internal_rotation) +
          fmt::format("  {}; {} intersecting triangle pairs\n", in_contact ? "in contact" : "free", pairs);
 }
 

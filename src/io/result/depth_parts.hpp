@@ -27,8 +27,9 @@ struct BodyView {
   const Body& body;
   std::optional<Summary> summary;
   Pose X_F;  // pose of this body in F
+  AnswerFrame frame;
 
-  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices()[vertex]); }
+  Vec3 place_of(Index vertex) const { return frame.fixed_point(posed(X_F, body.mesh.vertices()[vertex])); }
 };
 
 /// Both bodies of a result.
@@ -37,8 +38,8 @@ struct BodyViews {
   BodyView<Summary> mobile, fixed;
 
   BodyViews(const DepthQuestion& question, std::optional<Summary> of_mobile, std::optional<Summary> of_fixed)
-      : mobile{"mobile", question.joint.mobile, std::move(of_mobile), question.X_FM},
-        fixed{"fixed", question.joint.fixed, std::move(of_fixed), Pose::Identity()} {}
+      : mobile{"mobile", question.joint.mobile, std::move(of_mobile), question.X_FM, question.frame()},
+        fixed{"fixed", question.joint.fixed, std::move(of_fixed), Pose::Identity(), question.frame()} {}
   std::array<const BodyView<Summary>*, 2> both() const { return {&mobile, &fixed}; }
 
   /// The least of one measured gap over both bodies.
@@ -89,7 +90,7 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
   json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
   json["deepest_vertex"] = deepest ? Json(deepest->vertex.vertex) : Json(nullptr);
   json["deepest_point_mm"] =
-      deepest ? numbers(deepest->view->in_fixed_frame(deepest->vertex.vertex)) : Json(nullptr);
+      deepest ? numbers(deepest->view->place_of(deepest->vertex.vertex)) : Json(nullptr);
 }
 
 /// "at (17.97, 20.65, 8.54) mm".

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "condyle/io/pose_text.hpp"
 #include "condyle/points.hpp"
 
 /// What all JSON answers have in common.
@@ -25,6 +26,13 @@ Json nullable(const std::optional<Value>& value) {
 
 inline Json numbers(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
+}
+
+/// As it was given.
+inline Json pose_json(const PoseDegrees& pose) {
+  return {{"flexion", pose.flexion},
+          {"adduction", pose.adduction},
+          {"internal_rotation", pose.internal_rotation}};
 }
 
 /// A whole document; bytes of a name that are not UTF-8 are replaced.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "io/result/depth_parts.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
@@ -56,6 +57,7 @@ std::string json_of(const DepthQuestion& question, const RadialContact& contact,
   json["min_gap_mm"] = io::nullable(bodies.least(&RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
 
@@ -71,7 +73,7 @@ std::string text_of(const DepthQuestion& question, const RadialContact& contact,
   if (const auto deepest = deepest_of(bodies)) {
     text += fmt::format("  deepest: {:.3f} mm along the ray, vertex {} of {}, {}\n", deepest->vertex.depth_mm,
                         deepest->vertex.vertex, deepest->view->body.name,
-                        io::place_text(deepest->view->in_fixed_frame(deepest->vertex.vertex)));
+                        io::place_text(deepest->view->place_of(deepest->vertex.vertex)));
     if (deepest->vertex.applies() == DepthKind::tangential) {
       text += fmt::format(
           "  there it is a length along the bone, not a depth: the nearest surface is {:.3f} mm away; read "

@@ -5,6 +5,7 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "io/result/depth_parts.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
@@ -49,7 +50,7 @@ std::string deepest_line(const char* what, const RotationAxis& axis, const Deepe
   return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
                      deepest.vertex.depth_mm, name_of(axis.about), deepest.vertex.depth.degrees(),
                      deepest.vertex.vertex, deepest.view->body.name,
-                     io::place_text(deepest.view->in_fixed_frame(deepest.vertex.vertex)));
+                     io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
 }
 
 std::string json_of(const DepthQuestion& question, const RotationAxis& axis,
@@ -58,7 +59,7 @@ std::string json_of(const DepthQuestion& question, const RotationAxis& axis,
   const auto deepest = longest(bodies), furthest = largest(bodies);
   io::Json json = io::depth_header(question, "tangential");
   json["about"] = name_of(axis.about);
-  json["axis"] = io::numbers(axis.direction_F);
+  json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
   json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
   json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
@@ -67,6 +68,7 @@ std::string json_of(const DepthQuestion& question, const RotationAxis& axis,
   json["min_gap_mm"] = io::nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
 
