@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <sstream>
 
 #include "command.hpp"
 #include "condyle/contact.hpp"
@@ -87,6 +89,70 @@ TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {
   EXPECT_GT(json["min_gap_mm"], 0);
 }
 
+TEST_F(SampleJointCommand, DepthLeadsWithTheReliableOne) {
+  const Json json = answer(std::string("depth sample/hip.toml ") + deep);
+  EXPECT_EQ(json["method"], "reliable");
+  const Json& reliable = json["reliable_depth"];
+  // The deepest vertex along its ray is a vertex of the rim: the ray runs along the bone.
+  EXPECT_EQ(json["depth_to_read"], "tangential");
+  EXPECT_LT(reliable["depth_mm"], json["max_radial_depth_mm"]);
+  EXPECT_GE(reliable["depth_mm"], json["max_facing_radial_depth_mm"]);
+  EXPECT_EQ(reliable["kind"], "tangential");
+  const std::string about = reliable["about"];
+  EXPECT_EQ(reliable["rotations"][about]["depth_mm"], reliable["depth_mm"]);
+  for (const auto& [axis, way] : reliable["rotations"].items()) {
+    if (!way.is_null()) {
+      EXPECT_GE(way["depth_mm"], reliable["depth_mm"]) << axis;
+    }
+  }
+  EXPECT_LE(reliable["nearest_distance_mm"], reliable["depth_mm"].get<double>() + 1e-9);
+  EXPECT_GT(json["contact"]["mobile"]["area_mm2"], 0);
+  EXPECT_GT(json["contact"]["fixed"]["mean_depth_mm"], 0);
+  EXPECT_GT(json["contact"]["volume_mm3"], 0);
+  EXPECT_EQ(json["nearest_distance_mm"], 0);
+
+  const std::string text = run(std::string("depth sample/hip.toml ") + deep).out;
+  EXPECT_NE(text.find(" mm along the arc of " + about), text.npos) << text;
+  char unreliable[32];
+  std::snprintf(unreliable, sizeof unreliable, "%.3f", json["max_radial_depth_mm"].get<double>());
+  EXPECT_EQ(text.find(unreliable), text.npos) << "only in JSON:\n" << text;
+
+  const Json radial = answer(std::string("depth sample/hip.toml --method radial ") + deep);
+  EXPECT_EQ(radial["reliable_depth"]["depth_mm"], json["max_facing_radial_depth_mm"]);
+  EXPECT_GT(radial["vertices_without_depth"], 0);
+  EXPECT_EQ(radial["contact"], json["contact"]);
+}
+
+TEST_F(SampleJointCommand, VerticesAreWrittenAsATableOnRequest) {
+  const Ran ran = run(std::string("depth sample/hip.toml --csv --json --out deep ") + deep);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  std::istringstream table(read_whole_file(folder / "deep/mobile.csv"));
+  std::string line;
+  while (std::getline(table, line) && line.starts_with('#')) continue;
+  EXPECT_TRUE(
+      line.starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_way,nearest_distance_mm,"))
+      << line;
+  const TriMesh posed_femur = read_mesh(folder / "deep/mobile.vtp").mesh;
+  std::size_t rows = 0;
+  double deepest = 0;
+  for (; std::getline(table, line); ++rows) {
+    double x, y, z, depth;
+    std::size_t vertex;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%zu,%lf,%lf,%lf,%lf,", &vertex, &x, &y, &z, &depth), 5) << line;
+    EXPECT_EQ(vertex, rows);
+    EXPECT_EQ(Vec3(x, y, z), posed_femur.vertices[rows]);
+    deepest = std::max(deepest, depth);
+    EXPECT_EQ(line.find("nan"), line.npos);
+    EXPECT_EQ(line.find(",-0,"), line.npos);
+  }
+  EXPECT_EQ(rows, posed_femur.vertices.size());
+  EXPECT_GT(deepest, 0);
+  EXPECT_TRUE(fs::exists(folder / "deep/fixed.csv"));
+  ASSERT_EQ(run(std::string("depth sample/hip.toml --out deep ") + deep).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "deep/fixed.csv")) << "of an earlier run";
+}
+
 TEST_F(SampleJointCommand, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
   const Json json = answer("depth sample/hip.toml");
   EXPECT_FALSE(json["in_contact"]);
@@ -98,6 +164,11 @@ TEST_F(SampleJointCommand, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
   // A joint space of 3.5 mm between surfaces of flat triangles.
   EXPECT_GT(json["min_gap_mm"], 3);
   EXPECT_LT(json["min_gap_mm"], 3.6);
+  EXPECT_GT(json["nearest_distance_mm"], 3);
+  EXPECT_LE(json["nearest_distance_mm"], json["min_gap_mm"]);
+  EXPECT_TRUE(json["reliable_depth"].is_null());
+  EXPECT_TRUE(json["contact"]["centroid_mm"].is_null());
+  EXPECT_EQ(json["contact"]["volume_mm3"], 0);
 }
 
 TEST_F(SampleJointCommand, TheTangentialMethodGivesAnglesAndArcs) {
@@ -139,7 +210,8 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
     std::ifstream file(folder / name, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     for (const char* array :
-         {"inside", "radial_gap_mm", "triangle", "winding", "ray_to_normal_deg", "in_contact"}) {
+         {"depth_mm", "depth_is_reliable", "depth_way", "nearest_distance_mm", "radial_depth_mm",
+          "radial_gap_mm", "ray_to_normal_deg", "inside", "triangle", "winding", "in_contact"}) {
       EXPECT_NE(text.find("Name=\"" + std::string(array) + "\""), text.npos) << name << " " << array;
     }
   }
@@ -239,6 +311,9 @@ TEST_F(SampleJointCommand, WrongUsageEndsWithTwo) {
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=ninety\"", "flexion='ninety' is not a number");
   expect_refused(2, "depth sample/hip.toml --method normal", "--method");
   expect_refused(2, "depth sample/hip.toml --method tangential --about twist", "unknown angle 'twist'");
+  expect_refused(2, "depth sample/hip.toml --about flexion", "--about: is for --method tangential");
+  expect_refused(2, "depth sample/hip.toml --method radial --about adduction", "--about");
+  expect_refused(2, "depth sample/hip.toml --csv", "--csv requires --out");
   expect_refused(2, "depth sample/hip.toml --frame world", "unknown frame 'world'");
   expect_refused(2, "depth", "JOINT is required");
   expect_refused(2, "sample", "");

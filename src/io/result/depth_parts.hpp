@@ -96,6 +96,16 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
 /// "at (17.97, 20.65, 8.54) mm".
 std::string place_text(const Vec3& p);
 
+/// "2.345", and "0.000" for what rounds to it from below, too.
+std::string fixed_digits(double value, int digits);
+
+/// Areas, volume and nearest distance, one line each for those there are; and under the keys of docs/formats.md.
+std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures);
+void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
+
+/// Nearest distances as the one array that a body has where the other mesh is open.
+MeshArray nearest_array(const std::vector<double>& distances);
+
 /// Point arrays of one body, with those of its triangles marked that are in a pair.
 DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
                       Index TrianglePair::*triangle);
