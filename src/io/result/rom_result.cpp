@@ -9,6 +9,7 @@
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
+#include "io/joint/given_degrees.hpp"
 #include "io/result/clock_contacts.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
@@ -29,10 +30,16 @@ Json angles_json(const JointAngles& angles) {
   return json;
 }
 
+Json start_json(const JointAngles& angles) {
+  Json json;
+  for (const JointAngle angle : all_angles) json[name_of(angle)] = io::given_degrees(angle_of(angles, angle));
+  return json;
+}
+
 Json held_json(const Motion& motion) {
   Json json;
   for (const JointAngle angle : all_angles)
-    if (angle != motion.vary) json[name_of(angle)] = angle_of(motion.start, angle).degrees();
+    if (angle != motion.vary) json[name_of(angle)] = io::given_degrees(angle_of(motion.start, angle));
   return json;
 }
 
@@ -153,8 +160,8 @@ Json motion_json(const RomResult& result, std::size_t i) {
             {"error_bound_deg", limit.end.error_bound.degrees()},
             {"vary", name_of(limit.motion.vary)},
             {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
-            {"range_deg", limit.motion.range.degrees()},
-            {"start_deg", angles_json(limit.motion.start)},
+            {"range_deg", io::given_degrees(limit.motion.range)},
+            {"start_deg", start_json(limit.motion.start)},
             {"held_deg", held_json(limit.motion)},
             {"at_limit_deg", angles_json(limit.angles_at_limit())},
             {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
@@ -483,6 +490,10 @@ std::string rom_csv(const RomResult& result) {
       "deg,"
       "band_share_without_contact\n";
   const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
+  const auto start = [](const JointAngles& a) {
+    return fmt::format("{},{},{}", io::given_degrees(a.flexion), io::given_degrees(a.adduction),
+                       io::given_degrees(a.internal_rotation));
+  };
   const auto angles = [](const JointAngles& a) {
     return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
   };
@@ -492,14 +503,14 @@ std::string rom_csv(const RomResult& result) {
     const auto field = [](const std::optional<double>& value) {
       return value ? fmt::format("{}", *value) : "";
     };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name),
-                        end.turned.degrees(), name_of(end.reason),
-                        ends_in_contact(limit) ? name_of(end.kind()) : "",
-                        end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
-                        head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
-                        end.error_bound.degrees(), name_of(motion.vary),
-                        motion.sense == RotationSense::positive ? "positive" : "negative",
-                        motion.range.degrees(), angles(motion.start), angles(limit.angles_at_limit()));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), end.turned.degrees(),
+        name_of(end.reason), ends_in_contact(limit) ? name_of(end.kind()) : "",
+        end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
+        head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
+        end.error_bound.degrees(), name_of(motion.vary),
+        motion.sense == RotationSense::positive ? "positive" : "negative", io::given_degrees(motion.range),
+        start(motion.start), angles(limit.angles_at_limit()));
     const auto hour = io::clock_hour(result, limit);
     const auto& contact = end.contact;
     text += contact ? fmt::format("{},{},{},{}", point(frame.fixed_point(contact->fixed_point)),
