@@ -18,4 +18,10 @@ void note(std::string remark) {
   std::fprintf(stderr, "condyle: note: %s\n", remark.c_str());
 }
 
+void say_written(const std::vector<std::filesystem::path>& files) {
+  std::string names;
+  for (const auto& file : files) names += (names.empty() ? "wrote " : ", ") + file.string();
+  note(names);
+}
+
 }  // namespace condyle::cli

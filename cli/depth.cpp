@@ -2,9 +2,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
@@ -17,26 +19,50 @@
 namespace condyle::cli {
 namespace {
 
-enum class Method { radial, tangential };
+enum class Method { reliable, radial, tangential };
 enum class Scope { vertices_and_pairs, pairs_only };
 
 struct Options {
   std::string joint, pose, out;
-  Method method = Method::radial;
-  std::string about = "flexion";
+  Method method = Method::reliable;
+  std::optional<std::string> about;
+  VertexTables vertices = VertexTables::leave_out;
   Scope scope = Scope::vertices_and_pairs;
   Strictness strictness = Strictness::notes;
+  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
-DepthResult by_radial(const DepthQuestion& question, const JointContact& contact) {
-  const RadialContact found = contact.radial(question.X_FM);
-  return depth_result(question, found, summarise(contact, question.X_FM, found));
+DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, DepthMethod method) {
+  const Pose& X_FM = question.X_FM;
+  const RadialContact contact = joint.radial(X_FM);
+  const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
+  const ReliableContact reliable = method == DepthMethod::reliable
+                                       ? reliable_depths(joint, question.joint.kind, question.joint.side,
+                                                         question.pose.angles(), contact, measures.distances)
+                                       : reliable_radial_depths(contact, measures.distances);
+  return depth_result(question, method, measures, contact, summarise(joint, X_FM, contact), reliable);
 }
 
-DepthResult by_tangential(const DepthQuestion& question, const JointContact& contact, JointAngle about) {
-  const RotationAxis axis{about, axis_of(about, question.joint.side, question.angles)};
-  return depth_result(question, axis, contact.tangential(question.X_FM, axis.direction_F));
+DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about) {
+  const RotationAxis axis{about, axis_of(about, question.joint.side, question.pose.angles())};
+  const TangentialContact contact = joint.tangential(question.X_FM, axis.direction_F);
+  return depth_result(question, measure_contact(joint, question.X_FM, VertexStates(contact)), axis, contact);
+}
+
+DepthResult answer_of(const Options& options, const DepthQuestion& question) {
+  if (options.about && options.method != Method::tangential)
+    throw UsageError("--about: is for --method tangential");
+  const JointContact joint(question.joint);
+  switch (options.method) {
+    case Method::reliable:
+      return by_radial(question, joint, DepthMethod::reliable);
+    case Method::radial:
+      return by_radial(question, joint, DepthMethod::radial);
+    case Method::tangential:
+      break;
+  }
+  return by_tangential(question, joint, joint_angle_named(options.about.value_or("flexion")));
 }
 
 void require_solids(const LoadedJoint& loaded) {
@@ -48,17 +74,17 @@ void require_solids(const LoadedJoint& loaded) {
   }
 }
 
-void run(const Options& options) {
+void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
-  const JointAngles angles = parse_pose(options.pose, joint.kind);
+  const PoseDegrees pose = parse_pose(options.pose, joint.kind);
   if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
-  const DepthQuestion question{joint, angles, pose_at(joint.side, angles), noted(loaded, options.strictness)};
-  const JointContact contact(joint);
-  const DepthResult result = options.method == Method::radial
-                                 ? by_radial(question, contact)
-                                 : by_tangential(question, contact, joint_angle_named(options.about));
-  if (!options.out.empty()) write_depth(options.out, question, result);
+  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  const DepthQuestion question{joint, pose, pose_at(joint.side, pose.angles()),
+                               noted(loaded, options.strictness), &from};
+  const DepthResult result = answer_of(options, question);
+  if (!options.out.empty())
+    say_written(write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
   print(options.form == AnswerForm::json ? result.json : result.text);
 }
 
@@ -79,23 +105,34 @@ void add_depth(CLI::App& app) {
       ->add_option_function<std::string>(
           "--method",
           [options](const std::string& name) {
-            options->method = name == "radial" ? Method::radial : Method::tangential;
+            options->method = name == "reliable" ? Method::reliable
+                              : name == "radial" ? Method::radial
+                                                 : Method::tangential;
           },
-          "radial: along rays from the centre; tangential: along arcs about an axis")
-      ->check(CLI::IsMember({"radial", "tangential"}))
-      ->option_text("radial|tangential (radial)");
-  command->add_option("--about", options->about, "The angle about whose axis the tangential method rotates")
+          "reliable: along rays from the centre where that is a depth, else along the arc about the joint "
+          "axis "
+          "that frees a vertex soonest; radial: along rays; tangential: along arcs about one axis")
+      ->check(CLI::IsMember({"reliable", "radial", "tangential"}))
+      ->option_text("reliable|radial|tangential (reliable)");
+  command
+      ->add_option("--about", options->about,
+                   "With --method tangential: the angle about whose axis it rotates")
       ->option_text("flexion|adduction|internal_rotation (flexion)");
-  command->add_option(
-      "--out", options->out,
-      "Folder for fixed.vtp, mobile.vtp (both in the fixed body's joint frame), pairs.csv and depth.json");
+  auto* out = command->add_option("--out", options->out,
+                                  "Folder for fixed.vtp, mobile.vtp, pairs.csv and depth.json");
+  add_where(*command, options->where);
+  command
+      ->add_flag_callback(
+          "--csv", [options] { options->vertices = VertexTables::write; },
+          "With --out: also fixed.csv and mobile.csv, a line per vertex")
+      ->needs(out);
   command->add_flag_callback(
       "--pairs-only", [options] { options->scope = Scope::pairs_only; },
       "Accept open meshes: intersecting triangle pairs, and vertices only against a body that is closed");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
   add_strict(*command, options->strictness);
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace condyle::cli

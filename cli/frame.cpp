@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/io/frame_result.hpp"
 #include "notes.hpp"
@@ -19,10 +20,11 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-void run(const Options& options) {
+void run(const Options& options, const CLI::App& command) {
   const LoadedJoint joint = read_joint(options.joint);
   const std::vector<JointNote> notes = noted(joint, options.strictness);
-  print(options.form == AnswerForm::json ? to_json(joint, notes) : to_text(joint));
+  const Provenance from = provenance_of(joint, words_of(command));
+  print(options.form == AnswerForm::json ? to_json(joint, notes, &from) : to_text(joint));
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ void add_frame(CLI::App& app) {
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
   add_strict(*command, options->strictness);
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/error.hpp"
@@ -45,6 +46,7 @@ struct Options {
   Task task = Task::limits;
   ClockPlane clock = ClockPlane::sagittal;
   Strictness strictness = Strictness::notes;
+  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
   AnswerForm form = AnswerForm::text;
 };
 
@@ -183,7 +185,7 @@ ClockFace clock_of(const Options& options, const Joint& joint, const BearingFind
   return *clock;
 }
 
-void run(const Options& options) {
+void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
   const std::vector<Motion> known =
@@ -219,6 +221,7 @@ void run(const Options& options) {
   if (finder)
     for (const MotionLimit& limit : found.limits) zones.push_back(finder->zone(limit));
 
+  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   const RomResult result{.joint = joint,
                          .limits = found.limits,
                          .bearing = found.bearing,
@@ -231,8 +234,10 @@ void run(const Options& options) {
                          .zones = zones,
                          .map = map ? &*map : nullptr,
                          .bands = bands,
-                         .band_options = band};
-  if (!options.out.empty()) write_rom(options.out, result);
+                         .band_options = band,
+                         .provenance = &from,
+                         .vtp_encoding = options.where->vtp_encoding};
+  if (!options.out.empty()) say_written(write_rom(options.out, result));
   print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
 }
 
@@ -311,11 +316,12 @@ void add_rom(CLI::App& app) {
   command->add_option("--out", options->out,
                       "Folder for rom.json, limits.csv, limits.svg, clock_face.svg and bearing.vtp, map.csv "
                       "and map_*.svg of a map, "
-                      "zone_*.vtp of zones (both bodies in the fixed one's joint frame)");
+                      "zone_*.vtp of zones");
+  add_where(*command, options->where);
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
   add_strict(*command, options->strictness);
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -32,6 +32,8 @@
 #include "condyle/axis_frame.hpp"
 #include "condyle/tangential.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/contact_measures.hpp"
+#include "condyle/reliable_depth.hpp"
 
 // Motions.
 #include "condyle/first_contact.hpp"

@@ -21,6 +21,8 @@ class SurfaceDistance {
 
   double operator()(const Vec3& p) const noexcept;
 
+  const TriangleTree& tree() const noexcept { return tree_; }
+
  private:
   TriangleTree tree_;
 };

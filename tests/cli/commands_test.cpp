@@ -104,6 +104,8 @@ TEST_F(Command, FrameAnswersInTextAndJson) {
   EXPECT_EQ(answer["fit"]["vertex_count"], answer["fit"]["vertices"].size());
   EXPECT_EQ(answer["mobile"]["vertices"], femur.vertices.size());
   EXPECT_NEAR(answer["mobile"]["bounds_mm"]["low"][1], -400, 1e-9);
+  EXPECT_EQ(answer["provenance"]["command"], (Json{"frame", "right_hip.toml"}));
+  EXPECT_EQ(answer["provenance"]["mobile_mesh"]["bytes"], fs::file_size(here / "femur.ply"));
 }
 
 TEST_F(Command, WrongUsageEndsWithTwo) {

@@ -1,12 +1,18 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "command.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/io/file_digest.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
+#include "io/file/whole_file.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -15,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
+using io::read_whole_file;
 
 constexpr const char* deep = "--pose \"flexion=130 internal_rotation=20\"";
 const JointAngles deep_angles{Angle::degrees(130), {}, Angle::degrees(20)};
@@ -82,6 +89,70 @@ TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {
   EXPECT_GT(json["min_gap_mm"], 0);
 }
 
+TEST_F(SampleJointCommand, DepthLeadsWithTheReliableOne) {
+  const Json json = answer(std::string("depth sample/hip.toml ") + deep);
+  EXPECT_EQ(json["method"], "reliable");
+  const Json& reliable = json["reliable_depth"];
+  // The deepest vertex along its ray is a vertex of the rim: the ray runs along the bone.
+  EXPECT_EQ(json["depth_to_read"], "tangential");
+  EXPECT_LT(reliable["depth_mm"], json["max_radial_depth_mm"]);
+  EXPECT_GE(reliable["depth_mm"], json["max_facing_radial_depth_mm"]);
+  EXPECT_EQ(reliable["kind"], "tangential");
+  const std::string about = reliable["about"];
+  EXPECT_EQ(reliable["rotations"][about]["depth_mm"], reliable["depth_mm"]);
+  for (const auto& [axis, way] : reliable["rotations"].items()) {
+    if (!way.is_null()) {
+      EXPECT_GE(way["depth_mm"], reliable["depth_mm"]) << axis;
+    }
+  }
+  EXPECT_LE(reliable["nearest_distance_mm"], reliable["depth_mm"].get<double>() + 1e-9);
+  EXPECT_GT(json["contact"]["mobile"]["area_mm2"], 0);
+  EXPECT_GT(json["contact"]["fixed"]["mean_depth_mm"], 0);
+  EXPECT_GT(json["contact"]["volume_mm3"], 0);
+  EXPECT_EQ(json["nearest_distance_mm"], 0);
+
+  const std::string text = run(std::string("depth sample/hip.toml ") + deep).out;
+  EXPECT_NE(text.find(" mm along the arc of " + about), text.npos) << text;
+  char unreliable[32];
+  std::snprintf(unreliable, sizeof unreliable, "%.3f", json["max_radial_depth_mm"].get<double>());
+  EXPECT_EQ(text.find(unreliable), text.npos) << "only in JSON:\n" << text;
+
+  const Json radial = answer(std::string("depth sample/hip.toml --method radial ") + deep);
+  EXPECT_EQ(radial["reliable_depth"]["depth_mm"], json["max_facing_radial_depth_mm"]);
+  EXPECT_GT(radial["vertices_without_depth"], 0);
+  EXPECT_EQ(radial["contact"], json["contact"]);
+}
+
+TEST_F(SampleJointCommand, VerticesAreWrittenAsATableOnRequest) {
+  const Ran ran = run(std::string("depth sample/hip.toml --csv --json --out deep ") + deep);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  std::istringstream table(read_whole_file(folder / "deep/mobile.csv"));
+  std::string line;
+  while (std::getline(table, line) && line.starts_with('#')) continue;
+  EXPECT_TRUE(
+      line.starts_with("vertex,x_mm,y_mm,z_mm,depth_mm,depth_is_reliable,depth_way,nearest_distance_mm,"))
+      << line;
+  const TriMesh posed_femur = read_mesh(folder / "deep/mobile.vtp").mesh;
+  std::size_t rows = 0;
+  double deepest = 0;
+  for (; std::getline(table, line); ++rows) {
+    double x, y, z, depth;
+    std::size_t vertex;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%zu,%lf,%lf,%lf,%lf,", &vertex, &x, &y, &z, &depth), 5) << line;
+    EXPECT_EQ(vertex, rows);
+    EXPECT_EQ(Vec3(x, y, z), posed_femur.vertices[rows]);
+    deepest = std::max(deepest, depth);
+    EXPECT_EQ(line.find("nan"), line.npos);
+    EXPECT_EQ(line.find(",-0,"), line.npos);
+  }
+  EXPECT_EQ(rows, posed_femur.vertices.size());
+  EXPECT_GT(deepest, 0);
+  EXPECT_TRUE(fs::exists(folder / "deep/fixed.csv"));
+  ASSERT_EQ(run(std::string("depth sample/hip.toml --out deep ") + deep).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "deep/fixed.csv")) << "of an earlier run";
+}
+
 TEST_F(SampleJointCommand, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
   const Json json = answer("depth sample/hip.toml");
   EXPECT_FALSE(json["in_contact"]);
@@ -93,6 +164,11 @@ TEST_F(SampleJointCommand, TheNeutralPoseIsFreeWithTheJointSpaceAsGap) {
   // A joint space of 3.5 mm between surfaces of flat triangles.
   EXPECT_GT(json["min_gap_mm"], 3);
   EXPECT_LT(json["min_gap_mm"], 3.6);
+  EXPECT_GT(json["nearest_distance_mm"], 3);
+  EXPECT_LE(json["nearest_distance_mm"], json["min_gap_mm"]);
+  EXPECT_TRUE(json["reliable_depth"].is_null());
+  EXPECT_TRUE(json["contact"]["centroid_mm"].is_null());
+  EXPECT_EQ(json["contact"]["volume_mm3"], 0);
 }
 
 TEST_F(SampleJointCommand, TheTangentialMethodGivesAnglesAndArcs) {
@@ -121,7 +197,7 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
 
   std::ifstream csv(folder / "deep/pairs.csv");
   std::string line;
-  std::getline(csv, line);
+  while (std::getline(csv, line) && line.starts_with('#')) continue;
   EXPECT_EQ(line, "fixed_triangle,mobile_triangle");
   std::size_t rows = 0;
   while (std::getline(csv, line)) ++rows;
@@ -134,10 +210,70 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
     std::ifstream file(folder / name, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});
     for (const char* array :
-         {"inside", "radial_gap_mm", "triangle", "winding", "ray_to_normal_deg", "in_contact"}) {
+         {"depth_mm", "depth_is_reliable", "depth_way", "nearest_distance_mm", "radial_depth_mm",
+          "radial_gap_mm", "ray_to_normal_deg", "inside", "triangle", "winding", "in_contact"}) {
       EXPECT_NE(text.find("Name=\"" + std::string(array) + "\""), text.npos) << name << " " << array;
     }
   }
+}
+
+TEST_F(SampleJointCommand, ThePoseIsEchoedToTheDigit) {
+  // Through radians and back 57 and 0.7 are other numbers in the last place.
+  const std::string pose = " --pose \"flexion=57 abduction=0.7 external_rotation=0\"";
+  const std::string text = run("depth sample/hip.toml --json" + pose).out;
+  const Json json = Json::parse(text);
+  EXPECT_EQ(json["pose_deg"]["flexion"].get<double>(), 57);
+  EXPECT_EQ(json["pose_deg"]["adduction"].get<double>(), -0.7);
+  EXPECT_FALSE(std::regex_search(text, std::regex("-0(\\.0)?[^.0-9]"))) << text;
+  EXPECT_NE(
+      run("depth sample/hip.toml" + pose).out.find("flexion 57, adduction -0.7, internal rotation 0 deg"),
+      std::string::npos);
+}
+
+TEST_F(SampleJointCommand, EveryFileSaysWhereItComesFrom) {
+  const Ran ran =
+      run(std::string("--threads 1 depth --out deep --frame joint --json sample/hip.toml ") + deep);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json from = Json::parse(ran.out)["provenance"];
+  EXPECT_EQ(from["command"], Json({"depth", "sample/hip.toml", "--pose", "flexion=130 internal_rotation=20",
+                                   "--frame", "joint"}));
+  const std::string femur = read_whole_file(folder / "sample/femur.ply");
+  EXPECT_EQ(from["mobile_mesh"]["path"], "sample/femur.ply");
+  EXPECT_EQ(from["mobile_mesh"]["bytes"], femur.size());
+  EXPECT_EQ(from["mobile_mesh"]["sha256"], digest_of(femur).sha256);
+  EXPECT_EQ(from["fixed_mesh"]["joint_from_source"],
+            Json({{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}}));
+  const std::string sha = from["fixed_mesh"]["sha256"];
+  EXPECT_NE(read_whole_file(folder / "deep/pairs.csv").find(sha), std::string::npos);
+  for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"})
+    EXPECT_NE(read_whole_file(folder / name).find("Name=\"fixed_mesh\""), std::string::npos) << name;
+  EXPECT_NE(ran.err.find("wrote deep/fixed.vtp, deep/mobile.vtp, deep/pairs.csv, deep/depth.json"),
+            ran.err.npos)
+      << ran.err;
+
+  // Neither the folder nor the number of threads is part of it: runs compare.
+  ASSERT_EQ(run(std::string("depth sample/hip.toml --threads 4 --out again --frame joint ") + deep).exit_code,
+            0);
+  for (const auto& entry : fs::directory_iterator(folder / "deep"))
+    EXPECT_EQ(read_whole_file(entry.path()), read_whole_file(folder / "again" / entry.path().filename()));
+}
+
+TEST_F(SampleJointCommand, InTheSourceFrameMeshesLieOnTheirFiles) {
+  edit_joint("centre = [0.0, 0.0, 0.0]", "centre = [1.0, 2.0, -3.0]");
+  const std::string command = std::string("depth sample/hip.toml --json --out deep --ascii ") + deep;
+  const Json joint = Json::parse(run(command).out),
+             source = Json::parse(run(command + " --frame source").out);
+  EXPECT_EQ(source["provenance"]["frame"], "source");
+  EXPECT_EQ(source["max_radial_depth_mm"], joint["max_radial_depth_mm"]);
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(source["deepest_point_mm"][k].get<double>() - joint["deepest_point_mm"][k].get<double>(),
+                (std::array{1, 2, -3})[k], 1e-12);
+  const TriMesh fixed = read_mesh(folder / "deep/fixed.vtp").mesh,
+                file = read_mesh(folder / "sample/hip_bone.ply").mesh;
+  ASSERT_EQ(fixed.triangles, file.triangles);
+  for (std::size_t v = 0; v < file.vertices.size(); ++v)
+    EXPECT_LT((fixed.vertices[v] - file.vertices[v]).norm(), 1e-12) << v;
+  EXPECT_EQ(read_whole_file(folder / "deep/fixed.vtp").find("appended"), std::string::npos);
 }
 
 TEST_F(SampleJointCommand, AnOpenMeshIsRefusedByItsBoundaryAndStillHasPairs) {
@@ -201,6 +337,10 @@ TEST_F(SampleJointCommand, WrongUsageEndsWithTwo) {
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=ninety\"", "flexion='ninety' is not a number");
   expect_refused(2, "depth sample/hip.toml --method normal", "--method");
   expect_refused(2, "depth sample/hip.toml --method tangential --about twist", "unknown angle 'twist'");
+  expect_refused(2, "depth sample/hip.toml --about flexion", "--about: is for --method tangential");
+  expect_refused(2, "depth sample/hip.toml --method radial --about adduction", "--about");
+  expect_refused(2, "depth sample/hip.toml --csv", "--csv requires --out");
+  expect_refused(2, "depth sample/hip.toml --frame world", "unknown frame 'world'");
   expect_refused(2, "depth", "JOINT is required");
   expect_refused(2, "sample", "");
   expect_refused(2, "sample hip", "--out is required");

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -120,6 +122,58 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
   // No file for the motion without contact, nor one outside the folder.
   for (const auto& entry : fs::recursive_directory_iterator(here))
     EXPECT_EQ(entry.path().string().find("down"), std::string::npos) << entry.path();
+}
+
+/// Otherwise a map of another question would stay beside the limits of this one.
+TEST_F(RomCommand, WhatAnEarlierRunWroteIsReplaced) {
+  std::ofstream(here / "notes.txt") << "somebody's";
+  ASSERT_EQ(run(std::string("rom joint.toml --motion flexion --past 4 --out .") + small_map).exit_code, 0);
+  EXPECT_TRUE(fs::exists(here / "zone_01_flexion_fixed.vtp"));
+  const Ran ran = run("rom joint.toml --motion extension --out .");
+  ASSERT_EQ(ran.exit_code, 0);
+  EXPECT_NE(ran.err.find("wrote ./rom.json, ./limits.csv, "), ran.err.npos) << ran.err;
+  ASSERT_EQ(run("rom joint.toml --motion extension --out fresh").exit_code, 0);
+  std::set<std::string> left, fresh = {"notes.txt", "joint.toml", "post.ply", "arm.ply", "fresh"};
+  for (const auto& entry : fs::directory_iterator(here)) left.insert(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator(here / "fresh")) fresh.insert(entry.path().filename());
+  EXPECT_EQ(left, fresh);
+}
+
+TEST_F(RomCommand, SaysWhereItComesFromInEveryFile) {
+  const Ran ran = run(
+      std::string("rom --motion flexion --motion fadir --past 4 joint.toml --out out --json") + small_map);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json from = Json::parse(ran.out)["provenance"];
+  EXPECT_EQ(from["command"], Json({"rom", "joint.toml", "--motion", "flexion", "--motion", "fadir", "--map",
+                                   "adduction=-10:10:5", "internal_rotation=-20:20:10", "--past", "4"}));
+  const std::string sha = from["fixed_mesh"]["sha256"];
+  for (const char* name : {"limits.csv", "map.csv"})
+    EXPECT_NE(io::read_whole_file(here / "out" / name).find(sha), std::string::npos) << name;
+  for (const char* name : {"zone_01_flexion_fixed.vtp", "zone_01_flexion_mobile.vtp"})
+    EXPECT_NE(io::read_whole_file(here / "out" / name).find("Name=\"fixed_mesh\""), std::string::npos)
+        << name;
+}
+
+TEST_F(RomCommand, InTheSourceFramePointsAndZonesLieOnTheFiles) {
+  for (const char* name : {"post.ply", "arm.ply"}) {
+    TriMesh mesh = read_mesh(here / name).mesh;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+      mesh.vertices.set(v, mesh.vertices[v] + Vec3(8, -4, 2));
+    write_mesh(here / name, mesh);
+  }
+  std::string joint = io::read_whole_file(here / "joint.toml");
+  joint.replace(joint.find("[0, 0, 0]"), 9, "[8, -4, 2]");
+  std::ofstream(here / "joint.toml") << joint;
+  const std::string command = "rom joint.toml --motion flexion --past 4 --out out --json";
+  const Json in_joint = Json::parse(run(command).out)["motions"][0];
+  const Json in_source = Json::parse(run(command + " --frame source").out)["motions"][0];
+  EXPECT_EQ(in_source["limit_deg"], in_joint["limit_deg"]);
+  EXPECT_EQ(in_source["clock_hour"], in_joint["clock_hour"]);
+  for (const char* key : {"contact_point_mm", "contact_point_mobile_mm"})
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(in_source[key][k].get<double>() - in_joint[key][k].get<double>(), (std::array{8, -4, 2})[k],
+                  1e-12);
+  EXPECT_EQ(read_mesh(here / "out/zone_01_flexion_fixed.vtp").mesh, read_mesh(here / "post.ply").mesh);
 }
 
 TEST_F(RomCommand, AllowsADepthOnRequestAndSaysThatTheLimitIsSearchedFor) {

@@ -59,6 +59,31 @@ TEST(OutputFolder, OlderFilesStayUntilCommitAndAreReplacedThen) {
   EXPECT_EQ(read(folder / "other.txt"), "kept");
 }
 
+/// Names that a command may write.
+bool is_text(std::string_view name) {
+  return name.ends_with(".txt");
+}
+
+TEST(OutputFolder, WhatAnEarlierRunOfTheCommandLeftGoesWithTheCommitAndNothingElse) {
+  const TemporaryFolder folder;
+  folder.file("one.txt", "old");
+  folder.file("two.txt", "of an earlier run");
+  folder.file("notes.md", "somebody's");
+  fs::create_directory(folder / "folder.txt");
+  {
+    OutputFolder files(folder.path(), is_text);
+    write(files.file("one.txt"), "new");
+  }
+  EXPECT_TRUE(fs::exists(folder / "two.txt")) << "not committed";
+  OutputFolder files(folder.path(), is_text);
+  write(files.file("one.txt"), "new");
+  EXPECT_EQ(files.commit(), std::vector<fs::path>{folder / "one.txt"});
+  EXPECT_FALSE(fs::exists(folder / "two.txt"));
+  EXPECT_EQ(read(folder / "one.txt"), "new");
+  EXPECT_EQ(read(folder / "notes.md"), "somebody's");
+  EXPECT_TRUE(fs::exists(folder / "folder.txt"));
+}
+
 TEST(OutputFolder, AFolderThatCannotBeMadeIsRefusedAndLeavesNothing) {
   const TemporaryFolder folder;
   const auto file = folder.file("plain", "text");

@@ -3,9 +3,11 @@
 #include <unistd.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
+#include <vtkFieldData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 
 #include <array>
@@ -139,6 +141,37 @@ TEST_F(WrittenMesh, CarriesItsArraysForVtk) {
   }
   for (vtkIdType i = 0; i < 12; ++i) EXPECT_EQ(contacts->GetTuple1(i), touching[static_cast<std::size_t>(i)]);
   expect_same_bits(read_mesh(folder_ / "a.vtp").mesh, mesh);
+}
+
+TEST_F(WrittenMesh, HasEveryBitOfPointsArraysAndFieldsInBothEncodings) {
+  const TriMesh mesh = test::box({0.1, -1.0 / 3, 1e-7}, {1.0 / 7, 2, 3e5});
+  std::vector<double> gap(mesh.vertices.size(), 1.0 / 3);
+  gap[0] = -0x1.fffffffffffffp-3;
+  for (const VtpEncoding encoding : {VtpEncoding::binary, VtpEncoding::text}) {
+    const VtpOptions options{encoding,
+                             {{"command", "condyle depth 'a & b'"}, {"matrix", std::vector{0.1, -2e-17}}}};
+    const auto path = folder_ / "a.vtp";
+    write_vtp(path, mesh, std::array{MeshArray{"gap", gap}}, {}, options);
+    expect_same_bits(read_mesh(path).mesh, mesh);
+    const bool is_text = io::read_whole_file(path).find("format=\"appended\"") == std::string::npos;
+    EXPECT_EQ(is_text, encoding == VtpEncoding::text);
+
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->Update();
+    vtkPolyData* data = reader->GetOutput();
+    ASSERT_NE(data->GetPointData()->GetScalars(), nullptr) << "what viewers colour by";
+    EXPECT_STREQ(data->GetPointData()->GetScalars()->GetName(), "gap");
+    for (std::size_t v = 0; v < gap.size(); ++v)
+      EXPECT_EQ(data->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v)), gap[v]);
+    auto* command = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("command"));
+    auto* matrix = data->GetFieldData()->GetArray("matrix");
+    ASSERT_NE(command, nullptr);
+    ASSERT_NE(matrix, nullptr);
+    EXPECT_EQ(command->GetValue(0), "condyle depth 'a & b'");
+    EXPECT_EQ(matrix->GetTuple1(0), 0.1);
+    EXPECT_EQ(matrix->GetTuple1(1), -2e-17);
+  }
 }
 
 TEST_F(WrittenMesh, LeavesNothingBehindWhereItCannotBeWritten) {

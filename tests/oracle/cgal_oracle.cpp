@@ -138,6 +138,13 @@ std::vector<TrianglePair> CgalOracle::pairs(const TriMesh& other) const {
   return pairs;
 }
 
+std::vector<double> CgalOracle::distances(PointsView points) const {
+  std::vector<double> distances(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    distances[i] = std::sqrt(trees_->tree.squared_distance(point(points[i])));
+  return distances;
+}
+
 double CgalOracle::min_distance(PointsView points) const {
   double squared = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {

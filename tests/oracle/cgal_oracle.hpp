@@ -33,6 +33,9 @@ class CgalOracle {
   /// Smallest distance from a point to the surface, mm.
   double min_distance(PointsView points) const;
 
+  /// From each point to the surface, mm.
+  std::vector<double> distances(PointsView points) const;
+
  private:
   struct Trees;
   std::unique_ptr<Trees> trees_;

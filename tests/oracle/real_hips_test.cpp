@@ -88,8 +88,8 @@ struct LoadedJoint {
 std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
   const Side side = side_sign > 0 ? Side::right : Side::left;
   const Joint joint{"", JointKind::ball, side, {"", meshes.fixed}, {"", meshes.mobile}};
-  const RangeOfMotion range(
-      joint, {.bearing = {.rule = BearingRule::count}, .overlap = {.reference_contact = ReferenceContact::accept}});
+  const RangeOfMotion range(joint, {.bearing = {.rule = BearingRule::count},
+                                    .overlap = {.reference_contact = ReferenceContact::accept}});
   std::vector<Pose> poses;
   for (const MotionLimit& limit : range.limits(hip_motions())) {
     if (limit.end.reason != LimitReason::contact) continue;

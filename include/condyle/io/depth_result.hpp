@@ -5,9 +5,13 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/contact_measures.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
+#include "condyle/reliable_depth.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
 
@@ -16,9 +20,13 @@ namespace condyle {
 /// The pose that a result belongs to.
 struct DepthQuestion {
   const Joint& joint;
-  JointAngles angles;
+  PoseDegrees pose;  ///< as it was given
   Pose X_FM;
   std::vector<JointNote> notes = {};  ///< what looks wrong with the joint
+  /// Where the answer comes from and in which frame it is given; null: not known, and the joint frame.
+  const Provenance* provenance = nullptr;
+
+  AnswerFrame frame() const { return provenance ? provenance->frame : AnswerFrame{}; }
 };
 
 /// A rotation axis, by its joint angle and as a direction in F.
@@ -27,8 +35,9 @@ struct RotationAxis {
   Vec3 direction_F;
 };
 
-/// Point arrays of one body (none where the other mesh is open: nothing can be inside it) and its cell array
-/// in_contact, 1 for a triangle that is in a pair.
+/// Point arrays of one body, the first one to colour by: finite everywhere, 0 for vertices that are not inside. Where the
+/// other mesh is open nothing can be inside it: nearest distances only. And its cell array in_contact, 1 for a triangle
+/// that is in a pair.
 struct DepthArrays {
   std::vector<MeshArray> points;
   MeshArray in_contact;
@@ -42,19 +51,34 @@ struct DepthResult {
   DepthArrays fixed, mobile;
 };
 
-/// The radial depths of one pose: point arrays inside, radial_gap_mm, triangle, winding and
-/// ray_to_normal_deg.
-DepthResult depth_result(const DepthQuestion& question, const RadialContact& contact,
-                         const RadialSummary& summary);
+/// Which depths an answer leads with.
+enum class DepthMethod {
+  reliable,  ///< of each vertex the one that means a depth there
+  radial,    ///< radial depths where they are depths
+};
 
-/// The tangential depths about one axis: point arrays inside, tangential_depth_deg, tangential_depth_mm,
-/// triangle and winding.
-DepthResult depth_result(const DepthQuestion& question, const RotationAxis& axis,
-                         const TangentialContact& contact);
+/// Of one pose: the depths to read, and the radial ones. `reliable` is reliable_depths() or reliable_radial_depths().
+DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
+                         const RadialContact& contact, const RadialSummary& summary,
+                         const ReliableContact& reliable);
 
-/// Writes fixed.vtp and mobile.vtp (both in the fixed body's joint frame), pairs.csv and depth.json into a
-/// folder, all or none. Throws FileError.
-void write_depth(const std::filesystem::path& folder, const DepthQuestion& question,
-                 const DepthResult& result);
+/// The tangential depths about one axis.
+DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
+                         const RotationAxis& axis, const TangentialContact& contact);
+
+/// Whether tables of vertices are written too.
+enum class VertexTables { leave_out, write };
+
+struct DepthFiles {
+  VtpEncoding encoding = VtpEncoding::binary;
+  VertexTables vertices = VertexTables::leave_out;
+};
+
+/// Writes fixed.vtp and mobile.vtp (both in the fixed body's frame), pairs.csv and depth.json into a folder, on request
+/// fixed.csv and mobile.csv with a line per vertex; all or none, and files of an earlier result go. Returns what was
+/// written. Throws FileError.
+std::vector<std::filesystem::path> write_depth(const std::filesystem::path& folder,
+                                               const DepthQuestion& question, const DepthResult& result,
+                                               const DepthFiles& files = {});
 
 }  // namespace condyle

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"
 
 /// What `condyle frame` shows: how a joint was made of its file. Keys of the JSON are listed in
@@ -13,6 +14,7 @@ namespace condyle {
 
 /// For people, and for programs: whole documents that end with a newline.
 std::string to_text(const LoadedJoint& joint);
-std::string to_json(const LoadedJoint& joint, std::span<const JointNote> notes);
+std::string to_json(const LoadedJoint& joint, std::span<const JointNote> notes,
+                    const Provenance* from = nullptr);
 
 }  // namespace condyle

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "condyle/io/file_digest.hpp"
+#include "condyle/io/pose_text.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -26,8 +28,10 @@ struct JointFile {
   std::filesystem::path path;
   JointDescription joint;
   BodyEntry fixed, mobile;
-  std::vector<Motion> motions;   ///< of the [[motion]] tables, in their order, each name once
-  Uncertainty uncertainty = {};  ///< of the [uncertainty] table; what is usual where it says nothing
+  std::vector<Motion> motions;      ///< of the [[motion]] tables, in their order, each name once
+  Uncertainty uncertainty = {};     ///< of the [uncertainty] table; what is usual where it says nothing
+  PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
+  FileDigest digest = {};
 };
 JointFile read_joint_file(const std::filesystem::path& path);
 
@@ -37,6 +41,7 @@ struct BodyReport {
   std::size_t vertices, triangles;
   std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
   std::vector<RepairDone> repairs;
+  FileDigest digest = {};  ///< of the file before anything was done to the mesh
 };
 
 /// What was done to make a joint of a file, for reading and for checking.

@@ -35,6 +35,9 @@ MeshFile read_mesh(const std::filesystem::path& path);
 /// The same from memory; `name` is what errors call the file.
 MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
 
+/// The format that the extension names.
+MeshFormat mesh_format_of(const std::filesystem::path& path);
+
 /// Writes .vtp or .ply, as the extension says: binary, in floats where every coordinate is one and else in
 /// doubles, so that reading gives the same bits back. The file appears whole under its name or not at all.
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh);
@@ -45,9 +48,24 @@ struct MeshArray {
   std::variant<std::vector<double>, std::vector<std::int32_t>, std::vector<std::uint8_t>> values;
 };
 
+/// How a VTP file holds numbers: as bytes, or as text to the last bit, which OpenSim asks for.
+enum class VtpEncoding { binary, text };
+
+/// A named value of the whole file: a text, or numbers.
+struct VtpField {
+  std::string name;
+  std::variant<std::string, std::vector<double>> value;
+};
+
+struct VtpOptions {
+  VtpEncoding encoding = VtpEncoding::binary;
+  std::vector<VtpField> fields = {};
+};
+
 /// Writes a mesh with its results as XML PolyData, for ParaView and 3D Slicer. Point arrays have one value
-/// per vertex, cell arrays one per triangle.
+/// per vertex, cell arrays one per triangle; the first of each is what viewers colour by.
 void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
-               std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays);
+               std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays,
+               const VtpOptions& options = {});
 
 }  // namespace condyle

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -15,7 +16,13 @@ namespace condyle {
 /// Without commit() nothing is left: no file, nor a folder that was created for them. Throws FileError.
 class OutputFolder {
  public:
+  /// Tells of a name whether some run of a command could have written it.
+  using OfCommand = std::function<bool(std::string_view name)>;
+
   explicit OutputFolder(const std::filesystem::path& folder);
+  /// What an earlier run of the command left and this one does not write goes at commit(): no file of another question
+  /// stays beside those of this one. Every name that file() is asked for must be of the command.
+  OutputFolder(const std::filesystem::path& folder, OfCommand of_command);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -27,9 +34,12 @@ class OutputFolder {
   std::vector<std::filesystem::path> commit();
 
  private:
+  std::vector<std::filesystem::path> left_by_earlier_runs() const;
+
   std::filesystem::path folder_, aside_;
   std::vector<std::filesystem::path> created_;  ///< folders, outermost first
   std::vector<std::filesystem::path> names_;
+  OfCommand of_command_;
   bool committed_ = false;
 };
 

@@ -7,16 +7,26 @@
 
 namespace condyle {
 
+/// A pose in degrees, as somebody wrote it: an Angle is in radians, and degrees that come back from there may differ in
+/// the last digit.
+struct PoseDegrees {
+  double flexion = 0, adduction = 0, internal_rotation = 0;
+
+  JointAngles angles() const noexcept {
+    return {Angle::degrees(flexion), Angle::degrees(adduction), Angle::degrees(internal_rotation)};
+  }
+  friend bool operator==(const PoseDegrees&, const PoseDegrees&) = default;
+};
+
 /// Reads a pose as people write it: "flexion=90 adduction=-10 internal_rotation=20", in degrees, in any
 /// order, separated by spaces or commas. Angles left out are 0; the empty text is the neutral pose.
 /// `extension`, `abduction` and `external_rotation` are the same angles with the opposite sign. Throws
 /// UsageError on unknown names, on an angle given twice under either name, on anything that is not a finite
 /// number, and on a hinge for angles other than flexion other than 0.
-JointAngles parse_pose(std::string_view text, JointKind kind);
+PoseDegrees parse_pose(std::string_view text, JointKind kind);
 
-/// The pose as parse_pose() reads it, in degrees with twelve digits: "flexion=90 adduction=-10
-/// internal_rotation=20".
-std::string to_text(const JointAngles& angles);
+/// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
+std::string to_text(const PoseDegrees& pose);
 
 std::string_view name_of(Side side) noexcept;
 std::string_view name_of(JointKind kind) noexcept;

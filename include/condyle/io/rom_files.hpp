@@ -1,14 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "condyle/io/rom_result.hpp"
 
 namespace condyle {
 
 /// Writes everything a result has into a folder: rom.json, limits.csv, limits.svg, clock_face.svg of a ball,
-/// map.csv and map_*.svg of a map, zone_*.vtp of zones, both bodies in the fixed one's joint frame. All files
-/// appear or none. Throws FileError.
-void write_rom(const std::filesystem::path& folder, const RomResult& result);
+/// map.csv and map_*.svg of a map, zone_*.vtp of zones, both bodies in the fixed one's frame. All files
+/// appear or none, and files of an earlier result go. Returns what was written. Throws FileError.
+std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result);
 
 }  // namespace condyle

@@ -9,6 +9,8 @@
 #include "condyle/clock_face.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/limit_band.hpp"
@@ -43,6 +45,9 @@ struct RomResult {
   /// One per limit where bands were computed, none where not, and what they were computed with.
   std::span<const LimitBand> bands = {};
   BandOptions band_options = {};
+  /// Where the answer comes from and in which frame it is given; null: not known, and the joint frame.
+  const Provenance* provenance = nullptr;
+  VtpEncoding vtp_encoding = VtpEncoding::binary;
 };
 
 /// "contact", "end_of_range", "contact_at_start".
@@ -54,6 +59,9 @@ std::string_view name_of(ContactKind kind) noexcept;
 std::string guarantee_text(const MotionLimit& limit);
 /// The same of a limit with a depth allowed, which is searched for and not exact.
 std::string guarantee_text(const DepthLimit& limit);
+
+/// The frame in which it gives points and meshes.
+AnswerFrame frame_of(const RomResult& result);
 
 /// The summary as JSON text, ending in a newline.
 std::string rom_json(const RomResult& result);

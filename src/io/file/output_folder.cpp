@@ -7,6 +7,7 @@
 #include <cassert>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "condyle/error.hpp"
 
@@ -32,7 +33,11 @@ void remove_empty(const std::vector<fs::path>& folders) noexcept {
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& folder) : folder_(folder) {
+OutputFolder::OutputFolder(const fs::path& folder)
+    : OutputFolder(folder, [](std::string_view) { return false; }) {}
+
+OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command)
+    : folder_(folder), of_command_(std::move(of_command)) {
   if (folder.empty()) throw FileError("output folder: no name given");
   // "a/b/" and "a/b" are one folder; the empty last name would be created on its own.
   if (!folder_.has_filename()) folder_ = folder_.parent_path();
@@ -63,6 +68,17 @@ fs::path OutputFolder::file(std::string_view name) {
   return aside_ / path;
 }
 
+std::vector<fs::path> OutputFolder::left_by_earlier_runs() const {
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    const fs::path name = entry.path().filename();
+    if (entry.is_regular_file() && of_command_(name.string()) &&
+        std::find(names_.begin(), names_.end(), name) == names_.end())
+      left.push_back(entry.path());
+  }
+  return left;
+}
+
 std::vector<fs::path> OutputFolder::commit() {
   // What would stop a move is looked for before the first one.
   for (const fs::path& name : names_)
@@ -76,6 +92,13 @@ std::vector<fs::path> OutputFolder::commit() {
       throw FileError(fmt::format("{}: cannot be written: {}", (folder_ / name).string(), error.message()));
     written.push_back(folder_ / name);
     committed_ = true;
+  }
+  for (const fs::path& file : left_by_earlier_runs()) {
+    std::error_code error;
+    fs::remove(file, error);
+    if (error)
+      throw FileError(
+          fmt::format("{}: left by an earlier run, cannot be removed: {}", file.string(), error.message()));
   }
   return written;
 }

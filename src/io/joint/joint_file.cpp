@@ -17,9 +17,9 @@ namespace {
 
 using io::TomlTable;
 
-toml::table parsed(const std::filesystem::path& path) {
+toml::table parsed(std::string_view text, const std::filesystem::path& path) {
   try {
-    return toml::parse(io::read_whole_file(path), path.string());
+    return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
     std::string what(error.description());
     std::replace_if(
@@ -153,14 +153,12 @@ FrameDescription frame_description(io::TomlTable& file, const Lengths& lengths) 
   return frame;
 }
 
-JointAngles reference_pose(io::TomlTable& file, JointKind kind) {
+PoseDegrees reference_pose(io::TomlTable& file, JointKind kind) {
   auto table = file.table("reference_pose");
   if (!table) return {};
-  const auto angle = [&](JointAngle name) {
-    return Angle::degrees(table->number(name_of(name)).value_or(0));
-  };
-  const JointAngles pose{angle(JointAngle::flexion), angle(JointAngle::adduction),
-                         angle(JointAngle::internal_rotation)};
+  const auto degrees = [&](JointAngle name) { return table->number(name_of(name)).value_or(0); };
+  const PoseDegrees pose{degrees(JointAngle::flexion), degrees(JointAngle::adduction),
+                         degrees(JointAngle::internal_rotation)};
   if (kind == JointKind::hinge)
     for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
       if (table->number(name_of(name)).value_or(0) != 0)
@@ -230,7 +228,8 @@ std::vector<Motion> own_motions(io::TomlTable& file, JointKind kind) {
 }  // namespace
 
 JointFile read_joint_file(const std::filesystem::path& path) {
-  const toml::table root = parsed(path);
+  const std::string text = io::read_whole_file(path);
+  const toml::table root = parsed(text, path);
   io::TomlTable file(path, root, "");
   // The version comes first: what follows may be spelt otherwise in another one.
   if (const auto version = file.required("condyle", file.integer("condyle")); version != io::format_version)
@@ -239,6 +238,7 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   JointFile out;
   JointDescription& joint = out.joint;
   out.path = path;
+  out.digest = digest_of(text);
   joint.name = file.required("name", file.text("name"));
   joint.kind = file.required_word("kind", {"ball", "hinge"}) == 0 ? JointKind::ball : JointKind::hinge;
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
@@ -247,7 +247,8 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   out.mobile = body_entry(file, "mobile");
   for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
-  joint.reference_pose = reference_pose(file, joint.kind);
+  out.reference_pose = reference_pose(file, joint.kind);
+  joint.reference_pose = out.reference_pose.angles();
   out.motions = own_motions(file, joint.kind);
   out.uncertainty = uncertainty(file, Lengths(joint.units));
   file.finish();

@@ -53,7 +53,7 @@ double degrees_from(std::string_view text, std::string_view name) {
 
 }  // namespace
 
-JointAngles parse_pose(std::string_view text, JointKind kind) {
+PoseDegrees parse_pose(std::string_view text, JointKind kind) {
   std::array<std::optional<double>, 3> degrees;
   for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != text.npos;) {
     const std::string_view word = text.substr(at, text.find_first_of(separators, at) - at);
@@ -64,21 +64,20 @@ JointAngles parse_pose(std::string_view text, JointKind kind) {
     const AngleName& known = angle_name(word.substr(0, equals));
     auto& value = degrees[static_cast<std::size_t>(known.angle)];
     if (value) throw UsageError(fmt::format("pose: {} is given twice", name_of(known.angle)));
-    value = known.sign * degrees_from(word.substr(equals + 1), known.name);
+    // Adding 0 makes 0 of -0, which extension=0 would be.
+    value = known.sign * degrees_from(word.substr(equals + 1), known.name) + 0.0;
   }
   if (kind == JointKind::hinge)
     for (const JointAngle angle : {JointAngle::adduction, JointAngle::internal_rotation})
       if (degrees[static_cast<std::size_t>(angle)].value_or(0) != 0)
         throw UsageError(fmt::format("pose: a hinge rotates in flexion only, not in {}", name_of(angle)));
-  const auto angle = [&](JointAngle a) {
-    return Angle::degrees(degrees[static_cast<std::size_t>(a)].value_or(0));
-  };
-  return {angle(JointAngle::flexion), angle(JointAngle::adduction), angle(JointAngle::internal_rotation)};
+  const auto given = [&](JointAngle a) { return degrees[static_cast<std::size_t>(a)].value_or(0); };
+  return {given(JointAngle::flexion), given(JointAngle::adduction), given(JointAngle::internal_rotation)};
 }
 
-std::string to_text(const JointAngles& angles) {
-  return fmt::format("flexion={:.12g} adduction={:.12g} internal_rotation={:.12g}", angles.flexion.degrees(),
-                     angles.adduction.degrees(), angles.internal_rotation.degrees());
+std::string to_text(const PoseDegrees& pose) {
+  return fmt::format("flexion={} adduction={} internal_rotation={}", pose.flexion, pose.adduction,
+                     pose.internal_rotation);
 }
 
 std::string_view name_of(Side side) noexcept {

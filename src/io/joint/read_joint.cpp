@@ -6,6 +6,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/repair_text.hpp"
+#include "io/file/whole_file.hpp"
 
 namespace condyle {
 namespace {
@@ -17,17 +18,21 @@ struct LoadedBody {
 };
 
 /// `key` and the joint file are named where the mesh cannot be opened: it may be the key that is wrong.
-MeshFile read_mesh_of(const BodyEntry& entry, std::string_view key, const std::filesystem::path& joint_file) {
+void check_mesh_exists(const BodyEntry& entry, std::string_view key,
+                       const std::filesystem::path& joint_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(entry.mesh, ignored))
     throw FileError(
         fmt::format("{}: {}.mesh: there is no file {}", joint_file.string(), key, entry.mesh.string()));
-  return read_mesh(entry.mesh);
 }
 
 LoadedBody load(const BodyEntry& entry, std::string_view key, const std::filesystem::path& joint_file) {
-  MeshFile file = read_mesh_of(entry, key, joint_file);
-  BodyReport report{entry.mesh, 0, 0, file.welded_vertices, {}};
+  check_mesh_exists(entry, key, joint_file);
+  io::check_is_file(entry.mesh);
+  const MeshFormat format = mesh_format_of(entry.mesh);
+  const std::string bytes = io::read_whole_file(entry.mesh);
+  MeshFile file = read_mesh(bytes, format, entry.mesh.string());
+  BodyReport report{entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
   try {
     report.repairs = repair_mesh(file.mesh, entry.repairs);
   } catch (const MeshError& error) {

@@ -16,17 +16,6 @@ namespace {
 using io::RawMesh;
 using io::Source;
 
-MeshFormat format_of(const std::filesystem::path& path) {
-  const auto extension = io::lower_case(path.extension().string());
-  if (extension == ".stl") return MeshFormat::stl;
-  if (extension == ".obj") return MeshFormat::obj;
-  if (extension == ".ply") return MeshFormat::ply;
-  if (extension == ".vtp") return MeshFormat::vtp;
-  if (extension == ".vtk") return MeshFormat::vtk;
-  throw FileError(fmt::format("{}: unknown extension '{}': .stl, .obj, .ply, .vtp and .vtk are read",
-                              path.string(), path.extension().string()));
-}
-
 RawMesh read_raw(const Source& source, MeshFormat format) {
   switch (format) {
     case MeshFormat::stl:
@@ -72,6 +61,17 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
 
 }  // namespace
 
+MeshFormat mesh_format_of(const std::filesystem::path& path) {
+  const auto extension = io::lower_case(path.extension().string());
+  if (extension == ".stl") return MeshFormat::stl;
+  if (extension == ".obj") return MeshFormat::obj;
+  if (extension == ".ply") return MeshFormat::ply;
+  if (extension == ".vtp") return MeshFormat::vtp;
+  if (extension == ".vtk") return MeshFormat::vtk;
+  throw FileError(fmt::format("{}: unknown extension '{}': .stl, .obj, .ply, .vtp and .vtk are read",
+                              path.string(), path.extension().string()));
+}
+
 MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name) {
   const Source source{bytes, name};
   if (bytes.empty()) source.fail("the file is empty");
@@ -82,7 +82,7 @@ MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view n
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   io::check_is_file(path);
-  const auto format = format_of(path);
+  const auto format = mesh_format_of(path);
   return read_mesh(io::read_whole_file(path), format, path.string());
 }
 

@@ -3,6 +3,7 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkFloatArray.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -10,6 +11,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -132,22 +134,43 @@ void add_arrays(std::span<const MeshArray> arrays, [[maybe_unused]] std::size_t 
     values->SetName(array.name.c_str());
     out->AddArray(values);
   }
+  if (!arrays.empty()) out->SetActiveScalars(arrays.front().name.c_str());
+}
+
+void add_fields(const std::vector<VtpField>& fields, vtkFieldData* out) {
+  for (const auto& [name, value] : fields) {
+    vtkSmartPointer<vtkAbstractArray> array;
+    if (const auto* text = std::get_if<std::string>(&value)) {
+      auto words = vtkSmartPointer<vtkStringArray>::New();
+      words->InsertNextValue(*text);
+      array = words;
+    } else {
+      array = filled<vtkDoubleArray>(std::get<std::vector<double>>(value));
+    }
+    array->SetName(name.c_str());
+    out->AddArray(array);
+  }
 }
 
 /// VTK writes into memory, so that a full disk is noticed here and nothing half done keeps the name.
 std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arrays,
-                      std::span<const MeshArray> cell_arrays) {
+                      std::span<const MeshArray> cell_arrays, const VtpOptions& options) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(is_float_valued(mesh.vertices) ? points_for_vtk<vtkFloatArray>(mesh.vertices)
                                                  : points_for_vtk<vtkDoubleArray>(mesh.vertices));
   data->SetPolys(triangles_for_vtk(mesh.triangles));
   add_arrays(point_arrays, mesh.vertices.size(), data->GetPointData());
   add_arrays(cell_arrays, mesh.triangles.size(), data->GetCellData());
+  add_fields(options.fields, data->GetFieldData());
 
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
+  if (options.encoding == VtpEncoding::text) {
+    writer->SetDataModeToAscii();
+  } else {
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+  }
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn();
   writer->Write();
@@ -157,8 +180,9 @@ std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arra
 }  // namespace
 
 void write_vtp(const std::filesystem::path& path, const TriMesh& mesh,
-               std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays) {
-  io::write_whole_file(path, vtp_bytes(mesh, point_arrays, cell_arrays));
+               std::span<const MeshArray> point_arrays, std::span<const MeshArray> cell_arrays,
+               const VtpOptions& options) {
+  io::write_whole_file(path, vtp_bytes(mesh, point_arrays, cell_arrays, options));
 }
 
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {

@@ -7,36 +7,33 @@
 namespace condyle::io {
 namespace {
 
-Json pose_json(const Pose& X) {
+Json matrix_json(const Pose& X) {
   Json rows = Json::array();
-  for (int i = 0; i < 4; ++i) rows.push_back({X(i, 0), X(i, 1), X(i, 2), X(i, 3)});
+  for (int i = 0; i < 4; ++i)
+    rows.push_back({X(i, 0) + 0.0, X(i, 1) + 0.0, X(i, 2) + 0.0, X(i, 3) + 0.0});  // no -0
   return rows;
 }
 
 }  // namespace
 
 Json depth_header(const DepthQuestion& question, const char* method) {
-  const auto& [joint, angles, X_FM, notes] = question;
+  const auto& [joint, pose, X_FM, notes, provenance] = question;
   return {{"condyle", format_version},
           {"joint", joint.name},
           {"fixed", joint.fixed.name},
           {"mobile", joint.mobile.name},
           {"side", joint.side == Side::right ? "right" : "left"},
           {"method", method},
-          {"pose_deg",
-           {{"flexion", angles.flexion.degrees()},
-            {"adduction", angles.adduction.degrees()},
-            {"internal_rotation", angles.internal_rotation.degrees()}}},
-          {"X_FM", pose_json(X_FM)},
+          {"pose_deg", pose_json(pose)},
+          {"X_FM", matrix_json(X_FM)},
           {"notes", notes_json(notes)}};
 }
 
 std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
-  const Joint& joint = question.joint;
-  const JointAngles& angles = question.angles;
-  return fmt::format("{}: {} in {}, flexion {:g}, adduction {:g}, internal rotation {:g} deg\n", joint.name,
-                     joint.mobile.name, joint.fixed.name, angles.flexion.degrees(),
-                     angles.adduction.degrees(), angles.internal_rotation.degrees()) +
+  const auto& [joint, pose, X_FM, notes, provenance] = question;
+  return fmt::format("{}: {} in {}, flexion {}, adduction {}, internal rotation {} deg\n", joint.name,
+                     joint.mobile.name, joint.fixed.name, pose.flexion, pose.adduction,
+                     pose.internal_rotation) +
          fmt::format("  {}; {} intersecting triangle pairs\n", in_contact ? "in contact" : "free", pairs);
 }
 
@@ -47,8 +44,56 @@ std::string inside_line(const Body& body, std::size_t inside, std::size_t on_sur
   return line + "\n";
 }
 
+std::string fixed_digits(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  return text.starts_with('-') && text.find_first_not_of("-0.") == text.npos ? text.substr(1) : text;
+}
+
 std::string place_text(const Vec3& p) {
-  return fmt::format("at ({:.2f}, {:.2f}, {:.2f}) mm", p.x(), p.y(), p.z());
+  return fmt::format("at ({}, {}, {}) mm", fixed_digits(p.x(), 2), fixed_digits(p.y(), 2),
+                     fixed_digits(p.z(), 2));
+}
+
+std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures) {
+  std::string areas;
+  const auto add_area = [&](const Body& body, const std::optional<ContactPatch>& patch) {
+    if (!patch || !patch->mean_depth_mm) return;
+    areas += fmt::format("{} {:.1f} mm2 of {} (mean depth {:.3f} mm)", areas.empty() ? "" : ",",
+                         patch->area_mm2, body.name, *patch->mean_depth_mm);
+  };
+  add_area(question.joint.mobile, measures.mobile);
+  add_area(question.joint.fixed, measures.fixed);
+  std::string text;
+  if (measures.centroid)
+    text += fmt::format("  contact area:{}, centred {}\n", areas,
+                        place_text(question.frame().fixed_point(*measures.centroid)));
+  if (measures.centroid && measures.volume_mm3)
+    text += fmt::format("  penetration volume: {} mm3\n", fixed_digits(*measures.volume_mm3, 1));
+  return text + fmt::format("  nearest distance of the surfaces: {:.3f} mm\n", measures.nearest.distance_mm);
+}
+
+void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures) {
+  const AnswerFrame frame = question.frame();
+  const auto point = [&](const std::optional<Vec3>& p) {
+    return p ? numbers(frame.fixed_point(*p)) : Json(nullptr);
+  };
+  const auto patch_json = [&](const std::optional<ContactPatch>& patch) -> Json {
+    if (!patch) return nullptr;
+    return {{"area_mm2", patch->area_mm2},
+            {"mean_depth_mm", nullable(patch->mean_depth_mm)},
+            {"centroid_mm", point(patch->centroid)}};
+  };
+  json["contact"] = {{"mobile", patch_json(measures.mobile)},
+                     {"fixed", patch_json(measures.fixed)},
+                     {"centroid_mm", point(measures.centroid)},
+                     {"volume_mm3", nullable(measures.volume_mm3)}};
+  json["nearest_distance_mm"] = measures.nearest.distance_mm;
+  json["nearest_points_mm"] = {{"mobile", numbers(frame.fixed_point(measures.nearest.on_mobile))},
+                               {"fixed", numbers(frame.fixed_point(measures.nearest.on_fixed))}};
+}
+
+MeshArray nearest_array(const std::vector<double>& distances) {
+  return {"nearest_distance_mm", distances};
 }
 
 std::string open_line(const Body& body) {

@@ -27,8 +27,9 @@ struct BodyView {
   const Body& body;
   std::optional<Summary> summary;
   Pose X_F;  // pose of this body in F
+  AnswerFrame frame;
 
-  Vec3 in_fixed_frame(Index vertex) const { return posed(X_F, body.mesh.vertices()[vertex]); }
+  Vec3 place_of(Index vertex) const { return frame.fixed_point(posed(X_F, body.mesh.vertices()[vertex])); }
 };
 
 /// Both bodies of a result.
@@ -37,8 +38,8 @@ struct BodyViews {
   BodyView<Summary> mobile, fixed;
 
   BodyViews(const DepthQuestion& question, std::optional<Summary> of_mobile, std::optional<Summary> of_fixed)
-      : mobile{"mobile", question.joint.mobile, std::move(of_mobile), question.X_FM},
-        fixed{"fixed", question.joint.fixed, std::move(of_fixed), Pose::Identity()} {}
+      : mobile{"mobile", question.joint.mobile, std::move(of_mobile), question.X_FM, question.frame()},
+        fixed{"fixed", question.joint.fixed, std::move(of_fixed), Pose::Identity(), question.frame()} {}
   std::array<const BodyView<Summary>*, 2> both() const { return {&mobile, &fixed}; }
 
   /// The least of one measured gap over both bodies.
@@ -89,11 +90,21 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
   json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
   json["deepest_vertex"] = deepest ? Json(deepest->vertex.vertex) : Json(nullptr);
   json["deepest_point_mm"] =
-      deepest ? numbers(deepest->view->in_fixed_frame(deepest->vertex.vertex)) : Json(nullptr);
+      deepest ? numbers(deepest->view->place_of(deepest->vertex.vertex)) : Json(nullptr);
 }
 
 /// "at (17.97, 20.65, 8.54) mm".
 std::string place_text(const Vec3& p);
+
+/// "2.345", and "0.000" for what rounds to it from below, too.
+std::string fixed_digits(double value, int digits);
+
+/// Areas, volume and nearest distance, one line each for those there are; and under the keys of docs/formats.md.
+std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures);
+void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
+
+/// Nearest distances as the one array that a body has where the other mesh is open.
+MeshArray nearest_array(const std::vector<double>& distances);
 
 /// Point arrays of one body, with those of its triangles marked that are in a pair.
 DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,

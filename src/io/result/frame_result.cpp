@@ -8,6 +8,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/repair_text.hpp"
 #include "io/result/json.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
@@ -71,6 +72,13 @@ Json json_of(const CylinderFit& fit, Angle axis_rotation) {
           {"vertices", fit.vertices}};
 }
 
+/// As it was given, or as the landmarks of both bodies give it.
+PoseDegrees reference_pose_of(const JointReport& report) {
+  if (!report.placement.pose_from_landmarks) return report.file.reference_pose;
+  const JointAngles& pose = report.placement.reference_pose;
+  return {pose.flexion.degrees(), pose.adduction.degrees(), pose.internal_rotation.degrees()};
+}
+
 }  // namespace
 
 std::string to_text(const LoadedJoint& loaded) {
@@ -87,14 +95,14 @@ std::string to_text(const LoadedJoint& loaded) {
     const char sense = joint.side == Side::right ? '+' : '-';
     out += fmt::format(", then adduction about {0}X, then internal rotation about {0}Y", sense);
   }
-  out += fmt::format("\n  reference pose {}\n", to_text(report.placement.reference_pose));
+  out += fmt::format("\n  reference pose {}\n", to_text(reference_pose_of(report)));
   out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
          text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
   for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
   return out;
 }
 
-std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes) {
+std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes, const Provenance* from) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
   Json out{{"file", report.file.path.string()},
@@ -104,10 +112,7 @@ std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes)
            {"units_of_meshes", report.file.joint.units == LengthUnit::metres ? "m" : "mm"},
            {"centre_mm", io::numbers(placement.X_WF.translation())}};
   for (const auto& [name, axis] : axes_of(placement.X_WF)) out["axes"][name] = io::numbers(axis);
-  const JointAngles& reference = report.placement.reference_pose;
-  out["reference_pose_deg"] = {{"flexion", reference.flexion.degrees()},
-                               {"adduction", reference.adduction.degrees()},
-                               {"internal_rotation", reference.internal_rotation.degrees()}};
+  out["reference_pose_deg"] = io::pose_json(reference_pose_of(report));
   out["fit"] = placement.sphere     ? json_of(*placement.sphere)
                : placement.cylinder ? json_of(*placement.cylinder, placement.axis_rotation)
                                     : Json();
@@ -115,6 +120,7 @@ std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes)
   out["mobile"] = json_of(joint.mobile, report.mobile, placement.mobile.bounds);
   out["done"] = report.notes;
   out["notes"] = io::notes_json(notes);
+  out["provenance"] = io::provenance_json(from);
   return io::document(out);
 }
 

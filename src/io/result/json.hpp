@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "condyle/io/pose_text.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/points.hpp"
 
@@ -36,8 +37,23 @@ inline Json notes_json(std::span<const JointNote> notes) {
   return list;
 }
 
+/// As it was given.
+inline Json pose_json(const PoseDegrees& pose) {
+  return {{"flexion", pose.flexion},
+          {"adduction", pose.adduction},
+          {"internal_rotation", pose.internal_rotation}};
+}
+
+/// Without the sign of 0, which says nothing.
+inline void drop_negative_zeros(Json& json) {
+  if (json.is_number_float() && json.get<double>() == 0) json = 0.0;
+  if (json.is_structured())
+    for (Json& element : json) drop_negative_zeros(element);
+}
+
 /// A whole document; bytes of a name that are not UTF-8 are replaced.
-inline std::string document(const Json& json) {
+inline std::string document(Json json) {
+  drop_negative_zeros(json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -19,13 +19,13 @@ std::string end_columns(std::string_view end) {
       end);
 }
 
-std::string csv_of(const Limit& end) {
+std::string csv_of(const Limit& end, const AnswerFrame& frame) {
   std::string text = fmt::format(
       ",{},{},{},{}", name_of(end.reason), end.reason == LimitReason::end_of_range ? "" : name_of(end.kind()),
       end.error_bound.degrees(),
       end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "");
   if (!end.contact) return text + ",,,";
-  const Vec3& p = end.contact->fixed_point;
+  const Vec3 p = frame.fixed_point(end.contact->fixed_point);
   return text + fmt::format(",{},{},{}", p.x(), p.y(), p.z());
 }
 
@@ -64,7 +64,7 @@ std::string map_text(const MotionMap& map) {
                             summary.volume.plain_deg3, summary.volume.cosine_weighted_deg3);
 }
 
-std::string map_csv(const MotionMap& map) {
+std::string map_csv(const MotionMap& map, const AnswerFrame& frame) {
   const MapGrid& grid = map.grid;
   const std::string_view varied = name_of(grid.vary);
   std::string text = fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg", name_of(grid.column.angle),
@@ -74,14 +74,15 @@ std::string map_csv(const MotionMap& map) {
   const std::size_t columns = grid.column.count();
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     const Limit &negative = map.points[i].from_start.negative, &positive = map.points[i].from_start.positive;
-    text += fmt::format("{},{},{},{}{}{}\n", grid.column.value_deg(i % columns),
-                        grid.row.value_deg(i / columns), (grid.start - negative.turned).degrees(),
-                        (grid.start + positive.turned).degrees(), csv_of(negative), csv_of(positive));
+    text +=
+        fmt::format("{},{},{},{}{}{}\n", grid.column.value_deg(i % columns), grid.row.value_deg(i / columns),
+                    (grid.start - negative.turned).degrees(), (grid.start + positive.turned).degrees(),
+                    csv_of(negative, frame), csv_of(positive, frame));
   }
   return text;
 }
 
-std::string map_intervals_csv(const MotionMap& map) {
+std::string map_intervals_csv(const MotionMap& map, const AnswerFrame& frame) {
   const MapGrid& grid = map.grid;
   std::string text = fmt::format("{0}_deg,{1}_deg,{2}_low_deg,{2}_high_deg,holds_start",
                                  name_of(grid.column.angle), name_of(grid.row.angle), name_of(grid.vary));
@@ -92,8 +93,8 @@ std::string map_intervals_csv(const MotionMap& map) {
     for (const FreeInterval& free : map.points[i].intervals)
       text += fmt::format("{},{},{},{},{}{}{}\n", grid.column.value_deg(i % columns),
                           grid.row.value_deg(i / columns), (grid.start + free.low).degrees(),
-                          (grid.start + free.high).degrees(), free.holds_start() ? 1 : 0, csv_of(free.at_low),
-                          csv_of(free.at_high));
+                          (grid.start + free.high).degrees(), free.holds_start() ? 1 : 0,
+                          csv_of(free.at_low, frame), csv_of(free.at_high, frame));
   return text;
 }
 

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/io/pose_text.hpp"
 #include "io/result/depth_parts.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
@@ -40,12 +42,84 @@ io::Json body_json(const io::BodyView<RadialBodySummary>& view) {
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
 
-std::string json_of(const DepthQuestion& question, const RadialContact& contact,
-                    const RadialSummary& summary) {
+/// The body whose vertex is deepest by the depth to read, and that vertex.
+struct DeepestOf {
+  const io::BodyView<RadialBodySummary>* view = nullptr;
+  DeepestReliable vertex;
+};
+
+std::optional<DeepestOf> deepest_of(const Views& bodies, const ReliableContact& reliable) {
+  std::optional<DeepestOf> deepest;
+  const auto offer = [&](const io::BodyView<RadialBodySummary>& view,
+                         const std::optional<ReliableDepths>& depths) {
+    if (!depths || !depths->deepest) return;
+    if (!deepest || depths->deepest->depth_mm > deepest->vertex.depth_mm) deepest = {&view, *depths->deepest};
+  };
+  offer(bodies.mobile, reliable.mobile);
+  offer(bodies.fixed, reliable.fixed);
+  return deepest;
+}
+
+/// The angle whose axis a way turns about; nothing for those that turn about none.
+std::optional<JointAngle> angle_of(DepthWay way) noexcept {
+  switch (way) {
+    case DepthWay::flexion:
+      return JointAngle::flexion;
+    case DepthWay::adduction:
+      return JointAngle::adduction;
+    case DepthWay::internal_rotation:
+      return JointAngle::internal_rotation;
+    case DepthWay::none:
+    case DepthWay::radial:
+    case DepthWay::nearest:
+      break;
+  }
+  return std::nullopt;
+}
+
+const WayOut* rotation_of(const DeepestReliable& vertex) noexcept {
+  const auto angle = angle_of(vertex.way);
+  return angle ? &*vertex.rotations[static_cast<std::size_t>(*angle)] : nullptr;
+}
+
+io::Json reliable_json(const std::optional<DeepestOf>& deepest) {
+  if (!deepest) return nullptr;
+  const auto& [view, vertex] = *deepest;
+  const auto angle = angle_of(vertex.way);
+  const WayOut* rotation = rotation_of(vertex);
+  io::Json json{{"depth_mm", vertex.depth_mm},
+                {"kind", angle ? "tangential" : "radial"},
+                {"about", angle ? io::Json(name_of(*angle)) : io::Json(nullptr)},
+                {"depth_deg", rotation ? io::Json(rotation->angle.degrees()) : io::Json(nullptr)},
+                {"body", view->key},
+                {"vertex", vertex.vertex},
+                {"point_mm", io::numbers(view->place_of(vertex.vertex))},
+                {"nearest_distance_mm", vertex.nearest_distance_mm},
+                {"radial_depth_mm", vertex.radial_depth_mm},
+                {"ray_to_normal_deg", vertex.ray_to_normal.degrees()}};
+  for (const JointAngle about : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+    const auto& way = vertex.rotations[static_cast<std::size_t>(about)];
+    json["rotations"][name_of(about)] =
+        way ? io::Json{{"depth_deg", way->angle.degrees()}, {"depth_mm", way->arc_mm}} : io::Json(nullptr);
+  }
+  return json;
+}
+
+std::size_t without_depth(const ReliableContact& reliable) {
+  return (reliable.mobile ? reliable.mobile->without : 0) + (reliable.fixed ? reliable.fixed->without : 0);
+}
+
+std::string json_of(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
+                    const RadialContact& contact, const RadialSummary& summary,
+                    const ReliableContact& reliable) {
   const Views bodies = views(question, summary);
-  const auto deepest = deepest_of(bodies), facing = deepest_facing_of(bodies);
-  io::Json json = io::depth_header(question, "radial");
+  const auto deepest = deepest_of(bodies);
+  const auto facing = deepest_facing_of(bodies);
+  io::Json json = io::depth_header(question, method == DepthMethod::reliable ? "reliable" : "radial");
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
+  json["reliable_depth"] = reliable_json(deepest_of(bodies, reliable));
+  json["vertices_without_depth"] = without_depth(reliable);
+  io::add_measures(json, question, measures);
   json["max_radial_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
   json["max_facing_radial_depth_mm"] = facing ? facing->vertex.depth_mm : 0.0;
   io::add_deepest(json, deepest);
@@ -56,70 +130,85 @@ std::string json_of(const DepthQuestion& question, const RadialContact& contact,
   json["min_gap_mm"] = io::nullable(bodies.least(&RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
 
-std::string text_of(const DepthQuestion& question, const RadialContact& contact,
-                    const RadialSummary& summary) {
+std::string reliable_text(const DeepestOf& deepest) {
+  const auto& [view, vertex] = deepest;
+  const WayOut* rotation = rotation_of(vertex);
+  const std::string way = rotation ? fmt::format("along the arc of {}, {:.3f} deg",
+                                                 name_of(*angle_of(vertex.way)), rotation->angle.degrees())
+                                   : "along the ray";
+  return fmt::format(
+      "  depth: {:.3f} mm {}, vertex {} of {}, {}\n    its nearest surface is {:.3f} mm away\n",
+      vertex.depth_mm, way, vertex.vertex, view->body.name, io::place_text(view->place_of(vertex.vertex)),
+      vertex.nearest_distance_mm);
+}
+
+std::string text_of(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
+                    const RadialContact& contact, const RadialSummary& summary,
+                    const ReliableContact& reliable) {
   const Views bodies = views(question, summary);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  if (const auto deepest = deepest_of(bodies, reliable)) text += reliable_text(*deepest);
+  if (const std::size_t count = without_depth(reliable); count > 0)
+    text += fmt::format("  {} vertices inside have no {}, only a nearest distance\n", count,
+                        method == DepthMethod::reliable
+                            ? "depth along their ray or an arc"
+                            : "depth along their ray (--method reliable finds one along an arc)");
+  text += io::measures_text(question, measures);
   for (const auto* view : bodies.both()) {
     text += view->summary ? io::inside_line(view->body, view->summary->vertices_inside,
                                             view->summary->vertices_on_surface)
                           : io::open_line(view->body);
   }
-  if (const auto deepest = deepest_of(bodies)) {
-    text += fmt::format("  deepest: {:.3f} mm along the ray, vertex {} of {}, {}\n", deepest->vertex.depth_mm,
-                        deepest->vertex.vertex, deepest->view->body.name,
-                        io::place_text(deepest->view->in_fixed_frame(deepest->vertex.vertex)));
-    if (deepest->vertex.applies() == DepthKind::tangential) {
-      text += fmt::format(
-          "  there it is a length along the bone, not a depth: the nearest surface is {:.3f} mm away; read "
-          "the tangential depth (--method tangential)\n",
-          deepest->vertex.shortest_exit_mm);
-      if (const auto facing = deepest_facing_of(bodies)) {
-        text += fmt::format("  deepest where the surface faces the ray: {:.3f} mm, vertex {} of {}\n",
-                            facing->vertex.depth_mm, facing->vertex.vertex, facing->view->body.name);
-      }
-    }
-  }
-  if (const auto gap = bodies.least(&RadialBodySummary::min_gap_mm)) {
+  if (const auto gap = bodies.least(&RadialBodySummary::min_gap_mm))
     text += fmt::format("  smallest gap along a ray: {:.3f} mm\n", *gap);
-  }
   return text;
 }
 
-std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results) {
-  if (!results) return {};
+std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results,
+                                 const std::vector<double>& nearest,
+                                 const std::optional<ReliableDepths>& reliable) {
+  if (!results) return {io::nearest_array(nearest)};
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const std::size_t count = results->size();
-  std::vector<std::uint8_t> inside(count);
+  std::vector<std::uint8_t> inside(count), way(count), is_reliable(count);
   std::vector<std::int32_t> winding(count), triangle(count);
-  std::vector<double> gap(count), angle(count);
+  std::vector<double> gap(count), depth(count), angle(count);
   for (std::size_t i = 0; i < count; ++i) {
+    const double radial_gap =
+        std::isfinite(results->radial_gap_mm[i]) ? results->radial_gap_mm[i] + 0.0 : none;
     inside[i] = results->state[i] == PointState::inside;
-    winding[i] = results->winding[i];
-    triangle[i] = results->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(results->triangle[i]);
-    gap[i] = std::isfinite(results->radial_gap_mm[i]) ? results->radial_gap_mm[i]
-                                                      : std::numeric_limits<double>::quiet_NaN();
+    way[i] = static_cast<std::uint8_t>(reliable->way[i]);
+    is_reliable[i] = reliable->way[i] != DepthWay::nearest;
+    gap[i] = radial_gap;
+    depth[i] = inside[i] != 0 ? -radial_gap : 0;
     angle[i] = results->ray_to_normal[i].degrees();
+    triangle[i] = results->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(results->triangle[i]);
+    winding[i] = results->winding[i];
   }
-  return {{"inside", std::move(inside)},
-          {"radial_gap_mm", std::move(gap)},
-          {"triangle", std::move(triangle)},
-          {"winding", std::move(winding)},
-          {"ray_to_normal_deg", std::move(angle)}};
+  return {{"depth_mm", reliable->depth_mm},        {"depth_is_reliable", std::move(is_reliable)},
+          {"depth_way", std::move(way)},           io::nearest_array(nearest),
+          {"radial_depth_mm", std::move(depth)},   {"radial_gap_mm", std::move(gap)},
+          {"ray_to_normal_deg", std::move(angle)}, {"inside", std::move(inside)},
+          {"triangle", std::move(triangle)},       {"winding", std::move(winding)}};
 }
 
 }  // namespace
 
-DepthResult depth_result(const DepthQuestion& question, const RadialContact& contact,
-                         const RadialSummary& summary) {
-  return {text_of(question, contact, summary), json_of(question, contact, summary),
-          io::pairs_csv(contact.pairs),
-          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile), contact.pairs,
-                        &TrianglePair::fixed),
-          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed), contact.pairs,
-                        &TrianglePair::mobile)};
+DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
+                         const RadialContact& contact, const RadialSummary& summary,
+                         const ReliableContact& reliable) {
+  return {text_of(question, method, measures, contact, summary, reliable),
+          json_of(question, method, measures, contact, summary, reliable), io::pairs_csv(contact.pairs),
+          io::arrays_of(question.joint.fixed,
+                        arrays_of(contact.fixed_in_mobile, measures.distances.fixed, reliable.fixed),
+                        contact.pairs, &TrianglePair::fixed),
+          io::arrays_of(question.joint.mobile,
+                        arrays_of(contact.mobile_in_fixed, measures.distances.mobile, reliable.mobile),
+                        contact.pairs, &TrianglePair::mobile)};
 }
 
 }  // namespace condyle

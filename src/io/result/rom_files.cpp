@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -16,9 +18,35 @@
 #include "io/result/plot_clock_face.hpp"
 #include "io/result/plot_limits.hpp"
 #include "io/result/plot_map.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
+
+/// Whether some result has a file of this name.
+bool is_of_rom(std::string_view name) {
+  if (name.starts_with("zone_")) return name.ends_with("_fixed.vtp") || name.ends_with("_mobile.vtp");
+  static constexpr std::string_view names[] = {"rom.json",
+                                               "limits.csv",
+                                               "limits.svg",
+                                               "clock_face.svg",
+                                               "bearing.vtp",
+                                               "map.csv",
+                                               "map_intervals.csv",
+                                               "map.vtp",
+                                               "map_flexion.svg",
+                                               "map_extension.svg",
+                                               "map_adduction.svg",
+                                               "map_abduction.svg",
+                                               "map_internal_rotation.svg",
+                                               "map_external_rotation.svg",
+                                               "map_free_range.svg"};
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+VtpOptions vtp_options(const RomResult& result) {
+  return {result.vtp_encoding, io::provenance_fields(result.provenance)};
+}
 
 void write_zones(OutputFolder& out, const RomResult& result) {
   for (std::size_t i = 0; i < result.zones.size(); ++i) {
@@ -28,15 +56,17 @@ void write_zones(OutputFolder& out, const RomResult& result) {
       const MeshArray in_zone = zone_cell_array(body, mesh.triangles.size());
       const std::string motion = file_name_part(zone.limit.motion.name);
       write_vtp(out.file(fmt::format("zone_{:02}_{}_{}.vtp", i + 1, motion, role)), mesh,
-                zone_point_arrays(body), {&in_zone, 1});
+                zone_point_arrays(body), {&in_zone, 1}, vtp_options(result));
     };
-    write("fixed", result.joint.fixed.mesh, zone.fixed);
-    write("mobile", posed(zone_pose(zone, result.joint.side), result.joint.mobile.mesh), zone.mobile);
+    const AnswerFrame frame = frame_of(result);
+    const Pose X_FM = zone_pose(zone, result.joint.side);
+    write("fixed", frame.fixed_mesh(result.joint.fixed.mesh), zone.fixed);
+    write("mobile", frame.fixed_mesh(posed(X_FM, result.joint.mobile.mesh)), zone.mobile);
   }
 }
 
 /// The grid as a flat surface in degrees, columns along x and rows along y, with what is free at its points.
-void write_map_surface(const std::filesystem::path& path, const MotionMap& map) {
+void write_map_surface(const std::filesystem::path& path, const MotionMap& map, const VtpOptions& options) {
   const std::size_t columns = map.grid.column.count(), rows = map.grid.row.count();
   TriMesh surface;
   std::vector<double> lower, upper, width;
@@ -63,22 +93,25 @@ void write_map_surface(const std::filesystem::path& path, const MotionMap& map) 
       surface.triangles.push_back({a, b, c});
       surface.triangles.push_back({a, c, d});
     }
-  const MeshArray arrays[] = {{"lower_deg", std::move(lower)},
+  const MeshArray arrays[] = {{"free_width_deg", std::move(width)},
+                              {"lower_deg", std::move(lower)},
                               {"upper_deg", std::move(upper)},
-                              {"free_width_deg", std::move(width)},
                               {"free_intervals", std::move(intervals)},
                               {"free_at_start", std::move(free_at_start)}};
-  write_vtp(path, surface, arrays, {});
+  write_vtp(path, surface, arrays, {}, options);
 }
 
-void write_map(OutputFolder& out, const MotionMap& map, std::string_view joint_name) {
+void write_map(OutputFolder& out, const RomResult& result) {
+  const MotionMap& map = *result.map;
   const auto draw = [&](std::string_view name, io::MapView view) {
     io::write_whole_file(out.file(fmt::format("map_{}.svg", name)),
-                         io::map_plot(io::plot_of(map, view, joint_name)));
+                         io::map_plot(io::plot_of(map, view, result.joint.name)));
   };
-  io::write_whole_file(out.file("map.csv"), map_csv(map));
-  io::write_whole_file(out.file("map_intervals.csv"), map_intervals_csv(map));
-  if (map.grid.row.count() > 1 && map.grid.column.count() > 1) write_map_surface(out.file("map.vtp"), map);
+  const std::string comments = io::provenance_comments(result.provenance);
+  io::write_whole_file(out.file("map.csv"), comments + map_csv(map, frame_of(result)));
+  io::write_whole_file(out.file("map_intervals.csv"), comments + map_intervals_csv(map, frame_of(result)));
+  if (map.grid.row.count() > 1 && map.grid.column.count() > 1)
+    write_map_surface(out.file("map.vtp"), map, vtp_options(result));
   draw(movement_name(map.grid.vary, RotationSense::positive), io::MapView::positive_limit);
   draw(movement_name(map.grid.vary, RotationSense::negative), io::MapView::negative_limit);
   draw("free_range", io::MapView::free_range);
@@ -89,13 +122,14 @@ void write_bearing(OutputFolder& out, const RomResult& result) {
   if (!result.bearing.surface) return;
   const auto& marks = result.bearing.surface->triangles;
   const MeshArray bearing{"bearing", marks};
-  write_vtp(out.file("bearing.vtp"), result.joint.mobile.mesh, {}, {&bearing, 1});
+  write_vtp(out.file("bearing.vtp"), frame_of(result).mobile_mesh(result.joint.mobile.mesh), {},
+            {&bearing, 1}, vtp_options(result));
 }
 
 }  // namespace
 
-void write_rom(const std::filesystem::path& folder, const RomResult& result) {
-  OutputFolder out(folder);
+std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result) {
+  OutputFolder out(folder, is_of_rom);
   const std::string& name = result.joint.name;
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
@@ -114,8 +148,8 @@ void write_rom(const std::filesystem::path& folder, const RomResult& result) {
             io::clock_contacts(result)));
   write_bearing(out, result);
   write_zones(out, result);
-  if (result.map) write_map(out, *result.map, name);
-  out.commit();
+  if (result.map) write_map(out, result);
+  return out.commit();
 }
 
 }  // namespace condyle

@@ -9,10 +9,12 @@
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
+#include "io/joint/given_degrees.hpp"
 #include "io/result/clock_contacts.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_summary.hpp"
+#include "io/result/provenance_forms.hpp"
 #include "io/result/quoted_limit.hpp"
 
 namespace condyle {
@@ -28,10 +30,16 @@ Json angles_json(const JointAngles& angles) {
   return json;
 }
 
+Json start_json(const JointAngles& angles) {
+  Json json;
+  for (const JointAngle angle : all_angles) json[name_of(angle)] = io::given_degrees(angle_of(angles, angle));
+  return json;
+}
+
 Json held_json(const Motion& motion) {
   Json json;
   for (const JointAngle angle : all_angles)
-    if (angle != motion.vary) json[name_of(angle)] = angle_of(motion.start, angle).degrees();
+    if (angle != motion.vary) json[name_of(angle)] = io::given_degrees(angle_of(motion.start, angle));
   return json;
 }
 
@@ -77,7 +85,7 @@ Json nullable_degrees(const std::optional<Angle>& angle) {
   return angle ? Json(angle->degrees()) : Json(nullptr);
 }
 
-Json json_of(const BodyZone& zone) {
+Json json_of(const BodyZone& zone, const std::optional<Vec3>& centroid) {
   const auto deepest = [](const std::vector<double>& depths) -> Json {
     double most = 0;
     for (const double depth : depths)
@@ -86,15 +94,18 @@ Json json_of(const BodyZone& zone) {
   };
   return {{"triangles", zone.triangles.size()},
           {"area_mm2", zone.area_mm2},
-          {"centroid_mm", zone.centroid_mm ? json_of(*zone.centroid_mm) : Json(nullptr)},
+          {"centroid_mm", centroid ? json_of(*centroid) : Json(nullptr)},
           {"max_radial_depth_mm", deepest(zone.radial_depth_mm)},
           {"max_tangential_depth_deg", deepest(zone.tangential_depth_deg)},
           {"max_tangential_depth_mm", deepest(zone.tangential_depth_mm)}};
 }
 
-Json json_of(const std::optional<ImpingementZone>& zone) {
+Json json_of(const std::optional<ImpingementZone>& zone, const AnswerFrame& frame) {
   if (!zone) return nullptr;
-  Json fixed = json_of(zone->fixed), mobile = json_of(zone->mobile);
+  const auto &of_fixed = zone->fixed.centroid_mm, &of_mobile = zone->mobile.centroid_mm;
+  Json fixed = json_of(zone->fixed, of_fixed ? std::optional(frame.fixed_point(*of_fixed)) : std::nullopt);
+  Json mobile =
+      json_of(zone->mobile, of_mobile ? std::optional(frame.mobile_point(*of_mobile)) : std::nullopt);
   fixed["clock_hour"] = nullable(zone->zone_hour);
   mobile["neck_angle_deg"] = nullable_degrees(zone->zone_neck_angle);
   return {{"past_deg", zone->past.degrees()},
@@ -128,17 +139,20 @@ Json motion_json(const RomResult& result, std::size_t i) {
   const MotionLimit& limit = result.limits[i];
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
+  const AnswerFrame frame = frame_of(result);
   Json json{{"name", limit.motion.name},
             {"limit_deg", limit.end.turned.degrees()},
             {"reason", name_of(limit.end.reason)},
             {"contact_kind", ends_in_contact(limit) ? Json(name_of(limit.end.kind())) : Json(nullptr)},
             {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
-            {"bearing_contact_point_mm",
-             bearing && bearing->contact ? json_of(bearing->contact->fixed_point) : Json(nullptr)},
+            {"bearing_contact_point_mm", bearing && bearing->contact
+                                             ? json_of(frame.fixed_point(bearing->contact->fixed_point))
+                                             : Json(nullptr)},
             {"centre_distance_mm", limit.head ? nullable(limit.head->centre_distance_mm) : Json(nullptr)},
             {"joint_space_mm", limit.head ? nullable(limit.head->joint_space_mm) : Json(nullptr)},
-            {"contact_point_mm", contact ? json_of(contact->fixed_point) : Json(nullptr)},
-            {"contact_point_mobile_mm", contact ? json_of(contact->mobile_point) : Json(nullptr)},
+            {"contact_point_mm", contact ? json_of(frame.fixed_point(contact->fixed_point)) : Json(nullptr)},
+            {"contact_point_mobile_mm",
+             contact ? json_of(frame.mobile_point(contact->mobile_point)) : Json(nullptr)},
             {"clock_hour", nullable(io::clock_hour(result, limit))},
             {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
                                         {"mobile", json_of(contact->mobile_feature)}}
@@ -146,13 +160,13 @@ Json motion_json(const RomResult& result, std::size_t i) {
             {"error_bound_deg", limit.end.error_bound.degrees()},
             {"vary", name_of(limit.motion.vary)},
             {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
-            {"range_deg", limit.motion.range.degrees()},
-            {"start_deg", angles_json(limit.motion.start)},
+            {"range_deg", io::given_degrees(limit.motion.range)},
+            {"start_deg", start_json(limit.motion.start)},
             {"held_deg", held_json(limit.motion)},
             {"at_limit_deg", angles_json(limit.angles_at_limit())},
             {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
   if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
-  if (!result.zones.empty()) json["zone"] = json_of(result.zones[i]);
+  if (!result.zones.empty()) json["zone"] = json_of(result.zones[i], frame_of(result));
   json["band"] = result.bands.empty() ? Json(nullptr) : json_of(result.bands[i]);
   return json;
 }
@@ -220,8 +234,8 @@ Json json_of(const MotionMap& map) {
           {"row_free_area_deg2", summary.volume.row_area_deg2}};
 }
 
-Json json_of(const Sphere& sphere) {
-  return {{"centre_mm", json_of(sphere.centre)}, {"radius_mm", sphere.radius}};
+Json sphere_json(const Vec3& centre, double radius) {
+  return {{"centre_mm", json_of(centre)}, {"radius_mm", radius}};
 }
 
 Json bearing_json(const RomResult& result) {
@@ -231,9 +245,12 @@ Json bearing_json(const RomResult& result) {
     json["why_none"] = result.bearing.why_none;
     return json;
   }
-  json["head"] = json_of(surface->head);
+  const AnswerFrame frame = frame_of(result);
+  json["head"] = sphere_json(frame.mobile_point(surface->head.centre), surface->head.radius);
   json["head_coverage"] = surface->head_coverage;
-  json["socket"] = surface->socket ? json_of(*surface->socket) : Json(nullptr);
+  json["socket"] = surface->socket
+                       ? sphere_json(frame.fixed_point(surface->socket->centre), surface->socket->radius)
+                       : Json(nullptr);
   json["margin_mm"] = surface->margin_mm;
   json["rim_gap_mm"] = nullable(surface->rim_gap_mm);
   json["triangles"] = surface->count();
@@ -390,6 +407,10 @@ std::string guarantee_text(const DepthLimit& depth) {
   return "";
 }
 
+AnswerFrame frame_of(const RomResult& result) {
+  return result.provenance ? result.provenance->frame : AnswerFrame{};
+}
+
 std::string rom_json(const RomResult& result) {
   Json json{{"condyle", io::format_version},
             {"joint", result.joint.name},
@@ -405,10 +426,14 @@ std::string rom_json(const RomResult& result) {
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);
   json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(result.provenance);
   return io::document(json);
 }
 
 std::string rom_text(const RomResult& result) {
+  const auto point_text = [](const Vec3& p) {
+    return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z());
+  };
   const auto limit_text = [&](std::size_t i) {
     const Angle turned = result.limits[i].end.turned;
     return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
@@ -424,10 +449,8 @@ std::string rom_text(const RomResult& result) {
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_text(i));
     reason.cells.emplace_back(words_of(limit));
-    const auto& contact = limit.end.contact;
-    point.cells.push_back(contact ? fmt::format("({:.2f}, {:.2f}, {:.2f})", contact->fixed_point.x(),
-                                                contact->fixed_point.y(), contact->fixed_point.z())
-                                  : "-");
+    point.cells.push_back(
+        limit.end.contact ? point_text(frame_of(result).fixed_point(limit.end.contact->fixed_point)) : "-");
     const auto& sliding = limit.end.bearing_contact;
     bearing.cells.push_back(sliding ? fmt::format("{:.2f}", sliding->turned.degrees()) : "-");
     const bool distance = limit.head && limit.head->centre_distance_mm;
@@ -455,7 +478,9 @@ std::string rom_text(const RomResult& result) {
 }
 
 std::string rom_csv(const RomResult& result) {
+  const AnswerFrame frame = frame_of(result);
   std::string text =
+      io::provenance_comments(result.provenance) +
       "motion,limit_deg,reason,contact_kind,bearing_contact_deg,centre_distance_mm,joint_space_mm,"
       "error_bound_deg,vary,sense,range_deg,"
       "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
@@ -466,6 +491,10 @@ std::string rom_csv(const RomResult& result) {
       "deg,"
       "band_share_without_contact\n";
   const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
+  const auto start = [](const JointAngles& a) {
+    return fmt::format("{},{},{}", io::given_degrees(a.flexion), io::given_degrees(a.adduction),
+                       io::given_degrees(a.internal_rotation));
+  };
   const auto angles = [](const JointAngles& a) {
     return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
   };
@@ -475,17 +504,18 @@ std::string rom_csv(const RomResult& result) {
     const auto field = [](const std::optional<double>& value) {
       return value ? fmt::format("{}", *value) : "";
     };
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name),
-                        end.turned.degrees(), name_of(end.reason),
-                        ends_in_contact(limit) ? name_of(end.kind()) : "",
-                        end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
-                        head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
-                        end.error_bound.degrees(), name_of(motion.vary),
-                        motion.sense == RotationSense::positive ? "positive" : "negative",
-                        motion.range.degrees(), angles(motion.start), angles(limit.angles_at_limit()));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), end.turned.degrees(),
+        name_of(end.reason), ends_in_contact(limit) ? name_of(end.kind()) : "",
+        end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
+        head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
+        end.error_bound.degrees(), name_of(motion.vary),
+        motion.sense == RotationSense::positive ? "positive" : "negative", io::given_degrees(motion.range),
+        start(motion.start), angles(limit.angles_at_limit()));
     const auto hour = io::clock_hour(result, limit);
     const auto& contact = end.contact;
-    text += contact ? fmt::format("{},{},{},{}", point(contact->fixed_point), point(contact->mobile_point),
+    text += contact ? fmt::format("{},{},{},{}", point(frame.fixed_point(contact->fixed_point)),
+                                  point(frame.mobile_point(contact->mobile_point)),
                                   text_of(contact->fixed_feature), text_of(contact->mobile_feature))
                     : std::string(",,,,,,,");
     text += hour ? fmt::format(",{}", *hour) : ",";

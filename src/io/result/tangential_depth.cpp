@@ -5,6 +5,7 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "io/result/depth_parts.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
@@ -49,17 +50,18 @@ std::string deepest_line(const char* what, const RotationAxis& axis, const Deepe
   return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
                      deepest.vertex.depth_mm, name_of(axis.about), deepest.vertex.depth.degrees(),
                      deepest.vertex.vertex, deepest.view->body.name,
-                     io::place_text(deepest.view->in_fixed_frame(deepest.vertex.vertex)));
+                     io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
 }
 
-std::string json_of(const DepthQuestion& question, const RotationAxis& axis,
+std::string json_of(const DepthQuestion& question, const ContactMeasures& measures, const RotationAxis& axis,
                     const TangentialContact& contact) {
   const Views bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
   io::Json json = io::depth_header(question, "tangential");
   json["about"] = name_of(axis.about);
-  json["axis"] = io::numbers(axis.direction_F);
+  json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
+  io::add_measures(json, question, measures);
   json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
   json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
   io::add_deepest(json, deepest);
@@ -67,13 +69,20 @@ std::string json_of(const DepthQuestion& question, const RotationAxis& axis,
   json["min_gap_mm"] = io::nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
   json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
 
-std::string text_of(const DepthQuestion& question, const RotationAxis& axis,
+std::string text_of(const DepthQuestion& question, const ContactMeasures& measures, const RotationAxis& axis,
                     const TangentialContact& contact) {
   const Views bodies = views(question, contact);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  const auto deepest = longest(bodies), furthest = largest(bodies);
+  if (deepest) text += deepest_line("deepest", axis, *deepest);
+  if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
+    text += deepest_line("largest angle", axis, *furthest);
+  }
+  text += io::measures_text(question, measures);
   for (const auto* view : bodies.both()) {
     if (!view->summary) {
       text += io::open_line(view->body);
@@ -85,49 +94,55 @@ std::string text_of(const DepthQuestion& question, const RotationAxis& axis,
                           name_of(axis.about));
     }
   }
-  const auto deepest = longest(bodies), furthest = largest(bodies);
-  if (deepest) text += deepest_line("deepest", axis, *deepest);
-  if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
-    text += deepest_line("largest angle", axis, *furthest);
-  }
   if (const auto gap = bodies.least(&TangentialBodySummary::min_gap)) {
     text += fmt::format("  smallest gap by rotating: {:.3f} deg\n", gap->degrees());
   }
   return text;
 }
 
-std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results) {
-  if (!results) return {};
+std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results,
+                                 const std::vector<double>& nearest) {
+  if (!results) return {io::nearest_array(nearest)};
   const std::size_t count = results->size();
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::uint8_t> inside(count);
+  std::vector<std::uint8_t> inside(count), is_reliable(count);
   std::vector<std::int32_t> winding(count), triangle(count);
-  std::vector<double> angle(count), arc(count);
+  std::vector<double> depth(count), angle_depth(count), arc_depth(count), angle_gap(count), arc_gap(count);
   for (std::size_t i = 0; i < count; ++i) {
     const bool reached = std::isfinite(results->angular_gap[i].radians());
     inside[i] = results->state[i] == PointState::inside;
     winding[i] = results->winding[i];
     triangle[i] = results->triangle[i] == no_index ? -1 : static_cast<std::int32_t>(results->triangle[i]);
-    // A depth is positive inside: the negative gap.
-    angle[i] = reached ? -results->angular_gap[i].degrees() : none;
-    arc[i] = reached ? -results->arc_gap_mm[i] : none;
+    angle_gap[i] = reached ? results->angular_gap[i].degrees() + 0.0 : none;
+    arc_gap[i] = reached ? results->arc_gap_mm[i] + 0.0 : none;
+    is_reliable[i] = inside[i] == 0 || reached;
+    if (inside[i] == 0) continue;
+    angle_depth[i] = -angle_gap[i];
+    arc_depth[i] = -arc_gap[i];
+    depth[i] = reached ? arc_depth[i] : nearest[i];
   }
-  return {{"inside", std::move(inside)},
-          {"tangential_depth_deg", std::move(angle)},
-          {"tangential_depth_mm", std::move(arc)},
+  return {{"depth_mm", std::move(depth)},
+          {"depth_is_reliable", std::move(is_reliable)},
+          io::nearest_array(nearest),
+          {"tangential_depth_mm", std::move(arc_depth)},
+          {"tangential_depth_deg", std::move(angle_depth)},
+          {"tangential_gap_mm", std::move(arc_gap)},
+          {"tangential_gap_deg", std::move(angle_gap)},
+          {"inside", std::move(inside)},
           {"triangle", std::move(triangle)},
           {"winding", std::move(winding)}};
 }
 
 }  // namespace
 
-DepthResult depth_result(const DepthQuestion& question, const RotationAxis& axis,
-                         const TangentialContact& contact) {
-  return {text_of(question, axis, contact), json_of(question, axis, contact), io::pairs_csv(contact.pairs),
-          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile), contact.pairs,
-                        &TrianglePair::fixed),
-          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed), contact.pairs,
-                        &TrianglePair::mobile)};
+DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
+                         const RotationAxis& axis, const TangentialContact& contact) {
+  return {text_of(question, measures, axis, contact), json_of(question, measures, axis, contact),
+          io::pairs_csv(contact.pairs),
+          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile, measures.distances.fixed),
+                        contact.pairs, &TrianglePair::fixed),
+          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed, measures.distances.mobile),
+                        contact.pairs, &TrianglePair::mobile)};
 }
 
 }  // namespace condyle

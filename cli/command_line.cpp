@@ -1,0 +1,57 @@
+#include "command_line.hpp"
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <array>
+
+namespace condyle::cli {
+namespace {
+
+/// Options that say where and how an answer is written, not what it is.
+bool decides_nothing(const std::string& name) {
+  constexpr std::array<std::string_view, 2> names = {"--out", "--json"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void add_words(const CLI::Option& option, std::vector<std::string>& words) {
+  const std::vector<std::string> values = option.results();
+  if (option.get_positional()) {
+    words.insert(words.end(), values.begin(), values.end());
+    return;
+  }
+  const std::string name = option.get_name();
+  if (decides_nothing(name)) return;
+  const bool is_flag = option.get_items_expected_max() == 0 || option.get_type_size_max() == 0;
+  if (is_flag) {
+    for (const std::string& value : values) words.push_back(value == "true" ? name : name + "=" + value);
+  } else if (option.get_items_expected_min() > 1) {
+    words.push_back(name);
+    words.insert(words.end(), values.begin(), values.end());
+  } else {
+    for (const std::string& value : values) words.insert(words.end(), {name, value});
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> words_of(const CLI::App& command) {
+  std::vector<std::string> words = {command.get_name()};
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0) add_words(*option, words);
+  }
+  return words;
+}
+
+void add_where(CLI::App& command, const std::shared_ptr<WhereOptions>& options) {
+  command
+      .add_option_function<std::string>(
+          "--frame", [options](const std::string& name) { options->frame = answer_frame_named(name); },
+          "Give points and meshes in the joint frame, or in the frame of the mesh files")
+      ->option_text("joint|source (joint)");
+  command.add_flag_callback(
+      "--ascii", [options] { options->vtp_encoding = VtpEncoding::text; },
+      "Write VTP files as text, as OpenSim reads them");
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/io/file_digest.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
+
+/// Where an answer comes from, and where it is. Every key is in docs/formats.md.
+
+namespace condyle {
+
+/// The frame in which an answer gives points and meshes.
+enum class AnswerFrameName {
+  joint,  ///< joint frame: the fixed body's, and for what is fixed to the mobile body the mobile one's
+  source  ///< that of the mesh files
+};
+
+/// "joint", "source".
+std::string_view name_of(AnswerFrameName name) noexcept;
+/// The frame of that name; throws UsageError with the names there are.
+AnswerFrameName answer_frame_named(std::string_view name);
+
+/// Brings points and meshes of an answer, which are in the bodies' own joint frames, into the frame asked for. Points
+/// are mm in both; meshes in the source frame have the unit of their files, so that they lie on those. The joint frame
+/// unless told otherwise: nothing changes then, not a bit.
+class AnswerFrame {
+ public:
+  AnswerFrame() = default;
+  AnswerFrame(AnswerFrameName name, const JointReport& report);
+
+  AnswerFrameName name() const noexcept { return name_; }
+
+  /// A point or a direction of F, and a point fixed to the mobile body, given in M.
+  Vec3 fixed_point(const Vec3& p_F) const noexcept;
+  Vec3 fixed_direction(const Vec3& d_F) const noexcept;
+  Vec3 mobile_point(const Vec3& p_M) const noexcept;
+
+  /// A mesh in F, and the mobile body as it is in M: in the source frame as its file has it.
+  TriMesh fixed_mesh(const TriMesh& mesh) const;
+  TriMesh mobile_mesh(const TriMesh& mesh) const;
+
+ private:
+  AnswerFrameName name_ = AnswerFrameName::joint;
+  Pose X_WF_ = Pose::Identity(), X_WM_ = Pose::Identity();
+  double per_mm_ = 1;  ///< the files' unit
+};
+
+/// A mesh file and how its mesh came into the joint: p_joint = joint_from_source * p_source for a vertex of the file,
+/// in the file's unit, and the same vertex in the body's own joint frame (at zero angles), in mm.
+struct MeshOrigin {
+  std::filesystem::path path;
+  FileDigest digest;
+  Eigen::Affine3d joint_from_source, source_from_joint;
+};
+
+/// All that an answer depends on, and nothing that changes from run to run: no date, no number of threads.
+struct Provenance {
+  std::vector<std::string> command;  ///< the command line word by word, without the program
+  std::filesystem::path joint_path;
+  FileDigest joint_digest;
+  Side side;
+  MeshOrigin fixed, mobile;
+  AnswerFrame frame;
+};
+Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
+                         AnswerFrameName frame = AnswerFrameName::joint);
+
+}  // namespace condyle

@@ -1,0 +1,105 @@
+#include "condyle/reliable_depth.hpp"
+
+#include <cmath>
+#include <span>
+
+namespace condyle {
+namespace {
+
+constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
+
+DepthWay way_about(std::size_t axis) noexcept {
+  constexpr std::array ways{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
+  return ways[axis];
+}
+
+bool radial_is_depth(const RadialResults& radial, std::span<const double> nearest, Index v) noexcept {
+  const DeepestVertex vertex{v, -radial.radial_gap_mm[v], nearest[v], radial.ray_to_normal[v]};
+  return vertex.applies() == DepthKind::radial;
+}
+
+bool needs_rotations(const std::optional<RadialResults>& radial, std::span<const double> nearest) {
+  if (!radial) return false;
+  for (Index v = 0; v < radial->size(); ++v)
+    if (radial->state[v] == PointState::inside && !radial_is_depth(*radial, nearest, v)) return true;
+  return false;
+}
+
+/// Results of one body about each axis that was asked; null for the others.
+using Rotations = std::array<const TangentialResults*, 3>;
+
+std::array<std::optional<WayOut>, 3> ways_out(const Rotations& rotations, Index v) {
+  std::array<std::optional<WayOut>, 3> ways;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const TangentialResults* about = rotations[axis];
+    if (about == nullptr || about->state[v] != PointState::inside) continue;
+    const Angle angle = -about->angular_gap[v];
+    if (std::isfinite(angle.radians())) ways[axis] = WayOut{angle, -about->arc_gap_mm[v]};
+  }
+  return ways;
+}
+
+ReliableDepths depths_of(const RadialResults& radial, std::span<const double> nearest,
+                         const Rotations& rotations) {
+  ReliableDepths out;
+  out.way.assign(radial.size(), DepthWay::none);
+  out.depth_mm.assign(radial.size(), 0);
+  for (Index v = 0; v < radial.size(); ++v) {
+    if (radial.state[v] != PointState::inside) continue;
+    DeepestReliable vertex{v,
+                           DepthWay::nearest,
+                           nearest[v],
+                           nearest[v],
+                           -radial.radial_gap_mm[v],
+                           radial.ray_to_normal[v],
+                           ways_out(rotations, v)};
+    if (radial_is_depth(radial, nearest, v)) {
+      vertex.way = DepthWay::radial, vertex.depth_mm = vertex.radial_depth_mm;
+    } else {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto& rotation = vertex.rotations[axis];
+        if (!rotation || (vertex.way != DepthWay::nearest && rotation->arc_mm >= vertex.depth_mm)) continue;
+        vertex.way = way_about(axis), vertex.depth_mm = rotation->arc_mm;
+      }
+    }
+    out.way[v] = vertex.way;
+    out.depth_mm[v] = vertex.depth_mm;
+    if (vertex.way == DepthWay::nearest)
+      ++out.without;
+    else if (!out.deepest || vertex.depth_mm > out.deepest->depth_mm)
+      out.deepest = vertex;
+  }
+  return out;
+}
+
+ReliableContact both(const RadialContact& contact, const NearestDistances& distances,
+                     const Rotations& of_mobile, const Rotations& of_fixed) {
+  ReliableContact out;
+  if (contact.mobile_in_fixed) out.mobile = depths_of(*contact.mobile_in_fixed, distances.mobile, of_mobile);
+  if (contact.fixed_in_mobile) out.fixed = depths_of(*contact.fixed_in_mobile, distances.fixed, of_fixed);
+  return out;
+}
+
+}  // namespace
+
+ReliableContact reliable_depths(const JointContact& joint, JointKind kind, Side side, const JointAngles& pose,
+                                const RadialContact& contact, const NearestDistances& distances) {
+  const auto &mobile = contact.mobile_in_fixed, &fixed = contact.fixed_in_mobile;
+  std::array<TangentialContact, 3> about;
+  Rotations of_mobile{}, of_fixed{};
+  if (needs_rotations(mobile, distances.mobile) || needs_rotations(fixed, distances.fixed)) {
+    const std::size_t axes = kind == JointKind::hinge ? 1 : 3;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      about[axis] = joint.tangential(pose_at(side, pose), axis_of(all_angles[axis], side, pose));
+      if (about[axis].mobile_in_fixed) of_mobile[axis] = &*about[axis].mobile_in_fixed;
+      if (about[axis].fixed_in_mobile) of_fixed[axis] = &*about[axis].fixed_in_mobile;
+    }
+  }
+  return both(contact, distances, of_mobile, of_fixed);
+}
+
+ReliableContact reliable_radial_depths(const RadialContact& contact, const NearestDistances& distances) {
+  return both(contact, distances, {}, {});
+}
+
+}  // namespace condyle

@@ -1,0 +1,184 @@
+#include "condyle/io/provenance.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/version.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/result/provenance_forms.hpp"
+
+namespace condyle {
+namespace {
+
+double mm_of(LengthUnit unit) noexcept {
+  return unit == LengthUnit::metres ? 1000.0 : 1.0;
+}
+
+/// The mobile body's frame in W, where its mesh is in the reference pose.
+Pose mobile_in_source(const JointReport& report) noexcept {
+  return report.placement.X_WF * pose_at(report.file.joint.side, report.placement.reference_pose);
+}
+
+MeshOrigin origin_of(const BodyReport& body, const Pose& X_W, double unit_mm) {
+  const Eigen::Affine3d joint_from_source = X_W.inverse() * Eigen::Scaling(unit_mm);
+  const Eigen::Affine3d source_from_joint = Eigen::Scaling(1 / unit_mm) * Eigen::Affine3d(X_W);
+  return {body.mesh, body.digest, joint_from_source, source_from_joint};
+}
+
+TriMesh moved(const Pose& X, double scale, const TriMesh& mesh) {
+  TriMesh out = posed(X, mesh);
+  if (scale == 1) return out;
+  for (std::vector<double>* axis : {&out.vertices.x, &out.vertices.y, &out.vertices.z})
+    for (double& value : *axis) value *= scale;
+  return out;
+}
+
+/// One word as a shell takes it, on one line whatever it holds.
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./%@";
+  if (!word.empty() && word.find_first_not_of(plain) == word.npos) return std::string(word);
+  std::string out = "'";
+  for (const char c : word) {
+    if (c == '\'')
+      out += "'\\''";
+    else
+      out += static_cast<unsigned char>(c) < ' ' ? '?' : c;
+  }
+  return out + "'";
+}
+
+std::string command_text(const Provenance& from) {
+  std::string text = "condyle";
+  for (const std::string& word : from.command) text += " " + shell_word(word);
+  return text;
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return text;
+}
+
+std::vector<double> row_by_row(const Eigen::Affine3d& X) {
+  std::vector<double> rows;
+  for (int i = 0; i < 4; ++i)
+    for (int k = 0; k < 4; ++k) rows.push_back(X(i, k) + 0.0);  // no -0
+  return rows;
+}
+
+io::Json matrix_json(const Eigen::Affine3d& X) {
+  const std::vector<double> rows = row_by_row(X);
+  io::Json json = io::Json::array();
+  for (std::size_t i = 0; i < 16; i += 4) json.push_back({rows[i], rows[i + 1], rows[i + 2], rows[i + 3]});
+  return json;
+}
+
+io::Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
+  return {{"path", path.string()}, {"bytes", digest.bytes}, {"sha256", digest.sha256}};
+}
+
+io::Json mesh_json(const MeshOrigin& mesh) {
+  io::Json json = file_json(mesh.path, mesh.digest);
+  json["joint_from_source"] = matrix_json(mesh.joint_from_source);
+  json["source_from_joint"] = matrix_json(mesh.source_from_joint);
+  return json;
+}
+
+std::string file_text(const std::filesystem::path& path, const FileDigest& digest) {
+  return one_line(fmt::format("{}, {} bytes, sha256 {}", path.string(), digest.bytes, digest.sha256));
+}
+
+}  // namespace
+
+std::string_view name_of(AnswerFrameName name) noexcept {
+  return name == AnswerFrameName::joint ? "joint" : "source";
+}
+
+AnswerFrameName answer_frame_named(std::string_view name) {
+  for (const AnswerFrameName known : {AnswerFrameName::joint, AnswerFrameName::source})
+    if (name_of(known) == name) return known;
+  throw UsageError(fmt::format("unknown frame {}; there are joint and source", io::in_quotes(name)));
+}
+
+AnswerFrame::AnswerFrame(AnswerFrameName name, const JointReport& report) : name_(name) {
+  if (name == AnswerFrameName::joint) return;
+  X_WF_ = report.placement.X_WF;
+  X_WM_ = mobile_in_source(report);
+  per_mm_ = 1 / mm_of(report.file.joint.units);
+}
+
+Vec3 AnswerFrame::fixed_point(const Vec3& p_F) const noexcept {
+  return name_ == AnswerFrameName::joint ? p_F : posed(X_WF_, p_F);
+}
+Vec3 AnswerFrame::fixed_direction(const Vec3& d_F) const noexcept {
+  return name_ == AnswerFrameName::joint ? d_F : Vec3(X_WF_.linear() * d_F);
+}
+Vec3 AnswerFrame::mobile_point(const Vec3& p_M) const noexcept {
+  return name_ == AnswerFrameName::joint ? p_M : posed(X_WM_, p_M);
+}
+TriMesh AnswerFrame::fixed_mesh(const TriMesh& mesh) const {
+  return name_ == AnswerFrameName::joint ? mesh : moved(X_WF_, per_mm_, mesh);
+}
+TriMesh AnswerFrame::mobile_mesh(const TriMesh& mesh) const {
+  return name_ == AnswerFrameName::joint ? mesh : moved(X_WM_, per_mm_, mesh);
+}
+
+Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command, AnswerFrameName frame) {
+  const JointReport& report = loaded.report;
+  const double unit_mm = mm_of(report.file.joint.units);
+  return {std::move(command),
+          report.file.path,
+          report.file.digest,
+          loaded.joint.side,
+          origin_of(report.fixed, report.placement.X_WF, unit_mm),
+          origin_of(report.mobile, mobile_in_source(report), unit_mm),
+          AnswerFrame(frame, report)};
+}
+
+namespace io {
+
+Json provenance_json(const Provenance* from) {
+  if (from == nullptr) return nullptr;
+  return {{"version", condyle::version},
+          {"command", from->command},
+          {"joint_file", file_json(from->joint_path, from->joint_digest)},
+          {"side", name_of(from->side)},
+          {"frame", name_of(from->frame.name())},
+          {"fixed_mesh", mesh_json(from->fixed)},
+          {"mobile_mesh", mesh_json(from->mobile)}};
+}
+
+std::vector<VtpField> provenance_fields(const Provenance* from) {
+  if (from == nullptr) return {};
+  return {{"condyle_version", std::string(condyle::version)},
+          {"condyle_command", command_text(*from)},
+          {"joint_file", file_text(from->joint_path, from->joint_digest)},
+          {"fixed_mesh", file_text(from->fixed.path, from->fixed.digest)},
+          {"mobile_mesh", file_text(from->mobile.path, from->mobile.digest)},
+          {"side", std::string(name_of(from->side))},
+          {"frame", std::string(name_of(from->frame.name()))},
+          {"fixed_joint_from_source", row_by_row(from->fixed.joint_from_source)},
+          {"fixed_source_from_joint", row_by_row(from->fixed.source_from_joint)},
+          {"mobile_joint_from_source", row_by_row(from->mobile.joint_from_source)},
+          {"mobile_source_from_joint", row_by_row(from->mobile.source_from_joint)}};
+}
+
+std::string provenance_comments(const Provenance* from) {
+  std::string text;
+  for (const auto& [name, value] : provenance_fields(from)) {
+    text += fmt::format("# {}:", name);
+    if (const auto* words = std::get_if<std::string>(&value))
+      text += " " + *words;
+    else
+      for (const double number : std::get<std::vector<double>>(value)) text += fmt::format(" {}", number);
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace io
+}  // namespace condyle

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/provenance.hpp"
+#include "io/result/json.hpp"
+
+/// Provenance as each kind of file has it. Null, nothing and nothing where it is not known, as in a program that makes
+/// its joints itself.
+
+namespace condyle::io {
+
+Json provenance_json(const Provenance* from);
+std::vector<VtpField> provenance_fields(const Provenance* from);
+/// Lines "# name: value" before a CSV's header line.
+std::string provenance_comments(const Provenance* from);
+
+}  // namespace condyle::io

@@ -1,0 +1,93 @@
+#include "condyle/reliable_depth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+/// A wall in front of the joint, x = 40, and an arm that hangs from the centre along -y and is flexed into it. Rays to
+/// the arm's end run along the wall; turning back frees it.
+class ArmIntoWall : public ::testing::Test {
+ protected:
+  const JointContact joint{box({40, -120, -50}, {60, -20, 50}), box({-1, -100, -2}, {1, -10, 2})};
+  const JointAngles pose{Angle::degrees(25), {}, {}};
+  const Pose X_FM = pose_at(Side::right, pose);
+  const RadialContact contact = joint.radial(X_FM);
+  const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
+};
+
+TEST_F(ArmIntoWall, IsAsDeepAsTheRotationThatFreesItSoonest) {
+  const ReliableContact found =
+      reliable_depths(joint, JointKind::ball, Side::right, pose, contact, measures.distances);
+  ASSERT_TRUE(found.mobile && found.mobile->deepest);
+  const DeepestReliable& deepest = *found.mobile->deepest;
+  EXPECT_GT(deepest.ray_to_normal.degrees(), 60);
+  EXPECT_EQ(deepest.way, DepthWay::flexion);
+  // The front edge of the arm's end, (1, -100), meets x = 40 where flexion is asin(40 / r) - atan2(1, 100).
+  const double r = std::hypot(1, 100);
+  const double back = Angle::degrees(25).radians() - (std::asin(40 / r) - std::atan2(1, 100));
+  const auto& flexion = deepest.rotations[0];
+  ASSERT_TRUE(flexion);
+  EXPECT_NEAR(flexion->angle.radians(), back, 1e-12);
+  EXPECT_NEAR(deepest.depth_mm, back * r, 1e-10);
+  EXPECT_EQ(deepest.depth_mm, flexion->arc_mm);
+  for (const auto& way : deepest.rotations) {
+    if (way) {
+      EXPECT_GE(way->arc_mm, deepest.depth_mm);
+    }
+  }
+  EXPECT_LE(deepest.nearest_distance_mm, deepest.depth_mm);
+}
+
+TEST_F(ArmIntoWall, AHingeTurnsAboutOneAxisOnly) {
+  const ReliableContact found =
+      reliable_depths(joint, JointKind::hinge, Side::right, pose, contact, measures.distances);
+  ASSERT_TRUE(found.mobile && found.mobile->deepest);
+  EXPECT_TRUE(found.mobile->deepest->rotations[0]);
+  EXPECT_FALSE(found.mobile->deepest->rotations[1]);
+  EXPECT_FALSE(found.mobile->deepest->rotations[2]);
+}
+
+TEST_F(ArmIntoWall, WithoutRotationsOnlyTheNearestDistanceIsLeft) {
+  const ReliableContact found = reliable_radial_depths(contact, measures.distances);
+  const RadialResults& radial = *contact.mobile_in_fixed;
+  std::size_t inside = 0;
+  for (std::size_t v = 0; v < radial.size(); ++v) {
+    if (radial.state[v] != PointState::inside) {
+      EXPECT_EQ(found.mobile->way[v], DepthWay::none);
+      EXPECT_EQ(found.mobile->depth_mm[v], 0);
+      continue;
+    }
+    ++inside;
+    EXPECT_EQ(found.mobile->way[v], DepthWay::nearest);
+    EXPECT_EQ(found.mobile->depth_mm[v], measures.distances.mobile[v]);
+  }
+  EXPECT_GT(inside, 0u);
+  EXPECT_EQ(found.mobile->without, inside);
+  EXPECT_FALSE(found.mobile->deepest);
+}
+
+TEST(ReliableDepths, WhereTheSurfaceFacesTheRayTheRadialDepthIsIt) {
+  // A ball of radius 24 in a socket of radius 23: every ray is a normal, up to what flat triangles are off.
+  const JointContact joint(socket({0, 0, 0}, 23, 60, 3), sphere({0, 0, 0}, 24, 3));
+  const RadialContact contact = joint.radial(Pose::Identity());
+  const ContactMeasures measures = measure_contact(joint, Pose::Identity(), VertexStates(contact));
+  const ReliableContact found =
+      reliable_depths(joint, JointKind::ball, Side::right, {}, contact, measures.distances);
+  const RadialResults& radial = *contact.mobile_in_fixed;
+  std::size_t along_rays = 0;
+  for (std::size_t v = 0; v < radial.size(); ++v) {
+    if (found.mobile->way[v] != DepthWay::radial) continue;
+    ++along_rays;
+    EXPECT_EQ(found.mobile->depth_mm[v], -radial.radial_gap_mm[v]);
+    EXPECT_LE(radial.ray_to_normal[v].degrees(), 60);
+  }
+  EXPECT_GT(along_rays, 90u);
+}
+
+}  // namespace
+}  // namespace condyle::test

@@ -1,0 +1,119 @@
+#include "condyle/io/provenance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/result/provenance_forms.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+/// A joint in metres, turned and shifted, whose mobile mesh is given in a pose of its own.
+class ProvenanceOfAJoint : public ::testing::Test {
+ protected:
+  ProvenanceOfAJoint() {
+    write_mesh(folder / "fixed.ply", box({0.3, 0.1, 0.2}, {0.5, 0.4, 0.7}));
+    write_mesh(folder / "mobile.ply", sphere({0.1, -0.2, 0.3}, 0.04, 2));
+    folder.file("joint.toml", R"(condyle = 1
+name = "j"
+kind = "ball"
+side = "left"
+units = "m"
+[fixed]
+mesh = "fixed.ply"
+[mobile]
+mesh = "mobile.ply"
+[frame]
+centre = [0.1, -0.2, 0.3]
+anterior = [0, 0, 1]
+superior = [1, 0, 0]
+[reference_pose]
+flexion = 57
+adduction = -10.1
+)");
+  }
+  LoadedJoint read() const { return read_joint(folder / "joint.toml"); }
+
+  const TemporaryFolder folder;
+};
+
+/// Coordinates of a few hundred mm, five products and sums each.
+constexpr double rounding_mm = 1e-12 * 1000;
+
+void expect_near(const TriMesh& a, const TriMesh& b, double tolerance) {
+  ASSERT_EQ(a.vertices.size(), b.vertices.size());
+  EXPECT_EQ(a.triangles, b.triangles);
+  for (std::size_t v = 0; v < a.vertices.size(); ++v)
+    EXPECT_LT((a.vertices[v] - b.vertices[v]).norm(), tolerance) << v;
+}
+
+TEST_F(ProvenanceOfAJoint, NamesItsFilesBySizeAndDigest) {
+  const Provenance from = provenance_of(read(), {"depth", "joint.toml"});
+  EXPECT_EQ(from.fixed.digest, digest_of(io::read_whole_file(folder / "fixed.ply")));
+  EXPECT_EQ(from.mobile.digest, digest_of(io::read_whole_file(folder / "mobile.ply")));
+  EXPECT_EQ(from.joint_digest, digest_of(io::read_whole_file(folder / "joint.toml")));
+  EXPECT_EQ(from.fixed.path, folder / "fixed.ply");
+}
+
+TEST_F(ProvenanceOfAJoint, ItsMatricesBringVerticesOfTheFilesIntoTheJointAndBack) {
+  const LoadedJoint loaded = read();
+  const Provenance from = provenance_of(loaded, {});
+  for (const auto& [origin, body] :
+       {std::pair(from.fixed, loaded.joint.fixed), {from.mobile, loaded.joint.mobile}}) {
+    const TriMesh of_file = read_mesh(origin.path).mesh;
+    for (std::size_t v = 0; v < of_file.vertices.size(); ++v) {
+      const Vec3 p_joint = body.mesh.vertices()[v];
+      EXPECT_LT((origin.joint_from_source * of_file.vertices[v] - p_joint).norm(), rounding_mm);
+      EXPECT_LT((origin.source_from_joint * p_joint - of_file.vertices[v]).norm(), rounding_mm / 1000);
+    }
+  }
+}
+
+TEST_F(ProvenanceOfAJoint, TheSourceFrameLaysMeshesOnTheirFilesAndGivesPointsInMillimetres) {
+  const LoadedJoint loaded = read();
+  const AnswerFrame source = provenance_of(loaded, {}, AnswerFrameName::source).frame;
+  const TriMesh fixed = read_mesh(folder / "fixed.ply").mesh, mobile = read_mesh(folder / "mobile.ply").mesh;
+  expect_near(source.fixed_mesh(loaded.joint.fixed.mesh), fixed, rounding_mm / 1000);
+  expect_near(source.mobile_mesh(loaded.joint.mobile.mesh), mobile, rounding_mm / 1000);
+  EXPECT_LT((source.fixed_point(loaded.joint.fixed.mesh.vertices()[3]) - 1000 * fixed.vertices[3]).norm(),
+            rounding_mm);
+  EXPECT_LT((source.mobile_point(loaded.joint.mobile.mesh.vertices()[5]) - 1000 * mobile.vertices[5]).norm(),
+            rounding_mm);
+  EXPECT_LT((source.fixed_direction({1, 0, 0}) - Vec3(0, 0, 1)).norm(), 1e-15) << "anterior";
+}
+
+TEST_F(ProvenanceOfAJoint, TheJointFrameChangesNoBit) {
+  const LoadedJoint loaded = read();
+  const AnswerFrame joint = provenance_of(loaded, {}).frame;
+  EXPECT_EQ(joint.fixed_mesh(loaded.joint.fixed.mesh), loaded.joint.fixed.mesh.arrays());
+  EXPECT_EQ(joint.mobile_mesh(loaded.joint.mobile.mesh), loaded.joint.mobile.mesh.arrays());
+  EXPECT_EQ(joint.fixed_point({0.1, 0.2, 0.3}), Vec3(0.1, 0.2, 0.3));
+}
+
+TEST_F(ProvenanceOfAJoint, IsOneLineForEachThingInACsv) {
+  const Provenance from = provenance_of(read(), {"depth", "a b\n.toml", "--pose", "flexion=57 adduction=1"});
+  const std::string text = io::provenance_comments(&from);
+  EXPECT_NE(text.find("# condyle_command: condyle depth 'a b?.toml' --pose 'flexion=57 adduction=1'\n"),
+            text.npos)
+      << text;
+  EXPECT_NE(text.find("# side: left\n"), text.npos);
+  EXPECT_NE(text.find("# frame: joint\n"), text.npos);
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_TRUE(line.starts_with("# ")) << line;
+  EXPECT_EQ(text.find(" -0 "), text.npos);
+  EXPECT_EQ(io::provenance_comments(nullptr), "");
+  EXPECT_TRUE(io::provenance_json(nullptr).is_null());
+}
+
+TEST(AnswerFrameName, IsJointOrSource) {
+  for (const auto name : {AnswerFrameName::joint, AnswerFrameName::source})
+    EXPECT_EQ(answer_frame_named(name_of(name)), name);
+  EXPECT_THROW(answer_frame_named("world"), UsageError);
+}
+
+}  // namespace
+}  // namespace condyle::test

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "condyle/contact_measures.hpp"
+#include "condyle/joint_coordinates.hpp"
+#include "condyle/sample/hip.hpp"
+#include "oracle/cgal_oracle.hpp"
+
+namespace condyle::test {
+namespace {
+
+/// Every vertex of either bone against CGAL's tree, free and in contact. Both round coordinates below 400 mm in a few
+/// products: 1e-12 of them, and the square root of CGAL's squared distances, near 0, of what those round.
+TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
+  const SampleHip hip = sample_hip({}, Scenario::one);
+  const JointContact joint(hip.hip_bone, hip.femur);
+  for (const double flexion : {0.0, 90.0, 130.0}) {
+    const Pose X_FM = pose_at(Side::right, {Angle::degrees(flexion), Angle::degrees(3), Angle::degrees(20)});
+    const RadialContact contact = joint.radial(X_FM);
+    const ContactMeasures found = measure_contact(joint, X_FM, VertexStates(contact));
+    const TriMesh femur_in_F = posed(X_FM, hip.femur);
+    const auto of_mobile = CgalOracle(hip.hip_bone).distances(femur_in_F.vertices);
+    const auto of_fixed = CgalOracle(femur_in_F).distances(hip.hip_bone.vertices);
+    ASSERT_EQ(found.distances.mobile.size(), of_mobile.size());
+    ASSERT_EQ(found.distances.fixed.size(), of_fixed.size());
+    for (std::size_t v = 0; v < of_mobile.size(); ++v)
+      EXPECT_NEAR(found.distances.mobile[v], of_mobile[v], 1e-9) << "femur, vertex " << v;
+    for (std::size_t v = 0; v < of_fixed.size(); ++v)
+      EXPECT_NEAR(found.distances.fixed[v], of_fixed[v], 1e-9) << "hip bone, vertex " << v;
+    // No vertex is nearer than the surfaces are.
+    const double least = std::min(*std::min_element(of_mobile.begin(), of_mobile.end()),
+                                  *std::min_element(of_fixed.begin(), of_fixed.end()));
+    EXPECT_LE(found.nearest.distance_mm, least + 1e-9);
+    EXPECT_EQ(found.nearest.distance_mm == 0, !contact.pairs.empty());
+  }
+}
+
+}  // namespace
+}  // namespace condyle::test
