@@ -102,6 +102,25 @@ TEST(LimitsPlot, Names_no_source_where_no_motion_has_one) {
   EXPECT_FALSE(has_text(plot, "AAOS"));
 }
 
+TEST(LimitsPlot, Shows_no_normal_range_of_a_hip_for_another_joint) {
+  const std::vector limits{limit_of("flexion", 140, LimitReason::contact)};
+  EXPECT_TRUE(has_text(limits_plot(heading, limits), "normal range of the living hip"));
+  EXPECT_FALSE(has_text(limits_plot(heading, limits, {}, JointKind::hinge), "living hip"));
+}
+
+TEST(LimitsPlot, Draws_a_whisker_and_quotes_the_band) {
+  const std::vector limits{limit_of("flexion", 131.94, LimitReason::contact)};
+  const std::vector bands{
+      LimitBand{Angle::degrees(126.2), Angle::degrees(131), Angle::degrees(134.8), {}, 0, 0}};
+  const std::string plot = limits_plot(heading, limits, bands);
+  EXPECT_TRUE(has_text(plot,
+                       "131.9\xC2\xB0 (126\xE2\x80\x93"
+                       "135)"));
+  EXPECT_TRUE(has_text(plot, "band, 5 to 95 %"));
+  EXPECT_GT(elements_named(plot, "line").size(),
+            elements_named(limits_plot(heading, limits), "line").size() + 4);
+}
+
 TEST(LimitsPlot, Stays_inside_its_canvas_for_many_motions_with_long_names) {
   std::vector<MotionLimit> limits;
   for (int i = 0; i < 40; ++i)

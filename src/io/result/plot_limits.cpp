@@ -76,11 +76,16 @@ void draw_mark(SvgCanvas& canvas, End end, ScreenPoint at) {
   }
 }
 
-double longest_turn(std::span<const MotionLimit> limits, std::span<const LimitBand> bands) {
+/// Of other joints nothing is known here.
+std::optional<Angle> normal_range(std::string_view motion, JointKind joint) noexcept {
+  return joint == JointKind::ball ? normal_hip_range(motion) : std::nullopt;
+}
+
+double longest_turn(std::span<const MotionLimit> limits, std::span<const LimitBand> bands, JointKind joint) {
   double longest = 10;  // degrees: an axis of some length when nothing turns at all
   for (const MotionLimit& limit : limits) {
     longest = std::max(longest, limit.end.turned.degrees());
-    if (const auto normal = normal_hip_range(limit.motion.name))
+    if (const auto normal = normal_range(limit.motion.name, joint))
       longest = std::max(longest, normal->degrees());
   }
   for (const LimitBand& band : bands) longest = std::max(longest, band.p95.degrees());
@@ -97,13 +102,13 @@ void draw_whisker(SvgCanvas& canvas, double low, double median, double high, dou
 }
 
 /// `band`: null where there is none.
-void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const LimitBand* band, const PlotScale& x,
-              double y) {
+void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const LimitBand* band, JointKind joint,
+              const PlotScale& x, double y) {
   const double zero = x(0), end = x(limit.end.turned.degrees());
   canvas.text({x.px_low - 12, y + name_size / 3},
               text_within(readable_name(limit.motion.name), name_size, x.px_low - 12 - margin),
               {.size = name_size, .anchor = TextAnchor::end});
-  if (const auto normal = normal_hip_range(limit.motion.name)) {
+  if (const auto normal = normal_range(limit.motion.name, joint)) {
     const double edge = x(normal->degrees());
     canvas.rectangle({zero, y - band_height / 2}, edge - zero, band_height, {.fill = palette::light_grey});
     canvas.line({edge, y - band_height / 2}, {edge, y + band_height / 2},
@@ -137,7 +142,7 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
 }
 
 std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits,
-                        std::span<const LimitBand> bands) {
+                        std::span<const LimitBand> bands, JointKind joint) {
   const auto shown = [&](End end) {
     return std::any_of(limits.begin(), limits.end(), [&](const MotionLimit& l) {
       return end_of(l) == end || (end == End::bearing && l.end.bearing_contact);
@@ -147,8 +152,9 @@ std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit>
   for (const End end :
        {End::impingement, End::contact, End::bearing, End::end_of_range, End::contact_at_start})
     if (shown(end)) legend.push_back(end);
-  const bool any_normal = std::any_of(limits.begin(), limits.end(),
-                                      [](const auto& l) { return normal_hip_range(l.motion.name); });
+  const bool any_normal = std::any_of(limits.begin(), limits.end(), [&](const auto& l) {
+    return normal_range(l.motion.name, joint).has_value();
+  });
   double names = 0;
   for (const MotionLimit& limit : limits)
     names = std::max(names, text_width(readable_name(limit.motion.name), name_size));
@@ -161,13 +167,13 @@ std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit>
                    heading.joint + ": " + heading.subject);
   draw_heading(canvas, heading);
 
-  const double longest = longest_turn(limits, bands), step = tick_step(longest, 8);
+  const double longest = longest_turn(limits, bands, joint), step = tick_step(longest, 8);
   const PlotScale x{0, step * std::ceil(longest / step), margin + std::min(names, longest_name) + 12,
                     canvas_width - margin - (bands.empty() ? value_column : quoted_column)};
   for (const double value : ticks(0, x.high, step))
     canvas.line({x(value), heading_height}, {x(value), bottom}, {.stroke = palette::light_grey});
   for (std::size_t i = 0; i < limits.size(); ++i)
-    draw_row(canvas, limits[i], bands.empty() ? nullptr : &bands[i], x,
+    draw_row(canvas, limits[i], bands.empty() ? nullptr : &bands[i], joint, x,
              heading_height + row_height * (static_cast<double>(i) + 0.5));
   draw_bottom_axis(canvas, x, bottom, 8, "turned from the start of the motion, degrees");
 

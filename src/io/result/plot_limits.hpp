@@ -23,8 +23,8 @@ inline constexpr std::string_view normal_hip_range_source =
 
 /// The limits of all motions as a horizontal bar chart, SVG text: how far each turns from its start in
 /// degrees, with a mark for the reason and, behind the bar, the normal range where there is a source for it.
-/// With bands, one per limit or none, a whisker from 5 to 95 % with a tick at the median.
+/// Normal ranges are those of a hip and are left out for a hinge. With bands, one per limit or none, a whisker from 5 to 95 % with a tick at the median.
 std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits,
-                        std::span<const LimitBand> bands = {});
+                        std::span<const LimitBand> bands = {}, JointKind joint = JointKind::ball);
 
 }  // namespace condyle::io

@@ -133,9 +133,9 @@ std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder
   const std::string& name = result.joint.name;
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
-  io::write_whole_file(
-      out.file("limits.svg"),
-      io::limits_plot({name, "How far each motion turns from its start"}, result.limits, result.bands));
+  io::write_whole_file(out.file("limits.svg"),
+                       io::limits_plot({name, "How far each motion turns from its start"}, result.limits,
+                                       result.bands, result.joint.kind));
   if (result.joint.kind == JointKind::ball)
     io::write_whole_file(
         out.file("clock_face.svg"),
