@@ -153,10 +153,15 @@ struct Displaced {
   Vec3 centre;
   std::array<double, 12> limits_deg;
 };
+enum class Fits {
+  anew,  ///< for every centre
+  once,  ///< and moved with the others: a head is the same whatever the centre, and on fine meshes slow to find
+};
 struct HipTable {
   const char* name;
   const char* folder;
   Side side;
+  Fits fits;
   std::array<Displaced, 7> rows;
   friend void PrintTo(const HipTable& hip, std::ostream* out) { *out << hip.name; }
 };
@@ -166,6 +171,7 @@ const HipTable hips[] = {
     {"vhf",
      "hip_vhf_right",
      Side::right,
+     Fits::anew,
      {{{{0, 0, 0}, {133.78, 72.77, 61.42, 39.26, 102.77, 55.14, 75.44, 53.40, 32.69, 110.67, 25.96, 120.00}},
        {{-1, 0, 0}, {131.59, 72.96, 61.42, 39.26, 99.62, 56.37, 65.37, 52.36, 30.57, 114.89, 23.48, 120.00}},
        {{1, 0, 0}, {136.06, 72.85, 61.42, 39.26, 106.01, 53.97, 80.59, 54.01, 34.71, 105.97, 28.40, 120.00}},
@@ -177,6 +183,7 @@ const HipTable hips[] = {
     {"libhip",
      "hip_libhip_m1_left",
      Side::left,
+     Fits::once,
      {{{{0, 0, 0}, {120.78, 20.96, 40.89, 30.22, 115.61, 22.97, 70.85, 29.46, 49.07, 72.78, 36.47, 43.38}},
        {{-1, 0, 0}, {118.91, 21.38, 40.89, 30.22, 115.65, 23.60, 66.46, 28.67, 47.43, 76.65, 34.27, 42.81}},
        {{1, 0, 0}, {122.48, 20.55, 40.89, 30.22, 115.77, 22.37, 75.97, 30.67, 50.44, 68.37, 38.68, 44.93}},
@@ -202,6 +209,7 @@ TEST_P(DisplacedCentre, ByAMillimetreMovesLimitsByDegreesNotByTens) {
   const TriMesh fixed = read_ply(*data / hip.folder / "hip_bone.ply"),
                 mobile = read_ply(*data / hip.folder / "femur.ply");
   std::vector<double> changes;
+  std::optional<BearingSurface> first;
   for (const Displaced& row : hip.rows) {
     SCOPED_TRACE(testing::Message() << "centre " << row.centre.transpose());
     const Joint joint{hip.name,
@@ -209,7 +217,15 @@ TEST_P(DisplacedCentre, ByAMillimetreMovesLimitsByDegreesNotByTens) {
                       hip.side,
                       {"hip bone", moved(fixed, -row.centre)},
                       {"femur", moved(mobile, -row.centre)}};
-    const auto limits = RangeOfMotion(joint).limits(hip_motions());
+    BearingOptions bearing;
+    if (hip.fits == Fits::once && first) {
+      bearing.surface = first;
+      bearing.surface->head.centre -= row.centre;
+    }
+    const RangeOfMotion range(joint, {.bearing = bearing});
+    if (!first) first = range.bearing().surface;
+    ASSERT_TRUE(first);
+    const auto limits = range.limits(hip_motions());
     for (std::size_t i = 0; i < limits.size(); ++i) {
       const double limit = limits[i].end.turned.degrees();
       EXPECT_NEAR(limit, row.limits_deg[i], 0.01) << limits[i].motion.name;
