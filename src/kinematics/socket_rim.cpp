@@ -7,6 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "mesh/vertex_normals.hpp"
+
 namespace condyle::kinematics {
 namespace {
 
@@ -25,12 +27,7 @@ struct Facing {
 };
 
 Facing facing(const TriMesh& fixed, const Sphere& head) {
-  Points normals(fixed.vertices.size());
-  for (std::size_t t = 0; t < fixed.triangles.size(); ++t) {
-    const Vec3 a = fixed.corner(t, 0);
-    const Vec3 normal = (fixed.corner(t, 1) - a).cross(fixed.corner(t, 2) - a);
-    for (const Index v : fixed.triangles[t]) normals.set(v, normals[v] + normal);
-  }
+  const Points normals = mesh::area_normals(fixed);
   Facing found;
   for (std::size_t v = 0; v < fixed.vertices.size(); ++v) {
     const Vec3 ray = fixed.vertices[v] - head.centre;

@@ -10,6 +10,7 @@
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "mesh/vertex_normals.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/first_contact.hpp"
 
@@ -125,14 +126,9 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
   return groups;
 }
 
-/// Unit, mean of the triangles around each vertex weighted by area; zero where no triangle uses it.
-Points vertex_normals(const TriMesh& mesh) {
-  Points normals(mesh.vertices.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0);
-    const Vec3 normal = (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a);
-    for (const Index v : mesh.triangles[t]) normals.set(v, normals[v] + normal);
-  }
+/// Mean of the triangles around each vertex weighted by area; zero where no triangle uses it.
+Points unit_normals(const TriMesh& mesh) {
+  Points normals = mesh::area_normals(mesh);
   for (std::size_t v = 0; v < normals.size(); ++v) {
     const Vec3 normal = normals[v];
     if (normal.squaredNorm() > 0) normals.set(v, normal.normalized());
@@ -144,7 +140,7 @@ Points vertex_normals(const TriMesh& mesh) {
 class Surface {
  public:
   Surface(const Mesh& whole, const Mesh& part)
-      : vertices_(whole.vertices()), normals_(vertex_normals(whole)), tree_(part) {}
+      : vertices_(whole.vertices()), normals_(unit_normals(whole)), tree_(part) {}
 
   const motion::FeatureTree& tree() const noexcept { return tree_; }
   motion::FeatureTree moved_by(double mm) const {
