@@ -9,18 +9,6 @@ namespace {
 /// The socket is looked for within this many head radii of the head's centre, with a radius up to the other.
 constexpr double socket_reach = 1.5, largest_socket = 1.4;
 
-Vec3 area_centroid(const TriMesh& mesh) {
-  Vec3 moment = Vec3::Zero();
-  double area = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    const double size = (b - a).cross(c - a).norm() / 2;
-    area += size;
-    moment += size * ((a + b + c) / 3);
-  }
-  return area > 0 ? Vec3(moment / area) : moment;
-}
-
 /// A ball that holds all vertices, somewhat larger than it must be.
 Sphere ball_around(const TriMesh& mesh) {
   Vec3 low = mesh.vertices[0], high = low;
@@ -32,6 +20,18 @@ Sphere ball_around(const TriMesh& mesh) {
 }
 
 }  // namespace
+
+Vec3 area_centroid(const TriMesh& mesh) {
+  Vec3 moment = Vec3::Zero();
+  double area = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double size = (b - a).cross(c - a).norm() / 2;
+    area += size;
+    moment += size * ((a + b + c) / 3);
+  }
+  return area > 0 ? Vec3(moment / area) : moment;
+}
 
 std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head) {
   try {

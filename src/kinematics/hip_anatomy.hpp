@@ -15,6 +15,9 @@ struct HipAnatomy {
   std::optional<Vec3> opening;  ///< of the socket: to the side, down and forwards
 };
 
+/// Of a surface, by area; the origin where it has none.
+Vec3 area_centroid(const TriMesh& mesh);
+
 /// The socket around a head: the spherical part of the fixed body near it; empty where there is none.
 std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head);
 

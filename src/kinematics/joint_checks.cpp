@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "kinematics/hip_anatomy.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 
@@ -32,9 +33,6 @@ constexpr double largest_centre_bound_mm = 1, largest_axis_bound_deg = 5;
 /// As the search for a bearing surface: a head near the joint centre, and how near one must be to be taken for it.
 constexpr double largest_head_reach = 90, farthest_stray_sphere = 5;
 
-/// The socket is looked for within so many head radii of the head's centre, with a radius up to the other.
-constexpr double socket_reach = 1.5, largest_socket = 1.4;
-
 /// A shaft or a hip bone has its mass farther from the head's centre than this, in radii; a cartilage has not.
 constexpr double least_lever = 1;
 
@@ -57,18 +55,6 @@ class Notes {
  private:
   std::vector<JointNote> notes_;
 };
-
-Vec3 centre_of_mass(const TriMesh& mesh) {
-  Vec3 sum = Vec3::Zero();
-  double area = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
-    const double here = (b - a).cross(c - a).norm();
-    sum += here * (a + b + c) / 3;
-    area += here;
-  }
-  return area > 0 ? Vec3(sum / area) : Vec3(Vec3::Zero());
-}
 
 /// From the sphere's centre to where its part of the surface is missing: along the neck of a head, out of a socket.
 /// Zero where the part is nearly all of a sphere.
@@ -112,13 +98,6 @@ std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& 
   SphericalPatch head = *placement.sphere;
   head.fit.sphere.centre = Vec3::Zero();
   return head;
-}
-
-std::optional<SphericalPatch> socket_round(const Mesh& fixed, const Sphere& head) {
-  return found_sphere(fixed, {.part = SphericalPart::socket,
-                              .smallest_radius = 0.9 * head.radius,
-                              .largest_radius = largest_socket * head.radius,
-                              .within = Sphere{head.centre, socket_reach * head.radius}});
 }
 
 /// False where the size is no bone's: what is searched for in mm is then not found.
@@ -220,8 +199,8 @@ Evidence of_hip_bone(const Vec3& mass, const Vec3& opening, double rightwards) {
 
 void check_hip(const Joint& joint, const SphericalPatch& head, const SphericalPatch& socket, Notes& notes) {
   const double rightwards = joint.side == Side::right ? 1 : -1;
-  const Vec3 mass = centre_of_mass(joint.fixed.mesh) - socket.fit.sphere.centre;
-  const Vec3 shaft = centre_of_mass(joint.mobile.mesh) - head.fit.sphere.centre;
+  const Vec3 mass = kinematics::area_centroid(joint.fixed.mesh) - socket.fit.sphere.centre;
+  const Vec3 shaft = kinematics::area_centroid(joint.mobile.mesh) - head.fit.sphere.centre;
   if (mass.norm() < least_lever * socket.fit.sphere.radius ||
       shaft.norm() < least_lever * head.fit.sphere.radius)
     return;
@@ -275,7 +254,7 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
                     joint.mobile.name + ": too little for a head, and bearing contact is told by it");
     return;
   }
-  const auto socket = socket_round(joint.fixed.mesh, head->fit.sphere);
+  const auto socket = kinematics::find_socket(joint.fixed.mesh, head->fit.sphere);
   check_centres(joint, head->fit.sphere, socket, notes);
   if (socket) check_hip(joint, *head, *socket, notes);
 }
