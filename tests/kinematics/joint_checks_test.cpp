@@ -49,7 +49,7 @@ struct HipSetUp {
 
 HipSetUp right_set_up(const Hip& hip) {
   HipSetUp set_up{{.name = "hip", .side = hip.side}, hip.hip_bone, hip.femur};
-  set_up.joint.frame.centre = Vec3(Vec3::Zero());
+  set_up.joint.frame.centre.emplace<Vec3>(Vec3::Zero());
   return set_up;
 }
 
@@ -107,7 +107,7 @@ std::function<void(HipSetUp&)> with_axes(const Vec3& anterior, const Vec3& super
   return [=](HipSetUp& s) { s.joint.frame.axes = FrameDirections{anterior, superior}; };
 }
 std::function<void(HipSetUp&)> with_centre(const Vec3& centre) {
-  return [=](HipSetUp& s) { s.joint.frame.centre = centre; };
+  return [=](HipSetUp& s) { s.joint.frame.centre.emplace<Vec3>(centre); };
 }
 
 const std::vector<Case> wrong_set_ups{
