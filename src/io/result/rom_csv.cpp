@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/rom_result.hpp"
+#include "io/joint/given_degrees.hpp"
+#include "io/result/clock_contacts.hpp"
+#include "io/result/csv_field.hpp"
+#include "io/result/provenance_forms.hpp"
+#include "io/result/rom_parts.hpp"
+
+namespace condyle {
+
+std::string rom_csv(const RomResult& result) {
+  const AnswerFrame frame = frame_of(result);
+  std::string text =
+      io::provenance_comments(result.provenance) +
+      "motion,limit_deg,reason,contact_kind,bearing_contact_deg,centre_distance_mm,joint_space_mm,"
+      "error_bound_deg,vary,sense,range_deg,"
+      "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
+      "limit_flexion_deg,limit_adduction_deg,limit_internal_rotation_deg,"
+      "contact_x_mm,contact_y_mm,contact_z_mm,"
+      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour,"
+      "band_p5_deg,band_median_deg,band_p95_deg,band_from_centre_deg,band_from_axes_deg,band_from_surface_"
+      "deg,"
+      "band_share_without_contact\n";
+  const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
+  const auto start = [](const JointAngles& a) {
+    return fmt::format("{},{},{}", io::given_degrees(a.flexion), io::given_degrees(a.adduction),
+                       io::given_degrees(a.internal_rotation));
+  };
+  const auto angles = [](const JointAngles& a) {
+    return fmt::format("{},{},{}", a.flexion.degrees(), a.adduction.degrees(), a.internal_rotation.degrees());
+  };
+  for (std::size_t i = 0; i < result.limits.size(); ++i) {
+    const MotionLimit& limit = result.limits[i];
+    const auto& [motion, end, head] = limit;
+    const auto field = [](const std::optional<double>& value) {
+      return value ? fmt::format("{}", *value) : "";
+    };
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},", io::csv_field(motion.name), end.turned.degrees(),
+        name_of(end.reason), io::ends_in_contact(limit) ? name_of(end.kind()) : "",
+        end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
+        head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
+        end.error_bound.degrees(), name_of(motion.vary),
+        motion.sense == RotationSense::positive ? "positive" : "negative", io::given_degrees(motion.range),
+        start(motion.start), angles(limit.angles_at_limit()));
+    const auto hour = io::clock_hour(result, limit);
+    const auto& contact = end.contact;
+    text += contact ? fmt::format("{},{},{},{}", point(frame.fixed_point(contact->fixed_point)),
+                                  point(frame.mobile_point(contact->mobile_point)),
+                                  io::text_of(contact->fixed_feature), io::text_of(contact->mobile_feature))
+                    : std::string(",,,,,,,");
+    text += hour ? fmt::format(",{}", *hour) : ",";
+    if (result.bands.empty()) {
+      text += ",,,,,,,\n";
+      continue;
+    }
+    const LimitBand& band = result.bands[i];
+    for (const Angle angle : {band.p5, band.median, band.p95, band.width_from.centre, band.width_from.axes,
+                              band.width_from.surface})
+      text += fmt::format(",{}", angle.degrees());
+    text += fmt::format(",{}\n", band.share_without_contact);
+  }
+  return text;
+}
+
+}  // namespace condyle

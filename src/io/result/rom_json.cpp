@@ -1,0 +1,252 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condyle/io/map_result.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/rom_result.hpp"
+#include "io/file/format_version.hpp"
+#include "io/joint/given_degrees.hpp"
+#include "io/result/clock_contacts.hpp"
+#include "io/result/json.hpp"
+#include "io/result/map_summary.hpp"
+#include "io/result/provenance_forms.hpp"
+#include "io/result/rom_parts.hpp"
+
+namespace condyle {
+namespace {
+
+using io::Json;
+
+constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
+
+Json angles_json(const JointAngles& angles) {
+  Json json;
+  for (const JointAngle angle : all_angles) json[name_of(angle)] = angle_of(angles, angle).degrees();
+  return json;
+}
+
+Json start_json(const JointAngles& angles) {
+  Json json;
+  for (const JointAngle angle : all_angles) json[name_of(angle)] = io::given_degrees(angle_of(angles, angle));
+  return json;
+}
+
+Json held_json(const Motion& motion) {
+  Json json;
+  for (const JointAngle angle : all_angles)
+    if (angle != motion.vary) json[name_of(angle)] = io::given_degrees(angle_of(motion.start, angle));
+  return json;
+}
+
+Json json_of(const Feature& feature) {
+  Json json{{"kind", io::name_of(feature.kind)}};
+  if (feature.kind == FeatureKind::edge)
+    json["vertices"] = {feature.id, feature.other_end};
+  else
+    json["id"] = feature.id;
+  return json;
+}
+
+Json nullable(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+Json nullable_degrees(const std::optional<Angle>& angle) {
+  return angle ? Json(angle->degrees()) : Json(nullptr);
+}
+
+Json json_of(const BodyZone& zone, const std::optional<Vec3>& centroid) {
+  const auto deepest = [](const std::vector<double>& depths) -> Json {
+    double most = 0;
+    for (const double depth : depths)
+      if (std::isfinite(depth)) most = std::max(most, depth);
+    return depths.empty() ? Json(nullptr) : Json(most);
+  };
+  return {{"triangles", zone.triangles.size()},
+          {"area_mm2", zone.area_mm2},
+          {"centroid_mm", centroid ? io::numbers(*centroid) : Json(nullptr)},
+          {"max_radial_depth_mm", deepest(zone.radial_depth_mm)},
+          {"max_tangential_depth_deg", deepest(zone.tangential_depth_deg)},
+          {"max_tangential_depth_mm", deepest(zone.tangential_depth_mm)}};
+}
+
+Json json_of(const std::optional<ImpingementZone>& zone, const AnswerFrame& frame) {
+  if (!zone) return nullptr;
+  const auto &of_fixed = zone->fixed.centroid_mm, &of_mobile = zone->mobile.centroid_mm;
+  Json fixed = json_of(zone->fixed, of_fixed ? std::optional(frame.fixed_point(*of_fixed)) : std::nullopt);
+  Json mobile =
+      json_of(zone->mobile, of_mobile ? std::optional(frame.mobile_point(*of_mobile)) : std::nullopt);
+  fixed["clock_hour"] = nullable(zone->zone_hour);
+  mobile["neck_angle_deg"] = nullable_degrees(zone->zone_neck_angle);
+  return {{"past_deg", zone->past.degrees()},
+          {"contact_neck_angle_deg", nullable_degrees(zone->contact_neck_angle)},
+          {"fixed", std::move(fixed)},
+          {"mobile", std::move(mobile)}};
+}
+
+Json json_of(const DepthLimit& depth) {
+  Json json{{"at_start_mm", depth.start_depth_mm},
+            {"at_limit_mm", depth.at_limit.depth_mm},
+            {"ray_to_normal_deg", depth.at_limit.ray_to_normal.degrees()},
+            {"grows", depth.depth_grows}};
+  return json;
+}
+
+Json json_of(const LimitBand& band) {
+  return {{"p5_deg", band.p5.degrees()},
+          {"median_deg", band.median.degrees()},
+          {"p95_deg", band.p95.degrees()},
+          {"width_from",
+           {{"centre_deg", band.width_from.centre.degrees()},
+            {"axes_deg", band.width_from.axes.degrees()},
+            {"surface_deg", band.width_from.surface.degrees()}}},
+          {"share_without_contact", band.share_without_contact},
+          {"share_in_contact_at_start", band.share_in_contact_at_start}};
+}
+
+/// Of the i-th motion.
+Json motion_json(const RomResult& result, std::size_t i) {
+  const MotionLimit& limit = result.limits[i];
+  const auto& contact = limit.end.contact;
+  const auto& bearing = limit.end.bearing_contact;
+  const AnswerFrame frame = frame_of(result);
+  Json json{
+      {"name", limit.motion.name},
+      {"limit_deg", limit.end.turned.degrees()},
+      {"reason", name_of(limit.end.reason)},
+      {"contact_kind", io::ends_in_contact(limit) ? Json(name_of(limit.end.kind())) : Json(nullptr)},
+      {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
+      {"bearing_contact_point_mm", bearing && bearing->contact
+                                       ? io::numbers(frame.fixed_point(bearing->contact->fixed_point))
+                                       : Json(nullptr)},
+      {"centre_distance_mm", limit.head ? nullable(limit.head->centre_distance_mm) : Json(nullptr)},
+      {"joint_space_mm", limit.head ? nullable(limit.head->joint_space_mm) : Json(nullptr)},
+      {"contact_point_mm", contact ? io::numbers(frame.fixed_point(contact->fixed_point)) : Json(nullptr)},
+      {"contact_point_mobile_mm",
+       contact ? io::numbers(frame.mobile_point(contact->mobile_point)) : Json(nullptr)},
+      {"clock_hour", nullable(io::clock_hour(result, limit))},
+      {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
+                                  {"mobile", json_of(contact->mobile_feature)}}
+                           : Json(nullptr)},
+      {"error_bound_deg", limit.end.error_bound.degrees()},
+      {"vary", name_of(limit.motion.vary)},
+      {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
+      {"range_deg", io::given_degrees(limit.motion.range)},
+      {"start_deg", start_json(limit.motion.start)},
+      {"held_deg", held_json(limit.motion)},
+      {"at_limit_deg", angles_json(limit.angles_at_limit())},
+      {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
+  if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
+  if (!result.zones.empty()) json["zone"] = json_of(result.zones[i], frame_of(result));
+  json["band"] = result.bands.empty() ? Json(nullptr) : json_of(result.bands[i]);
+  return json;
+}
+
+Json json_of(const BandOptions& options) {
+  return {{"samples", options.samples},
+          {"seed", options.seed},
+          {"sigma",
+           {{"centre_mm", options.sigma.centre_mm},
+            {"axes_deg", options.sigma.axes.degrees()},
+            {"surface_mm", options.sigma.surface_mm}}}};
+}
+
+Json json_of(const ReasonCounts& counts) {
+  Json json;
+  for (const LimitReason reason :
+       {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
+    json[name_of(reason)] = counts[reason];
+  return json;
+}
+
+Json json_of(const GridAxis& axis) {
+  return {{"angle", name_of(axis.angle)},
+          {"first_deg", axis.first_deg},
+          {"last_deg", axis.last_deg},
+          {"step_deg", axis.step_deg},
+          {"count", axis.count()}};
+}
+
+/// Of the points whose free angles are not the one interval about the start: all of them.
+Json other_intervals_json(const MotionMap& map) {
+  const std::size_t columns = map.grid.column.count();
+  Json points = Json::array();
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const auto& intervals = map.points[i].intervals;
+    if (intervals.empty() || (intervals.size() == 1 && intervals.front().holds_start())) continue;
+    Json of_point = Json::array();
+    for (const FreeInterval& free : intervals)
+      of_point.push_back({{"low_deg", (map.grid.start + free.low).degrees()},
+                          {"high_deg", (map.grid.start + free.high).degrees()},
+                          {"low_reason", name_of(free.at_low.reason)},
+                          {"high_reason", name_of(free.at_high.reason)}});
+    points.push_back({{"column_deg", map.grid.column.value_deg(i % columns)},
+                      {"row_deg", map.grid.row.value_deg(i / columns)},
+                      {"intervals", std::move(of_point)}});
+  }
+  return points;
+}
+
+Json json_of(const MotionMap& map) {
+  const MapSummary summary = summarise(map);
+  return {{"vary", name_of(map.grid.vary)},
+          {"start_deg", map.grid.start.degrees()},
+          {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
+          {"columns", json_of(map.grid.column)},
+          {"rows", json_of(map.grid.row)},
+          {"points", map.points.size()},
+          {"negative_ends", json_of(summary.negative_ends)},
+          {"positive_ends", json_of(summary.positive_ends)},
+          {"free_elsewhere", summary.free_elsewhere},
+          {"with_islands", summary.with_islands},
+          {"other_intervals", other_intervals_json(map)},
+          {"free_volume_deg3", summary.volume.plain_deg3},
+          {"free_volume_cosine_weighted_deg3", summary.volume.cosine_weighted_deg3},
+          {"row_free_area_deg2", summary.volume.row_area_deg2}};
+}
+
+Json sphere_json(const Vec3& centre, double radius) {
+  return {{"centre_mm", io::numbers(centre)}, {"radius_mm", radius}};
+}
+
+Json bearing_json(const RomResult& result) {
+  Json json{{"rule", result.bearing_rule == BearingRule::count ? "count" : "leave_out"}};
+  const auto& surface = result.bearing.surface;
+  if (!surface) {
+    json["why_none"] = result.bearing.why_none;
+    return json;
+  }
+  const AnswerFrame frame = frame_of(result);
+  json["head"] = sphere_json(frame.mobile_point(surface->head.centre), surface->head.radius);
+  json["head_coverage"] = surface->head_coverage;
+  json["socket"] = surface->socket
+                       ? sphere_json(frame.fixed_point(surface->socket->centre), surface->socket->radius)
+                       : Json(nullptr);
+  json["margin_mm"] = surface->margin_mm;
+  json["rim_gap_mm"] = nullable(surface->rim_gap_mm);
+  json["triangles"] = surface->count();
+  return json;
+}
+
+}  // namespace
+
+std::string rom_json(const RomResult& result) {
+  Json json{{"condyle", io::format_version},
+            {"joint", result.joint.name},
+            {"fixed", result.joint.fixed.name},
+            {"mobile", result.joint.mobile.name},
+            {"side", name_of(result.joint.side)},
+            {"bearing", bearing_json(result)},
+            {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},
+            {"terms", result.terms},
+            {"notes", io::notes_json(result.notes)},
+            {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
+  json["motions"] = Json::array();
+  for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
+  if (result.map) json["map"] = json_of(*result.map);
+  json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(result.provenance);
+  return io::document(json);
+}
+
+}  // namespace condyle

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "condyle/io/rom_result.hpp"
+
+/// What the JSON and the lines of a range of motion share.
+
+namespace condyle::io {
+
+/// "vertex", "edge", "face".
+std::string_view name_of(FeatureKind kind) noexcept;
+
+/// "vertex 12", "edge 3-7", "face 40".
+std::string text_of(const Feature& feature);
+
+inline bool ends_in_contact(const MotionLimit& limit) noexcept {
+  return limit.end.reason != LimitReason::end_of_range;
+}
+
+}  // namespace condyle::io
