@@ -17,8 +17,10 @@ using std::numbers::pi;
 
 core::ArcSet contact_set_of(const RotationScene& scene) {
   const motion::FeatureTree resting(scene.resting), turning(scene.turning);
-  return motion::contact_set(motion::RotationTable(resting, scene.axis),
-                             motion::RotationTable(turning, scene.axis));
+  motion::TurningBody at_rest(resting), moving(turning);
+  at_rest.start_at(scene.axis, Pose::Identity());
+  moving.start_at(scene.axis, Pose::Identity());
+  return motion::contact_set(at_rest, moving);
 }
 
 std::vector<RotationScene> everywhere(const RotationScene& scene) {

@@ -95,8 +95,10 @@ TEST_P(FirstContactOfRealHips, TouchesThroughAFullTurnExactlyInItsContactSet) {
   for (const Start& start : starts()) {
     SCOPED_TRACE(start.name);
     const AxisFrame frame(Vec3::Zero(), start.axis);
-    const auto set = motion::contact_set(motion::RotationTable(fixed_tree, frame),
-                                         motion::RotationTable(mobile_tree, frame, start.X_FM));
+    motion::TurningBody resting(fixed_tree), turning(mobile_tree);
+    resting.start_at(frame, Pose::Identity());
+    turning.start_at(frame, start.X_FM);
+    const auto set = motion::contact_set(resting, turning);
     std::vector<double> angles;
     for (const core::Arc& arc : set.arcs()) {
       const double from = arc.start.degrees(), to = from + arc.width.degrees();

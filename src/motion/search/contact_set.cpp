@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/parallel.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "motion/search/node_pairs.hpp"
 
@@ -39,15 +38,14 @@ core::Arc window(const CylinderBox& turning, const CylinderBox& resting) {
   return arc(from, from + turning.theta_width + resting.theta_width);
 }
 
-/// The angles at which some triangle of one subtree meets the other body. Body is const RotationTable or TurningBody.
-template <class Body>
+/// The angles at which the two surfaces meet.
 class Collector {
  public:
-  Collector(Body& resting, Body& turning, core::ArcSet known = {})
+  Collector(TurningBody& resting, TurningBody& turning, core::ArcSet known)
       : resting_(resting), turning_(turning), found_(std::move(known)) {}
 
-  core::ArcSet run(Index turning_root) {
-    push(turning_root, 0);
+  core::ArcSet run() {
+    push(0, 0);
     while (!open_.empty()) {
       const NodePair pair = open_.back();
       open_.pop_back();
@@ -128,51 +126,19 @@ class Collector {
     fresh_.clear();
   }
 
-  Body& resting_;
-  Body& turning_;
+  TurningBody& resting_;
+  TurningBody& turning_;
   std::vector<NodePair> open_;
   std::vector<ContactEvent> events_;
   std::vector<core::Arc> fresh_;
   core::ArcSet found_;
 };
 
-/// Roots of subtrees that together make the whole tree: enough to occupy many threads.
-std::vector<Index> subtrees(const FeatureTree& tree) {
-  constexpr Index enough = 64;
-  const auto size = static_cast<Index>(tree.triangles().size());
-  std::vector<Index> out, open = {0};
-  while (!open.empty()) {
-    const Index i = open.back();
-    open.pop_back();
-    const auto& node = tree.nodes()[i];
-    if (node.is_leaf() || node.last - node.first <= size / enough) {
-      out.push_back(i);
-    } else {
-      open.push_back(node.child + 1);
-      open.push_back(node.child);
-    }
-  }
-  return out;
-}
-
 }  // namespace
-
-core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turning) {
-  if (resting.tree().empty() || turning.tree().empty()) return {};
-  const auto roots = subtrees(turning.tree());
-  std::vector<core::ArcSet> parts(roots.size());
-  core::parallel_chunks(roots.size(), 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      parts[i] = Collector<const RotationTable>(resting, turning).run(roots[i]);
-  });
-  core::ArcSet all;
-  for (const core::ArcSet& part : parts) all = all.united(part);
-  return all;
-}
 
 core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known) {
   if (resting.tree().empty() || turning.tree().empty()) return known;
-  return Collector<TurningBody>(resting, turning, known).run(0);
+  return Collector(resting, turning, known).run();
 }
 
 }  // namespace condyle::motion

@@ -21,11 +21,8 @@ namespace condyle::motion {
 /// other without going in (mirrored rulings of one hyperboloid) may be reported by the ends of their contact
 /// only.
 ///
-/// Threads share the work; the result does not depend on how many.
-core::ArcSet contact_set(const RotationTable& resting, const RotationTable& turning);
-
-/// The same of bodies that are made ready as far as it is looked at, on one thread. Angles in `known` are of contact
-/// for certain, or nobody's concern: they are in the answer and are not looked at.
-core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known);
+/// Angles in `known` are of contact for certain, or nobody's concern: they are in the answer and are not looked at.
+/// Both bodies are made ready only as far as they are looked at.
+core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known = {});
 
 }  // namespace condyle::motion
