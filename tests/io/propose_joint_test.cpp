@@ -118,7 +118,13 @@ TEST(ProposedJoint, OfTwoBoxesIsToBeFilledIn) {
   std::vector<std::string> keys;
   for (const std::string& line : proposal.to_fill_in) keys.push_back(line.substr(0, line.find(':')));
   EXPECT_EQ(keys, (std::vector<std::string>{"kind", "side", "centre", "anterior", "superior"}));
-  EXPECT_NE(proposal.toml.find("mesh = \"../a \\\"quoted\\\".ply\""), std::string::npos) << proposal.toml;
+  std::string filled = proposal.toml + "anterior = [1, 0, 0]\nsuperior = [0, 1, 0]\ncentre = [0, 0, 0]\n";
+  filled = "kind = \"ball\"\nside = \"right\"\n" + filled;
+  std::filesystem::create_directory(folder / "sub");
+  std::ofstream(folder / "sub" / "joint.toml") << filled;
+  EXPECT_TRUE(std::filesystem::equivalent(read_joint_file(folder / "sub" / "joint.toml").fixed.mesh,
+                                          folder / "a \"quoted\".ply"))
+      << filled;
   EXPECT_NE(proposal.toml.find("units = \"m\"  # given"), std::string::npos);
   EXPECT_THROW(propose_joint({folder / "none.ply", folder / "b.ply", folder / "j.toml", {}, {}}), FileError);
 }

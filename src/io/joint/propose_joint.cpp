@@ -1,11 +1,13 @@
 #include "condyle/io/propose_joint.hpp"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -58,13 +60,11 @@ std::vector<Found> agreeing(const kinematics::HipAnatomy& hip, const std::option
   return found;
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return out + "\"";
+/// As TOML writes it, whatever it holds.
+std::string toml_text(std::string_view text) {
+  std::ostringstream out;
+  out << toml::value<std::string>(std::string(text));
+  return out.str();
 }
 
 std::string numbers(const Vec3& v) {
@@ -111,8 +111,8 @@ void add_body(Lines& lines, std::string_view role, const std::filesystem::path& 
   const auto folder = std::filesystem::absolute(joint_file).parent_path();
   const auto from_folder = std::filesystem::absolute(mesh).lexically_normal().lexically_proximate(folder);
   lines.add(fmt::format("\n[{}]", role));
-  lines.add("name = " + in_quotes(mesh.stem().string()));
-  lines.add("mesh = " + in_quotes(from_folder.generic_string()));
+  lines.add("name = " + toml_text(mesh.stem().string()));
+  lines.add("mesh = " + toml_text(from_folder.generic_string()));
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ JointProposal propose_joint(const ProposalRequest& request) {
       version));
   lines.add("# lines that begin with # and a key could not be told and are to be filled in.");
   lines.add(fmt::format("condyle = {}", io::format_version));
-  lines.add("name = " + in_quotes(request.mobile.stem().string() + " in " + request.fixed.stem().string()));
+  lines.add("name = " + toml_text(request.mobile.stem().string() + " in " + request.fixed.stem().string()));
 
   const bool same_unit = mobile.unit.unit && fixed.unit.unit == mobile.unit.unit;
   const LengthUnit units = request.units.value_or(mobile.unit.unit.value_or(LengthUnit::millimetres));
@@ -145,9 +145,9 @@ JointProposal propose_joint(const ProposalRequest& request) {
 
   const auto found = hip ? agreeing(*hip, request.side) : std::vector<Found>{};
   if (request.side)
-    lines.key("side", in_quotes(name_of(*request.side)), "given");
+    lines.key("side", toml_text(name_of(*request.side)), "given");
   else if (found.size() == 1)
-    lines.key("side", in_quotes(name_of(found[0].side)),
+    lines.key("side", toml_text(name_of(found[0].side)),
               "told by the axes below and where the hip bone lies");
   else
     lines.missing("side", "\"right\" or \"left\"",
