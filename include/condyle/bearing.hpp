@@ -61,6 +61,9 @@ struct BearingOptions {
 struct BearingFinding {
   std::optional<BearingSurface> surface;
   std::string why_none;
+
+  /// Of a contact on this feature of the mobile mesh. Linear in its triangles for vertices and edges.
+  ContactKind kind_of(const TriMesh& mobile, const Feature& feature) const noexcept;
 };
 
 /// Looks for the head around the joint centre. None for a hinge, where no head is found, where its centre is farther

@@ -8,7 +8,7 @@
 #include "condyle/make_joint.hpp"
 
 /// What looks wrong with a joint: a side, axes, units or a centre that its meshes contradict, and meshes that not every
-/// question can be asked of. docs/joint-file.md has the table.
+/// question can be asked of. docs/checks.md has the table.
 
 namespace condyle {
 

@@ -1,19 +1,20 @@
 #include "condyle/joint_checks.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 
 namespace condyle {
 namespace {
+
+using core::formatted;
 
 /// What human bones and their cartilages span, mm: as for likely_unit().
 constexpr double shortest_bone = 20, longest_bone = 1000, mm_per_m = 1000;
@@ -38,14 +39,6 @@ constexpr double least_lever = 1;
 
 /// Cosines. Right hips show 0.25 to 0.65 forwards and outwards, wrong ones as much the other way; and 0.75 to 1 upwards.
 constexpr double wrong_way = -0.1, upright = 0.3;
-
-/// printf into a string; for pieces of less than 200 characters.
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
 
 class Notes {
  public:

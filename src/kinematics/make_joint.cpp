@@ -1,24 +1,17 @@
 #include "condyle/make_joint.hpp"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "core/formatted.hpp"
 #include "kinematics/resampling.hpp"
 
 namespace condyle {
 namespace {
 
-/// printf into a string; for lines of less than 400 characters.
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 400> text;
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
-}
+using core::formatted;
 
 double scale_of(LengthUnit unit) noexcept {
   return unit == LengthUnit::metres ? 1000.0 : 1.0;

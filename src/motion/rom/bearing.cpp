@@ -1,12 +1,11 @@
 #include "condyle/bearing.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/socket_rim.hpp"
 
@@ -16,12 +15,6 @@ namespace {
 /// A head whose centre is near the joint centre lies within two of the largest radii that find_sphere() looks for; fewer
 /// vertices to search cost less.
 constexpr double largest_head_reach = 90;
-
-std::string text(const char* format, double a, double b = 0) {
-  std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(), format, a, b);
-  return line.data();
-}
 
 std::vector<std::uint8_t> triangles_within(const TriMesh& mesh, const Vec3& centre, double radius) {
   std::vector<std::uint8_t> near_centre(mesh.vertices.size());
@@ -54,6 +47,11 @@ bool BearingSurface::holds(const TriMesh& mobile, const Feature& feature) const 
   return used;
 }
 
+ContactKind BearingFinding::kind_of(const TriMesh& mobile, const Feature& feature) const noexcept {
+  if (!surface) return ContactKind::unknown;
+  return surface->holds(mobile, feature) ? ContactKind::bearing : ContactKind::impingement;
+}
+
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options) {
   const auto none = [](std::string why) { return BearingFinding{std::nullopt, std::move(why)}; };
   if (options.margin_mm && !(*options.margin_mm >= 0 && std::isfinite(*options.margin_mm)))
@@ -74,18 +72,19 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
     return none(joint.mobile.name + ": no head was found around the joint centre");
   }
   if (const double off = surface.head.centre.norm(); off > farthest_head_centre_mm)
-    return none(joint.mobile.name +
-                text(": the sphere found as its head has its centre %.1f mm from the joint centre, "
-                     "more than %g",
-                     off, farthest_head_centre_mm));
+    return none(
+        joint.mobile.name +
+        core::formatted(": the sphere found as its head has its centre %.1f mm from the joint centre, "
+                        "more than %g",
+                        off, farthest_head_centre_mm));
   if (const auto rim = kinematics::socket_rim(joint.fixed.mesh, surface.head))
     surface.rim_gap_mm = rim->gap_mm;
   surface.margin_mm = options.margin_mm.value_or(
       std::min(usual_bearing_margin_mm,
                surface.rim_gap_mm.value_or(usual_bearing_margin_mm + rim_reserve_mm) - rim_reserve_mm));
   if (!(surface.margin_mm >= 0))
-    return none(text("head and rim are only %.2f mm apart: no margin to tell bearing surfaces by",
-                     *surface.rim_gap_mm));
+    return none(core::formatted("head and rim are only %.2f mm apart: no margin to tell bearing surfaces by",
+                                *surface.rim_gap_mm));
   surface.triangles = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
   if (surface.count() == surface.triangles.size())
     return none(joint.mobile.name + ": all of it would be bearing surface");

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "core/formatted.hpp"
 
 namespace condyle::motion {
 namespace {
@@ -51,9 +51,7 @@ void unmark_neighbours(const TriMesh& mesh, int rings, Marks& marks) {
 }
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
+  return core::formatted("%.3g", value);
 }
 
 /// Where one body's vertices are deepest in the other.

@@ -73,12 +73,11 @@ struct PathFinder::Parts {
     const Index f = counting.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
     const Index m = counting.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
     const Feature face{FeatureKind::face, m};
-    const auto& bearing = range.bearing().surface;
-    const ContactKind kind = !bearing                             ? ContactKind::unknown
-                             : bearing->holds(whole_mobile, face) ? ContactKind::bearing
-                                                                  : ContactKind::impingement;
-    return {
-        {FeatureKind::face, f}, face, nearest.fixed_point, posed(X_FM.inverse(), nearest.mobile_point), kind};
+    return {{FeatureKind::face, f},
+            face,
+            nearest.fixed_point,
+            posed(X_FM.inverse(), nearest.mobile_point),
+            range.bearing().kind_of(whole_mobile, face)};
   }
 };
 

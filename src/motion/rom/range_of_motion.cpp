@@ -156,11 +156,10 @@ struct RangeOfMotion::Parts {
     if (turning == Turning::fixed) contact = exchanged(contact);
     contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
     contact.mobile_feature = part.body.in_whole(contact.mobile_feature);
-    if (!bearing.surface) return;
-    const bool slides = bearing_rule == BearingRule::leave_out
-                            ? &part == sliding.get()
-                            : bearing.surface->holds(whole_mobile, contact.mobile_feature);
-    contact.kind = slides ? ContactKind::bearing : ContactKind::impingement;
+    // With its parts searched apart, a contact is of the kind of its part.
+    contact.kind = bearing_rule == BearingRule::count ? bearing.kind_of(whole_mobile, contact.mobile_feature)
+                   : &part == sliding.get()           ? ContactKind::bearing
+                                                      : ContactKind::impingement;
   }
 
   /// Angles at which what ends motions meets the fixed body's surface, over a full turn, and those at which one of its
