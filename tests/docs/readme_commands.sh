@@ -3,24 +3,18 @@
 # Usage: readme_commands.sh SOURCE_FOLDER CONDYLE_BINARY
 set -euo pipefail
 source_folder=$1
-bin=$(mktemp -d)
-trap 'rm -rf "$bin"' EXIT
-ln -s "$2" "$bin/condyle"
-export PATH="$bin:$PATH"
-mkdir "$bin/work"
-cd "$bin/work"
+. "$source_folder/tests/docs/commands.sh"
+in_empty_folder "$2"
 
-ran=0
 while IFS= read -r line; do
   command=${line%%#*}
   case "$command" in
     make\ *)
       # Running make here would build what is just being tested; that the target is there is what can be wrong.
-      make -s -n -C "$source_folder" ${command#make } >/dev/null
+      run "make -s -n -C '$source_folder' ${command#make }"
       ;;
     condyle\ *)
-      echo "$command"
-      eval "$command" >/dev/null
+      run "$command"
       ;;
     "") continue ;;
     *)
@@ -28,7 +22,6 @@ while IFS= read -r line; do
       exit 1
       ;;
   esac
-  ran=$((ran + 1))
 done < <(awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$source_folder/README.md")
 [ "$ran" -ge 8 ] || { echo "README.md: only $ran commands found" >&2; exit 1; }
 

@@ -3,18 +3,11 @@
 # Usage: tutorial_commands.sh SOURCE_FOLDER CONDYLE_BINARY
 set -euo pipefail
 source_folder=$1
-bin=$(mktemp -d)
-trap 'rm -rf "$bin"' EXIT
-ln -s "$2" "$bin/condyle"
-export PATH="$bin:$PATH"
-mkdir "$bin/work"
-cd "$bin/work"
+. "$source_folder/tests/docs/commands.sh"
+in_empty_folder "$2"
 
-ran=0
 while IFS= read -r command; do
-  echo "$command"
-  eval "$command" >/dev/null
-  ran=$((ran + 1))
+  run "$command"
 done < <(sed -n 's/^    \(condyle .*\)$/\1/p' "$source_folder/docs/tutorial.md")
 [ "$ran" -eq 5 ] || { echo "docs/tutorial.md: $ran commands found, not 5" >&2; exit 1; }
 for file in hip.toml range/rom.json range/limits.svg deep/fixed.vtp deep/mobile.vtp; do

@@ -134,7 +134,9 @@ TEST(BearingContact, DoesNotEndAPathOrAddToAZone) {
   const std::vector<JointAngles> waypoints{{}, {Angle::degrees(60), Angle(), Angle()}};
   const PathLimit path = PathFinder(joint).limit(waypoints);
   EXPECT_EQ(path.reason, LimitReason::contact);
-  EXPECT_NEAR(path.at.flexion.degrees(), post_limit() * 180 / std::numbers::pi, 0.01);
+  // A path ends where some rotation by its tolerance of 0.001 degrees might bring contact; the arm meets the post's edge
+  // nearly at a right angle.
+  EXPECT_NEAR(path.at.flexion.degrees(), post_limit() * 180 / std::numbers::pi, 0.002);
   const auto zone = ZoneFinder(joint).zone(RangeOfMotion(joint).limit(flexion()));
   ASSERT_TRUE(zone);
   EXPECT_LE(zone->mobile.triangles.back(), 12u) << "the arm's";
