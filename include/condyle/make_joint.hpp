@@ -29,6 +29,9 @@ struct FrameDirections {
   Vec3 superior = Vec3::UnitY();
 };
 
+/// Axes of images, named by where x, y and z point: Right Anterior Superior, Left Posterior Superior.
+inline const FrameDirections ras_axes{Vec3::UnitY(), Vec3::UnitZ()}, lps_axes{-Vec3::UnitY(), Vec3::UnitZ()};
+
 /// The centre of a ball is that of the sphere fitted to its head (mobile) or its socket (fixed); the axis
 /// of a hinge is that of the cylinder fitted to the body.
 struct CentreFit {

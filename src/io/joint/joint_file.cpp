@@ -117,9 +117,7 @@ void read_axes(io::TomlTable& table, const Lengths& lengths, FrameDescription& f
   if (table.has("axes")) {
     for (const auto key : {"anterior", "superior"})
       if (table.has(key)) table.fail(key, "frame.axes gives the axes already: leave one of the two out");
-    // Both are named by where x, y and z point: Left Posterior Superior, Right Anterior Superior.
-    const bool lps = table.required_word("axes", {"LPS", "RAS"}) == 0;
-    frame.axes = FrameDirections{Vec3(0, lps ? -1 : 1, 0), Vec3::UnitZ()};
+    frame.axes = table.required_word("axes", {"LPS", "RAS"}) == 0 ? lps_axes : ras_axes;
     return;
   }
   const auto anterior = table.triple("anterior"), superior = table.triple("superior");

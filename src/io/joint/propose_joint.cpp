@@ -12,6 +12,7 @@
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/make_joint.hpp"
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
 #include "kinematics/hip_anatomy.hpp"
@@ -22,14 +23,16 @@ namespace {
 /// Axes that segmentations and models come in, in the frame of the meshes.
 struct KnownAxes {
   std::string_view name;
-  Vec3 anterior, superior;
+  FrameDirections directions;
 
-  Vec3 right() const { return anterior.cross(superior); }
+  const Vec3& anterior() const { return directions.anterior; }
+  const Vec3& superior() const { return directions.superior; }
+  Vec3 right() const { return anterior().cross(superior()); }
 };
 
-const std::array known_axes{KnownAxes{"RAS (x right, y anterior, z superior)", {0, 1, 0}, {0, 0, 1}},
-                            KnownAxes{"LPS (x left, y posterior, z superior)", {0, -1, 0}, {0, 0, 1}},
-                            KnownAxes{"joint axes (x anterior, y superior, z right)", {1, 0, 0}, {0, 1, 0}}};
+const std::array known_axes{KnownAxes{"RAS (x right, y anterior, z superior)", ras_axes},
+                            KnownAxes{"LPS (x left, y posterior, z superior)", lps_axes},
+                            KnownAxes{"joint axes (x anterior, y superior, z right)", {}}};
 
 /// Least cosines, for what a hip's bones do whoever they belong to: the femur hangs within 45 degrees of straight down,
 /// the hip bone lies at least 17 degrees to the midline, the socket opens at least 17 degrees to the side and 3 forwards.
@@ -41,9 +44,9 @@ double degrees(double cosine) {
 
 bool agrees(const kinematics::HipAnatomy& hip, const KnownAxes& axes, Side side) {
   const Vec3 lateral = side == Side::right ? axes.right() : Vec3(-axes.right());
-  return hip.towards_femur.dot(axes.superior) < -hangs && hip.towards_pelvis.dot(lateral) < -to_midline &&
+  return hip.towards_femur.dot(axes.superior()) < -hangs && hip.towards_pelvis.dot(lateral) < -to_midline &&
          (!hip.opening ||
-          (hip.opening->dot(lateral) > opens_to_side && hip.opening->dot(axes.anterior) > opens_forwards));
+          (hip.opening->dot(lateral) > opens_to_side && hip.opening->dot(axes.anterior()) > opens_forwards));
 }
 
 struct Found {
@@ -180,19 +183,19 @@ JointProposal propose_joint(const ProposalRequest& request) {
   if (found.size() == 1) {
     const auto& [axes, side] = found[0];
     const Vec3 lateral = side == Side::right ? axes->right() : Vec3(-axes->right());
-    lines.key("anterior", numbers(axes->anterior),
+    lines.key("anterior", numbers(axes->anterior()),
               fmt::format("{}: of the axes in use the ones that agree", axes->name));
     lines.key(
-        "superior", numbers(axes->superior),
+        "superior", numbers(axes->superior()),
         fmt::format(
             "the femur hangs {:.0f} degrees from straight down, the hip bone lies {:.0f} degrees from the "
             "way to the midline",
-            degrees(-hip->towards_femur.dot(axes->superior)), degrees(-hip->towards_pelvis.dot(lateral))));
+            degrees(-hip->towards_femur.dot(axes->superior())), degrees(-hip->towards_pelvis.dot(lateral))));
     if (hip->opening)
       lines.add(
           fmt::format("# the socket opens {:.0f} degrees from straight to the side, {:.0f} forwards of it",
                       degrees(hip->opening->dot(lateral)),
-                      std::atan2(hip->opening->dot(axes->anterior), hip->opening->dot(lateral)) * 180 /
+                      std::atan2(hip->opening->dot(axes->anterior()), hip->opening->dot(lateral)) * 180 /
                           std::numbers::pi));
   } else {
     std::string why = !hip            ? "no head was found to tell them by"
