@@ -34,6 +34,9 @@
 #include "condyle/contact.hpp"
 #include "condyle/contact_measures.hpp"
 #include "condyle/reliable_depth.hpp"
+#include "condyle/normal_depth.hpp"
+#include "condyle/pressure.hpp"
+#include "condyle/load_balance.hpp"
 
 // Motions.
 #include "condyle/first_contact.hpp"

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "condyle/make_joint.hpp"
+#include "condyle/pressure.hpp"
+
+/// The position in which the contact carries a load: docs/mathematics.md, section 7.
+///
+///     const Load stance{.on_mobile = {.force_n = {-150, 1900, 300}}};
+///     const BalancedPose hip = balance(cartilages, X_FM, stance);
+///     if (hip.outcome == BalanceOutcome::balanced) use(hip.X_FM, hip.contact);
+
+namespace condyle {
+
+/// What else acts on the mobile body.
+struct Load {
+  /// Force and moment about the origin of M. Moments count with free rotations only.
+  Wrench on_mobile;
+  /// The frame of both: held in F, or going along with M.
+  BodyRole frame = BodyRole::fixed;
+};
+
+struct BalanceOptions {
+  /// Directions in F that the mobile body may be translated in, of any length but zero and independent: all where empty. The
+  /// load counts along them only.
+  std::vector<Vec3> free_directions = {};
+  /// Rotations about the origin of M are unknowns too, and moments are balanced.
+  bool free_rotations = false;
+  /// What is left of the force, N, and of the moment, N mm, in a balanced pose.
+  double force_tolerance_n = 1e-6, moment_tolerance_nmm = 1e-4;
+  /// How far the mobile body may go from where it starts.
+  double farthest_mm = 20;
+  int most_steps = 100;
+};
+
+enum class BalanceOutcome {
+  balanced,
+  pulled_apart,  ///< along the load the bodies do not meet, or they part
+  over_the_rim,  ///< in contact, and nowhere near is there a pose in which the contact carries the load
+  unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
+  free_direction,  ///< the contact holds the mobile body in no place along a direction: prescribe it
+};
+
+struct BalancedPose {
+  BalanceOutcome outcome;
+  Pose X_FM;        ///< the pose found, or the last one looked at
+  Wrench residual;  ///< what contact and load add up to along what is free, in F, about the origin of M
+  int steps = 0;    ///< of Newton's method
+  Vec3 direction = Vec3::Zero();  ///< the direction of outcomes that have one, of length 1, in F
+  ElasticContactResults contact;  ///< at X_FM
+};
+
+/// One line that says why there is no balance; empty where there is.
+std::string reason_of(const BalancedPose& pose);
+
+/// From a start nearby, with its rotation held unless rotations are free: Newton's method on the load of the contact, steps
+/// halved while they leave more of the load, or store more energy than the load gives. A start without contact is moved along the load to
+/// where the contact carries that part of it. What is called balanced is stable: the contact pushes back whichever way the
+/// body is moved.
+///
+/// UsageError where the load is zero or not finite along what is free, or directions depend on each other. Some ten times
+/// the cost of a pose.
+BalancedPose balance(const ElasticContact& contact, const Pose& start, const Load& load,
+                     const BalanceOptions& options = {});
+
+}  // namespace condyle

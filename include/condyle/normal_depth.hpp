@@ -1,0 +1,129 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
+
+/// Depth along the normals of one surface: for sheets that bound nothing, as segmented cartilage does, and for closed bodies
+/// beside the radial and the tangential depth. docs/mathematics.md, section 7.
+///
+/// From a point of the casting surface C a ray runs along the negative normal, into the casting body; the nearest triangle
+/// of the target surface T that it meets within the reach is at the overlap depth:
+///
+///        n
+///        ^   ....................  T, overlapping
+///     ---o------------------------ C, the casting surface
+///        |
+///     ...v......................   T met: o's depth is the length of the ray
+///
+/// Casting and target exchanged give another answer, so results say which surface was cast.
+
+namespace condyle {
+
+namespace contact {
+class OverlapSampler;
+}
+
+/// What a face of the casting surface counts for.
+enum class FaceRule {
+  /// The whole face, with the depth of the ray from its centre along its normal: the rule of OpenSim-JAM.
+  face_centre,
+  /// The part where the depth, linear between rays from the corners along vertex normals, is above 0: areas and forces
+  /// converge with the square of the edge length.
+  cut_faces,
+};
+
+struct NormalDepthOptions {
+  FaceRule rule = FaceRule::cut_faces;
+  double reach_mm = 20;  ///< how far rays go
+};
+
+/// A face of the casting surface in contact. Integrals are over the part in contact, in the frame of the casting body.
+struct FaceContact {
+  Index face;
+  double area_mm2;  ///< of the part in contact
+  double max_depth_mm;
+  double overlap_mm3;               ///< integral of the depth
+  Vec3 overlap_moment;              ///< integral of depth times place, mm^4
+  double max_pressure_mpa = 0;      ///< 0 where no pressure was asked for, as what follows
+  double load_n = 0;                ///< integral of the pressure
+  Vec3 load_moment = Vec3::Zero();  ///< integral of pressure times place, N mm
+
+  double mean_depth_mm() const noexcept { return overlap_mm3 / area_mm2; }
+  double mean_pressure_mpa() const noexcept { return load_n / area_mm2; }
+};
+
+/// What faces in contact add up to, in the frame of the casting body.
+struct ContactTotals {
+  std::size_t triangles = 0;
+  double area_mm2 = 0;
+  /// Means are over the triangles in contact with the rule face_centre, over the area with cut_faces; 0 without contact.
+  double mean_depth_mm = 0, max_depth_mm = 0;
+  std::optional<Vec3> centre_of_depth;  ///< weighted by depth times area; empty without contact
+  double mean_pressure_mpa = 0, max_pressure_mpa = 0;
+  std::optional<Vec3> centre_of_pressure;  ///< weighted by pressure times area; empty without pressure
+  /// On the casting body: the sum of -p A n, and of place times it about the origin.
+  Vec3 force_n = Vec3::Zero(), moment_nmm = Vec3::Zero();
+};
+
+/// What one pose shows of the casting surface.
+struct SurfaceContact {
+  std::vector<FaceContact> faces;  ///< in contact, ascending
+  ContactTotals totals;
+
+  /// Rays that met the front of an open target, which looks at the ray's origin: the casting point is outside the target's
+  /// body if it has one. Counted as depths all the same, as the target has no inside that could tell. Of a closed target
+  /// such rays are no contact.
+  std::size_t met_from_front = 0;
+  /// Faces at the rim of an open target, where a corner's ray meets nothing: decided by the centres of 16 parts.
+  std::size_t rim_faces = 0;
+};
+
+/// What some of the faces in contact add up to: a compartment, say.
+ContactTotals totals_of(std::span<const FaceContact> faces, const Mesh& casting, FaceRule rule);
+
+/// The points p with normal.p > offset_mm, in the frame of the casting body.
+struct HalfSpace {
+  Vec3 normal;
+  double offset_mm = 0;
+};
+/// The faces whose centre is in all of the half-spaces.
+std::vector<FaceContact> faces_within(std::span<const FaceContact> faces, const Mesh& casting,
+                                      std::span<const HalfSpace> region);
+
+/// Two surfaces made ready for rays from one to the other, in any pose. Both meshes may be open. Any number of threads
+/// may ask.
+class NormalDepth {
+ public:
+  /// UsageError where the reach is not above 0.
+  NormalDepth(Mesh casting, Mesh target, NormalDepthOptions options = {});
+  ~NormalDepth();
+  NormalDepth(NormalDepth&&) noexcept;
+  NormalDepth& operator=(NormalDepth&&) noexcept;
+
+  /// X_CT is the pose of the target in the casting body: X_FM with the fixed body casting, its inverse with the mobile one.
+  /// Some 0.1 microseconds a ray.
+  SurfaceContact at(const Pose& X_CT) const;
+  void at(const Pose& X_CT, SurfaceContact& out) const;
+
+  /// Rays of this pose that meet the target's inner side only beyond the reach, up to twice of it: contact that the reach
+  /// cuts off.
+  std::size_t cut_off_by_reach(const Pose& X_CT) const;
+
+  const Mesh& casting() const noexcept;
+  const Mesh& target() const noexcept;
+  const NormalDepthOptions& options() const noexcept;
+
+ private:
+  std::unique_ptr<contact::OverlapSampler> sampler_;
+};
+
+/// Of each vertex of a layer's surface, the distance along its negative normal to a surface behind it: the thickness of a
+/// cartilage on its bone, mm. NaN where nothing lies within the reach.
+std::vector<double> thickness_to(const Mesh& layer, const Mesh& behind, double reach_mm = 20);
+
+}  // namespace condyle

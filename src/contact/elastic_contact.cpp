@@ -1,0 +1,177 @@
+#include <cmath>
+#include <string>
+
+#include "condyle/error.hpp"
+#include "condyle/pressure.hpp"
+#include "contact/elastic_parts.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace contact {
+namespace {
+
+void check_layer(const std::optional<ElasticLayer>& layer, const Mesh& mesh, const char* body) {
+  if (!layer) return;
+  const auto fail = [&](const std::string& what) { throw UsageError(std::string(body) + " layer: " + what); };
+  if (!(layer->youngs_modulus_mpa > 0) || std::isinf(layer->youngs_modulus_mpa))
+    fail("Young's modulus must be above 0 MPa");
+  if (!(layer->poisson_ratio > -1 && layer->poisson_ratio < 0.5))
+    fail("Poisson's ratio must be above -1 and below 0.5");
+  if (const auto* one = std::get_if<double>(&layer->thickness_mm)) {
+    if (!(*one > 0) || std::isinf(*one)) fail("the thickness must be above 0 mm");
+    return;
+  }
+  const auto& many = std::get<std::vector<double>>(layer->thickness_mm);
+  if (many.size() != mesh.vertices().size())
+    fail(std::to_string(many.size()) + " thicknesses for " + std::to_string(mesh.vertices().size()) +
+         " vertices");
+  for (std::size_t v = 0; v < many.size(); ++v)
+    if (!(many[v] > 0) || std::isinf(many[v]))
+      fail("the thickness of vertex " + std::to_string(v) + " must be above 0 mm");
+}
+
+LayerHere uniform(const std::optional<ElasticLayer>& layer) {
+  if (!layer) return {0, 0};
+  const auto* one = std::get_if<double>(&layer->thickness_mm);
+  return {layer->confined_modulus_mpa(), one ? *one : 1};
+}
+
+std::vector<double> varying(const std::optional<ElasticLayer>& layer) {
+  if (!layer || std::holds_alternative<double>(layer->thickness_mm)) return {};
+  return std::get<std::vector<double>>(layer->thickness_mm);
+}
+
+}  // namespace
+
+ElasticCast::ElasticCast(Mesh casting, Mesh target, const NormalDepthOptions& rays, PressureLaw law,
+                         const std::optional<ElasticLayer>& of_casting,
+                         const std::optional<ElasticLayer>& of_target)
+    : sampler_(std::move(casting), std::move(target), rays),
+      law_(law),
+      casting_layer_(uniform(of_casting)),
+      target_layer_(uniform(of_target)),
+      casting_thickness_(varying(of_casting)),
+      target_thickness_(varying(of_target)) {}
+
+void ElasticCast::answer(const Pose& X_CT, Answer& out) const {
+  const bool varies = !casting_thickness_.empty() || !target_thickness_.empty();
+  sampler_.sample(
+      X_CT, varies || law_ == PressureLaw::logarithmic ? Quadrature::of_degree_5 : Quadrature::of_degree_2,
+      {casting_thickness_, target_thickness_}, out.found);
+  out.of_sample.clear();
+  out.pressures.clear();
+  LayerHere casting = casting_layer_, target = target_layer_;
+  for (const OverlapSample& sample : out.found.samples) {
+    if (!casting_thickness_.empty()) casting.thickness = sample.casting_thickness;
+    if (!target_thickness_.empty()) target.thickness = sample.target_thickness;
+    const double thickness = casting.thickness + target.thickness;
+    if (law_ == PressureLaw::logarithmic && !(sample.depth < thickness))
+      throw MeshError("triangle " + std::to_string(sample.face) + " of the casting surface overlaps by " +
+                      core::formatted("%.3g", sample.depth) + " mm, and its layers are " +
+                      core::formatted("%.3g", thickness) + " mm thick: the logarithmic law needs less");
+    out.of_sample.push_back(answer_of(law_, casting, target, sample.depth));
+    out.pressures.push_back(out.of_sample.back().pressure);
+  }
+}
+
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+Vector6 stacked(const Vec3& a, const Vec3& b) {
+  Vector6 both;
+  both << a, b;
+  return both;
+}
+
+/// `sense` is 1 where the fixed body is cast and -1 where the mobile one is; R_FC and the origins bring what is in C to F.
+void add_load(const ElasticCast& cast, const ElasticCast::Answer& answer, const Pose& X_FC,
+              const Vec3& origin_M, double sense, double share, bool with_change, MobileLoad& out) {
+  const auto normals = cast.sampler().face_normals();
+  for (std::size_t i = 0; i < answer.found.samples.size(); ++i) {
+    const OverlapSample& sample = answer.found.samples[i];
+    if (sample.area == 0) continue;
+    ++out.samples;
+    const LayerAnswer& layer = answer.of_sample[i];
+    const Vec3 n = sense * (X_FC.linear() * normals[sample.face]);
+    const Vec3 arm = X_FC * sample.point - origin_M;
+    const Vector6 direction = stacked(n, arm.cross(n));
+    out.wrench += share * sample.area * layer.pressure * direction;
+    out.energy += share * sample.area * layer.energy;
+    if (!with_change) continue;
+    // Moving the mobile body is moving the target, or moving the casting surface and so the target the other way.
+    const Vec3 g = sense * (X_FC.linear() * sample.gradient);
+    const Vec3 met = arm + sample.depth * -(X_FC.linear() * normals[sample.face]);
+    out.change += share * sample.area * layer.slope * direction * stacked(g, met.cross(g)).transpose();
+  }
+}
+
+}  // namespace
+}  // namespace contact
+
+ElasticContact::ElasticContact(Mesh fixed, Mesh mobile, ElasticContactOptions options)
+    : parts_(new Parts{std::move(fixed), std::move(mobile), std::move(options), {}, {}}) {
+  Parts& p = *parts_;
+  const auto& o = p.options;
+  contact::check_layer(o.fixed, p.fixed, "fixed");
+  contact::check_layer(o.mobile, p.mobile, "mobile");
+  if (!o.fixed && !o.mobile)
+    throw UsageError("two rigid bodies have no contact pressure: one of them needs a layer");
+  if (o.casting != Casting::mobile) p.from_fixed.emplace(p.fixed, p.mobile, o.rays, o.law, o.fixed, o.mobile);
+  if (o.casting != Casting::fixed) p.from_mobile.emplace(p.mobile, p.fixed, o.rays, o.law, o.mobile, o.fixed);
+}
+ElasticContact::~ElasticContact() = default;
+ElasticContact::ElasticContact(ElasticContact&&) noexcept = default;
+ElasticContact& ElasticContact::operator=(ElasticContact&&) noexcept = default;
+
+const Mesh& ElasticContact::fixed() const noexcept {
+  return parts_->fixed;
+}
+const Mesh& ElasticContact::mobile() const noexcept {
+  return parts_->mobile;
+}
+const ElasticContactOptions& ElasticContact::options() const noexcept {
+  return parts_->options;
+}
+
+ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
+  ElasticContactResults out;
+  contact::MobileLoad load;
+  const double share = options().casting == Casting::both ? 0.5 : 1;
+  const auto ask = [&](const contact::ElasticCast& cast, const Pose& X_CT, const Pose& X_FC, double sense,
+                       SurfaceContact& surface) {
+    auto answer = cast.spare().take();
+    cast.answer(X_CT, *answer);
+    contact::add_up(cast.sampler(), answer->found, answer->pressures, surface);
+    contact::add_load(cast, *answer, X_FC, X_FM.translation(), sense, share, false, load);
+    cast.spare().put_back(std::move(answer));
+  };
+  if (parts_->from_fixed) ask(*parts_->from_fixed, X_FM, Pose::Identity(), 1, out.fixed.emplace());
+  if (parts_->from_mobile) ask(*parts_->from_mobile, X_FM.inverse(), X_FM, -1, out.mobile.emplace());
+  out.on_mobile = {load.wrench.head<3>(), load.wrench.tail<3>()};
+  out.energy_nmm = load.energy;
+  return out;
+}
+
+contact::MobileLoad ElasticContact::Parts::load_at(const Pose& X_FM, bool with_change) const {
+  contact::MobileLoad load;
+  const double share = options.casting == Casting::both ? 0.5 : 1;
+  const auto ask = [&](const contact::ElasticCast& cast, const Pose& X_CT, const Pose& X_FC, double sense) {
+    auto answer = cast.spare().take();
+    cast.answer(X_CT, *answer);
+    contact::add_load(cast, *answer, X_FC, X_FM.translation(), sense, share, with_change, load);
+    cast.spare().put_back(std::move(answer));
+  };
+  if (from_fixed) ask(*from_fixed, X_FM, Pose::Identity(), 1);
+  if (from_mobile) ask(*from_mobile, X_FM.inverse(), X_FM, -1);
+  return load;
+}
+
+std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {
+  std::size_t rays = 0;
+  if (parts_->from_fixed) rays += parts_->from_fixed->sampler().cut_off_by_reach(X_FM);
+  if (parts_->from_mobile) rays += parts_->from_mobile->sampler().cut_off_by_reach(X_FM.inverse());
+  return rays;
+}
+
+}  // namespace condyle

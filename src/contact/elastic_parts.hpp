@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "condyle/pressure.hpp"
+#include "contact/layer_law.hpp"
+#include "contact/overlap_sampler.hpp"
+#include "core/spare.hpp"
+
+namespace condyle {
+
+namespace contact {
+
+/// A casting surface with its layer and that of the target, for sums of pressure.
+class ElasticCast {
+ public:
+  ElasticCast(Mesh casting, Mesh target, const NormalDepthOptions& rays, PressureLaw law,
+              const std::optional<ElasticLayer>& of_casting, const std::optional<ElasticLayer>& of_target);
+
+  struct Answer {
+    OverlapSampler::Found found;
+    std::vector<LayerAnswer> of_sample;
+    std::vector<double> pressures;
+  };
+  void answer(const Pose& X_CT, Answer& out) const;
+
+  const OverlapSampler& sampler() const noexcept { return sampler_; }
+  core::Spare<Answer>& spare() const noexcept { return spare_; }
+
+ private:
+  OverlapSampler sampler_;
+  PressureLaw law_;
+  LayerHere casting_layer_{0, 0}, target_layer_{0, 0};  ///< thickness 1 where it varies
+  std::vector<double> casting_thickness_, target_thickness_;
+  mutable core::Spare<Answer> spare_;
+};
+
+/// The load that one pose puts on the mobile body, and how it changes when the mobile body moves a little. In F; moments
+/// about the origin of M.
+struct MobileLoad {
+  Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();  ///< force, then moment
+  /// Of the wrench by translation and by rotation (radians) about the origin of M, loads held in place.
+  Eigen::Matrix<double, 6, 6> change = Eigen::Matrix<double, 6, 6>::Zero();
+  double energy = 0;
+  std::size_t samples = 0;
+};
+
+}  // namespace contact
+
+struct ElasticContact::Parts {
+  Mesh fixed, mobile;
+  ElasticContactOptions options;
+  std::optional<contact::ElasticCast> from_fixed, from_mobile;
+
+  /// With its change only where asked for.
+  contact::MobileLoad load_at(const Pose& X_FM, bool with_change) const;
+};
+
+}  // namespace condyle

@@ -1,0 +1,226 @@
+#include "condyle/load_balance.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "contact/elastic_parts.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+using contact::MobileLoad;
+
+/// A stiffness below this share of the largest one is rounding: flat and prismatic contacts have none along themselves.
+constexpr double least_stiffness = 1e-9;
+/// Steps longer than this leave the contact that they were computed from, mm.
+constexpr double longest_step = 1;
+/// Steps of the search along the load, mm: much less than cartilage is thick.
+constexpr double search_step = 0.1;
+constexpr int most_halvings = 30;
+
+/// Which small motions of M are free: columns are translations and rotations about the origin of M, in F.
+Eigen::Matrix<double, 6, Eigen::Dynamic> free_motions(const BalanceOptions& options) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> translations = Eigen::Matrix3d::Identity();
+  if (!options.free_directions.empty()) {
+    translations.resize(3, static_cast<Eigen::Index>(options.free_directions.size()));
+    for (Eigen::Index i = 0; i < translations.cols(); ++i)
+      translations.col(i) = options.free_directions[static_cast<std::size_t>(i)];
+    if (!translations.allFinite()) throw UsageError("a free direction is not finite");
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(translations);
+    if (qr.rank() < translations.cols()) throw UsageError("the free directions depend on each other");
+    translations = qr.householderQ() * Eigen::MatrixXd::Identity(3, translations.cols());
+  }
+  const Eigen::Index rotations = options.free_rotations ? 3 : 0;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> motions =
+      Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, translations.cols() + rotations);
+  motions.topLeftCorner(3, translations.cols()) = translations;
+  if (options.free_rotations) motions.bottomRightCorner(3, 3).setIdentity();
+  return motions;
+}
+
+Pose moved(const Pose& X, const Vector6& by) {
+  Pose out = X;
+  out.translation() += by.head<3>();
+  if (const double angle = by.tail<3>().norm(); angle > 0)
+    out.linear() = Eigen::AngleAxisd(angle, by.tail<3>() / angle).toRotationMatrix() * X.linear();
+  return out;
+}
+
+class Search {
+ public:
+  Search(const ElasticContact& contact, const Pose& start, const Load& load, const BalanceOptions& options)
+      : contact_(contact), options_(options), load_(load), start_(start), free_(free_motions(options)) {
+    if (!load.on_mobile.force_n.allFinite() || !load.on_mobile.moment_nmm.allFinite())
+      throw UsageError("the load is not finite");
+    if (!(free_.transpose() * load_at(start)).norm()) throw UsageError("the load is zero along what is free");
+    out_.X_FM = start;
+  }
+
+  BalancedPose run() {
+    out_.outcome = find();
+    out_.contact = contact_.at(out_.X_FM);
+    out_.residual = {residual_.head<3>(), residual_.tail<3>()};
+    return std::move(out_);
+  }
+
+ private:
+  Vector6 load_at(const Pose& X) const {
+    Vector6 load;
+    load << load_.on_mobile.force_n, load_.on_mobile.moment_nmm;
+    if (load_.frame == BodyRole::mobile)
+      load << X.linear() * load_.on_mobile.force_n, X.linear() * load_.on_mobile.moment_nmm;
+    return load;
+  }
+  /// What is left, along what is free, as a wrench.
+  Vector6 left(const Pose& X, const MobileLoad& carried) const {
+    return free_ * (free_.transpose() * (carried.wrench + load_at(X)));
+  }
+  /// Rotations count by the force they take at this arm, mm: half a joint across.
+  static double size_of(const Vector6& wrench) {
+    return std::hypot(wrench.head<3>().norm(), wrench.tail<3>().norm() / 20);
+  }
+
+  bool is_small(const Vector6& residual) const {
+    return residual.head<3>().norm() <= options_.force_tolerance_n &&
+           residual.tail<3>().norm() <= options_.moment_tolerance_nmm;
+  }
+  bool is_near(const Pose& X) const {
+    return (X.translation() - start_.translation()).norm() <= options_.farthest_mm;
+  }
+
+  /// Along the load to where the contact carries that part of it, or until it is met nowhere.
+  bool approach() {
+    const Vec3 force = (free_ * (free_.transpose() * load_at(start_))).head<3>();
+    if (force.isZero()) return false;
+    const Vec3 along = force.normalized();
+    const auto carried = [&](double s) {
+      Vector6 by = Vector6::Zero();
+      by.head<3>() = s * along;
+      const Pose X = moved(start_, by);
+      return -contact_.parts().load_at(X, false).wrench.head<3>().dot(along);
+    };
+    double low = 0, high = search_step;
+    while (carried(high) < force.norm()) {
+      low = high, high += search_step;
+      if (high > options_.farthest_mm) return false;
+    }
+    for (int step = 0; step < 20; ++step) {
+      const double middle = (low + high) / 2;
+      (carried(middle) < force.norm() ? low : high) = middle;
+    }
+    Vector6 by = Vector6::Zero();
+    by.head<3>() = high * along;
+    out_.X_FM = moved(start_, by);
+    return true;
+  }
+
+  BalanceOutcome find() {
+    MobileLoad now = contact_.parts().load_at(out_.X_FM, true);
+    residual_ = left(out_.X_FM, now);
+    if (now.samples == 0) {
+      if (!approach()) return BalanceOutcome::pulled_apart;
+      now = contact_.parts().load_at(out_.X_FM, true);
+      residual_ = left(out_.X_FM, now);
+    }
+    while (true) {
+      resisted_ = resisted_ || now.wrench.dot(load_at(out_.X_FM)) < 0;
+      // How the contact pushes back against small motions along what is free.
+      const Eigen::MatrixXd stiffness = -free_.transpose() * now.change * free_;
+      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      const auto& sizes = svd.singularValues();
+      const Eigen::Index last = sizes.size() - 1;
+      if (!(sizes[last] > least_stiffness * sizes[0])) {
+        out_.direction = (free_ * svd.matrixV().col(last)).head<3>().normalized();
+        return resisted_ ? BalanceOutcome::free_direction : BalanceOutcome::pulled_apart;
+      }
+      if (is_small(residual_)) {
+        // Not symmetric: forces act along normals of one surface, and depths change along those of the other.
+        const Eigen::EigenSolver<Eigen::MatrixXd> eigen(stiffness);
+        Eigen::Index softest;
+        if (eigen.eigenvalues().real().minCoeff(&softest) > 0) return BalanceOutcome::balanced;
+        out_.direction = (free_ * eigen.eigenvectors().col(softest).real()).head<3>().normalized();
+        return BalanceOutcome::unstable;
+      }
+      if (out_.steps >= options_.most_steps) return given_up();
+      Vector6 step = free_ * svd.solve(free_.transpose() * residual_);
+      if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
+      if (!try_step(step, now) || !is_near(out_.X_FM)) return given_up();
+      ++out_.steps;
+    }
+  }
+
+  /// A contact that has pushed against the load at all was left over its rim.
+  BalanceOutcome given_up() const {
+    return resisted_ ? BalanceOutcome::over_the_rim : BalanceOutcome::pulled_apart;
+  }
+
+  /// The step, or as many halves of it as leave less of the load without climbing: what is stored beyond what the load
+  /// gives grows at a saddle, where the load still falls.
+  bool try_step(Vector6 step, MobileLoad& now) {
+    for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
+      const Pose X = moved(out_.X_FM, step);
+      MobileLoad next = contact_.parts().load_at(X, true);
+      if (next.samples == 0) continue;
+      const Vector6 residual = left(X, next);
+      const Vector6 given = load_at(out_.X_FM);
+      // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
+      const bool climbs = next.energy - now.energy - given.dot(step) >
+                          0.1 * (given.head<3>().norm() * step.head<3>().norm() +
+                                 given.tail<3>().norm() * step.tail<3>().norm()) +
+                              1e-9 * now.energy;
+      if (climbs || !(size_of(residual) < size_of(residual_))) continue;
+      out_.X_FM = X;
+      now = std::move(next);
+      residual_ = residual;
+      return true;
+    }
+    return false;
+  }
+
+  const ElasticContact& contact_;
+  const BalanceOptions& options_;
+  const Load& load_;
+  const Pose& start_;
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> free_;
+  Vector6 residual_ = Vector6::Zero();
+  bool resisted_ = false;
+  BalancedPose out_{};
+};
+
+}  // namespace
+
+BalancedPose balance(const ElasticContact& contact, const Pose& start, const Load& load,
+                     const BalanceOptions& options) {
+  return Search(contact, start, load, options).run();
+}
+
+std::string reason_of(const BalancedPose& pose) {
+  const Vec3& d = pose.direction;
+  switch (pose.outcome) {
+    case BalanceOutcome::balanced:
+      return "";
+    case BalanceOutcome::pulled_apart:
+      return "the load pulls the bodies apart: along it they do not meet";
+    case BalanceOutcome::over_the_rim:
+      return core::formatted(
+          "no pose nearby in which the contact carries the load: it leads over the rim; %.3g N are left",
+          pose.residual.force_n.norm());
+    case BalanceOutcome::unstable:
+      return core::formatted(
+          "the contact balances the load and does not keep it: moved along (%.3f, %.3f, %.3f) the mobile "
+          "body is pushed on",
+          d.x(), d.y(), d.z());
+    case BalanceOutcome::free_direction:
+      return core::formatted(
+          "the contact holds the mobile body in no place along (%.3f, %.3f, %.3f): prescribe it", d.x(),
+          d.y(), d.z());
+  }
+  return "";
+}
+
+}  // namespace condyle

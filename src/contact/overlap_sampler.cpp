@@ -1,0 +1,444 @@
+#include "contact/overlap_sampler.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "condyle/error.hpp"
+
+namespace condyle::contact {
+namespace {
+
+/// Depths further from each other than this many lengths of the face's longest edge are of different parts of the target:
+/// across its rim, or on another condyle. Faces then meet at more than 60 degrees, and are no thin layer.
+constexpr double steepest_linear = 2;
+
+/// Centres of the 16 triangles that three parallels to each edge cut a triangle into.
+constexpr std::size_t rim_parts = 16;
+std::array<std::array<double, 3>, rim_parts> rim_centres() {
+  std::array<std::array<double, 3>, rim_parts> centres;
+  std::size_t count = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; i + j < 4; ++j) {
+      for (const double third : {1.0 / 3, 2.0 / 3}) {
+        if (third > 0.5 && i + j == 3) continue;
+        const double a = (i + third) / 4, b = (j + third) / 4;
+        centres[count++] = {a, b, 1 - a - b};
+      }
+    }
+  }
+  return centres;
+}
+
+/// A place in a triangle and its share of the area.
+struct Node {
+  std::array<double, 3> at;
+  double weight;
+};
+
+/// Middles of the edges: exact for quadratic functions.
+constexpr std::array<Node, 3> nodes_of_degree_2 = {
+    {{{0.5, 0.5, 0}, 1.0 / 3}, {{0, 0.5, 0.5}, 1.0 / 3}, {{0.5, 0, 0.5}, 1.0 / 3}}};
+
+/// Radon's seven nodes: exact to degree 5.
+std::array<Node, 7> nodes_of_degree_5() {
+  const double root = std::sqrt(15.0);
+  std::array<Node, 7> nodes;
+  nodes[0] = {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 9.0 / 40};
+  std::size_t count = 1;
+  for (const double sign : {-1.0, 1.0}) {
+    const double a = (6 + sign * root) / 21, b = 1 - 2 * a, weight = (155 + sign * root) / 1200;
+    for (const auto& at : {std::array{b, a, a}, std::array{a, b, a}, std::array{a, a, b}})
+      nodes[count++] = {at, weight};
+  }
+  return nodes;
+}
+
+/// Faces that meet at a larger angle than this meet at a crease: each side has its own normals there.
+const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
+
+Vec3 area_vector(const TriMesh& mesh, std::size_t face) {
+  const Vec3 a = mesh.corner(face, 0);
+  return (mesh.corner(face, 1) - a).cross(mesh.corner(face, 2) - a) / 2;
+}
+Vec3 unit(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+double angle_at(const TriMesh& mesh, std::size_t face, int corner) {
+  const Vec3 p = mesh.corner(face, corner);
+  const Vec3 a = mesh.corner(face, (corner + 1) % 3) - p, b = mesh.corner(face, (corner + 2) % 3) - p;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The faces around each vertex.
+///   offset     0     2  2        5  ...      one entry per vertex, plus one
+///   face      | a b |  | c d e |    ...      vertex i owns [offset[i], offset[i+1])
+struct Fans {
+  std::vector<Index> offset, face;
+
+  explicit Fans(const TriMesh& mesh) : offset(mesh.vertices.size() + 1, 0), face(3 * mesh.triangles.size()) {
+    for (const Triangle& triangle : mesh.triangles)
+      for (const Index v : triangle) ++offset[v + 1];
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) offset[v + 1] += offset[v];
+    std::vector<Index> next(offset.begin(), offset.end() - 1);
+    for (Index f = 0; f < mesh.triangles.size(); ++f)
+      for (const Index v : mesh.triangles[f]) face[next[v]++] = f;
+  }
+};
+
+/// The mean of the normals around a vertex on one face's side of any crease, weighted by angles: of length 1.
+Vec3 corner_normal(const TriMesh& mesh, std::span<const Vec3> face_normals, const Fans& fans, Index vertex,
+                   Index side) {
+  Vec3 sum = Vec3::Zero();
+  for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i) {
+    const Index f = fans.face[i];
+    if (face_normals[f].dot(face_normals[side]) < crease_cosine) continue;
+    for (int k = 0; k < 3; ++k)
+      if (mesh.triangles[f][static_cast<std::size_t>(k)] == vertex)
+        sum += angle_at(mesh, f, k) * face_normals[f];
+  }
+  return unit(sum);
+}
+
+std::vector<Vec3> unit_normals(const TriMesh& mesh) {
+  std::vector<Vec3> normals;
+  for (std::size_t f = 0; f < mesh.triangles.size(); ++f) normals.push_back(unit(area_vector(mesh, f)));
+  return normals;
+}
+
+}  // namespace
+
+OverlapSampler::OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions options)
+    : casting_(std::move(casting)),
+      target_(std::move(target)),
+      options_(options),
+      target_is_closed_(target_.is_closed()),
+      target_tree_(target_) {
+  if (!(options.reach_mm > 0)) throw UsageError("the reach of rays must be above 0 mm");
+  target_normal_ = unit_normals(target_);
+  face_normal_ = unit_normals(casting_);
+  for (std::size_t t = 0; t < casting_.triangles().size(); ++t) {
+    const Vec3 a = casting_.corner(t, 0), b = casting_.corner(t, 1), c = casting_.corner(t, 2);
+    face_area_.push_back(area_vector(casting_, t).norm());
+    longest_edge_.push_back(std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}));
+  }
+  const mesh::TriangleTree order(casting_);
+  if (options.rule == FaceRule::face_centre)
+    make_centre_rays(order);
+  else
+    make_corner_rays(order);
+  inward_.close();
+}
+
+void OverlapSampler::make_centre_rays(const mesh::TriangleTree& order) {
+  for (const Index face : order.mesh_triangles()) {
+    if (face_area_[face] == 0) continue;
+    ray_owner_.push_back(face);
+    inward_.push_back((casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3,
+                      -face_normal_[face]);
+  }
+}
+
+void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
+  const Fans fans(casting_);
+  corner_ray_.resize(casting_.triangles().size());
+  for (const Index vertex : order.mesh_vertices()) {
+    const std::size_t first = ray_owner_.size();
+    for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i) {
+      const Index face = fans.face[i];
+      if (face_area_[face] == 0) continue;
+      const Vec3 normal = corner_normal(casting_, face_normal_, fans, vertex, face);
+      // Corners on one side of a crease have the same sums, to the bit.
+      std::size_t ray = first;
+      while (ray < ray_owner_.size() && ray_normal_[ray] != normal) ++ray;
+      if (ray == ray_owner_.size()) {
+        ray_owner_.push_back(vertex);
+        ray_normal_.push_back(normal);
+        inward_.push_back(casting_.vertices()[vertex], -normal);
+      }
+      for (std::size_t k = 0; k < 3; ++k)
+        if (casting_.triangles()[face][k] == vertex) corner_ray_[face][k] = static_cast<Index>(ray);
+    }
+  }
+}
+
+OverlapSampler::RayEnd OverlapSampler::overlap_of(const Vec3& direction_C, const mesh::RayHits& hits,
+                                                  std::size_t ray, const Pose& X_CT,
+                                                  std::size_t& met_from_front) const {
+  if (!hits.is_hit(ray)) return {};
+  const RayEnd end{hits.distance[ray], hits.triangle[ray]};
+  const double along = direction_C.dot(X_CT.linear() * target_normal_[end.triangle]);
+  if (along < 0) {
+    if (target_is_closed_) return {};
+    ++met_from_front;
+  }
+  return end;
+}
+
+// The ray from o along u meets the plane with normal m through a at d = (a - o).m / (u.m): translated by s, d grows by
+// s.m / (u.m). Rays outwards have the opposite direction and the opposite depth, so one formula serves both.
+Vec3 OverlapSampler::gradient_of(const RayEnd& end, const Vec3& direction_C, const Pose& X_CT) const {
+  const Vec3 m = X_CT.linear() * target_normal_[end.triangle];
+  return m / direction_C.dot(m);
+}
+
+double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C,
+                                        const Pose& X_TC, std::span<const double> of_vertices) const {
+  const Vec3 met = X_TC * Vec3(origin_C + end.depth * direction_C);
+  const auto& corners = target_.triangles()[end.triangle];
+  const Vec3 a = target_.corner(end.triangle, 0), b = target_.corner(end.triangle, 1),
+             c = target_.corner(end.triangle, 2);
+  const Vec3 n = (b - a).cross(c - a);
+  const double squared = n.squaredNorm();
+  const double in_b = std::clamp((met - a).cross(c - a).dot(n) / squared, 0.0, 1.0);
+  const double in_c = std::clamp((b - a).cross(met - a).dot(n) / squared, 0.0, 1.0 - in_b);
+  return (1 - in_b - in_c) * of_vertices[corners[0]] + in_b * of_vertices[corners[1]] +
+         in_c * of_vertices[corners[2]];
+}
+
+void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
+                            Found& out) const {
+  out.samples.clear();
+  out.met_from_front = out.rim_faces = 0;
+  auto scratch = scratch_.take();
+  mesh::nearest_hits(target_tree_, X_CT.inverse(), inward_, options_.reach_mm, scratch->hits);
+  if (options_.rule == FaceRule::face_centre)
+    sample_centres(X_CT, thicknesses, *scratch, out);
+  else
+    sample_parts(X_CT, quadrature, thicknesses, *scratch, out);
+  scratch_.put_back(std::move(scratch));
+}
+
+void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
+                                    Found& out) const {
+  const Pose X_TC = X_CT.inverse();
+  for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
+    const Index face = ray_owner_[ray];
+    const Vec3 direction = -face_normal_[face];
+    const RayEnd end = overlap_of(direction, scratch.hits, ray, X_CT, out.met_from_front);
+    if (!end.is_known() || !(end.depth > 0)) continue;
+    const Vec3 centre = (casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3;
+    OverlapSample sample{face, face_area_[face], end.depth, centre, gradient_of(end, direction, X_CT), 0, 0};
+    if (!thicknesses.casting.empty()) {
+      const auto& [a, b, c] = casting_.triangles()[face];
+      sample.casting_thickness =
+          (thicknesses.casting[a] + thicknesses.casting[b] + thicknesses.casting[c]) / 3;
+    }
+    if (!thicknesses.target.empty())
+      sample.target_thickness = target_thickness(end, centre, direction, X_TC, thicknesses.target);
+    out.samples.push_back(sample);
+  }
+  // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
+  std::sort(out.samples.begin(), out.samples.end(),
+            [](const auto& a, const auto& b) { return a.face < b.face; });
+}
+
+void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
+                                  const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
+  const Pose X_TC = X_CT.inverse();
+  auto& ends = scratch.ends;
+  ends.assign(ray_owner_.size(), {});
+  for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray)
+    if (scratch.hits.is_hit(ray))
+      ends[ray] = overlap_of(-ray_normal_[ray], scratch.hits, ray, X_CT, out.met_from_front);
+
+  // Corners outside the target next to one inside it: how far outside.
+  scratch.active.clear();
+  scratch.rays.clear();
+  scratch.owner.clear();
+  scratch.asked_outwards.assign(ends.size(), 0);
+  for (Index face = 0; face < corner_ray_.size(); ++face) {
+    const auto& [a, b, c] = corner_ray_[face];
+    if (face_area_[face] == 0 || !(ends[a].is_known() || ends[b].is_known() || ends[c].is_known())) continue;
+    scratch.active.push_back(face);
+    for (const Index ray : corner_ray_[face]) {
+      if (ends[ray].is_known() || scratch.asked_outwards[ray]) continue;
+      scratch.asked_outwards[ray] = 1;
+      scratch.owner.push_back(ray);
+      scratch.rays.push_back(casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]);
+    }
+  }
+  scratch.rays.close();
+  mesh::nearest_hits(target_tree_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  for (std::size_t i = 0; i < scratch.owner.size(); ++i)
+    if (scratch.hits.is_hit(i))
+      ends[scratch.owner[i]] = {-scratch.hits.distance[i], scratch.hits.triangle[i]};
+
+  static const auto of_degree_5 = nodes_of_degree_5();
+  const std::span<const Node> nodes = quadrature == Quadrature::of_degree_2
+                                          ? std::span<const Node>(nodes_of_degree_2)
+                                          : std::span<const Node>(of_degree_5);
+  const bool with_thickness = !thicknesses.casting.empty() || !thicknesses.target.empty();
+  scratch.rim.clear();
+  for (const Index face : scratch.active) {
+    const auto& rays = corner_ray_[face];
+    std::array<double, 3> depth;
+    for (std::size_t k = 0; k < 3; ++k) depth[k] = ends[rays[k]].depth;
+    const auto [least, most] = std::minmax({depth[0], depth[1], depth[2]});
+    if (!ends[rays[0]].is_known() || !ends[rays[1]].is_known() || !ends[rays[2]].is_known() ||
+        most - least > steepest_linear * longest_edge_[face]) {
+      scratch.rim.push_back(face);
+      continue;
+    }
+    if (!(most > 0)) continue;
+
+    // The part with a depth above 0: a triangle, or what a corner leaves of one.
+    std::array<std::array<double, 3>, 4> part;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      std::array<double, 3> corner{};
+      if (depth[k] > 0) corner[k] = 1, part[count++] = corner;
+      if ((depth[k] > 0) == (depth[next] > 0)) continue;
+      const double t = depth[k] / (depth[k] - depth[next]);
+      corner = {};
+      corner[k] = 1 - t, corner[next] = t;
+      part[count++] = corner;
+    }
+
+    std::array<Vec3, 3> p, gradient;
+    std::array<double, 3> of_casting{}, of_target{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = casting_.triangles()[face][k];
+      const RayEnd& end = ends[rays[k]];
+      const Vec3 direction = -ray_normal_[rays[k]];
+      p[k] = casting_.vertices()[v];
+      gradient[k] = gradient_of(end, direction, X_CT);
+      if (!with_thickness) continue;
+      if (!thicknesses.casting.empty()) of_casting[k] = thicknesses.casting[v];
+      if (!thicknesses.target.empty())
+        of_target[k] = target_thickness(end, p[k], direction, X_TC, thicknesses.target);
+    }
+    const auto mixed = []<class Value>(const std::array<double, 3>& w, const std::array<Value, 3>& of) {
+      return Value(w[0] * of[0] + w[1] * of[1] + w[2] * of[2]);
+    };
+    const auto add = [&](const std::array<double, 3>& w, double area) {
+      const double here = std::max(0.0, mixed(w, depth));  // 0 on the cut, but for rounding
+      out.samples.push_back(
+          {face, area, here, mixed(w, p), mixed(w, gradient), mixed(w, of_casting), mixed(w, of_target)});
+    };
+    for (std::size_t k = 0; k < count; ++k) add(part[k], 0);
+    for (std::size_t k = 2; k < count; ++k) {
+      // Areas of barycentric triangles are shares of the face's.
+      const auto &a = part[0], &b = part[k - 1], &c = part[k];
+      const double share = std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+      if (!(share > 0)) continue;
+      for (const Node& node : nodes) {
+        std::array<double, 3> w;
+        for (std::size_t i = 0; i < 3; ++i) w[i] = node.at[0] * a[i] + node.at[1] * b[i] + node.at[2] * c[i];
+        add(w, share * face_area_[face] * node.weight);
+      }
+    }
+  }
+  out.rim_faces = scratch.rim.size();
+  if (scratch.rim.empty()) return;
+  sample_rim(X_CT, thicknesses, scratch, out);
+  std::stable_sort(out.samples.begin(), out.samples.end(),
+                   [](const auto& a, const auto& b) { return a.face < b.face; });
+}
+
+void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
+                                Found& out) const {
+  static const auto centres = rim_centres();
+  const Pose X_TC = X_CT.inverse();
+  const auto at = [&](Index face, const std::array<double, 3>& w, const auto& of_vertex) {
+    const auto& corners = casting_.triangles()[face];
+    using Value = decltype(of_vertex(corners[0]));
+    return Value(w[0] * of_vertex(corners[0]) + w[1] * of_vertex(corners[1]) + w[2] * of_vertex(corners[2]));
+  };
+  const auto vertex = [&](Index v) { return casting_.vertices()[v]; };
+  const auto direction_at = [&](Index face, const std::array<double, 3>& w) {
+    const auto& rays = corner_ray_[face];
+    return unit(-(w[0] * ray_normal_[rays[0]] + w[1] * ray_normal_[rays[1]] + w[2] * ray_normal_[rays[2]]));
+  };
+  scratch.rays.clear();
+  for (const Index face : scratch.rim)
+    for (const auto& w : centres) scratch.rays.push_back(at(face, w, vertex), direction_at(face, w));
+  scratch.rays.close();
+  mesh::nearest_hits(target_tree_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  std::size_t ray = 0, from_front_again = 0;
+  for (const Index face : scratch.rim) {
+    for (const auto& w : centres) {
+      const Vec3 direction = direction_at(face, w);
+      const RayEnd end = overlap_of(direction, scratch.hits, ray++, X_CT, from_front_again);
+      if (!end.is_known() || !(end.depth > 0)) continue;
+      const Vec3 point = at(face, w, vertex);
+      OverlapSample sample{
+          face, face_area_[face] / rim_parts, end.depth, point, gradient_of(end, direction, X_CT), 0, 0};
+      if (!thicknesses.casting.empty())
+        sample.casting_thickness = at(face, w, [&](Index v) { return thicknesses.casting[v]; });
+      if (!thicknesses.target.empty())
+        sample.target_thickness = target_thickness(end, point, direction, X_TC, thicknesses.target);
+      out.samples.push_back(sample);
+    }
+  }
+}
+
+std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
+  mesh::RayHits hits;
+  mesh::nearest_hits(target_tree_, X_CT.inverse(), inward_, 2 * options_.reach_mm, hits);
+  std::size_t count = 0;
+  for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
+    if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
+    const Vec3 direction =
+        options_.rule == FaceRule::face_centre ? -face_normal_[ray_owner_[ray]] : -ray_normal_[ray];
+    if (direction.dot(X_CT.linear() * target_normal_[hits.triangle[ray]]) > 0) ++count;
+  }
+  return count;
+}
+
+void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
+            std::span<const double> pressures, SurfaceContact& out) {
+  out.faces.clear();
+  out.met_from_front = found.met_from_front;
+  out.rim_faces = found.rim_faces;
+  for (std::size_t i = 0; i < found.samples.size(); ++i) {
+    const OverlapSample& sample = found.samples[i];
+    if (out.faces.empty() || out.faces.back().face != sample.face)
+      out.faces.push_back({sample.face, 0, 0, 0, Vec3::Zero()});
+    FaceContact& face = out.faces.back();
+    const double overlap = sample.area * sample.depth;
+    face.area_mm2 += sample.area;
+    face.max_depth_mm = std::max(face.max_depth_mm, sample.depth);
+    face.overlap_mm3 += overlap;
+    face.overlap_moment += overlap * sample.point;
+    if (pressures.empty()) continue;
+    const double load = sample.area * pressures[i];
+    face.max_pressure_mpa = std::max(face.max_pressure_mpa, pressures[i]);
+    face.load_n += load;
+    face.load_moment += load * sample.point;
+  }
+  // What a cut leaves of a face may be no more than rounding.
+  std::erase_if(out.faces, [](const FaceContact& face) { return !(face.overlap_mm3 > 0); });
+  out.totals = totals_of(out.faces, sampler.casting(), sampler.options().rule);
+}
+
+std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach) {
+  const auto face_normals = unit_normals(from);
+  const Fans fans(from);
+  const mesh::TriangleTree order(from);
+  std::vector<Index> owner;
+  mesh::RayBundles rays;
+  for (const Index vertex : order.mesh_vertices()) {
+    Vec3 sum = Vec3::Zero();
+    for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i)
+      for (int k = 0; k < 3; ++k)
+        if (from.triangles()[fans.face[i]][static_cast<std::size_t>(k)] == vertex)
+          sum += angle_at(from, fans.face[i], k) * face_normals[fans.face[i]];
+    if (sum.isZero()) continue;
+    owner.push_back(vertex);
+    rays.push_back(from.vertices()[vertex], -unit(sum));
+  }
+  rays.close();
+  mesh::RayHits hits;
+  mesh::nearest_hits(mesh::TriangleTree(to), Pose::Identity(), rays, reach, hits);
+  std::vector<double> distances(from.vertices().size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t ray = 0; ray < owner.size(); ++ray)
+    if (hits.is_hit(ray)) distances[owner[ray]] = hits.distance[ray];
+  return distances;
+}
+
+}  // namespace condyle::contact

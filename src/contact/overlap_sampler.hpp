@@ -1,0 +1,113 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "condyle/normal_depth.hpp"
+#include "core/spare.hpp"
+#include "mesh/ray_hits.hpp"
+
+namespace condyle::contact {
+
+/// A place of the casting surface in contact, and how much area it stands for: sums over samples are integrals over what
+/// is in contact. In the frame of the casting body. Corners of the part of a face in contact are samples with area 0: they
+/// count for extremes only.
+struct OverlapSample {
+  Index face;
+  double area;
+  double depth;
+  Vec3 point;                                  ///< on the casting surface
+  Vec3 gradient;                               ///< of the depth when the target is translated
+  double casting_thickness, target_thickness;  ///< where asked for, else 0
+};
+
+/// One thickness for each vertex of a mesh; empty: not asked for.
+struct LayerThicknesses {
+  std::span<const double> casting, target;
+};
+
+/// How exactly samples integrate over a part of a face: products of depth and place, or smooth functions of both.
+enum class Quadrature { of_degree_2, of_degree_5 };
+
+/// Rays from a casting surface, made ready; asked at a pose it gives samples in the order of casting faces.
+class OverlapSampler {
+ public:
+  OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions options);
+
+  struct Found {
+    std::vector<OverlapSample> samples;
+    std::size_t met_from_front = 0, rim_faces = 0;
+  };
+  void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses, Found& out) const;
+  std::size_t cut_off_by_reach(const Pose& X_CT) const;
+
+  /// Memory for samples, kept between queries.
+  core::Spare<Found>& spare_found() const noexcept { return found_; }
+
+  const Mesh& casting() const noexcept { return casting_; }
+  const Mesh& target() const noexcept { return target_; }
+  const NormalDepthOptions& options() const noexcept { return options_; }
+  std::span<const double> face_areas() const noexcept { return face_area_; }
+  /// Outward, of length 1; zero of a face without area.
+  std::span<const Vec3> face_normals() const noexcept { return face_normal_; }
+
+ private:
+  void make_centre_rays(const mesh::TriangleTree& order);
+  void make_corner_rays(const mesh::TriangleTree& order);
+
+  /// What a ray met: the depth is below 0 where a ray outwards met the target.
+  struct RayEnd {
+    double depth = 0;
+    Index triangle = no_index;
+    bool is_known() const noexcept { return triangle != no_index; }
+  };
+  struct Scratch {
+    mesh::RayHits hits;
+    std::vector<RayEnd> ends;  ///< per corner ray
+    std::vector<char> asked_outwards;
+    mesh::RayBundles rays;
+    std::vector<Index> owner;
+    std::vector<Index> active, rim;  ///< faces
+  };
+
+  RayEnd overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray, const Pose& X_CT,
+                    std::size_t& met_from_front) const;
+  Vec3 gradient_of(const RayEnd& end, const Vec3& direction_C, const Pose& X_CT) const;
+  double target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C, const Pose& X_TC,
+                          std::span<const double> of_vertices) const;
+
+  void sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
+                      Found& out) const;
+  void sample_parts(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
+                    Scratch& scratch, Found& out) const;
+  void sample_rim(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const;
+
+  Mesh casting_, target_;
+  NormalDepthOptions options_;
+  bool target_is_closed_;
+  mesh::TriangleTree target_tree_;
+  std::vector<Vec3> target_normal_;  ///< per triangle, length 1
+  std::vector<double> face_area_;
+  std::vector<Vec3> face_normal_;
+  std::vector<double> longest_edge_;
+  mesh::RayBundles inward_;  ///< along negative normals
+  /// The face, or the vertex, that each ray starts from; neighbours follow each other.
+  std::vector<Index> ray_owner_;
+  /// With cut faces: the normal of each ray, and the rays of each face's corners. A vertex has one ray where the surface is
+  /// smooth about it, and one for each side of a crease.
+  std::vector<Vec3> ray_normal_;
+  std::vector<std::array<Index, 3>> corner_ray_;
+  mutable core::Spare<Scratch> scratch_;
+  mutable core::Spare<Found> found_;
+};
+
+/// What samples add up to, face by face and in all; `pressures` of the samples in MPa, or none.
+void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
+            std::span<const double> pressures, SurfaceContact& out);
+
+/// From each vertex along its negative normal to the other surface; NaN where there is none within the reach.
+std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach);
+
+}  // namespace condyle::contact
