@@ -18,6 +18,8 @@ namespace {
 /// Places of a body's sixteen columns, matrix row by row.
 using Places = std::array<std::size_t, 16>;
 
+/// Of OpenSim-JAM (initialize() of OpenSim/JAM/JointMechanicsTool.cpp, opensim-jam-org/opensim-core) and of XMALab
+/// (saveRigidBodyTransformations() of src/core/Trial.cpp, XROMMPackages/xmalab; row vectors as in Maya).
 constexpr std::array<const char*, 16> jam_endings = {"_T11", "_T12", "_T13", "_T14", "_T21", "_T22",
                                                      "_T23", "_T24", "_T31", "_T32", "_T33", "_T34",
                                                      "_T41", "_T42", "_T43", "_T44"};

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <random>
+#include <set>
 #include <vector>
 
 #include "condyle/io/recorded_motion.hpp"
@@ -228,6 +231,59 @@ TEST(DamagedMotion, Csv) {
         recorded_coordinates(read_motion_table(path),
                              {{.coordinate = "flexion", .column = "flexion", .unit = ColumnUnit::degrees}});
       });
+}
+
+/// The same mutations every time: bytes exchanged, pieces left out and repeated, ends cut off.
+std::string mutated(std::string text, std::mt19937& random) {
+  const auto below = [&](std::size_t end) {
+    return static_cast<std::size_t>(random() % std::max<std::size_t>(end, 1));
+  };
+  for (std::size_t changes = 1 + below(3); changes > 0 && !text.empty(); --changes) {
+    const std::size_t at = below(text.size()), length = below(20);
+    switch (random() % 4) {
+      case 0:
+        text[at] = "0123456789 .,-+eEnaif=\t\n\r\"#\xFF"[below(28)];
+        break;
+      case 1:
+        text.erase(at, length);
+        break;
+      case 2:
+        text.insert(at, text.substr(at, length));
+        break;
+      default:
+        text.resize(at);
+    }
+  }
+  return text;
+}
+
+TEST(DamagedMotion, AnyBytesGiveAWholeTableOrOneLine) {
+  std::mt19937 random(1);
+  std::size_t read = 0, refused = 0;
+  for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", mot},
+                                   {"b.sto", states},
+                                   {"c.sto", matrices},
+                                   {"d.csv", xmalab},
+                                   {"e.csv", csv}})
+    for (int i = 0; i < 300; ++i) {
+      const std::string bytes = mutated(text, random);
+      const std::string complaint = test::refusal(name, bytes, [&](const std::filesystem::path& path) {
+        const MotionTable table = read_motion_table(path);
+        ASSERT_GT(table.rows, 0u);
+        ASSERT_EQ(table.values.size(), table.columns.size());
+        ASSERT_EQ(table.line_of_row.size(), table.rows);
+        for (const std::vector<double>& column : table.values) {
+          ASSERT_EQ(column.size(), table.rows);
+          for (const double value : column) ASSERT_FALSE(std::isinf(value));
+        }
+        ASSERT_EQ(std::set<std::string>(table.columns.begin(), table.columns.end()).size(),
+                  table.columns.size());
+      });
+      ++(complaint == "accepted" ? read : refused);
+    }
+  // Both happen, so that both are tested.
+  EXPECT_GT(read, 100u);
+  EXPECT_GT(refused, 100u);
 }
 
 TEST(DamagedMotion, FilesThatAreNone) {
