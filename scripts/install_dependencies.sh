@@ -10,7 +10,7 @@ set -euo pipefail
 packages=(
   g++ cmake make ninja-build ccache pkg-config
   libeigen3-dev libtbb-dev libboost-dev libhwy-dev   # the core
-  libvtk9-dev libfmt-dev nlohmann-json3-dev          # condyle_io
+  libvtk9-dev libhdf5-dev libfmt-dev nlohmann-json3-dev   # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
   libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there, and a peer
 )

@@ -85,7 +85,7 @@ foreach(file ${files})
          OR (file MATCHES "^src/[a-z]+/build/" AND line MATCHES "/(query|update)/"))
         message(SEND_ERROR "${file}: exact/ must not look into build/, nor build/ into query/: ${line}")
       endif()
-    elseif(line MATCHES "#include <(hwy/|vtk|fmt/|nlohmann/|CLI/|toml)")
+    elseif(line MATCHES "#include <(hwy/|vtk|hdf5|fmt/|nlohmann/|CLI/|toml)")
       set(package ${CMAKE_MATCH_1})
       if(package STREQUAL "hwy/")
         # What compiles a source once for every instruction set cannot come from another file.

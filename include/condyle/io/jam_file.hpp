@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/points.hpp"
+
+/// Contact along a motion as OpenSim-JAM's JointMechanicsTool writes it (HDF5), for scripts that read its files. SI units;
+/// points, forces and moments in the frame of the body whose surface it is.
+
+namespace condyle {
+
+/// What is known of one surface in one frame of a motion; NaN where there is no answer.
+struct JamFrame {
+  double contact_area_m2 = 0;
+  double mean_proximity_m = 0, max_proximity_m = 0;  ///< depth of overlap, over the triangles in contact
+  Vec3 centre_of_proximity_m = Vec3::Zero();
+  double mean_pressure_pa = 0, max_pressure_pa = 0;
+  Vec3 centre_of_pressure_m = Vec3::Zero();
+  Vec3 contact_force_n = Vec3::Zero();
+  Vec3 contact_moment_nm = Vec3::Zero();
+  /// One number per triangle of the mesh, as many in every frame; none in any frame: not written.
+  std::vector<double> triangle_proximity_m, triangle_pressure_pa;
+};
+
+/// A surface of a contact. Without frames it is named in the file and nothing more.
+struct JamSurface {
+  std::string mesh;
+  std::vector<JamFrame> frames;  ///< one per time, or none
+};
+
+/// A pair of surfaces: rays are cast from the triangles of one along its normals to the other.
+struct JamContact {
+  std::string name;
+  JamSurface casting, target;
+};
+
+/// Writes `/time` and, for each contact and each of its two meshes, the datasets of
+/// `/model/forceset/Smith2018ArticularContactForce/CONTACT/MESH`; which: docs/motion-files.md. The same input gives the same
+/// bytes. The file appears whole or not at all.
+/// Raises FileError where it cannot be written, and for names that the scripts could not read: each is a letter and then
+/// up to 62 letters, digits and _, contacts have different names and so have the two meshes of one.
+void write_jam_file(const std::filesystem::path& path, std::span<const double> times_s,
+                    std::span<const JamContact> contacts);
+
+}  // namespace condyle

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "condyle/io/motion_file.hpp"
+#include "condyle/length_unit.hpp"
+#include "condyle/pose.hpp"
+
+/// From a table of a recorded motion to one set of coordinates or one pose per frame. A mapping says which columns mean
+/// what; nothing is guessed. A frame with a gap in a column that is needed stays a gap: nothing is interpolated.
+
+namespace condyle {
+
+enum class CoordinateKind { angle, length };
+enum class ColumnUnit { degrees, radians, millimetres, metres };
+
+/// A coordinate of a joint and the column that records it: value = sign * column + offset.
+struct ColumnOfCoordinate {
+  std::string coordinate = {};  ///< its name in the joint
+  CoordinateKind kind = CoordinateKind::angle;
+  /// The column's name. For "/jointset/knee_r/knee_flex_r/value", as OpenSim writes states, "knee_flex_r" does too where
+  /// no other column has it.
+  std::string column = {};
+  /// Of the column. An angle without one is as the file's header says; a length must have one.
+  std::optional<ColumnUnit> unit = {};
+  double sign = 1;    ///< 1 or -1
+  double offset = 0;  ///< degrees or mm
+};
+
+/// Columns with poses of both bodies, 16 per body, in one frame L of a laboratory or scanner.
+struct ColumnsOfPoses {
+  std::string fixed_body, mobile_body;  ///< as the names of columns begin: "femur" of "femur_T11"
+  LengthUnit unit = LengthUnit::millimetres;
+};
+
+using RecordedMotionMapping = std::variant<std::vector<ColumnOfCoordinate>, ColumnsOfPoses>;
+
+/// Coordinates of every frame, by name.
+struct NamedCoordinates {
+  FrameTimes times;
+  std::vector<std::string> names;
+  /// Per frame one value for each name, in degrees or mm; nothing where one of their columns has a gap.
+  std::vector<std::optional<std::vector<double>>> frames;
+  std::vector<std::string> notes;  ///< of the table and of this reading
+};
+
+/// Raises FileError for a column that is not there (naming one that was most likely meant) or could be two, and for an
+/// angle whose unit neither the mapping nor the file's header gives. Lengths must have a unit.
+NamedCoordinates recorded_coordinates(const MotionTable& table,
+                                      const std::vector<ColumnOfCoordinate>& mapping);
+
+/// Poses of every frame.
+struct RecordedPoses {
+  FrameTimes times;
+  /// X_FM = X_LF^-1 X_LM of the bodies' own frames, translation in mm; nothing where one of the 32 cells is a gap.
+  std::vector<std::optional<Pose>> X_FM;
+  std::vector<std::string> notes;  ///< of the table and of this reading
+};
+
+/// Poses from matrices of 4 x 4 numbers, row by row, in columns named
+///   femur_T11 femur_T12 ... femur_T44                     (OpenSim-JAM: p_L = T p, translation in the last column), or
+///   femur_R11 femur_R12 femur_R13 femur_01 femur_R21 ... femur_TX femur_TY femur_TZ femur_1, with an ending such as _25Hz
+///                                                         (XMALab: row vectors, translation in the last row).
+/// Where 0 0 0 1 stands tells which it is, whatever the names; the names decide only if no translation differs from 0.
+/// Rotations are the nearest ones to what the file has (singular values); a note says by how much the file's are off
+/// where that is beyond 1e-9. Raises FileError for columns that are not there, for 0 0 0 1 in neither place or in
+/// both by turns, and for a row whose rotation is off by more than 1e-4 or is a reflection.
+RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& mapping);
+
+}  // namespace condyle

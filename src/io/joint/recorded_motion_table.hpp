@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "condyle/io/recorded_motion.hpp"
+#include "io/joint/toml_table.hpp"
+
+namespace condyle::io {
+
+/// A coordinate that a joint has, and so one that a table of it may name.
+struct CoordinateName {
+  std::string name;
+  CoordinateKind kind = CoordinateKind::angle;
+};
+
+/// The table [recorded_motion] of a joint file, whose keys are docs/motion-files.md: either columns of coordinates, of
+/// those that the joint has, or columns of poses. Raises FileError with line and key.
+RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates);
+
+}  // namespace condyle::io

@@ -1,0 +1,48 @@
+#include "io/motion/column_names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "condyle/error.hpp"
+#include "core/near_name.hpp"
+#include "io/file/in_quotes.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// The coordinate of a path that ends in "/value"; empty for every other name.
+std::string_view coordinate_of(std::string_view column) {
+  constexpr std::string_view ending = "/value";
+  if (!column.ends_with(ending)) return {};
+  column.remove_suffix(ending.size());
+  return column.substr(column.rfind('/') + 1);
+}
+
+}  // namespace
+
+std::size_t column_named(const MotionTable& table, std::string_view name) {
+  const auto& columns = table.columns;
+  const auto exact = std::find(columns.begin(), columns.end(), name);
+  if (exact != columns.end()) return static_cast<std::size_t>(exact - columns.begin());
+
+  std::optional<std::size_t> found;
+  std::vector<std::string> known = columns;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const std::string_view coordinate = coordinate_of(columns[c]);
+    if (coordinate.empty()) continue;
+    known.emplace_back(coordinate);
+    if (coordinate != name) continue;
+    if (found)
+      throw FileError(fmt::format("{}: column {} could be {} or {}: give the whole name", table.path.string(),
+                                  in_quotes(name), in_quotes(columns[*found]), in_quotes(columns[c])));
+    found = c;
+  }
+  if (found) return *found;
+  throw FileError(fmt::format("{}: has no column {}{}", table.path.string(), in_quotes(name),
+                              core::did_you_mean(name, known)));
+}
+
+}  // namespace condyle::io

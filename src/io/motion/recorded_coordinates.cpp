@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "condyle/error.hpp"
+#include "condyle/io/recorded_motion.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/motion/column_names.hpp"
+#include "io/motion/gaps.hpp"
+
+namespace condyle {
+namespace {
+
+ColumnUnit unit_of(const MotionTable& table, const ColumnOfCoordinate& entry) {
+  if (entry.unit) return *entry.unit;
+  assert(entry.kind == CoordinateKind::angle && "a length has a unit");
+  if (!table.in_degrees)
+    throw FileError(
+        fmt::format("{}: column {}: the file does not say whether angles are in degrees: give its unit",
+                    table.path.string(), io::in_quotes(entry.column)));
+  return *table.in_degrees ? ColumnUnit::degrees : ColumnUnit::radians;
+}
+
+/// To degrees or mm. An angle in degrees and a length in mm keep every bit.
+double converted(double value, ColumnUnit unit) {
+  switch (unit) {
+    case ColumnUnit::radians:
+      return value * (180 / std::numbers::pi);
+    case ColumnUnit::metres:
+      return value * 1000;
+    default:
+      return value;
+  }
+}
+
+}  // namespace
+
+NamedCoordinates recorded_coordinates(const MotionTable& table,
+                                      const std::vector<ColumnOfCoordinate>& mapping) {
+  NamedCoordinates out;
+  out.times = frame_times(table);
+  out.notes = table.notes;
+  out.frames.assign(table.rows, std::vector<double>());
+  for (const ColumnOfCoordinate& entry : mapping) {
+    out.names.push_back(entry.coordinate);
+    const std::vector<double>& column = table.values[io::column_named(table, entry.column)];
+    const ColumnUnit unit = unit_of(table, entry);
+    for (std::size_t row = 0; row < table.rows; ++row) {
+      auto& frame = out.frames[row];
+      if (!frame) continue;
+      if (std::isnan(column[row]))
+        frame.reset();
+      else
+        frame->push_back(entry.sign * converted(column[row], unit) + entry.offset);
+    }
+  }
+  io::note_gaps(table, out.frames, out.notes);
+  return out;
+}
+
+}  // namespace condyle

@@ -1,0 +1,223 @@
+#include "condyle/io/jam_file.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "condyle/error.hpp"
+#include "condyle/io/motion_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle {
+namespace {
+
+using test::TemporaryFolder;
+
+struct Dataset {
+  std::vector<hsize_t> shape;
+  std::vector<double> values;
+};
+
+/// All that a file has: datasets of eight-byte floats by path, and groups, which have no shape.
+using Contents = std::map<std::string, Dataset>;
+
+herr_t add_object(hid_t file, const char* name, const H5O_info_t* info, void* contents) {
+  Dataset dataset;
+  if (info->type == H5O_TYPE_DATASET) {
+    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set), type = H5Dget_type(set);
+    EXPECT_EQ(H5Tget_class(type), H5T_FLOAT) << name;
+    EXPECT_EQ(H5Tget_size(type), sizeof(double)) << name;
+    dataset.shape.resize(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
+    H5Sget_simple_extent_dims(space, dataset.shape.data(), nullptr);
+    dataset.values.resize(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+    EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, dataset.values.data()), 0)
+        << name;
+    H5Tclose(type), H5Sclose(space), H5Dclose(set);
+  }
+  if (std::string_view(name) != ".")
+    static_cast<Contents*>(contents)->emplace("/" + std::string(name), dataset);
+  return 0;
+}
+
+Contents contents_of(const std::filesystem::path& path) {
+  Contents contents;
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  EXPECT_GE(file, 0);
+  EXPECT_GE(H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC, add_object, &contents, H5O_INFO_BASIC), 0);
+  H5Fclose(file);
+  return contents;
+}
+
+/// Numbers that differ in every place.
+JamFrame frame_of(double first, std::size_t triangles) {
+  double next = first;
+  const auto one = [&] { return next += 1.0 / 3; };
+  const auto three = [&] {
+    const double x = one(), y = one();
+    return Vec3(x, y, one());
+  };
+  JamFrame frame{.contact_area_m2 = one(),
+                 .mean_proximity_m = one(),
+                 .max_proximity_m = one(),
+                 .centre_of_proximity_m = three(),
+                 .mean_pressure_pa = one(),
+                 .max_pressure_pa = one(),
+                 .centre_of_pressure_m = three(),
+                 .contact_force_n = three(),
+                 .contact_moment_nm = three(),
+                 .triangle_proximity_m = {},
+                 .triangle_pressure_pa = {}};
+  for (std::size_t t = 0; t < triangles; ++t)
+    frame.triangle_proximity_m.push_back(one()), frame.triangle_pressure_pa.push_back(-one());
+  return frame;
+}
+
+const std::string forces = "/model/forceset/Smith2018ArticularContactForce";
+const std::array times = {0.0, 0.01, 0.02};
+
+std::vector<JamContact> two_contacts() {
+  return {{"tf_contact",
+           {"tibia_cartilage", {frame_of(0, 4), frame_of(100, 4), frame_of(200, 4)}},
+           {"femur_cartilage", {frame_of(300, 2), frame_of(400, 2), frame_of(500, 2)}}},
+          {"pf_contact",
+           {"patella_cartilage", {frame_of(600, 0), frame_of(700, 0), frame_of(800, 0)}},
+           {"femur_cartilage", {}}}};
+}
+
+void expect_dataset(const Contents& contents, const std::string& path, const std::vector<hsize_t>& shape,
+                    const std::vector<double>& values) {
+  const auto found = contents.find(path);
+  ASSERT_NE(found, contents.end()) << path;
+  EXPECT_EQ(found->second.shape, shape) << path;
+  EXPECT_EQ(found->second.values, values) << path;
+}
+
+/// Paths and shapes as JAM's own scripts take them apart (jam_analysis.m of opensim-jam-org/jam-resources, matlab/analysis: it
+/// reads /time, and of /model/forceset the names of components, forces, meshes and datasets as the 4th to 7th word of a
+/// path, two meshes to a contact) and its writer makes them (writeH5File of OpenSim/JAM/JointMechanicsTool.cpp and
+/// H5FileAdapter.cpp of opensim-jam-org/opensim-core: frames first, vectors in rows of 3, triangles in rows).
+TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
+  const TemporaryFolder folder;
+  const auto contacts = two_contacts();
+  write_jam_file(folder / "knee.h5", times, contacts);
+  Contents contents = contents_of(folder / "knee.h5");
+
+  expect_dataset(contents, "/time", {3}, {0, 0.01, 0.02});
+  std::size_t datasets = 1;
+  for (const JamContact& contact : contacts)
+    for (const JamSurface* surface : {&contact.casting, &contact.target}) {
+      const std::string group = forces + "/" + contact.name + "/" + surface->mesh + "/";
+      if (surface->frames.empty()) continue;
+      const auto expect_scalar = [&](const char* name, double JamFrame::*member) {
+        std::vector<double> values;
+        for (const JamFrame& frame : surface->frames) values.push_back(frame.*member);
+        expect_dataset(contents, group + name, {3}, values), ++datasets;
+      };
+      const auto expect_vector = [&](const char* name, Vec3 JamFrame::*member) {
+        std::vector<double> values;
+        for (const JamFrame& frame : surface->frames)
+          for (int i = 0; i < 3; ++i) values.push_back((frame.*member)[i]);
+        expect_dataset(contents, group + name, {3, 3}, values), ++datasets;
+      };
+      const auto expect_triangles = [&](const char* name, std::vector<double> JamFrame::*member) {
+        const std::size_t count = (surface->frames[0].*member).size();
+        std::vector<double> values;
+        for (const JamFrame& frame : surface->frames)
+          for (const double value : frame.*member) values.push_back(value);
+        if (count > 0) expect_dataset(contents, group + name, {3, count}, values), ++datasets;
+      };
+      expect_scalar("total_contact_area", &JamFrame::contact_area_m2);
+      expect_scalar("total_mean_proximity", &JamFrame::mean_proximity_m);
+      expect_scalar("total_max_proximity", &JamFrame::max_proximity_m);
+      expect_vector("total_center_of_proximity", &JamFrame::centre_of_proximity_m);
+      expect_scalar("total_mean_pressure", &JamFrame::mean_pressure_pa);
+      expect_scalar("total_max_pressure", &JamFrame::max_pressure_pa);
+      expect_vector("total_center_of_pressure", &JamFrame::centre_of_pressure_m);
+      expect_vector("total_contact_force", &JamFrame::contact_force_n);
+      expect_vector("total_contact_moment", &JamFrame::contact_moment_nm);
+      expect_triangles("triangle_proximity", &JamFrame::triangle_proximity_m);
+      expect_triangles("triangle_pressure", &JamFrame::triangle_pressure_pa);
+    }
+
+  std::vector<std::string> groups;
+  for (const auto& [path, dataset] : contents)
+    if (dataset.shape.empty()) groups.push_back(path);
+  EXPECT_EQ(groups, (std::vector<std::string>{"/model", "/model/forceset", forces, forces + "/pf_contact",
+                                              forces + "/pf_contact/femur_cartilage",
+                                              forces + "/pf_contact/patella_cartilage",
+                                              forces + "/tf_contact", forces + "/tf_contact/femur_cartilage",
+                                              forces + "/tf_contact/tibia_cartilage"}));
+  EXPECT_EQ(contents.size(), groups.size() + datasets) << "nothing else";
+}
+
+TEST(JamFile, ItsTotalsAreNamedAsThePublishedOnes) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
+  const MotionTable published =
+      read_motion_table(*data / "knee_lenhart2015_right" / "passive_flexion_contact_reference.sto");
+  const TemporaryFolder folder;
+  write_jam_file(folder / "knee.h5", times, two_contacts());
+  const Contents contents = contents_of(folder / "knee.h5");
+  const std::string start = "tf_contact.casting.total.";
+  std::size_t totals = 0;
+  for (std::string name : published.columns) {
+    if (!name.starts_with(start)) continue;
+    name = "total_" + name.substr(start.size());
+    const bool is_vector = name.ends_with("_x") || name.ends_with("_y") || name.ends_with("_z");
+    if (is_vector) name.resize(name.size() - 2);
+    const auto found = contents.find(forces + "/tf_contact/tibia_cartilage/" + name);
+    ASSERT_NE(found, contents.end()) << name;
+    EXPECT_EQ(found->second.shape.size(), is_vector ? 2u : 1u) << name;
+    ++totals;
+  }
+  EXPECT_EQ(totals, 17u);
+}
+
+TEST(JamFile, HasTheSameBytesEveryTimeAndKeepsNan) {
+  const TemporaryFolder folder;
+  auto contacts = two_contacts();
+  contacts[0].casting.frames[1].max_pressure_pa = std::nan("");
+  write_jam_file(folder / "a.h5", times, contacts);
+  write_jam_file(folder / "b.h5", times, contacts);
+  EXPECT_EQ(io::read_whole_file(folder / "a.h5"), io::read_whole_file(folder / "b.h5"));
+  const Contents contents = contents_of(folder / "a.h5");
+  EXPECT_TRUE(std::isnan(contents.at(forces + "/tf_contact/tibia_cartilage/total_max_pressure").values[1]));
+  EXPECT_EQ(test::count_entries(folder.path()), 2u) << "nothing is left beside them";
+}
+
+TEST(JamFile, NamesThatScriptsCouldNotReadAreRefused) {
+  const TemporaryFolder folder;
+  const auto complaint = [&](const std::vector<JamContact>& contacts) {
+    try {
+      write_jam_file(folder / "a.h5", times, contacts);
+    } catch (const FileError& error) {
+      EXPECT_EQ(test::count_entries(folder.path()), 0u);
+      return std::string(error.what()).substr((folder / "a.h5: cannot be written: ").string().size());
+    }
+    std::filesystem::remove(folder / "a.h5");
+    return std::string("written");
+  };
+  const auto named = [](const std::string& contact, const std::string& casting, const std::string& target) {
+    return JamContact{contact, {casting, {}}, {target, {}}};
+  };
+  const std::string longest(63, 'a');
+  EXPECT_EQ(complaint({named("a", "B_1", longest)}), "written");
+  for (const std::string& name : {std::string(), std::string("hip bone"), std::string("a/b"),
+                                  std::string("_a"), std::string("1a"), std::string("\xC3\xA4")})
+    for (const JamContact& contact : {named(name, "a", "b"), named("a", name, "b"), named("a", "b", name)})
+      EXPECT_NE(complaint({contact}).find("must be a letter and then up to 62 letters, digits and _"),
+                std::string::npos);
+  EXPECT_NE(complaint({named("a", "b", longest + "a")}), "written");
+  EXPECT_EQ(complaint({named("a", "b", "c"), named("a", "d", "e")}), "contact 'a' is there twice");
+  EXPECT_EQ(complaint({named("a", "b", "b")}), "contact 'a' has two meshes of one name, 'b'");
+  EXPECT_THROW(write_jam_file(folder / "nowhere" / "a.h5", times, two_contacts()), FileError);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,152 @@
+#include "condyle/io/motion_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+
+#include "io/motion/motion_text.hpp"
+#include "support/shared_data.hpp"
+
+namespace condyle {
+namespace {
+
+using test::read_table;
+using test::replaced;
+
+using Strings = std::vector<std::string>;
+
+const std::string mot =
+    "Coordinates\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\n\nUnits are S.I. units\nAngles are in "
+    "degrees.\n\n"
+    "endheader\ntime\thip_flexion_r\tpelvis_tx\n  0.4\t 19.5\t -0.25\n  0.5\t 2e1\t +.125\n";
+const std::string csv = "# a comment\ntime,flexion,tx\n0,19.5,-0.25\n# another\n0.1,2e1,+.125\n";
+
+TEST(MotionFile, ReadsWhatTheOpenSimHeaderIsFollowedBy) {
+  const MotionTable table = read_table("walk.mot", mot);
+  EXPECT_EQ(table.columns, (Strings{"time", "hip_flexion_r", "pelvis_tx"}));
+  EXPECT_EQ(table.rows, 2u);
+  EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0.4, 0.5}, {19.5, 20}, {-0.25, 0.125}}));
+  EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{12, 13}));
+  EXPECT_EQ(table.in_degrees, true);
+  EXPECT_EQ(table.notes, Strings{});
+  EXPECT_EQ(table.digest, digest_of(mot));
+}
+
+TEST(MotionFile, HeaderLinesComeInAnyOrderAndMayBeLeftOut) {
+  const MotionTable table =
+      read_table("a.STO", " indegrees = no \nnColumns=2\nname = of a model = x\nENDHEADER\n\nt a\n1 2\n");
+  EXPECT_EQ(table.in_degrees, false);
+  EXPECT_EQ(table.columns, (Strings{"t", "a"}));
+  EXPECT_EQ(read_table("a.sto", "endheader\nt a\n1 2\n").in_degrees, std::nullopt);
+}
+
+TEST(MotionFile, InDegreesIsFollowedAgainstTheWordsAndANoteSaysSo) {
+  const MotionTable table = read_table("a.mot", replaced(mot, "inDegrees=yes", "inDegrees=no"));
+  EXPECT_EQ(table.in_degrees, false);
+  EXPECT_EQ(table.notes,
+            Strings{"the header says inDegrees=no and in words that angles are in degrees: inDegrees=no is "
+                    "followed"});
+  // Words on their own are prose that programs leave unchanged: they decide nothing.
+  EXPECT_EQ(read_table("a.mot", replaced(mot, "inDegrees=yes\n", "")).in_degrees, std::nullopt);
+}
+
+TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
+  const MotionTable table =
+      read_table("a.mot", replaced(replaced(mot, "nRows=2", "nRows=1"), "nColumns=3", "nColumns=7"));
+  EXPECT_EQ(table.rows, 2u);
+  EXPECT_EQ(table.notes, (Strings{"the header promises 1 rows and the file has 2: all of them are read",
+                                  "the header promises 7 columns and the file has 3: all of them are read"}));
+}
+
+TEST(MotionFile, ReadsCsvWithComments) {
+  const MotionTable table = read_table("walk.csv", csv);
+  EXPECT_EQ(table.columns, (Strings{"time", "flexion", "tx"}));
+  EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0, 0.1}, {19.5, 20}, {-0.25, 0.125}}));
+  EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{3, 5}));
+  EXPECT_EQ(table.in_degrees, std::nullopt);
+}
+
+TEST(MotionFile, CsvNamesMayBeQuotedAndHaveBlanksAroundThem) {
+  const MotionTable table = read_table("a.csv", " \"a, \"\"b\"\"\" , c \n\"1\", 2 \n");
+  EXPECT_EQ(table.columns, (Strings{"a, \"b\"", "c"}));
+  EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{1}, {2}}));
+}
+
+TEST(MotionFile, GapsAreKept) {
+  for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", replaced(mot, "19.5", "NaN")},
+                                   {"a.mot", replaced(mot, "19.5", "nan")},
+                                   {"a.mot", replaced(mot, "19.5", "-nan(ind)")},
+                                   {"a.csv", replaced(csv, "19.5", "")},
+                                   {"a.csv", replaced(csv, "19.5", " NaN ")}}) {
+    const MotionTable table = read_table(name, text);
+    EXPECT_TRUE(std::isnan(table.values[1][0])) << text;
+    EXPECT_EQ(table.values[1][1], 20) << text;
+  }
+}
+
+TEST(MotionFile, LineEndsMarksAndEmptyLinesAtTheEndMakeNoDifference) {
+  for (const auto& [name, text] : {std::pair<const char*, std::string>{"a.mot", mot}, {"a.csv", csv}}) {
+    std::string windows = "\xEF\xBB\xBF";
+    for (const char c : text) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+    const MotionTable expected = read_table(name, text);
+    for (const std::string& variant :
+         {windows, windows + "\r\n \r\n", text + "\n\n\t\n", text.substr(0, text.size() - 1)}) {
+      const MotionTable table = read_table(name, variant);
+      EXPECT_EQ(table.columns, expected.columns);
+      EXPECT_EQ(table.values, expected.values);
+      EXPECT_EQ(table.line_of_row, expected.line_of_row);
+      EXPECT_EQ(table.notes, Strings{});
+    }
+  }
+}
+
+TEST(MotionFile, NumbersAreTheSameInEveryLocale) {
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  for (const char* locale : {"de_DE.UTF-8", "fr_FR.UTF-8", "C"}) {
+    if (std::setlocale(LC_ALL, locale) == nullptr) continue;
+    EXPECT_EQ(read_table("a.mot", mot).values[2][0], -0.25) << locale;
+  }
+  std::setlocale(LC_ALL, before.c_str());
+}
+
+TEST(MotionFile, FramesAreCountedWhereThereIsNoTime) {
+  const auto times = [](std::string_view text) { return frame_times(read_table("a.csv", text)); };
+  EXPECT_EQ(times("Time,a\n0.5,1\n0.75,2\n").values, (std::vector{0.5, 0.75}));
+  EXPECT_TRUE(times("Time,a\n0.5,1\n0.75,2\n").in_seconds);
+  EXPECT_EQ(times("Frame,a\n11,1\n12,2\n").values, (std::vector<double>{11, 12}));
+  EXPECT_FALSE(times("Frame,a\n11,1\n12,2\n").in_seconds);
+  EXPECT_EQ(times("b,a\n9,1\n5,2\n").values, (std::vector<double>{0, 1}));
+  EXPECT_FALSE(times("b,a\n9,1\n5,2\n").in_seconds);
+}
+
+TEST(MotionFile, TheSecondTyOfXmalabIsTz) {
+  const MotionTable table = read_table("a.csv", "b_TX_9Hz , b_TY_9Hz , b_TY_9Hz , b_1_9Hz\n1 , 2 , 3 , 1\n");
+  EXPECT_EQ(table.columns, (Strings{"b_TX_9Hz", "b_TY_9Hz", "b_TZ_9Hz", "b_1_9Hz"}));
+  EXPECT_EQ(table.notes.size(), 1u);
+}
+
+TEST(MotionFile, ReadsRealFiles) {
+  const auto folder = test::shared_data();
+  if (!folder) GTEST_SKIP() << "real motions are not here: set CONDYLE_DATA";
+  const MotionTable walk = read_motion_table(*folder / "motion_gait2354_walk" / "subject01_walk1_ik.mot");
+  EXPECT_EQ(walk.rows, 73u);
+  EXPECT_EQ(walk.columns.size(), 24u);
+  EXPECT_EQ(walk.in_degrees, true);
+  EXPECT_EQ(walk.values[0].front(), 0.4);
+  EXPECT_EQ(walk.values[0].back(), 1.6);
+  EXPECT_EQ(walk.notes, Strings{});
+
+  const auto knee = *folder / "knee_lenhart2015_right";
+  const MotionTable states = read_motion_table(knee / "passive_flexion_states.sto");
+  EXPECT_EQ(states.rows, 251u);
+  EXPECT_EQ(states.in_degrees, false);
+  EXPECT_EQ(states.notes, Strings{});
+  const MotionTable contact = read_motion_table(knee / "passive_flexion_contact_reference.sto");
+  EXPECT_EQ(contact.columns.size(), 35u);
+  ASSERT_EQ(contact.notes.size(), 1u);
+  EXPECT_NE(contact.notes[0].find("inDegrees=no is followed"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+#include "condyle/error.hpp"
+#include "condyle/io/motion_file.hpp"
+#include "support/temporary_folder.hpp"
+
+/// Recorded motions as text, and what reading them gives.
+
+namespace condyle::test {
+
+inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, text.npos) << from;
+  return at == text.npos ? text : text.replace(at, from.size(), to);
+}
+
+inline MotionTable read_table(std::string_view name, std::string_view text) {
+  const TemporaryFolder folder;
+  return read_motion_table(folder.file(name, text));
+}
+
+/// What `question` complains about after the file's name; "accepted" where it does not. One line, with that name first.
+template <class Question>
+std::string refusal(std::string_view name, std::string_view text, const Question& question) {
+  const TemporaryFolder folder;
+  const auto path = folder.file(name, text);
+  try {
+    question(path);
+  } catch (const FileError& error) {
+    const std::string message = error.what(), start = path.string() + ": ";
+    EXPECT_EQ(message.find('\n'), message.npos) << message;
+    EXPECT_TRUE(message.starts_with(start)) << message;
+    return message.substr(std::min(message.size(), start.size()));
+  }
+  return "accepted";
+}
+
+}  // namespace condyle::test
