@@ -60,6 +60,9 @@ struct JointDescription {
   FrameDescription frame = {};
   /// The pose in which the mobile mesh is given; zero where the frame has mobile_axes.
   JointAngles reference_pose = {};
+  Anatomy anatomy = Anatomy::hip;
+
+  CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };
 
 /// What became of a mesh on its way into the joint.

@@ -151,7 +151,7 @@ class RangeOfMotion {
   FreeAngles free_angles(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
 
   JointKind kind() const noexcept;
-  Side side() const noexcept;
+  CoordinateSystem coordinates() const noexcept;
   /// The bearing surface, or why there is none and everything counts.
   const BearingFinding& bearing() const noexcept;
   BearingRule bearing_rule() const noexcept;

@@ -165,18 +165,17 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
 
 /// X_MW at zero angles, and the reference pose that goes with it.
 Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPlacement& placement) {
-  const Side side = description.side;
   if (!description.frame.mobile_axes) {
     placement.reference_pose = description.reference_pose;
-    return pose_at(side, description.reference_pose).inverse() * X_FW;
+    return pose_at(description.coordinates(), description.reference_pose).inverse() * X_FW;
   }
   if (description.kind != JointKind::ball) throw UsageError("frame: a hinge takes the landmarks of one body");
   if (description.reference_pose != JointAngles{})
     throw UsageError("reference_pose: follows from the landmarks of both bodies: leave it out");
   try {
     const Pose X_WM =
-        frame_from_landmarks(placement.X_WF.translation(), side, *description.frame.mobile_axes);
-    placement.reference_pose = angles_at(side, X_FW * X_WM);
+        frame_from_landmarks(placement.X_WF.translation(), description.side, *description.frame.mobile_axes);
+    placement.reference_pose = angles_at(description.coordinates(), X_FW * X_WM);
     placement.pose_from_landmarks = true;
     return X_WM.inverse();
   } catch (const UsageError& error) {
@@ -201,7 +200,8 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
   placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
   placement.notes = notes_on(placement);
-  return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile)},
+  return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile),
+                description.anatomy},
           std::move(placement)};
 }
 

@@ -168,7 +168,7 @@ TEST_F(ReadJoint, AReferencePoseIsTakenOffTheMobileMeshOnly) {
     EXPECT_EQ(joint.fixed.mesh, pelvis_like());
     EXPECT_EQ(report.file.joint.reference_pose, reference);
     // In the reference pose the mesh is again where the file has it: two rotations with a few u of 400 mm each.
-    const TriMesh given = femur_like(), back = posed(pose_at(side, reference), joint.mobile.mesh);
+    const TriMesh given = femur_like(), back = posed(pose_at({.side = side}, reference), joint.mobile.mesh);
     for (std::size_t v = 0; v < given.vertices.size(); ++v)
       EXPECT_LE((back.vertices[v] - given.vertices[v]).norm(), 32 * core::rounding_unit * 400);
   }
@@ -229,7 +229,7 @@ TEST_F(ReadJoint, LandmarksGiveTheAxes) {
 TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
   // The scan has the femur flexed, adducted and turned in: its epicondyles are where that pose brings them.
   const JointAngles scan{Angle::degrees(12), Angle::degrees(4), Angle::degrees(-7)};
-  const Pose X = pose_at(Side::right, scan);
+  const Pose X = pose_at({.side = Side::right}, scan);
   const auto text = [](const char* key, const Vec3& p) {
     std::ostringstream line;
     line.precision(17);

@@ -112,8 +112,8 @@ TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
       break;
   }
   Joint carried = scene.joint;
-  carried.fixed.mesh = posed(pose_at(side(), before), carried.fixed.mesh);
-  carried.mobile.mesh = posed(pose_at(side(), after).inverse(), carried.mobile.mesh);
+  carried.fixed.mesh = posed(pose_at({.side = side()}, before), carried.fixed.mesh);
+  carried.mobile.mesh = posed(pose_at({.side = side()}, after).inverse(), carried.mobile.mesh);
   const RangeOptions accept{.bearing = {}, .overlap = {.reference_contact = ReferenceContact::accept}};
   EXPECT_NEAR(RangeOfMotion(carried, accept).limit(motion(held)).end.turned.radians(), scene.limit, 1e-11);
 }
@@ -136,7 +136,8 @@ TEST_P(EachAngle, ExchangingTheBodiesNegatesAndAgrees) {
 TEST_P(EachAngle, ContactPointsAreOnePlaceSeenFromBothBodies) {
   const MotionLimit limit = RangeOfMotion(bumpy_joint(side())).limit(motion({Angle::degrees(5), {}, {}}));
   ASSERT_TRUE(limit.end.contact);
-  const Vec3 seen_from_F = pose_at(side(), limit.angles_at_limit()) * limit.end.contact->mobile_point;
+  const Vec3 seen_from_F =
+      pose_at({.side = side()}, limit.angles_at_limit()) * limit.end.contact->mobile_point;
   // 40 mm away at most, short of contact by up to 4e-12, some ten roundings.
   EXPECT_LT((seen_from_F - limit.end.contact->fixed_point).norm(), 40 * 5e-12);
 }

@@ -151,16 +151,21 @@ FrameDescription frame_description(io::TomlTable& file, const Lengths& lengths) 
   return frame;
 }
 
-PoseDegrees reference_pose(io::TomlTable& file, JointKind kind) {
+std::string hinge_text(const JointDescription& joint) {
+  return fmt::format("a hinge rotates in {} only", name_of(JointAngle::flexion, joint.anatomy));
+}
+
+PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint) {
   auto table = file.table("reference_pose");
   if (!table) return {};
-  const auto degrees = [&](JointAngle name) { return table->number(name_of(name)).value_or(0); };
+  const auto degrees = [&](JointAngle name) {
+    return table->number(name_of(name, joint.anatomy)).value_or(0);
+  };
   const PoseDegrees pose{degrees(JointAngle::flexion), degrees(JointAngle::adduction),
                          degrees(JointAngle::internal_rotation)};
-  if (kind == JointKind::hinge)
+  if (joint.kind == JointKind::hinge)
     for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
-      if (table->number(name_of(name)).value_or(0) != 0)
-        table->fail(name_of(name), "a hinge rotates in flexion only");
+      if (pose[name] != 0) table->fail(name_of(name, joint.anatomy), hinge_text(joint));
   table->finish();
   return pose;
 }
@@ -181,13 +186,13 @@ Uncertainty uncertainty(io::TomlTable& file, const Lengths& lengths) {
 
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
 /// by its order which way it goes.
-Motion own_motion(io::TomlTable& table, JointKind kind) {
+Motion own_motion(io::TomlTable& table, const JointDescription& joint) {
   Motion motion;
   motion.name = table.required("name", table.text("name"));
   if (motion.name.empty()) table.fail("name", "must not be empty");
   const auto vary = table.required("vary", table.text("vary"));
   try {
-    motion.vary = joint_angle_named(vary);
+    motion.vary = joint_angle_named(vary, joint.anatomy);
   } catch (const UsageError& error) {
     table.fail("vary", error.what());
   }
@@ -196,26 +201,27 @@ Motion own_motion(io::TomlTable& table, JointKind kind) {
   if (start == end) table.fail("range", "is empty");
   motion.sense = start < end ? RotationSense::positive : RotationSense::negative;
   motion.range = Angle::degrees(std::abs(end - start));
-  for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+  for (const JointAngle angle : all_joint_angles) {
     const bool varies = angle == motion.vary;
-    const double held = varies ? start : table.number(name_of(angle)).value_or(0);
-    if (kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
-      table.fail(varies ? "vary" : name_of(angle), "a hinge rotates in flexion only");
+    const std::string_view name = name_of(angle, joint.anatomy);
+    const double held = varies ? start : table.number(name).value_or(0);
+    if (joint.kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
+      table.fail(varies ? "vary" : name, hinge_text(joint));
     motion.start = turned_by(motion.start, angle, Angle::degrees(held));
   }
   table.finish();
   try {
-    check_motion(motion, kind);
+    check_motion(motion, joint.kind);
   } catch (const UsageError& error) {
     table.fail("range", error.what());
   }
   return motion;
 }
 
-std::vector<Motion> own_motions(io::TomlTable& file, JointKind kind) {
+std::vector<Motion> own_motions(io::TomlTable& file, const JointDescription& joint) {
   std::vector<Motion> motions;
   for (io::TomlTable& table : file.tables("motion")) {
-    Motion motion = own_motion(table, kind);
+    Motion motion = own_motion(table, joint);
     for (const Motion& other : motions)
       if (other.name == motion.name) table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
     motions.push_back(std::move(motion));
@@ -245,9 +251,9 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   out.mobile = body_entry(file, "mobile");
   for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
-  out.reference_pose = reference_pose(file, joint.kind);
+  out.reference_pose = reference_pose(file, joint);
   joint.reference_pose = out.reference_pose.angles();
-  out.motions = own_motions(file, joint.kind);
+  out.motions = own_motions(file, joint);
   out.uncertainty = uncertainty(file, Lengths(joint.units));
   file.finish();
   return out;

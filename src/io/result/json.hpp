@@ -38,10 +38,10 @@ inline Json notes_json(std::span<const JointNote> notes) {
 }
 
 /// As it was given.
-inline Json pose_json(const PoseDegrees& pose) {
-  return {{"flexion", pose.flexion},
-          {"adduction", pose.adduction},
-          {"internal_rotation", pose.internal_rotation}};
+inline Json pose_json(const PoseDegrees& pose, Anatomy joint) {
+  Json json;
+  for (const JointAngle angle : all_joint_angles) json[name_of(angle, joint)] = pose[angle];
+  return json;
 }
 
 /// Without the sign of 0, which says nothing.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "condyle/error.hpp"
@@ -16,8 +15,6 @@ constexpr auto positive = RotationSense::positive, negative = RotationSense::neg
 constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
   return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
 }
-
-constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
 
 /// Of the Latin alphabet; blanks and hyphens as the names have them.
 std::string in_small_letters(std::string_view name) {
@@ -96,7 +93,7 @@ void check_motion(const Motion& motion, JointKind kind) {
   if (motion.sense == RotationSense::none) fail("it has no sense of rotation");
   if (!(range > 0)) fail("the range is empty");
   if (!(range <= two_pi)) fail("the range is more than a full turn");
-  for (const JointAngle angle : all_angles) {
+  for (const JointAngle angle : all_joint_angles) {
     const double start = angle_of(motion.start, angle).radians();
     if (!std::isfinite(start)) fail("an angle is not finite");
     if (kind == JointKind::hinge && angle != JointAngle::flexion && (start != 0 || motion.vary == angle))
