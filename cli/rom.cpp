@@ -190,11 +190,11 @@ void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
   const std::vector<Motion> known =
-      with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions);
+      with_own_motions(built_in_motions(joint.kind, joint.anatomy), loaded.report.file.motions);
   const std::vector<Motion> motions = chosen_motions(known, options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, joint.anatomy));
   const std::optional<MapGrid> grid = grid_of(options, joint);
-  const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose);
+  const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose.angles);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   std::optional<ZoneFinder> finder;
   if (options.past_deg)

@@ -22,11 +22,14 @@ struct Joint {
   Side side;
   Body fixed;
   Body mobile;
-  Anatomy anatomy = Anatomy::hip;
+  Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
+  TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
 
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
+  /// False of a hinge that flexes forwards and is no joint in particular.
+  bool names_its_joint() const noexcept { return anatomy != Anatomy::hip || kind != JointKind::hinge; }
   /// With a head in a socket, for all that is told by those.
-  bool is_hip() const noexcept { return anatomy == Anatomy::hip && kind != JointKind::hinge; }
+  bool is_hip() const noexcept { return anatomy == Anatomy::hip && names_its_joint(); }
 };
 
 }  // namespace condyle

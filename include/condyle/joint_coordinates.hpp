@@ -106,6 +106,8 @@ enum class TranslationFrame {
 struct JointCoordinates {
   JointAngles angles;
   Vec3 translation_mm = Vec3::Zero();  ///< of the mobile body's origin; x, y and z of the translation frame
+
+  friend bool operator==(const JointCoordinates&, const JointCoordinates&) = default;
 };
 
 /// X_FM of p_F = R_FM p_M + t, t the translation brought into F.

@@ -4,6 +4,8 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
@@ -265,6 +267,36 @@ TEST(HipMotions, ImpossibleOnesAreRefusedByName) {
   refused([](Motion&) {}, JointKind::hinge);
   refused([](Motion& m) { m.vary = JointAngle::flexion, m.start.adduction = Angle::degrees(1); },
           JointKind::hinge);
+}
+
+TEST(Motions, OfEveryJointAreInOrderAndNamedOnce) {
+  for (const Anatomy joint : all_anatomies)
+    for (const JointKind kind : {JointKind::ball, JointKind::free, JointKind::hinge}) {
+      std::set<std::string> names;
+      for (const Motion& motion : built_in_motions(kind, joint)) {
+        EXPECT_NO_THROW(check_motion(motion, kind)) << motion.name;
+        EXPECT_TRUE(names.insert(motion.name).second) << motion.name;
+      }
+      EXPECT_EQ(names.contains("fadir"), joint == Anatomy::hip && kind != JointKind::hinge);
+    }
+}
+
+TEST(Motions, OfAKneeGoByItsSigns) {
+  const auto motions = built_in_motions(JointKind::free, Anatomy::knee);
+  const Motion& flexion = motion_named(motions, "flexion");
+  EXPECT_EQ(flexion.vary, JointAngle::flexion);
+  EXPECT_EQ(flexion.sense, RotationSense::positive);
+  EXPECT_EQ(motion_named(motions, "external_rotation_at_90_flexion").start.flexion, Angle::degrees(90));
+}
+
+/// Plane, elevation: to the side, forwards, backwards.
+TEST(Motions, OfAShoulderElevateInPlanes) {
+  const auto motions = built_in_motions(JointKind::ball, Anatomy::shoulder);
+  for (const auto& [name, plane] : {std::pair("abduction", 0), {"flexion", 90}, {"extension", -90}}) {
+    const Motion& motion = motion_named(motions, name);
+    EXPECT_EQ(motion.vary, JointAngle::adduction);
+    EXPECT_EQ(motion.start.flexion, Angle::degrees(plane));
+  }
 }
 
 }  // namespace

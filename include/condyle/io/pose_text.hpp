@@ -7,10 +7,11 @@
 
 namespace condyle {
 
-/// A pose in degrees, as somebody wrote it: an Angle is in radians, and degrees that come back from there may differ in
-/// the last digit.
+/// A pose in degrees and mm, as somebody wrote it: an Angle is in radians, and degrees that come back from there may
+/// differ in the last digit.
 struct PoseDegrees {
   double flexion = 0, adduction = 0, internal_rotation = 0;  ///< about e1, e2, e3, as in JointAngles
+  Vec3 translation_mm = Vec3::Zero();                        ///< of a free joint
 
   double operator[](JointAngle angle) const noexcept {
     return angle == JointAngle::flexion     ? flexion
@@ -21,6 +22,7 @@ struct PoseDegrees {
   JointAngles angles() const noexcept {
     return {Angle::degrees(flexion), Angle::degrees(adduction), Angle::degrees(internal_rotation)};
   }
+  JointCoordinates coordinates() const noexcept { return {angles(), translation_mm}; }
   friend bool operator==(const PoseDegrees&, const PoseDegrees&) = default;
 };
 
@@ -37,6 +39,7 @@ std::string to_text(const PoseDegrees& pose, Anatomy joint);
 std::string_view name_of(Side side) noexcept;
 std::string_view name_of(JointKind kind) noexcept;
 std::string_view name_of(Anatomy joint) noexcept;
+std::string_view name_of(TranslationFrame frame) noexcept;
 /// "flexion", or what the joint calls this angle: the positive one of its coordinate_names().
 std::string_view name_of(JointAngle angle, Anatomy joint) noexcept;
 

@@ -41,6 +41,10 @@ class Lengths {
     if (!(value > 0)) table.fail(key, "must be above 0");
     return scale_ * value;
   }
+  Vec3 optional_components(io::TomlTable& table) const {
+    return scale_ *
+           Vec3(table.number("x").value_or(0), table.number("y").value_or(0), table.number("z").value_or(0));
+  }
   double not_negative(io::TomlTable& table, std::string_view key) const {
     const double value = table.required(key, table.number(key));
     if (value < 0) table.fail(key, "must be 0 or more");
@@ -155,17 +159,47 @@ std::string hinge_text(const JointDescription& joint) {
   return fmt::format("a hinge rotates in {} only", name_of(JointAngle::flexion, joint.anatomy));
 }
 
-PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint) {
+/// What the file says, else what its frame is of.
+Anatomy anatomy_of(io::TomlTable& file, const JointDescription& joint) {
+  if (!file.has("joint")) {
+    if (joint.kind == JointKind::free) file.fail_missing("joint");
+    const bool of_knee = std::holds_alternative<TransepicondylarAxis>(joint.frame.axes);
+    return joint.kind == JointKind::hinge && of_knee ? Anatomy::knee : Anatomy::hip;
+  }
+  const Anatomy anatomy =
+      all_anatomies[file.required_word("joint", {"hip", "knee", "ankle", "elbow", "shoulder"})];
+  if (joint.kind == JointKind::hinge && (anatomy == Anatomy::hip || anatomy == Anatomy::shoulder))
+    file.fail("joint", fmt::format("a {} is no hinge; left out, a hinge flexes forwards", name_of(anatomy)));
+  return anatomy;
+}
+
+TranslationFrame translation_frame_of(io::TomlTable& file, const JointDescription& joint) {
+  if (!file.has("translation_frame")) return TranslationFrame::fixed;
+  if (joint.kind != JointKind::free)
+    file.fail("translation_frame", fmt::format("a {} does not translate", name_of(joint.kind)));
+  if (file.required_word("translation_frame", {"fixed", "joint_axes"}) == 0) return TranslationFrame::fixed;
+  if (joint.anatomy == Anatomy::shoulder)
+    file.fail("translation_frame", "a shoulder has two of its axes along one line: use \"fixed\"");
+  return TranslationFrame::joint_axes;
+}
+
+PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint, const Lengths& lengths) {
   auto table = file.table("reference_pose");
   if (!table) return {};
   const auto degrees = [&](JointAngle name) {
     return table->number(name_of(name, joint.anatomy)).value_or(0);
   };
-  const PoseDegrees pose{degrees(JointAngle::flexion), degrees(JointAngle::adduction),
-                         degrees(JointAngle::internal_rotation)};
+  PoseDegrees pose{degrees(JointAngle::flexion), degrees(JointAngle::adduction),
+                   degrees(JointAngle::internal_rotation)};
   if (joint.kind == JointKind::hinge)
     for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
       if (pose[name] != 0) table->fail(name_of(name, joint.anatomy), hinge_text(joint));
+  if (joint.kind == JointKind::free) {
+    pose.translation_mm = lengths.optional_components(*table);
+  } else {
+    for (const auto key : {"x", "y", "z"})
+      if (table->has(key)) table->fail(key, fmt::format("a {} does not translate", name_of(joint.kind)));
+  }
   table->finish();
   return pose;
 }
@@ -244,15 +278,18 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   out.path = path;
   out.digest = digest_of(text);
   joint.name = file.required("name", file.text("name"));
-  joint.kind = file.required_word("kind", {"ball", "hinge"}) == 0 ? JointKind::ball : JointKind::hinge;
+  constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::free};
+  joint.kind = kinds[file.required_word("kind", {"ball", "hinge", "free"})];
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
   out.fixed = body_entry(file, "fixed");
   out.mobile = body_entry(file, "mobile");
   for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
-  out.reference_pose = reference_pose(file, joint);
-  joint.reference_pose = out.reference_pose.angles();
+  joint.anatomy = anatomy_of(file, joint);
+  joint.translation_frame = translation_frame_of(file, joint);
+  out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
+  joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);
   out.uncertainty = uncertainty(file, Lengths(joint.units));
   file.finish();

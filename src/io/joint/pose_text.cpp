@@ -70,13 +70,17 @@ PoseDegrees parse_pose(std::string_view text, JointKind kind, Anatomy joint) {
       if (given(angle) != 0)
         throw UsageError(fmt::format("pose: a hinge rotates in {} only, not in {}",
                                      name_of(JointAngle::flexion, joint), name_of(angle, joint)));
-  return {given(JointAngle::flexion), given(JointAngle::adduction), given(JointAngle::internal_rotation)};
+  return {given(JointAngle::flexion), given(JointAngle::adduction), given(JointAngle::internal_rotation),
+          Vec3::Zero()};
 }
 
 std::string to_text(const PoseDegrees& pose, Anatomy joint) {
   std::string text;
   for (const JointAngle angle : all_joint_angles)
     text += fmt::format("{}{}={}", text.empty() ? "" : " ", name_of(angle, joint), pose[angle]);
+  if (pose.translation_mm != Vec3::Zero())
+    text += fmt::format(" x={} y={} z={}", pose.translation_mm.x(), pose.translation_mm.y(),
+                        pose.translation_mm.z());
   return text;
 }
 
@@ -110,6 +114,10 @@ std::string_view name_of(Anatomy joint) noexcept {
       break;
   }
   return "shoulder";
+}
+
+std::string_view name_of(TranslationFrame frame) noexcept {
+  return frame == TranslationFrame::fixed ? "fixed" : "joint_axes";
 }
 
 std::string_view name_of(JointAngle angle, Anatomy joint) noexcept {

@@ -23,6 +23,7 @@ Json depth_header(const DepthQuestion& question, const char* method) {
           {"joint", joint.name},
           {"fixed", joint.fixed.name},
           {"mobile", joint.mobile.name},
+          {"anatomy", anatomy_json(joint)},
           {"side", joint.side == Side::right ? "right" : "left"},
           {"method", method},
           {"pose_deg", pose_json(pose, joint.anatomy)},

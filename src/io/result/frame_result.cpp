@@ -83,11 +83,17 @@ std::string letter_of(const Vec3& axis) {
   return letter == 'Z' ? std::string("Z") : std::string{'+', letter};
 }
 
+/// ", knee": nothing for a hinge of no joint.
+std::string words_of_anatomy(const Joint& joint) {
+  return joint.names_its_joint() ? fmt::format(", {}", name_of(joint.anatomy)) : std::string();
+}
+
 /// As it was given, or as the landmarks of both bodies give it.
 PoseDegrees reference_pose_of(const JointReport& report) {
   if (!report.placement.pose_from_landmarks) return report.file.reference_pose;
-  const JointAngles& pose = report.placement.reference_pose;
-  return {pose.flexion.degrees(), pose.adduction.degrees(), pose.internal_rotation.degrees()};
+  const auto& [angles, translation] = report.placement.reference_pose;
+  return {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees(),
+          translation};
 }
 
 }  // namespace
@@ -95,8 +101,8 @@ PoseDegrees reference_pose_of(const JointReport& report) {
 std::string to_text(const LoadedJoint& loaded) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
-  std::string out =
-      fmt::format("{}: {} joint, {} side\n", joint.name, name_of(joint.kind), name_of(joint.side));
+  std::string out = fmt::format("{}: {} joint{}, {} side\n", joint.name, name_of(joint.kind),
+                                words_of_anatomy(joint), name_of(joint.side));
   out += fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre",
                      text_of(placement.X_WF.translation()));
   for (const auto& [name, axis] : axes_of(placement.X_WF))
@@ -108,6 +114,10 @@ std::string to_text(const LoadedJoint& loaded) {
                        io::spaced(name_of(angle, joint.anatomy)),
                        letter_of(axis_of(angle, joint.coordinates(), {})));
   }
+  if (joint.kind == JointKind::free)
+    out += joint.translation_frame == TranslationFrame::fixed
+               ? "; translation along X, Y and Z of the fixed body"
+               : "; translation along the joint's axes";
   out += fmt::format("\n  reference pose {}\n", to_text(reference_pose_of(report), joint.anatomy));
   out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
          text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
@@ -121,11 +131,16 @@ std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes,
   Json out{{"file", report.file.path.string()},
            {"name", joint.name},
            {"kind", name_of(joint.kind)},
+           {"anatomy", io::anatomy_json(joint)},
            {"side", name_of(joint.side)},
            {"units_of_meshes", report.file.joint.units == LengthUnit::metres ? "m" : "mm"},
            {"centre_mm", io::numbers(placement.X_WF.translation())}};
   for (const auto& [name, axis] : axes_of(placement.X_WF)) out["axes"][name] = io::numbers(axis);
   out["reference_pose_deg"] = io::pose_json(reference_pose_of(report), joint.anatomy);
+  if (joint.kind == JointKind::free) {
+    out["reference_translation_mm"] = io::numbers(placement.reference_pose.translation_mm);
+    out["translation_frame"] = name_of(joint.translation_frame);
+  }
   out["fit"] = placement.sphere     ? json_of(*placement.sphere)
                : placement.cylinder ? json_of(*placement.cylinder, placement.axis_rotation)
                                     : Json();

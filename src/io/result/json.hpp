@@ -6,6 +6,7 @@
 #include <string>
 
 #include "condyle/io/pose_text.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/points.hpp"
 
@@ -35,6 +36,11 @@ inline Json notes_json(std::span<const JointNote> notes) {
   Json list = Json::array();
   for (const JointNote& note : notes) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
   return list;
+}
+
+/// Which joint it is; null for a hinge that is none in particular.
+inline Json anatomy_json(const Joint& joint) {
+  return joint.names_its_joint() ? Json(name_of(joint.anatomy)) : Json(nullptr);
 }
 
 /// As it was given.

@@ -237,6 +237,7 @@ std::string rom_json(const RomResult& result) {
             {"joint", result.joint.name},
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
+            {"anatomy", io::anatomy_json(result.joint)},
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
             {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},

@@ -64,6 +64,7 @@ struct Sliding {
 
 struct ZoneFinder::Parts {
   CoordinateSystem system;
+  bool has_socket;
   Angle past;
   ClockFace socket_clock;
   std::optional<NeckAxis> neck;
@@ -77,9 +78,10 @@ ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   const auto bearing = find_bearing_surface(joint, options.bearing).surface;
   std::optional<NeckAxis> neck = options.neck;
   if (!neck && bearing) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
-  parts_ = std::make_unique<Parts>(Parts{
-      joint.coordinates(), options.past, options.socket_clock ? *options.socket_clock : sagittal_clock(),
-      neck, Sliding(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
+  parts_ = std::make_unique<Parts>(Parts{joint.coordinates(), joint.is_hip(), options.past,
+                                         options.socket_clock ? *options.socket_clock : sagittal_clock(),
+                                         neck, Sliding(joint.mobile.mesh, bearing, options.bearing.rule),
+                                         JointContact(joint)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -92,7 +94,7 @@ const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;
-  const auto& [system, past, socket_clock, neck, sliding, contact] = *parts_;
+  const auto& [system, has_socket, past, socket_clock, neck, sliding, contact] = *parts_;
   ImpingementZone zone{limit, past, {}, {}, {}, {}, {}, {}};
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
@@ -125,8 +127,8 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   take_triangles(contact.fixed(), std::move(of_fixed), zone.fixed);
   take_triangles(contact.mobile(), std::move(of_mobile), zone.mobile);
 
-  zone.contact_hour = socket_clock.hour_of(limit.end.contact->fixed_point);
-  if (zone.fixed.centroid_mm) zone.zone_hour = socket_clock.hour_of(*zone.fixed.centroid_mm);
+  if (has_socket) zone.contact_hour = socket_clock.hour_of(limit.end.contact->fixed_point);
+  if (has_socket && zone.fixed.centroid_mm) zone.zone_hour = socket_clock.hour_of(*zone.fixed.centroid_mm);
   if (!neck) return zone;
   const ClockFace around_neck = neck_clock(*neck);
   zone.contact_neck_angle = around_neck.angle_of(limit.end.contact->mobile_point);

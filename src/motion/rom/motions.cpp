@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "condyle/error.hpp"
@@ -26,6 +27,54 @@ std::string in_small_letters(std::string_view name) {
   return small;
 }
 
+/// How far an angle may turn either way, degrees.
+struct Ranges {
+  double positive, negative;
+};
+
+/// Every angle of a joint both ways from zero, by its names.
+std::vector<Motion> each_way(Anatomy joint, Ranges first, Ranges second, Ranges third) {
+  const std::array ranges{first, second, third};
+  std::vector<Motion> motions;
+  for (const JointAngle angle : all_joint_angles) {
+    const auto i = static_cast<std::size_t>(angle);
+    const auto& [positive_name, negative_name] = coordinate_names(joint)[i];
+    motions.push_back(
+        {std::string(positive_name), angle, positive, at(0), Angle::degrees(ranges[i].positive)});
+    motions.push_back(
+        {std::string(negative_name), angle, negative, at(0), Angle::degrees(ranges[i].negative)});
+  }
+  return motions;
+}
+
+std::vector<Motion> with_rotations_at_90_flexion(std::vector<Motion> motions, Anatomy joint) {
+  const std::size_t count = motions.size();
+  for (std::size_t i = count - 2; i < count; ++i) {
+    Motion bent = motions[i];
+    bent.name += std::string("_at_90_") + std::string(coordinate_names(joint)[0].positive);
+    bent.start = at(90);
+    motions.push_back(std::move(bent));
+  }
+  return motions;
+}
+
+/// Angles are the plane of elevation, the elevation and rotation.
+std::vector<Motion> shoulder_motions() {
+  const auto plane = JointAngle::flexion, elevation = JointAngle::adduction;
+  const auto half = Angle::degrees(180), quarter = Angle::degrees(90), third = Angle::degrees(120);
+  return {
+      {"abduction", elevation, positive, at(0), half},
+      {"flexion", elevation, positive, at(90), half},
+      {"extension", elevation, positive, at(-90), quarter},
+      {"horizontal_flexion", plane, positive, at(0, 90), half},
+      {"horizontal_extension", plane, negative, at(0, 90), quarter},
+      {"internal_rotation", rotation, positive, at(0), third},
+      {"external_rotation", rotation, negative, at(0), third},
+      {"internal_rotation_at_90_abduction", rotation, positive, at(0, 90), third},
+      {"external_rotation_at_90_abduction", rotation, negative, at(0, 90), third},
+  };
+}
+
 }  // namespace
 
 std::vector<Motion> hip_motions() {
@@ -46,15 +95,25 @@ std::vector<Motion> hip_motions() {
   };
 }
 
-std::vector<Motion> hinge_motions() {
-  return {
-      {"flexion", flexion, positive, at(0), Angle::degrees(180)},
-      {"extension", flexion, negative, at(0), Angle::degrees(180)},
-  };
-}
-
-std::vector<Motion> built_in_motions(JointKind kind) {
-  return kind == JointKind::ball ? hip_motions() : hinge_motions();
+std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint) {
+  if (kind == JointKind::hinge) {
+    const auto& [positive_name, negative_name] = coordinate_names(joint)[0];
+    return {{std::string(positive_name), flexion, positive, at(0), Angle::degrees(180)},
+            {std::string(negative_name), flexion, negative, at(0), Angle::degrees(180)}};
+  }
+  switch (joint) {
+    case Anatomy::knee:
+      return with_rotations_at_90_flexion(each_way(joint, {180, 90}, {90, 90}, {120, 120}), joint);
+    case Anatomy::ankle:
+      return each_way(joint, {90, 90}, {90, 90}, {120, 120});
+    case Anatomy::elbow:
+      return with_rotations_at_90_flexion(each_way(joint, {180, 90}, {90, 90}, {180, 180}), joint);
+    case Anatomy::shoulder:
+      return shoulder_motions();
+    case Anatomy::hip:
+      break;
+  }
+  return hip_motions();
 }
 
 std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own) {
