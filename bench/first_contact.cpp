@@ -97,7 +97,8 @@ void ask_limit(const Motion& motion, const Joint& joint, const RangeOfMotion& ra
                const Building& building, int rounds, Report& report) {
   const double sign = motion.sense == condyle::RotationSense::positive ? 1 : -1;
   const TouchAt touch = [&](Angle turn) {
-    return fcl.touch(condyle::pose_at(joint.side, turned_by(motion.start, motion.vary, turn * sign)));
+    return fcl.touch(
+        condyle::pose_at(joint.coordinates(), turned_by(motion.start, motion.vary, turn * sign)));
   };
 
   MotionLimit limit;

@@ -8,7 +8,7 @@
 namespace bench {
 
 condyle::AxisFrame arc_axis() {
-  return {{0, 0, 0}, axis_of(condyle::JointAngle::flexion, condyle::Side::right, {})};
+  return {{0, 0, 0}, axis_of(condyle::JointAngle::flexion, {.side = condyle::Side::right}, {})};
 }
 
 bool Method::touch(const condyle::Pose&) {

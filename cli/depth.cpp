@@ -37,15 +37,16 @@ DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, 
   const Pose& X_FM = question.X_FM;
   const RadialContact contact = joint.radial(X_FM);
   const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
-  const ReliableContact reliable = method == DepthMethod::reliable
-                                       ? reliable_depths(joint, question.joint.kind, question.joint.side,
-                                                         question.pose.angles(), contact, measures.distances)
-                                       : reliable_radial_depths(contact, measures.distances);
+  const ReliableContact reliable =
+      method == DepthMethod::reliable
+          ? reliable_depths(joint, question.joint.kind, question.joint.coordinates(), question.pose.angles(),
+                            contact, measures.distances)
+          : reliable_radial_depths(contact, measures.distances);
   return depth_result(question, method, measures, contact, summarise(joint, X_FM, contact), reliable);
 }
 
 DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about) {
-  const RotationAxis axis{about, axis_of(about, question.joint.side, question.pose.angles())};
+  const RotationAxis axis{about, axis_of(about, question.joint.coordinates(), question.pose.angles())};
   const TangentialContact contact = joint.tangential(question.X_FM, axis.direction_F);
   return depth_result(question, measure_contact(joint, question.X_FM, VertexStates(contact)), axis, contact);
 }
@@ -62,7 +63,9 @@ DepthResult answer_of(const Options& options, const DepthQuestion& question) {
     case Method::tangential:
       break;
   }
-  return by_tangential(question, joint, joint_angle_named(options.about.value_or("flexion")));
+  const JointAngle about =
+      options.about ? joint_angle_named(*options.about, question.joint.anatomy) : JointAngle::flexion;
+  return by_tangential(question, joint, about);
 }
 
 void require_solids(const LoadedJoint& loaded) {
@@ -77,10 +80,10 @@ void require_solids(const LoadedJoint& loaded) {
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
-  const PoseDegrees pose = parse_pose(options.pose, joint.kind);
+  const PoseDegrees pose = parse_pose(options.pose, joint.kind, joint.anatomy);
   if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  const DepthQuestion question{joint, pose, pose_at(joint.side, pose.angles()),
+  const DepthQuestion question{joint, pose, pose_at(joint.coordinates(), pose.angles()),
                                noted(loaded, options.strictness), &from};
   const DepthResult result = answer_of(options, question);
   if (!options.out.empty())
@@ -98,9 +101,10 @@ void add_depth(CLI::App& app) {
       "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  command->add_option(
-      "--pose", options->pose,
-      "Angles in degrees, such as \"flexion=90 adduction=-10 internal_rotation=20\"; those left out are 0");
+  command->add_option("--pose", options->pose,
+                      "Angles in degrees, such as \"flexion=90 adduction=-10 internal_rotation=20\", by the "
+                      "names they have at "
+                      "the joint; those left out are 0");
   command
       ->add_option_function<std::string>(
           "--method",

@@ -60,17 +60,18 @@ std::vector<Motion> chosen_motions(const std::vector<Motion>& known, const std::
 }
 
 /// One line per motion: its name, what varies and how far, and what is held.
-std::string list_of(const std::vector<Motion>& motions) {
+std::string list_of(const std::vector<Motion>& motions, Anatomy joint) {
   std::size_t widest = 0;
   for (const Motion& motion : motions) widest = std::max(widest, motion.name.size());
   std::string text;
   for (const Motion& motion : motions) {
     const auto degrees = [&](JointAngle angle) { return angle_of(motion.start, angle).degrees(); };
     const double from = degrees(motion.vary), to = from + sign_of(motion.sense) * motion.range.degrees();
-    text += fmt::format("{:<{}}  {} from {:g} to {:g}", motion.name, widest, name_of(motion.vary), from, to);
-    for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
+    text += fmt::format("{:<{}}  {} from {:g} to {:g}", motion.name, widest, name_of(motion.vary, joint),
+                        from, to);
+    for (const JointAngle angle : all_joint_angles)
       if (angle != motion.vary && degrees(angle) != 0)
-        text += fmt::format(", {} {:g}", name_of(angle), degrees(angle));
+        text += fmt::format(", {} {:g}", name_of(angle, joint), degrees(angle));
     text += "\n";
   }
   return text;
@@ -78,22 +79,22 @@ std::string list_of(const std::vector<Motion>& motions) {
 
 /// The angle that is neither.
 JointAngle third_angle(JointAngle a, JointAngle b) {
-  for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
+  for (const JointAngle angle : all_joint_angles)
     if (angle != a && angle != b) return angle;
   return JointAngle::internal_rotation;
 }
 
-std::optional<MapGrid> grid_of(const Options& options, JointKind kind) {
+std::optional<MapGrid> grid_of(const Options& options, const Joint& joint) {
   if (options.map.empty()) {
     if (!options.vary.empty()) throw UsageError("--vary: is for --map");
     return std::nullopt;
   }
   MapGrid grid;
-  grid.column = parse_grid_axis(options.map[0]);
-  grid.row = parse_grid_axis(options.map[1]);
-  grid.vary =
-      options.vary.empty() ? third_angle(grid.column.angle, grid.row.angle) : joint_angle_named(options.vary);
-  check_grid(grid, kind);
+  grid.column = parse_grid_axis(options.map[0], joint.anatomy);
+  grid.row = parse_grid_axis(options.map[1], joint.anatomy);
+  grid.vary = options.vary.empty() ? third_angle(grid.column.angle, grid.row.angle)
+                                   : joint_angle_named(options.vary, joint.anatomy);
+  check_grid(grid, joint.kind);
   return grid;
 }
 
@@ -189,11 +190,11 @@ void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
   const std::vector<Motion> known =
-      with_own_motions(built_in_motions(joint.kind), loaded.report.file.motions);
+      with_own_motions(built_in_motions(joint.kind, joint.anatomy), loaded.report.file.motions);
   const std::vector<Motion> motions = chosen_motions(known, options.motions);
-  if (options.task == Task::list_motions) return print(list_of(motions));
-  const std::optional<MapGrid> grid = grid_of(options, joint.kind);
-  const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose);
+  if (options.task == Task::list_motions) return print(list_of(motions, joint.anatomy));
+  const std::optional<MapGrid> grid = grid_of(options, joint);
+  const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose.angles);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   std::optional<ZoneFinder> finder;
   if (options.past_deg)

@@ -40,7 +40,8 @@ struct ImpingementZone {
   Angle past;  ///< the pose is this far past the limit
   BodyZone fixed, mobile;
 
-  /// On the socket's clock: the contact at the limit, and the centroid of the fixed body's zone past it.
+  /// On the socket's clock: the contact at the limit, and the centroid of the fixed body's zone past it. Empty but
+  /// for a hip.
   std::optional<double> contact_hour, zone_hour;
   /// Around the neck, from superior towards anterior: the same on the mobile body. Empty without a neck.
   std::optional<Angle> contact_neck_angle, zone_neck_angle;

@@ -1,31 +1,57 @@
 #pragma once
 
+#include <array>
+#include <string_view>
+
 #include "condyle/angle.hpp"
 #include "condyle/pose.hpp"
 
-/// The clinical angles of a joint and the poses they name: docs/mathematics.md, section 1.
+/// The clinical coordinates of a joint and the poses they name: docs/mathematics.md, section 1.
 ///
-/// The joint frame has its origin at the joint centre, X anterior, Y superior, Z to the subject's right, on
-/// both sides of the body. A right joint rotates by
+/// The joint frame F has X anterior, Y superior, Z to the subject's right, on both sides of the body. A pose of the
+/// mobile body M is three rotations, each about the axis as the earlier ones left it. On a right joint
 ///
-///     R_FM = R_z(flexion) R_x(adduction) R_y(internal rotation)
+///     hip       R_FM = R_z(flexion) R_x(adduction) R_y(internal rotation)              Wu et al. 2002
+///     knee      R_FM = R_z(-flexion) R_x(adduction) R_y(internal rotation)             Grood and Suntay 1983
+///     ankle     R_FM = R_z(dorsiflexion) R_x(inversion) R_y(internal rotation)         Wu et al. 2002
+///     elbow     R_FM = R_z(flexion) R_x(varus) R_y(pronation)                          Wu et al. 2005
+///     shoulder  R_FM = R_y(plane of elevation) R_x(-elevation) R_y(internal rotation)  Wu et al. 2005
 ///
-/// and a left one by the same with the last two axes negated, so that one sign means one movement on either
-/// side:
-///
-///     flexion            > 0 brings the mobile body forwards     e1 = Z, fixed in F
-///     adduction          > 0 brings it towards the midline       e2, the common perpendicular of e1 and e3
-///     internal rotation  > 0 brings its front to the midline     e3 = Y (right) or -Y (left), fixed in M
+/// and on a left one the same with X and Y axes negated, so that one sign means one movement on either side.
 
 namespace condyle {
 
 enum class Side { right, left };
 
-/// A ball rotates in all three angles about its centre; a hinge in flexion only, about its Z axis.
-enum class JointKind { ball, hinge };
+/// Which joint it is: it decides the order, the signs and the names of the angles.
+enum class Anatomy { hip, knee, ankle, elbow, shoulder };
 
-enum class JointAngle { flexion, adduction, internal_rotation };
+inline constexpr std::array all_anatomies{Anatomy::hip, Anatomy::knee, Anatomy::ankle, Anatomy::elbow,
+                                          Anatomy::shoulder};
 
+/// A joint's coordinate system: what its angles turn about.
+struct CoordinateSystem {
+  Anatomy anatomy = Anatomy::hip;
+  Side side = Side::right;
+
+  friend bool operator==(const CoordinateSystem&, const CoordinateSystem&) = default;
+};
+
+/// A ball rotates in all three angles about its centre; a hinge in the first only, about its Z axis; a free joint rotates
+/// in all three and translates.
+enum class JointKind { ball, hinge, free };
+
+/// The three angles by the names they have at a hip and a knee; coordinate_names() has those of other joints.
+enum class JointAngle {
+  flexion,            ///< about e1, fixed in F
+  adduction,          ///< about e2, the common perpendicular of e1 and e3
+  internal_rotation,  ///< about e3, fixed in M
+};
+
+inline constexpr std::array all_joint_angles{JointAngle::flexion, JointAngle::adduction,
+                                             JointAngle::internal_rotation};
+
+/// The angles about e1, e2 and e3, named after the hip and the knee.
 struct JointAngles {
   Angle flexion;
   Angle adduction;
@@ -34,22 +60,61 @@ struct JointAngles {
   friend bool operator==(const JointAngles&, const JointAngles&) = default;
 };
 
+/// What an angle is called where it is above zero, and where below.
+struct AngleNames {
+  std::string_view positive, negative;
+};
+
+/// The clinical names of a joint's three angles, in the order of JointAngle, with underscores:
+///
+///              e1                                e2                  e3
+///     hip      flexion, extension                adduction, abduction   internal_, external_rotation
+///     knee     flexion, extension                adduction, abduction   internal_, external_rotation
+///     ankle    dorsiflexion, plantarflexion      inversion, eversion    internal_, external_rotation
+///     elbow    flexion, extension                varus, valgus          pronation, supination
+///     shoulder plane_of_elevation, posterior_plane_of_elevation   elevation, lowering   internal_, external_rotation
+const std::array<AngleNames, 3>& coordinate_names(Anatomy joint) noexcept;
+
 /// X_FM at these angles: a rotation about the joint centre. Any finite angles. Exactly the identity at zero,
 /// and every entry exactly 0, 1 or -1 where all three are multiples of 90 degrees.
-Pose pose_at(Side side, const JointAngles& angles) noexcept;
+Pose pose_at(CoordinateSystem system, const JointAngles& angles) noexcept;
 
-/// The angles of a pose: flexion and internal rotation in (-180, 180], adduction in [-90, 90] degrees. Only
-/// the rotation is read. At adduction = +-90 degrees (to rounding) flexion and internal rotation are about
-/// one line and the pose fixes only their sum or difference: internal rotation is then given as 0.
-/// pose_at() of the answer is the rotation again to rounding, there and everywhere.
-JointAngles angles_at(Side side, const Pose& X_FM) noexcept;
+/// The angles of a pose; only the rotation is read. The first and the third are in (-180, 180] degrees, the second in
+/// [-90, 90], the elevation of a shoulder in [0, 180]. Where e1 and e3 lie along one line (to rounding) the pose fixes
+/// only the sum or difference of those two: at +-90 degrees of adduction internal rotation is given as 0, at 0 and 180
+/// degrees of elevation the plane of elevation is. pose_at() of the answer is the rotation again to rounding, there and
+/// everywhere.
+JointAngles angles_at(CoordinateSystem system, const Pose& X_FM) noexcept;
 
 /// The unit axis in F about which the mobile body rotates when one angle grows and the other two are held:
 /// rotating M counter-clockwise about it by d is adding d to that angle.
 ///
-///     flexion            e1 = Z                          whatever the angles
+///     flexion            e1 = +-Z (shoulder +-Y)         whatever the angles
 ///     adduction          e2 = R(flexion) (+-X)           depends on flexion
 ///     internal rotation  e3 = R_FM (+-Y)                 depends on flexion and adduction
-Vec3 axis_of(JointAngle angle, Side side, const JointAngles& at) noexcept;
+Vec3 axis_of(JointAngle angle, CoordinateSystem system, const JointAngles& at) noexcept;
+
+/// Along which axes the components of a translation are.
+enum class TranslationFrame {
+  fixed,  ///< X, Y and Z of F
+  /// e2, e3 and e1, each in the sense of X, Y and Z at zero angles (Grood and Suntay 1983): oblique, and not for a shoulder,
+  /// whose e1 and e3 start along one line.
+  joint_axes
+};
+
+/// Where a body is that rotates and translates.
+struct JointCoordinates {
+  JointAngles angles;
+  Vec3 translation_mm = Vec3::Zero();  ///< of the mobile body's origin; x, y and z of the translation frame
+
+  friend bool operator==(const JointCoordinates&, const JointCoordinates&) = default;
+};
+
+/// X_FM of p_F = R_FM p_M + t, t the translation brought into F.
+Pose pose_at(CoordinateSystem system, const JointCoordinates& at, TranslationFrame frame) noexcept;
+
+/// The coordinates of a pose: angles_at() and the translation. Along joint axes the translation is not finite, or without
+/// meaning, where e1 and e3 lie along one line.
+JointCoordinates coordinates_at(CoordinateSystem system, const Pose& X_FM, TranslationFrame frame) noexcept;
 
 }  // namespace condyle

@@ -32,8 +32,8 @@ struct FrameDirections {
 /// Axes of images, named by where x, y and z point: Right Anterior Superior, Left Posterior Superior.
 inline const FrameDirections ras_axes{Vec3::UnitY(), Vec3::UnitZ()}, lps_axes{-Vec3::UnitY(), Vec3::UnitZ()};
 
-/// The centre of a ball is that of the sphere fitted to its head (mobile) or its socket (fixed); the axis
-/// of a hinge is that of the cylinder fitted to the body.
+/// The centre of a ball is that of the sphere fitted to its head (mobile) or its socket (fixed), and so is that of a free
+/// hip or shoulder; the axis of a hinge, and of another free joint, is that of the cylinder fitted to the body.
 struct CentreFit {
   BodyRole body = BodyRole::mobile;
   std::optional<Sphere> within = {};  ///< only vertices inside this ball are considered; mm, in W
@@ -59,7 +59,11 @@ struct JointDescription {
   LengthUnit units = LengthUnit::millimetres;  ///< of both meshes
   FrameDescription frame = {};
   /// The pose in which the mobile mesh is given; zero where the frame has mobile_axes.
-  JointAngles reference_pose = {};
+  JointCoordinates reference_pose = {};
+  Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
+  TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
+
+  CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };
 
 /// What became of a mesh on its way into the joint.
@@ -76,8 +80,8 @@ struct JointPlacement {
   BodyRole fitted_body = BodyRole::mobile;  ///< that either was fitted to
   Angle axis_rotation;                      ///< from the Z axis of the description to the fitted one
   AxisErrors axis_errors{0, 0, 0};          ///< of the directions as given; removed
-  JointAngles reference_pose = {};   ///< as described, or as it follows from the landmarks of both bodies
-  bool pose_from_landmarks = false;  ///< of both bodies
+  JointCoordinates reference_pose = {};  ///< as described, or as it follows from the landmarks of both bodies
+  bool pose_from_landmarks = false;      ///< of both bodies
   BodyPlacement fixed, mobile;
   std::vector<std::string> notes;  ///< one line each: which axes were corrected, what was fitted
 };

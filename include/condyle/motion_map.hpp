@@ -57,6 +57,7 @@ void check_grid(const MapGrid& grid, JointKind kind);
 struct MotionMap {
   MapGrid grid;
   std::vector<FreeAngles> points;  ///< grid.size(), row by row
+  Anatomy anatomy = Anatomy::hip;  ///< of the joint
 
   /// Of all searches together.
   SearchWork work() const noexcept;
@@ -83,13 +84,13 @@ std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& jo
 /// Three angles are coordinates of rotations, and equal boxes of them are not equally many rotations: near
 /// adduction = +-90 degrees flexion and internal rotation turn about nearly one line. A small change of the
 /// angles turns M by omega = e1 df + e2 da + e3 dr, and the volume that these three vectors span,
-/// |e1 . (e2 x e3)| = |e1 x e3| = cos(adduction), is what a box da df dr holds of the invariant (Haar)
-/// measure, which does not depend on how rotations are written down. Weighted by it the volume is the same in
+/// |e1 . (e2 x e3)| = |e1 x e3| = cos(adduction), of a shoulder sin(elevation), is what a box da df dr holds of the
+/// invariant (Haar) measure, which does not depend on how rotations are written down. Weighted by it the volume is the same in
 /// any joint coordinate system; the whole of rotations, flexion and internal rotation over a full turn and
 /// adduction over a half, has 360 * 360 * 360 / pi deg^3.
 struct FreeVolume {
   double plain_deg3 = 0;
-  double cosine_weighted_deg3 = 0;    ///< cos(adduction) integrated too, exactly where adduction is varied
+  double weighted_deg3 = 0;           ///< the weight integrated too, exactly where its own angle is varied
   std::vector<double> row_area_deg2;  ///< free width over the columns of each row
 };
 

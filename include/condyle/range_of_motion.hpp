@@ -41,11 +41,18 @@ struct Motion {
 /// here so that they can be cited and, under the same names, replaced.
 std::vector<Motion> hip_motions();
 
-/// The built-in motions of a hinge: flexion and extension, 0 to 180 degrees each.
-std::vector<Motion> hinge_motions();
-
-/// Those of this kind of joint.
-std::vector<Motion> built_in_motions(JointKind kind);
+/// The built-in motions of a joint that is no hinge: hip_motions(), and elsewhere each of its angles either way (an angle of
+/// which nothing is known turns by 90 or 120 degrees at most), rotation again _at_90_flexion where it flexes.
+///
+///     knee      flexion 0 to 180, extension, adduction, abduction, internal_rotation, external_rotation
+///     ankle     dorsiflexion, plantarflexion, inversion, eversion, internal_rotation, external_rotation
+///     elbow     flexion 0 to 180, extension, varus, valgus, pronation and supination 0 to 180
+///     shoulder  abduction and flexion 0 to 180, extension 0 to 90: elevation in the planes 0, 90 and -90 degrees;
+///               horizontal_flexion and _extension: the plane of elevation from 0 at elevation 90; rotations, and again
+///               _at_90_abduction
+///
+/// A hinge has the two of its first angle, 0 to 180 degrees each. Normal ranges are known here of hips only.
+std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint);
 
 /// Built-in motions with the user's: one of a known name replaces it in its place, others follow in order.
 std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own);
@@ -151,7 +158,7 @@ class RangeOfMotion {
   FreeAngles free_angles(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
 
   JointKind kind() const noexcept;
-  Side side() const noexcept;
+  CoordinateSystem coordinates() const noexcept;
   /// The bearing surface, or why there is none and everything counts.
   const BearingFinding& bearing() const noexcept;
   BearingRule bearing_rule() const noexcept;

@@ -58,8 +58,9 @@ struct ReliableContact {
 /// A vertex's radial depth where that is a depth (DeepestVertex::applies); else the shortest arc about one of the
 /// joint's axes at this pose, of those that set it free; else its nearest distance. `contact` and `distances` are those
 /// of the same pose. Asks for ring tables only where a vertex needs them.
-ReliableContact reliable_depths(const JointContact& joint, JointKind kind, Side side, const JointAngles& pose,
-                                const RadialContact& contact, const NearestDistances& distances);
+ReliableContact reliable_depths(const JointContact& joint, JointKind kind, CoordinateSystem system,
+                                const JointAngles& pose, const RadialContact& contact,
+                                const NearestDistances& distances);
 
 /// The same without rotations: radial depths, and nearest distances where those are none.
 ReliableContact reliable_radial_depths(const RadialContact& contact, const NearestDistances& distances);

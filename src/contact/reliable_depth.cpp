@@ -6,8 +6,6 @@
 namespace condyle {
 namespace {
 
-constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
-
 DepthWay way_about(std::size_t axis) noexcept {
   constexpr std::array ways{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
   return ways[axis];
@@ -82,15 +80,16 @@ ReliableContact both(const RadialContact& contact, const NearestDistances& dista
 
 }  // namespace
 
-ReliableContact reliable_depths(const JointContact& joint, JointKind kind, Side side, const JointAngles& pose,
-                                const RadialContact& contact, const NearestDistances& distances) {
+ReliableContact reliable_depths(const JointContact& joint, JointKind kind, CoordinateSystem system,
+                                const JointAngles& pose, const RadialContact& contact,
+                                const NearestDistances& distances) {
   const auto &mobile = contact.mobile_in_fixed, &fixed = contact.fixed_in_mobile;
   std::array<TangentialContact, 3> about;
   Rotations of_mobile{}, of_fixed{};
   if (needs_rotations(mobile, distances.mobile) || needs_rotations(fixed, distances.fixed)) {
     const std::size_t axes = kind == JointKind::hinge ? 1 : 3;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      about[axis] = joint.tangential(pose_at(side, pose), axis_of(all_angles[axis], side, pose));
+      about[axis] = joint.tangential(pose_at(system, pose), axis_of(all_joint_angles[axis], system, pose));
       if (about[axis].mobile_in_fixed) of_mobile[axis] = &*about[axis].mobile_in_fixed;
       if (about[axis].fixed_in_mobile) of_fixed[axis] = &*about[axis].fixed_in_mobile;
     }

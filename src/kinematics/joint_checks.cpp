@@ -295,7 +295,7 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   const bool fixed_is_bone = check_size(joint.fixed, notes), mobile_is_bone = check_size(joint.mobile, notes);
   for (const Body* body : {&joint.fixed, &joint.mobile}) check_surface(*body, notes);
   check_fit(joint, placement, notes);
-  if (joint.kind == JointKind::ball && fixed_is_bone && mobile_is_bone) check_ball(joint, placement, notes);
+  if (joint.is_hip() && fixed_is_bone && mobile_is_bone) check_ball(joint, placement, notes);
   return notes.take();
 }
 

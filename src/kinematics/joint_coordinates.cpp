@@ -1,6 +1,8 @@
 #include "condyle/joint_coordinates.hpp"
 
+#include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "core/predicates.hpp"
 
@@ -28,9 +30,25 @@ SineCosine sine_cosine(Angle angle) noexcept {
   return {sine, cosine};
 }
 
-/// The sense of the last two axes: +X and +Y on a right joint, -X and -Y on a left one.
-double sense(Side side) noexcept {
-  return side == Side::right ? 1.0 : -1.0;
+/// How a joint's three angles turn: about Z, X, Y or Y, X, Y, each in this sense.
+struct Rotations {
+  bool starts_about_y;  ///< Y-X-Y, else Z-X-Y
+  double e1, e2, e3;
+};
+
+Rotations rotations_of(CoordinateSystem system) noexcept {
+  const double sense = system.side == Side::right ? 1.0 : -1.0;  // of X and Y axes
+  switch (system.anatomy) {
+    case Anatomy::knee:
+      return {false, -1.0, sense, sense};
+    case Anatomy::shoulder:
+      return {true, sense, -sense, sense};
+    case Anatomy::hip:
+    case Anatomy::ankle:
+    case Anatomy::elbow:
+      break;
+  }
+  return {false, 1.0, sense, sense};
 }
 
 /// The angle of (x, y) in (-180, 180] degrees: atan2 with -180 given as 180, and -0 taken as 0. Extended
@@ -41,48 +59,131 @@ Angle angle_of(double y, double x) noexcept {
   return Angle::radians(radians == -std::numbers::pi ? std::numbers::pi : radians);
 }
 
-}  // namespace
-
-Pose pose_at(Side side, const JointAngles& angles) noexcept {
-  const auto [sf, cf] = sine_cosine(angles.flexion);
-  const auto [sa, ca] = sine_cosine(angles.adduction * sense(side));
-  const auto [sr, cr] = sine_cosine(angles.internal_rotation * sense(side));
-  Pose X = Pose::Identity();
-  // R_z(f) R_x(a) R_y(r) multiplied out. Adding 0 turns -0 into 0: zero angles give the identity bit for bit.
-  X.linear() << (cf * cr - sf * sa * sr) + 0.0, -sf * ca + 0.0, (cf * sr + sf * sa * cr) + 0.0,  //
-      (sf * cr + cf * sa * sr) + 0.0, cf * ca + 0.0, (sf * sr - cf * sa * cr) + 0.0,             //
-      -ca * sr + 0.0, sa + 0.0, ca * cr + 0.0;
-  return X;
+/// In this sense; half a turn is the same in either.
+Angle in_sense(double sense, Angle angle) noexcept {
+  return angle.radians() == std::numbers::pi ? angle : angle * sense;
 }
 
-JointAngles angles_at(Side side, const Pose& X_FM) noexcept {
-  const auto& R = X_FM.matrix();
+/// Of R_z R_x R_y.
+JointAngles angles_about_zxy(const Rotations& sense, const Eigen::Matrix4d& R) noexcept {
   // Column 1 is (-sf ca, cf ca, sa) and row 2 is (-ca sr, sa, ca cr). With f known, row 0 of
   // R_z(-f) R = R_x(a) R_y(r) is (cr, 0, sr): well conditioned even where f itself is not, so that the three always
   // reproduce R.
   const double ca = std::sqrt(R(0, 1) * R(0, 1) + R(1, 1) * R(1, 1));
   const Angle adduction = angle_of(R(2, 1), ca);
   // Rounding leaves up to 4u in entries that would be 0 at the gimbal pose: an f from those would be noise.
-  if (ca <= 4 * core::rounding_unit) return {angle_of(R(1, 0), R(0, 0)), adduction * sense(side), Angle()};
+  if (ca <= 4 * core::rounding_unit)
+    return {in_sense(sense.e1, angle_of(R(1, 0), R(0, 0))), adduction * sense.e2, Angle()};
   const Angle flexion = angle_of(-R(0, 1), R(1, 1));
   const auto [sf, cf] = sine_cosine(flexion);
   const Angle rotation = angle_of(cf * R(0, 2) + sf * R(1, 2), cf * R(0, 0) + sf * R(1, 0));
-  const bool half_turn = rotation.radians() == std::numbers::pi;
-  return {flexion, adduction * sense(side), half_turn ? rotation : rotation * sense(side)};
+  return {in_sense(sense.e1, flexion), adduction * sense.e2, in_sense(sense.e3, rotation)};
 }
 
-Vec3 axis_of(JointAngle angle, Side side, const JointAngles& at) noexcept {
+/// Of R_y R_x R_y, the second angle 0 or more.
+JointAngles angles_about_yxy(const Rotations& sense, const Eigen::Matrix4d& R) noexcept {
+  // Column 1 is (sp se, ce, cp se), se of the sense of e2. With p known, row 0 of R_y(-p) R = R_x(e) R_y(i) is
+  // (ci, 0, si), well conditioned wherever p is not.
+  const double se = std::sqrt(R(0, 1) * R(0, 1) + R(2, 1) * R(2, 1));
+  const Angle elevation = angle_of(se, R(1, 1));
+  // As above: at 0 and 180 degrees a p would be noise.
+  const Angle plane =
+      se <= 4 * core::rounding_unit ? Angle() : angle_of(sense.e2 * R(0, 1), sense.e2 * R(2, 1));
+  const auto [sp, cp] = sine_cosine(plane);
+  const Angle rotation = angle_of(cp * R(0, 2) - sp * R(2, 2), cp * R(0, 0) - sp * R(2, 0));
+  return {in_sense(sense.e1, plane), elevation, in_sense(sense.e3, rotation)};
+}
+
+/// The axes along which a translation's components are, in F.
+Eigen::Matrix3d translation_axes(CoordinateSystem system, const JointAngles& at, TranslationFrame frame,
+                                 const Pose& X_FM) noexcept {
+  if (frame == TranslationFrame::fixed) return Eigen::Matrix3d::Identity();
+  assert(system.anatomy != Anatomy::shoulder);
+  const Rotations sense = rotations_of(system);
+  Eigen::Matrix3d axes;
+  axes << sense.e2 * axis_of(JointAngle::adduction, system, at), X_FM.linear().col(1), Vec3::UnitZ();
+  return axes;
+}
+
+}  // namespace
+
+const std::array<AngleNames, 3>& coordinate_names(Anatomy joint) noexcept {
+  using Names = std::array<AngleNames, 3>;
+  static constexpr AngleNames rotation{"internal_rotation", "external_rotation"};
+  static constexpr Names hip{{{"flexion", "extension"}, {"adduction", "abduction"}, rotation}},
+      ankle{{{"dorsiflexion", "plantarflexion"}, {"inversion", "eversion"}, rotation}},
+      elbow{{{"flexion", "extension"}, {"varus", "valgus"}, {"pronation", "supination"}}},
+      shoulder{{{"plane_of_elevation", "posterior_plane_of_elevation"}, {"elevation", "lowering"}, rotation}};
+  switch (joint) {
+    case Anatomy::ankle:
+      return ankle;
+    case Anatomy::elbow:
+      return elbow;
+    case Anatomy::shoulder:
+      return shoulder;
+    case Anatomy::hip:
+    case Anatomy::knee:
+      break;
+  }
+  return hip;
+}
+
+Pose pose_at(CoordinateSystem system, const JointAngles& angles) noexcept {
+  const Rotations sense = rotations_of(system);
+  const auto [s1, c1] = sine_cosine(angles.flexion * sense.e1);
+  const auto [s2, c2] = sine_cosine(angles.adduction * sense.e2);
+  const auto [s3, c3] = sine_cosine(angles.internal_rotation * sense.e3);
+  Pose X = Pose::Identity();
+  // The three rotations multiplied out. Adding 0 turns -0 into 0: zero angles give the identity bit for bit.
+  if (sense.starts_about_y)
+    X.linear() << (c1 * c3 - s1 * c2 * s3) + 0.0, s1 * s2 + 0.0, (c1 * s3 + s1 * c2 * c3) + 0.0,  //
+        s2 * s3 + 0.0, c2 + 0.0, -s2 * c3 + 0.0,                                                  //
+        (-s1 * c3 - c1 * c2 * s3) + 0.0, c1 * s2 + 0.0, (c1 * c2 * c3 - s1 * s3) + 0.0;
+  else
+    X.linear() << (c1 * c3 - s1 * s2 * s3) + 0.0, -s1 * c2 + 0.0, (c1 * s3 + s1 * s2 * c3) + 0.0,  //
+        (s1 * c3 + c1 * s2 * s3) + 0.0, c1 * c2 + 0.0, (s1 * s3 - c1 * s2 * c3) + 0.0,             //
+        -c2 * s3 + 0.0, s2 + 0.0, c2 * c3 + 0.0;
+  return X;
+}
+
+JointAngles angles_at(CoordinateSystem system, const Pose& X_FM) noexcept {
+  const Rotations sense = rotations_of(system);
+  return sense.starts_about_y ? angles_about_yxy(sense, X_FM.matrix())
+                              : angles_about_zxy(sense, X_FM.matrix());
+}
+
+Vec3 axis_of(JointAngle angle, CoordinateSystem system, const JointAngles& at) noexcept {
+  const Rotations sense = rotations_of(system);
   switch (angle) {
     case JointAngle::flexion:
-      return Vec3::UnitZ();
+      return sense.e1 * (sense.starts_about_y ? Vec3(Vec3::UnitY()) : Vec3(Vec3::UnitZ()));
     case JointAngle::adduction: {
-      const auto [sf, cf] = sine_cosine(at.flexion);
-      return sense(side) * Vec3(cf, sf, 0);
+      const auto [s1, c1] = sine_cosine(at.flexion * sense.e1);
+      return sense.e2 * (sense.starts_about_y ? Vec3(c1, 0, -s1) : Vec3(c1, s1, 0));
     }
     case JointAngle::internal_rotation:
       break;
   }
-  return sense(side) * pose_at(side, at).linear().col(1);
+  return sense.e3 * pose_at(system, at).linear().col(1);
+}
+
+Pose pose_at(CoordinateSystem system, const JointCoordinates& at, TranslationFrame frame) noexcept {
+  Pose X = pose_at(system, at.angles);
+  X.translation() = translation_axes(system, at.angles, frame, X) * at.translation_mm;
+  return X;
+}
+
+JointCoordinates coordinates_at(CoordinateSystem system, const Pose& X_FM, TranslationFrame frame) noexcept {
+  const JointAngles angles = angles_at(system, X_FM);
+  const Vec3 t = X_FM.translation();
+  if (frame == TranslationFrame::fixed) return {angles, t};
+  // X is at right angles to both others; y + z k and z + y k are their projections, k the cosine between them.
+  const Eigen::Matrix3d axes = translation_axes(system, angles, frame, X_FM);
+  const Vec3 along = axes.transpose() * t;
+  const double k = axes.col(1).dot(axes.col(2)), square_of_sine = (1 - k) * (1 + k);
+  return {angles,
+          {along.x(), (along.y() - k * along.z()) / square_of_sine,
+           (along.z() - k * along.y()) / square_of_sine}};
 }
 
 }  // namespace condyle

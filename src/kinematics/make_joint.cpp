@@ -87,12 +87,18 @@ Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& place
   return rotated;
 }
 
+/// Where a fit looks for a sphere, and for a cylinder elsewhere.
+bool has_head(const JointDescription& description) noexcept {
+  const bool head = description.anatomy == Anatomy::hip || description.anatomy == Anatomy::shoulder;
+  return description.kind == JointKind::ball || (description.kind == JointKind::free && head);
+}
+
 Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& body,
                   JointPlacement& placement) {
   placement.fitted_body = fit.body;
   const Mesh mesh = placed(Pose::Identity(), scale_of(description.units), body);
   try {
-    if (description.kind == JointKind::ball) {
+    if (has_head(description)) {
       SphereSearch search;
       search.part = fit.body == BodyRole::fixed ? SphericalPart::socket : SphericalPart::head;
       search.within = fit.within;
@@ -136,7 +142,7 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
     notes.push_back(
         formatted("axes made orthonormal: lengths were off by %.1e and %.1e, the right angle by %.1e",
                   errors.anterior_length, errors.superior_length, errors.right_angle));
-  if (const JointAngles& pose = placement.reference_pose; placement.pose_from_landmarks)
+  if (const JointAngles& pose = placement.reference_pose.angles; placement.pose_from_landmarks)
     notes.push_back(
         formatted("the landmarks of both bodies give the reference pose: flexion %.2f, adduction %.2f, "
                   "internal rotation "
@@ -165,18 +171,22 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
 
 /// X_MW at zero angles, and the reference pose that goes with it.
 Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPlacement& placement) {
-  const Side side = description.side;
   if (!description.frame.mobile_axes) {
     placement.reference_pose = description.reference_pose;
-    return pose_at(side, description.reference_pose).inverse() * X_FW;
+    return pose_at(description.coordinates(), description.reference_pose, description.translation_frame)
+               .inverse() *
+           X_FW;
   }
-  if (description.kind != JointKind::ball) throw UsageError("frame: a hinge takes the landmarks of one body");
-  if (description.reference_pose != JointAngles{})
+  if (description.kind == JointKind::hinge)
+    throw UsageError("frame: a hinge takes the landmarks of one body");
+  if (description.anatomy != Anatomy::hip)
+    throw UsageError("frame: landmarks of pelvis and femur are those of a hip");
+  if (description.reference_pose != JointCoordinates{})
     throw UsageError("reference_pose: follows from the landmarks of both bodies: leave it out");
   try {
     const Pose X_WM =
-        frame_from_landmarks(placement.X_WF.translation(), side, *description.frame.mobile_axes);
-    placement.reference_pose = angles_at(side, X_FW * X_WM);
+        frame_from_landmarks(placement.X_WF.translation(), description.side, *description.frame.mobile_axes);
+    placement.reference_pose.angles = angles_at(description.coordinates(), X_FW * X_WM);
     placement.pose_from_landmarks = true;
     return X_WM.inverse();
   } catch (const UsageError& error) {
@@ -201,7 +211,8 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
   placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
   placement.notes = notes_on(placement);
-  return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile)},
+  return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile),
+                description.anatomy, description.translation_frame},
           std::move(placement)};
 }
 

@@ -72,7 +72,7 @@ TEST_F(SampleJointCommand, DepthIsWhatTheLibraryFinds) {
   const Json json = answer(std::string("depth sample/hip.toml ") + deep);
   const JointContact joint(read_mesh(folder / "sample/hip_bone.ply").mesh,
                            read_mesh(folder / "sample/femur.ply").mesh);
-  const RadialContact contact = joint.radial(pose_at(Side::right, deep_angles));
+  const RadialContact contact = joint.radial(pose_at({.side = Side::right}, deep_angles));
   const auto inside = [](const RadialResults& hits) {
     return std::count(hits.state.begin(), hits.state.end(), PointState::inside);
   };
@@ -205,7 +205,8 @@ TEST_F(SampleJointCommand, ResultsAreWrittenTogether) {
 
   const TriMesh femur = read_mesh(folder / "sample/femur.ply").mesh;
   EXPECT_EQ(read_mesh(folder / "deep/fixed.vtp").mesh, read_mesh(folder / "sample/hip_bone.ply").mesh);
-  EXPECT_EQ(read_mesh(folder / "deep/mobile.vtp").mesh, posed(pose_at(Side::right, deep_angles), femur));
+  EXPECT_EQ(read_mesh(folder / "deep/mobile.vtp").mesh,
+            posed(pose_at({.side = Side::right}, deep_angles), femur));
   for (const char* name : {"deep/fixed.vtp", "deep/mobile.vtp"}) {
     std::ifstream file(folder / name, std::ios::binary);
     const std::string text((std::istreambuf_iterator<char>(file)), {});

@@ -15,14 +15,14 @@ class ArmIntoWall : public ::testing::Test {
  protected:
   const JointContact joint{box({40, -120, -50}, {60, -20, 50}), box({-1, -100, -2}, {1, -10, 2})};
   const JointAngles pose{Angle::degrees(25), {}, {}};
-  const Pose X_FM = pose_at(Side::right, pose);
+  const Pose X_FM = pose_at({.side = Side::right}, pose);
   const RadialContact contact = joint.radial(X_FM);
   const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
 };
 
 TEST_F(ArmIntoWall, IsAsDeepAsTheRotationThatFreesItSoonest) {
   const ReliableContact found =
-      reliable_depths(joint, JointKind::ball, Side::right, pose, contact, measures.distances);
+      reliable_depths(joint, JointKind::ball, {.side = Side::right}, pose, contact, measures.distances);
   ASSERT_TRUE(found.mobile && found.mobile->deepest);
   const DeepestReliable& deepest = *found.mobile->deepest;
   EXPECT_GT(deepest.ray_to_normal.degrees(), 60);
@@ -45,7 +45,7 @@ TEST_F(ArmIntoWall, IsAsDeepAsTheRotationThatFreesItSoonest) {
 
 TEST_F(ArmIntoWall, AHingeTurnsAboutOneAxisOnly) {
   const ReliableContact found =
-      reliable_depths(joint, JointKind::hinge, Side::right, pose, contact, measures.distances);
+      reliable_depths(joint, JointKind::hinge, {}, pose, contact, measures.distances);
   ASSERT_TRUE(found.mobile && found.mobile->deepest);
   EXPECT_TRUE(found.mobile->deepest->rotations[0]);
   EXPECT_FALSE(found.mobile->deepest->rotations[1]);
@@ -77,7 +77,7 @@ TEST(ReliableDepths, WhereTheSurfaceFacesTheRayTheRadialDepthIsIt) {
   const RadialContact contact = joint.radial(Pose::Identity());
   const ContactMeasures measures = measure_contact(joint, Pose::Identity(), VertexStates(contact));
   const ReliableContact found =
-      reliable_depths(joint, JointKind::ball, Side::right, {}, contact, measures.distances);
+      reliable_depths(joint, JointKind::ball, {.side = Side::right}, {}, contact, measures.distances);
   const RadialResults& radial = *contact.mobile_in_fixed;
   std::size_t along_rays = 0;
   for (std::size_t v = 0; v < radial.size(); ++v) {

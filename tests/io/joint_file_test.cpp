@@ -110,7 +110,7 @@ TEST_F(ReadJoint, AJointMadeByHandIsTheSameBitForBit) {
   JointDescription description{.name = "right hip", .kind = JointKind::ball, .side = Side::left};
   description.frame.centre = CentreFit{.body = BodyRole::mobile, .within = Sphere{{0, 0, 0}, 30}};
   description.frame.axes = FrameDirections{{0.8, 0, 0.6}, {0, 1, 0}};
-  description.reference_pose = {Angle::degrees(20), Angle::degrees(-10), {}};
+  description.reference_pose.angles = {Angle::degrees(20), Angle::degrees(-10), {}};
   const auto [by_hand, placement] =
       make_joint(description, {"hip bone", pelvis_like()}, {"femur", femur_like()});
 
@@ -166,9 +166,9 @@ TEST_F(ReadJoint, AReferencePoseIsTakenOffTheMobileMeshOnly) {
         read(replaced(plain, "\"right\"", "\"" + std::string(name) + "\"") +
              "[reference_pose]\nflexion = 20\nadduction = -10.0\ninternal_rotation = 5\n");
     EXPECT_EQ(joint.fixed.mesh, pelvis_like());
-    EXPECT_EQ(report.file.joint.reference_pose, reference);
+    EXPECT_EQ(report.file.joint.reference_pose.angles, reference);
     // In the reference pose the mesh is again where the file has it: two rotations with a few u of 400 mm each.
-    const TriMesh given = femur_like(), back = posed(pose_at(side, reference), joint.mobile.mesh);
+    const TriMesh given = femur_like(), back = posed(pose_at({.side = side}, reference), joint.mobile.mesh);
     for (std::size_t v = 0; v < given.vertices.size(); ++v)
       EXPECT_LE((back.vertices[v] - given.vertices[v]).norm(), 32 * core::rounding_unit * 400);
   }
@@ -229,7 +229,7 @@ TEST_F(ReadJoint, LandmarksGiveTheAxes) {
 TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
   // The scan has the femur flexed, adducted and turned in: its epicondyles are where that pose brings them.
   const JointAngles scan{Angle::degrees(12), Angle::degrees(4), Angle::degrees(-7)};
-  const Pose X = pose_at(Side::right, scan);
+  const Pose X = pose_at({.side = Side::right}, scan);
   const auto text = [](const char* key, const Vec3& p) {
     std::ostringstream line;
     line.precision(17);
@@ -245,7 +245,7 @@ TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
                    text("lateral_epicondyle", X * Vec3(0, -400, 40)));
   write_mesh(folder / "femur.ply", posed(X, femur_like()));
   const auto [joint, report] = read(both);
-  const JointAngles& found = report.placement.reference_pose;
+  const JointAngles& found = report.placement.reference_pose.angles;
   EXPECT_NEAR(found.flexion.degrees(), 12, 1e-12);
   EXPECT_NEAR(found.adduction.degrees(), 4, 1e-12);
   EXPECT_NEAR(found.internal_rotation.degrees(), -7, 1e-12);
@@ -350,7 +350,7 @@ TEST_F(ReadJoint, WrongTypesAndWordsAreNamedWithTheirLine) {
             "line 1: condyle: must be a whole number, not a number");
   EXPECT_EQ(refusal_of("\"right hip\"", "5"), "line 2: name: must be a text in quotes, not a whole number");
   EXPECT_EQ(refusal_of("\"ball\"", "\"saddle\""),
-            "line 3: kind: must be \"ball\" or \"hinge\", not \"saddle\"");
+            "line 3: kind: must be \"ball\" or \"hinge\" or \"free\", not \"saddle\"");
   EXPECT_EQ(refusal_of("\"right\"", "\"Right\""),
             "line 4: side: must be \"right\" or \"left\", not \"Right\"");
   EXPECT_EQ(refusal_of("\"mm\"", "\"cm\""), "line 5: units: must be \"mm\" or \"m\", not \"cm\"");

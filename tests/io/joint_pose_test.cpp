@@ -15,7 +15,7 @@ PoseDegrees degrees(double flexion, double adduction, double rotation) {
 
 std::string refusal(std::string_view text, JointKind kind = JointKind::ball) {
   try {
-    parse_pose(text, kind);
+    parse_pose(text, kind, Anatomy::hip);
   } catch (const UsageError& error) {
     return error.what();
   }
@@ -24,33 +24,38 @@ std::string refusal(std::string_view text, JointKind kind = JointKind::ball) {
 
 TEST(PoseText, ReadsTheThreeAnglesInAnyOrder) {
   const auto expected = degrees(90, -10, 20);
-  EXPECT_EQ(parse_pose("flexion=90 adduction=-10 internal_rotation=20", JointKind::ball), expected);
-  EXPECT_EQ(parse_pose("internal_rotation=20,flexion=+90,  adduction=-1e1\n", JointKind::ball), expected);
+  EXPECT_EQ(parse_pose("flexion=90 adduction=-10 internal_rotation=20", JointKind::ball, Anatomy::hip),
+            expected);
+  EXPECT_EQ(parse_pose("internal_rotation=20,flexion=+90,  adduction=-1e1\n", JointKind::ball, Anatomy::hip),
+            expected);
 }
 
 TEST(PoseText, AnglesLeftOutAreZero) {
-  EXPECT_EQ(parse_pose("", JointKind::ball), degrees(0, 0, 0));
-  EXPECT_EQ(parse_pose(" , ", JointKind::ball), degrees(0, 0, 0));
-  EXPECT_EQ(parse_pose("adduction=5.5", JointKind::ball), degrees(0, 5.5, 0));
+  EXPECT_EQ(parse_pose("", JointKind::ball, Anatomy::hip), degrees(0, 0, 0));
+  EXPECT_EQ(parse_pose(" , ", JointKind::ball, Anatomy::hip), degrees(0, 0, 0));
+  EXPECT_EQ(parse_pose("adduction=5.5", JointKind::ball, Anatomy::hip), degrees(0, 5.5, 0));
 }
 
 TEST(PoseText, ExtensionAbductionAndExternalRotationHaveTheOppositeSign) {
-  EXPECT_EQ(parse_pose("extension=15 abduction=40 external_rotation=-30", JointKind::ball),
+  EXPECT_EQ(parse_pose("extension=15 abduction=40 external_rotation=-30", JointKind::ball, Anatomy::hip),
             degrees(-15, -40, 30));
 }
 
 TEST(PoseText, NoAngleIsMinusNought) {
-  const PoseDegrees pose = parse_pose("extension=0 adduction=-0 external_rotation=0", JointKind::ball);
+  const PoseDegrees pose =
+      parse_pose("extension=0 adduction=-0 external_rotation=0", JointKind::ball, Anatomy::hip);
   for (const double angle : {pose.flexion, pose.adduction, pose.internal_rotation})
     EXPECT_FALSE(std::signbit(angle));
-  EXPECT_EQ(to_text(pose), "flexion=0 adduction=0 internal_rotation=0");
+  EXPECT_EQ(to_text(pose, Anatomy::hip), "flexion=0 adduction=0 internal_rotation=0");
 }
 
 /// Through radians and back 57 comes out as 57.00000000000001.
 TEST(PoseText, EveryDigitGivenIsKept) {
   ASSERT_NE(Angle::degrees(57).degrees(), 57);
-  EXPECT_EQ(to_text(parse_pose("flexion=57 adduction=114 internal_rotation=0.1", JointKind::ball)),
-            "flexion=57 adduction=114 internal_rotation=0.1");
+  EXPECT_EQ(
+      to_text(parse_pose("flexion=57 adduction=114 internal_rotation=0.1", JointKind::ball, Anatomy::hip),
+              Anatomy::hip),
+      "flexion=57 adduction=114 internal_rotation=0.1");
 }
 
 TEST(PoseText, WhatCannotBeMeantIsRefusedByName) {
@@ -72,7 +77,7 @@ TEST(PoseText, RefusalsAreShortAndOnOneLine) {
 }
 
 TEST(PoseText, AHingeRotatesInFlexionOnly) {
-  EXPECT_EQ(parse_pose("flexion=30 adduction=0", JointKind::hinge), degrees(30, 0, 0));
+  EXPECT_EQ(parse_pose("flexion=30 adduction=0", JointKind::hinge, Anatomy::hip), degrees(30, 0, 0));
   EXPECT_EQ(refusal("flexion=30 adduction=1", JointKind::hinge),
             "pose: a hinge rotates in flexion only, not in adduction");
 }
@@ -81,13 +86,37 @@ RC_GTEST_PROP(PoseText, WhatIsWrittenReadsBack, ()) {
   // Not only short decimals.
   const auto angle = [] { return *rc::gen::inRange(-180000000, 180000001) * (1e-6 / 3); };
   const PoseDegrees pose = degrees(angle(), angle(), angle());
-  RC_ASSERT(parse_pose(to_text(pose), JointKind::ball) == pose);
+  RC_ASSERT(parse_pose(to_text(pose, Anatomy::hip), JointKind::ball, Anatomy::hip) == pose);
 }
 
 TEST(PoseText, EveryAngleIsFoundByItsName) {
   for (const auto angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
-    EXPECT_EQ(joint_angle_named(name_of(angle)), angle);
-  EXPECT_THROW(joint_angle_named("extension"), UsageError);
+    EXPECT_EQ(joint_angle_named(name_of(angle, Anatomy::hip), Anatomy::hip), angle);
+  EXPECT_THROW(joint_angle_named("extension", Anatomy::hip), UsageError);
+}
+
+TEST(PoseText, EveryJointHasItsOwnNames) {
+  EXPECT_EQ(parse_pose("plantarflexion=20 inversion=5", JointKind::ball, Anatomy::ankle), degrees(-20, 5, 0));
+  EXPECT_EQ(parse_pose("flexion=90 valgus=11 pronation=30", JointKind::ball, Anatomy::elbow),
+            degrees(90, -11, 30));
+  EXPECT_EQ(parse_pose("plane_of_elevation=40 elevation=90 external_rotation=10", JointKind::ball,
+                       Anatomy::shoulder),
+            degrees(40, 90, -10));
+  EXPECT_EQ(to_text(degrees(1, 2, 3), Anatomy::ankle), "dorsiflexion=1 inversion=2 internal_rotation=3");
+  for (const Anatomy joint : all_anatomies)
+    for (const JointAngle angle : all_joint_angles)
+      EXPECT_EQ(joint_angle_named(name_of(angle, joint), joint), angle);
+}
+
+TEST(PoseText, ANameOfAnotherJointIsRefusedWithThoseThereAre) {
+  try {
+    parse_pose("flexion=20", JointKind::ball, Anatomy::ankle);
+    ADD_FAILURE() << "accepted";
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "pose: unknown angle 'flexion'; there are dorsiflexion, inversion and internal_rotation, and "
+              "plantarflexion, eversion and external_rotation with the opposite sign");
+  }
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ TEST(LimitsPlot, Names_no_source_where_no_motion_has_one) {
 TEST(LimitsPlot, Shows_no_normal_range_of_a_hip_for_another_joint) {
   const std::vector limits{limit_of("flexion", 140, LimitReason::contact)};
   EXPECT_TRUE(has_text(limits_plot(heading, limits), "normal range of the living hip"));
-  EXPECT_FALSE(has_text(limits_plot(heading, limits, {}, JointKind::hinge), "living hip"));
+  EXPECT_FALSE(has_text(limits_plot(heading, limits, {}, NormalRanges::none), "living hip"));
 }
 
 TEST(LimitsPlot, Draws_a_whisker_and_quotes_the_band) {

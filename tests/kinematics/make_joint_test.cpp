@@ -93,12 +93,12 @@ TEST(MakeJoint, AReferencePoseMovesOnlyTheMobileMesh) {
   for (const Side side : {Side::right, Side::left}) {
     JointDescription description = right_hip();
     description.side = side;
-    description.reference_pose = {Angle::degrees(20), Angle::degrees(-10), Angle::degrees(5)};
+    description.reference_pose.angles = {Angle::degrees(20), Angle::degrees(-10), Angle::degrees(5)};
     const Body given = head_body();
     const Joint joint = make_joint(description, socket_body(), given).joint;
     EXPECT_EQ(joint.fixed.mesh.arrays(), socket_body().mesh.arrays());
     // In that pose the mesh is where it was given: two rotations with a few u of 400 mm each.
-    const TriMesh back = posed(pose_at(side, description.reference_pose), joint.mobile.mesh);
+    const TriMesh back = posed(pose_at({.side = side}, description.reference_pose.angles), joint.mobile.mesh);
     for (std::size_t v = 0; v < back.vertices.size(); ++v)
       EXPECT_LE((back.vertices[v] - given.mesh.vertices()[v]).norm(), 32 * core::rounding_unit * 400);
   }

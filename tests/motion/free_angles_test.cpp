@@ -139,7 +139,8 @@ std::size_t disagreements(const Impinging& exact, const FreeAngles& free, JointA
     for (std::size_t i = first; i < last; ++i) {
       const Angle by = Angle::degrees(-180 + step_deg * (static_cast<double>(i) + 0.5));
       if (near_an_end(free, by.radians())) continue;
-      const bool meets = exact.contact.in_contact(pose_at(exact.joint.side, turned_by(start, vary, by)));
+      const bool meets =
+          exact.contact.in_contact(pose_at(exact.joint.coordinates(), turned_by(start, vary, by)));
       wrong[i] = meets == holds(free, by.radians());
     }
   });

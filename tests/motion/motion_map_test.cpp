@@ -139,7 +139,7 @@ TEST(FreeVolume, OfAJointThatNeverTouchesIsThatOfTheBox) {
   const double exact = 80 * 110 * deg * (std::sin(90 / deg) - std::sin(-60 / deg));
   // Trapezoids of a cosine are short by h^2 / 12 of the integral, and by less than h^4 more.
   const double h = 0.5 / deg;
-  EXPECT_NEAR(volume.cosine_weighted_deg3 / exact, 1 - h * h / 12, h * h * h * h);
+  EXPECT_NEAR(volume.weighted_deg3 / exact, 1 - h * h / 12, h * h * h * h);
   ASSERT_EQ(volume.row_area_deg2.size(), 41u);
   for (const double area : volume.row_area_deg2) EXPECT_NEAR(area, 150.0 * 110, 1e-8);
 }
@@ -153,8 +153,7 @@ TEST(FreeVolume, WithAdductionVariedIntegratesTheCosineExactly) {
                .range = {Angle::degrees(-40), Angle::degrees(50)}};
   const FreeVolume volume = free_volume(motion_map(grid, joint));
   const double deg = 180 / std::numbers::pi;
-  EXPECT_NEAR(volume.cosine_weighted_deg3, 80.0 * 30 * deg * (std::sin(60 / deg) - std::sin(-30 / deg)),
-              1e-6);
+  EXPECT_NEAR(volume.weighted_deg3, 80.0 * 30 * deg * (std::sin(60 / deg) - std::sin(-30 / deg)), 1e-6);
   EXPECT_NEAR(volume.plain_deg3, 80.0 * 30 * 90, 1e-6);
 }
 
@@ -164,8 +163,7 @@ TEST(FreeVolume, OfAllRotationsIsTheirInvariantMeasure) {
                      .column = {JointAngle::internal_rotation, -180, 180, 90},
                      .vary = JointAngle::adduction,
                      .range = {Angle::degrees(-90), Angle::degrees(90)}};
-  EXPECT_NEAR(free_volume(motion_map(grid, joint)).cosine_weighted_deg3, 360.0 * 360 * 360 / std::numbers::pi,
-              1e-6);
+  EXPECT_NEAR(free_volume(motion_map(grid, joint)).weighted_deg3, 360.0 * 360 * 360 / std::numbers::pi, 1e-6);
 }
 
 TEST(MotionMap, RefusesGridsThatMakeNoSenseBeforeAnyWork) {

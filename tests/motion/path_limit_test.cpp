@@ -46,7 +46,7 @@ TEST(PathLimit, OnDiagonalPathsIsNeverPastAContactAndEndsBesideOne) {
       JointAngles angles;
       for (const JointAngle a : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation})
         angles = turned_by(angles, a, angle_of(end, a) * fraction);
-      return pose_at(Side::right, angles);
+      return pose_at({.side = Side::right}, angles);
     };
     for (int k = 0; k <= 50; ++k) EXPECT_TRUE(exact.pairs(at(limit.fraction * k / 50)).empty());
     if (limit.reason != LimitReason::contact) continue;

@@ -4,6 +4,8 @@
 #include <tbb/task_arena.h>
 
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
@@ -112,8 +114,8 @@ TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
       break;
   }
   Joint carried = scene.joint;
-  carried.fixed.mesh = posed(pose_at(side(), before), carried.fixed.mesh);
-  carried.mobile.mesh = posed(pose_at(side(), after).inverse(), carried.mobile.mesh);
+  carried.fixed.mesh = posed(pose_at({.side = side()}, before), carried.fixed.mesh);
+  carried.mobile.mesh = posed(pose_at({.side = side()}, after).inverse(), carried.mobile.mesh);
   const RangeOptions accept{.bearing = {}, .overlap = {.reference_contact = ReferenceContact::accept}};
   EXPECT_NEAR(RangeOfMotion(carried, accept).limit(motion(held)).end.turned.radians(), scene.limit, 1e-11);
 }
@@ -136,7 +138,8 @@ TEST_P(EachAngle, ExchangingTheBodiesNegatesAndAgrees) {
 TEST_P(EachAngle, ContactPointsAreOnePlaceSeenFromBothBodies) {
   const MotionLimit limit = RangeOfMotion(bumpy_joint(side())).limit(motion({Angle::degrees(5), {}, {}}));
   ASSERT_TRUE(limit.end.contact);
-  const Vec3 seen_from_F = pose_at(side(), limit.angles_at_limit()) * limit.end.contact->mobile_point;
+  const Vec3 seen_from_F =
+      pose_at({.side = side()}, limit.angles_at_limit()) * limit.end.contact->mobile_point;
   // 40 mm away at most, short of contact by up to 4e-12, some ten roundings.
   EXPECT_LT((seen_from_F - limit.end.contact->fixed_point).norm(), 40 * 5e-12);
 }
@@ -264,6 +267,36 @@ TEST(HipMotions, ImpossibleOnesAreRefusedByName) {
   refused([](Motion&) {}, JointKind::hinge);
   refused([](Motion& m) { m.vary = JointAngle::flexion, m.start.adduction = Angle::degrees(1); },
           JointKind::hinge);
+}
+
+TEST(Motions, OfEveryJointAreInOrderAndNamedOnce) {
+  for (const Anatomy joint : all_anatomies)
+    for (const JointKind kind : {JointKind::ball, JointKind::free, JointKind::hinge}) {
+      std::set<std::string> names;
+      for (const Motion& motion : built_in_motions(kind, joint)) {
+        EXPECT_NO_THROW(check_motion(motion, kind)) << motion.name;
+        EXPECT_TRUE(names.insert(motion.name).second) << motion.name;
+      }
+      EXPECT_EQ(names.contains("fadir"), joint == Anatomy::hip && kind != JointKind::hinge);
+    }
+}
+
+TEST(Motions, OfAKneeGoByItsSigns) {
+  const auto motions = built_in_motions(JointKind::free, Anatomy::knee);
+  const Motion& flexion = motion_named(motions, "flexion");
+  EXPECT_EQ(flexion.vary, JointAngle::flexion);
+  EXPECT_EQ(flexion.sense, RotationSense::positive);
+  EXPECT_EQ(motion_named(motions, "external_rotation_at_90_flexion").start.flexion, Angle::degrees(90));
+}
+
+/// Plane, elevation: to the side, forwards, backwards.
+TEST(Motions, OfAShoulderElevateInPlanes) {
+  const auto motions = built_in_motions(JointKind::ball, Anatomy::shoulder);
+  for (const auto& [name, plane] : {std::pair("abduction", 0), {"flexion", 90}, {"extension", -90}}) {
+    const Motion& motion = motion_named(motions, name);
+    EXPECT_EQ(motion.vary, JointAngle::adduction);
+    EXPECT_EQ(motion.start.flexion, Angle::degrees(plane));
+  }
 }
 
 }  // namespace

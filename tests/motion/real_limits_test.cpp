@@ -39,7 +39,7 @@ class RealHipLimits : public testing::TestWithParam<HipFiles> {
   }
   Pose pose_past(const MotionLimit& limit, Angle past) const {
     const Angle by = limit.motion.sense == RotationSense::positive ? past : -past;
-    return pose_at(joint_.side, turned_by(limit.angles_at_limit(), limit.motion.vary, by));
+    return pose_at(joint_.coordinates(), turned_by(limit.angles_at_limit(), limit.motion.vary, by));
   }
 
   Joint joint_{{}, JointKind::ball, Side::right, {{}, TriMesh{}}, {{}, TriMesh{}}};

@@ -50,7 +50,8 @@ TEST_P(LimitCertificate, FreeBeforeAndInContactAfter) {
   const TriMesh mobile = test::in_spatial_order(joint.mobile.mesh);
   const auto touching = [&](Angle turned) {
     const Angle by = motion.sense == RotationSense::positive ? turned : -turned;
-    return oracle.meets(posed(pose_at(joint.side, turned_by(motion.start, motion.vary, by)), mobile));
+    return oracle.meets(
+        posed(pose_at(joint.coordinates(), turned_by(motion.start, motion.vary, by)), mobile));
   };
   if (limit.end.reason == LimitReason::contact_at_start) {
     EXPECT_TRUE(touching(Angle()));

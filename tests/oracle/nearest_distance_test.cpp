@@ -16,7 +16,8 @@ TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
   const SampleHip hip = sample_hip({}, Scenario::one);
   const JointContact joint(hip.hip_bone, hip.femur);
   for (const double flexion : {0.0, 90.0, 130.0}) {
-    const Pose X_FM = pose_at(Side::right, {Angle::degrees(flexion), Angle::degrees(3), Angle::degrees(20)});
+    const Pose X_FM =
+        pose_at({.side = Side::right}, {Angle::degrees(flexion), Angle::degrees(3), Angle::degrees(20)});
     const RadialContact contact = joint.radial(X_FM);
     const ContactMeasures found = measure_contact(joint, X_FM, VertexStates(contact));
     const TriMesh femur_in_F = posed(X_FM, hip.femur);

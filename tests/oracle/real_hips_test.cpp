@@ -95,8 +95,8 @@ std::vector<Pose> grazing_poses(const LoadedJoint& meshes, double side_sign) {
     if (limit.end.reason != LimitReason::contact) continue;
     for (const double past : {-1e-4, 1e-4}) {
       const double sense = limit.motion.sense == RotationSense::positive ? 1 : -1;
-      poses.push_back(
-          pose_at(side, turned_by(limit.angles_at_limit(), limit.motion.vary, Angle::degrees(sense * past))));
+      poses.push_back(pose_at({.side = side}, turned_by(limit.angles_at_limit(), limit.motion.vary,
+                                                        Angle::degrees(sense * past))));
     }
   }
   return poses;

@@ -22,6 +22,6 @@ std::string map_csv(const MotionMap& map, const AnswerFrame& frame = {});
 std::string map_intervals_csv(const MotionMap& map, const AnswerFrame& frame = {});
 
 /// "flexion" or "extension", and so on: the clinical word for changing an angle in this sense.
-std::string_view movement_name(JointAngle angle, RotationSense sense) noexcept;
+std::string_view movement_name(JointAngle angle, RotationSense sense, Anatomy joint) noexcept;
 
 }  // namespace condyle

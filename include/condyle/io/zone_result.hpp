@@ -18,7 +18,7 @@ std::vector<MeshArray> zone_point_arrays(const BodyZone& zone);
 MeshArray zone_cell_array(const BodyZone& zone, std::size_t triangles);
 
 /// X_FM at which the zone was found: past the limit.
-Pose zone_pose(const ImpingementZone& zone, Side side);
+Pose zone_pose(const ImpingementZone& zone, CoordinateSystem system);
 
 /// Part of a file name that is one whatever characters a motion's name holds: letters, digits, '-' and '_',
 /// no more than 60 of them.

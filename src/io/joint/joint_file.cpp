@@ -41,6 +41,10 @@ class Lengths {
     if (!(value > 0)) table.fail(key, "must be above 0");
     return scale_ * value;
   }
+  Vec3 optional_components(io::TomlTable& table) const {
+    return scale_ *
+           Vec3(table.number("x").value_or(0), table.number("y").value_or(0), table.number("z").value_or(0));
+  }
   double not_negative(io::TomlTable& table, std::string_view key) const {
     const double value = table.required(key, table.number(key));
     if (value < 0) table.fail(key, "must be 0 or more");
@@ -151,16 +155,51 @@ FrameDescription frame_description(io::TomlTable& file, const Lengths& lengths) 
   return frame;
 }
 
-PoseDegrees reference_pose(io::TomlTable& file, JointKind kind) {
+std::string hinge_text(const JointDescription& joint) {
+  return fmt::format("a hinge rotates in {} only", name_of(JointAngle::flexion, joint.anatomy));
+}
+
+/// What the file says, else what its frame is of.
+Anatomy anatomy_of(io::TomlTable& file, const JointDescription& joint) {
+  if (!file.has("joint")) {
+    if (joint.kind == JointKind::free) file.fail_missing("joint");
+    const bool of_knee = std::holds_alternative<TransepicondylarAxis>(joint.frame.axes);
+    return joint.kind == JointKind::hinge && of_knee ? Anatomy::knee : Anatomy::hip;
+  }
+  const Anatomy anatomy =
+      all_anatomies[file.required_word("joint", {"hip", "knee", "ankle", "elbow", "shoulder"})];
+  if (joint.kind == JointKind::hinge && (anatomy == Anatomy::hip || anatomy == Anatomy::shoulder))
+    file.fail("joint", fmt::format("a {} is no hinge; left out, a hinge flexes forwards", name_of(anatomy)));
+  return anatomy;
+}
+
+TranslationFrame translation_frame_of(io::TomlTable& file, const JointDescription& joint) {
+  if (!file.has("translation_frame")) return TranslationFrame::fixed;
+  if (joint.kind != JointKind::free)
+    file.fail("translation_frame", fmt::format("a {} does not translate", name_of(joint.kind)));
+  if (file.required_word("translation_frame", {"fixed", "joint_axes"}) == 0) return TranslationFrame::fixed;
+  if (joint.anatomy == Anatomy::shoulder)
+    file.fail("translation_frame", "a shoulder has two of its axes along one line: use \"fixed\"");
+  return TranslationFrame::joint_axes;
+}
+
+PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint, const Lengths& lengths) {
   auto table = file.table("reference_pose");
   if (!table) return {};
-  const auto degrees = [&](JointAngle name) { return table->number(name_of(name)).value_or(0); };
-  const PoseDegrees pose{degrees(JointAngle::flexion), degrees(JointAngle::adduction),
-                         degrees(JointAngle::internal_rotation)};
-  if (kind == JointKind::hinge)
+  const auto degrees = [&](JointAngle name) {
+    return table->number(name_of(name, joint.anatomy)).value_or(0);
+  };
+  PoseDegrees pose{degrees(JointAngle::flexion), degrees(JointAngle::adduction),
+                   degrees(JointAngle::internal_rotation)};
+  if (joint.kind == JointKind::hinge)
     for (const JointAngle name : {JointAngle::adduction, JointAngle::internal_rotation})
-      if (table->number(name_of(name)).value_or(0) != 0)
-        table->fail(name_of(name), "a hinge rotates in flexion only");
+      if (pose[name] != 0) table->fail(name_of(name, joint.anatomy), hinge_text(joint));
+  if (joint.kind == JointKind::free) {
+    pose.translation_mm = lengths.optional_components(*table);
+  } else {
+    for (const auto key : {"x", "y", "z"})
+      if (table->has(key)) table->fail(key, fmt::format("a {} does not translate", name_of(joint.kind)));
+  }
   table->finish();
   return pose;
 }
@@ -181,13 +220,13 @@ Uncertainty uncertainty(io::TomlTable& file, const Lengths& lengths) {
 
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
 /// by its order which way it goes.
-Motion own_motion(io::TomlTable& table, JointKind kind) {
+Motion own_motion(io::TomlTable& table, const JointDescription& joint) {
   Motion motion;
   motion.name = table.required("name", table.text("name"));
   if (motion.name.empty()) table.fail("name", "must not be empty");
   const auto vary = table.required("vary", table.text("vary"));
   try {
-    motion.vary = joint_angle_named(vary);
+    motion.vary = joint_angle_named(vary, joint.anatomy);
   } catch (const UsageError& error) {
     table.fail("vary", error.what());
   }
@@ -196,26 +235,27 @@ Motion own_motion(io::TomlTable& table, JointKind kind) {
   if (start == end) table.fail("range", "is empty");
   motion.sense = start < end ? RotationSense::positive : RotationSense::negative;
   motion.range = Angle::degrees(std::abs(end - start));
-  for (const JointAngle angle : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+  for (const JointAngle angle : all_joint_angles) {
     const bool varies = angle == motion.vary;
-    const double held = varies ? start : table.number(name_of(angle)).value_or(0);
-    if (kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
-      table.fail(varies ? "vary" : name_of(angle), "a hinge rotates in flexion only");
+    const std::string_view name = name_of(angle, joint.anatomy);
+    const double held = varies ? start : table.number(name).value_or(0);
+    if (joint.kind == JointKind::hinge && angle != JointAngle::flexion && (varies || held != 0))
+      table.fail(varies ? "vary" : name, hinge_text(joint));
     motion.start = turned_by(motion.start, angle, Angle::degrees(held));
   }
   table.finish();
   try {
-    check_motion(motion, kind);
+    check_motion(motion, joint.kind);
   } catch (const UsageError& error) {
     table.fail("range", error.what());
   }
   return motion;
 }
 
-std::vector<Motion> own_motions(io::TomlTable& file, JointKind kind) {
+std::vector<Motion> own_motions(io::TomlTable& file, const JointDescription& joint) {
   std::vector<Motion> motions;
   for (io::TomlTable& table : file.tables("motion")) {
-    Motion motion = own_motion(table, kind);
+    Motion motion = own_motion(table, joint);
     for (const Motion& other : motions)
       if (other.name == motion.name) table.fail("name", fmt::format("\"{}\" is given twice", motion.name));
     motions.push_back(std::move(motion));
@@ -238,16 +278,19 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   out.path = path;
   out.digest = digest_of(text);
   joint.name = file.required("name", file.text("name"));
-  joint.kind = file.required_word("kind", {"ball", "hinge"}) == 0 ? JointKind::ball : JointKind::hinge;
+  constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::free};
+  joint.kind = kinds[file.required_word("kind", {"ball", "hinge", "free"})];
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
   out.fixed = body_entry(file, "fixed");
   out.mobile = body_entry(file, "mobile");
   for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
-  out.reference_pose = reference_pose(file, joint.kind);
-  joint.reference_pose = out.reference_pose.angles();
-  out.motions = own_motions(file, joint.kind);
+  joint.anatomy = anatomy_of(file, joint);
+  joint.translation_frame = translation_frame_of(file, joint);
+  out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
+  joint.reference_pose = out.reference_pose.coordinates();
+  out.motions = own_motions(file, joint);
   out.uncertainty = uncertainty(file, Lengths(joint.units));
   file.finish();
   return out;

@@ -13,7 +13,7 @@ constexpr double farthest_rim = 1.6;
 }  // namespace
 
 std::optional<double> clock_hour(const RomResult& result, const MotionLimit& limit) {
-  if (result.joint.kind != JointKind::ball || !limit.end.contact) return std::nullopt;
+  if (!result.joint.is_hip() || !limit.end.contact) return std::nullopt;
   const Vec3& point = limit.end.contact->fixed_point;
   if (result.bearing.surface && point.norm() > farthest_rim * result.bearing.surface->head.radius)
     return std::nullopt;

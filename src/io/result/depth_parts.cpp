@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/file/format_version.hpp"
+#include "io/result/movement_words.hpp"
 
 namespace condyle::io {
 namespace {
@@ -22,18 +23,20 @@ Json depth_header(const DepthQuestion& question, const char* method) {
           {"joint", joint.name},
           {"fixed", joint.fixed.name},
           {"mobile", joint.mobile.name},
+          {"anatomy", anatomy_json(joint)},
           {"side", joint.side == Side::right ? "right" : "left"},
           {"method", method},
-          {"pose_deg", pose_json(pose)},
+          {"pose_deg", pose_json(pose, joint.anatomy)},
           {"X_FM", matrix_json(X_FM)},
           {"notes", notes_json(notes)}};
 }
 
 std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
   const auto& [joint, pose, X_FM, notes, provenance] = question;
-  return fmt::format("{}: {} in {}, flexion {}, adduction {}, internal rotation {} deg\n", joint.name,
-                     joint.mobile.name, joint.fixed.name, pose.flexion, pose.adduction,
-                     pose.internal_rotation) +
+  std::string text = fmt::format("{}: {} in {}", joint.name, joint.mobile.name, joint.fixed.name);
+  for (const JointAngle angle : all_joint_angles)
+    text += fmt::format(", {} {}", spaced(name_of(angle, joint.anatomy)), pose[angle]);
+  return text + " deg\n" +
          fmt::format("  {}; {} intersecting triangle pairs\n", in_contact ? "in contact" : "free", pairs);
 }
 

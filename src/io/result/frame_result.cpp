@@ -8,6 +8,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/repair_text.hpp"
 #include "io/result/json.hpp"
+#include "io/result/movement_words.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
@@ -72,11 +73,27 @@ Json json_of(const CylinderFit& fit, Angle axis_rotation) {
           {"vertices", fit.vertices}};
 }
 
+/// "Z", "+X" or "-X": a coordinate axis as people write it. Z has the same sense on both sides and is signed where that
+/// is negative only.
+std::string letter_of(const Vec3& axis) {
+  int largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  const char letter = "XYZ"[largest];
+  if (axis[largest] < 0) return {'-', letter};
+  return letter == 'Z' ? std::string("Z") : std::string{'+', letter};
+}
+
+/// ", knee": nothing for a hinge of no joint.
+std::string words_of_anatomy(const Joint& joint) {
+  return joint.names_its_joint() ? fmt::format(", {}", name_of(joint.anatomy)) : std::string();
+}
+
 /// As it was given, or as the landmarks of both bodies give it.
 PoseDegrees reference_pose_of(const JointReport& report) {
   if (!report.placement.pose_from_landmarks) return report.file.reference_pose;
-  const JointAngles& pose = report.placement.reference_pose;
-  return {pose.flexion.degrees(), pose.adduction.degrees(), pose.internal_rotation.degrees()};
+  const auto& [angles, translation] = report.placement.reference_pose;
+  return {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees(),
+          translation};
 }
 
 }  // namespace
@@ -84,18 +101,24 @@ PoseDegrees reference_pose_of(const JointReport& report) {
 std::string to_text(const LoadedJoint& loaded) {
   const auto& [joint, report] = loaded;
   const JointPlacement& placement = report.placement;
-  std::string out =
-      fmt::format("{}: {} joint, {} side\n", joint.name, name_of(joint.kind), name_of(joint.side));
+  std::string out = fmt::format("{}: {} joint{}, {} side\n", joint.name, name_of(joint.kind),
+                                words_of_anatomy(joint), name_of(joint.side));
   out += fmt::format("  {:<8} {} mm in the frame of the meshes\n", "centre",
                      text_of(placement.X_WF.translation()));
   for (const auto& [name, axis] : axes_of(placement.X_WF))
     out += fmt::format("  {:<8} {}\n", name, text_of(axis));
-  out += fmt::format("  {:<8} flexion about Z", "angles");
-  if (joint.kind == JointKind::ball) {
-    const char sense = joint.side == Side::right ? '+' : '-';
-    out += fmt::format(", then adduction about {0}X, then internal rotation about {0}Y", sense);
+  out += fmt::format("  {:<8} ", "angles");
+  for (const JointAngle angle : all_joint_angles) {
+    if (angle != JointAngle::flexion && joint.kind == JointKind::hinge) break;
+    out += fmt::format("{}{} about {}", angle == JointAngle::flexion ? "" : ", then ",
+                       io::spaced(name_of(angle, joint.anatomy)),
+                       letter_of(axis_of(angle, joint.coordinates(), {})));
   }
-  out += fmt::format("\n  reference pose {}\n", to_text(reference_pose_of(report)));
+  if (joint.kind == JointKind::free)
+    out += joint.translation_frame == TranslationFrame::fixed
+               ? "; translation along X, Y and Z of the fixed body"
+               : "; translation along the joint's axes";
+  out += fmt::format("\n  reference pose {}\n", to_text(reference_pose_of(report), joint.anatomy));
   out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
          text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
   for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
@@ -108,11 +131,16 @@ std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes,
   Json out{{"file", report.file.path.string()},
            {"name", joint.name},
            {"kind", name_of(joint.kind)},
+           {"anatomy", io::anatomy_json(joint)},
            {"side", name_of(joint.side)},
            {"units_of_meshes", report.file.joint.units == LengthUnit::metres ? "m" : "mm"},
            {"centre_mm", io::numbers(placement.X_WF.translation())}};
   for (const auto& [name, axis] : axes_of(placement.X_WF)) out["axes"][name] = io::numbers(axis);
-  out["reference_pose_deg"] = io::pose_json(reference_pose_of(report));
+  out["reference_pose_deg"] = io::pose_json(reference_pose_of(report), joint.anatomy);
+  if (joint.kind == JointKind::free) {
+    out["reference_translation_mm"] = io::numbers(placement.reference_pose.translation_mm);
+    out["translation_frame"] = name_of(joint.translation_frame);
+  }
   out["fit"] = placement.sphere     ? json_of(*placement.sphere)
                : placement.cylinder ? json_of(*placement.cylinder, placement.axis_rotation)
                                     : Json();

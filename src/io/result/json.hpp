@@ -6,6 +6,7 @@
 #include <string>
 
 #include "condyle/io/pose_text.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/points.hpp"
 
@@ -37,11 +38,16 @@ inline Json notes_json(std::span<const JointNote> notes) {
   return list;
 }
 
+/// Which joint it is; null for a hinge that is none in particular.
+inline Json anatomy_json(const Joint& joint) {
+  return joint.names_its_joint() ? Json(name_of(joint.anatomy)) : Json(nullptr);
+}
+
 /// As it was given.
-inline Json pose_json(const PoseDegrees& pose) {
-  return {{"flexion", pose.flexion},
-          {"adduction", pose.adduction},
-          {"internal_rotation", pose.internal_rotation}};
+inline Json pose_json(const PoseDegrees& pose, Anatomy joint) {
+  Json json;
+  for (const JointAngle angle : all_joint_angles) json[name_of(angle, joint)] = pose[angle];
+  return json;
 }
 
 /// Without the sign of 0, which says nothing.

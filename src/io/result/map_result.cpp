@@ -31,26 +31,19 @@ std::string csv_of(const Limit& end, const AnswerFrame& frame) {
 
 }  // namespace
 
-std::string_view movement_name(JointAngle angle, RotationSense sense) noexcept {
-  const bool positive = sense == RotationSense::positive;
-  switch (angle) {
-    case JointAngle::flexion:
-      return positive ? "flexion" : "extension";
-    case JointAngle::adduction:
-      return positive ? "adduction" : "abduction";
-    case JointAngle::internal_rotation:
-      return positive ? "internal_rotation" : "external_rotation";
-  }
-  return "";
+std::string_view movement_name(JointAngle angle, RotationSense sense, Anatomy joint) noexcept {
+  const auto& [positive, negative] = coordinate_names(joint)[static_cast<std::size_t>(angle)];
+  return sense == RotationSense::positive ? positive : negative;
 }
 
 std::string map_text(const MotionMap& map) {
   const MapSummary summary = summarise(map);
-  std::string text = fmt::format("map of {} over {} and {}, {} points\n", io::spaced(name_of(map.grid.vary)),
-                                 to_text(map.grid.column), to_text(map.grid.row), map.points.size());
+  std::string text = fmt::format(
+      "map of {} over {} and {}, {} points\n", io::spaced(name_of(map.grid.vary, map.anatomy)),
+      to_text(map.grid.column, map.anatomy), to_text(map.grid.row, map.anatomy), map.points.size());
   const auto line = [&](RotationSense sense, const ReasonCounts& counts) {
     text += fmt::format("  {:<18} {} end in contact, {} at the end of the range, {} in contact at start\n",
-                        io::movement_words(map.grid.vary, sense), counts[LimitReason::contact],
+                        io::movement_words(map.grid.vary, sense, map.anatomy), counts[LimitReason::contact],
                         counts[LimitReason::end_of_range], counts[LimitReason::contact_at_start]);
   };
   line(RotationSense::positive, summary.positive_ends);
@@ -60,15 +53,18 @@ std::string map_text(const MotionMap& map) {
         fmt::format("  in contact at start but free at other angles: {} points\n", summary.free_elsewhere);
   if (summary.with_islands > 0)
     text += fmt::format("  free again beyond contact: {} points\n", summary.with_islands);
-  return text + fmt::format("  free volume        {:.6g} deg^3, {:.6g} deg^3 weighted by cos(adduction)\n",
-                            summary.volume.plain_deg3, summary.volume.cosine_weighted_deg3);
+  return text + fmt::format("  free volume        {:.6g} deg^3, {:.6g} deg^3 weighted by {}({})\n",
+                            summary.volume.plain_deg3, summary.volume.weighted_deg3,
+                            map.anatomy == Anatomy::shoulder ? "sin" : "cos",
+                            name_of(JointAngle::adduction, map.anatomy));
 }
 
 std::string map_csv(const MotionMap& map, const AnswerFrame& frame) {
   const MapGrid& grid = map.grid;
-  const std::string_view varied = name_of(grid.vary);
-  std::string text = fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg", name_of(grid.column.angle),
-                                 name_of(grid.row.angle), varied);
+  const std::string_view varied = name_of(grid.vary, map.anatomy);
+  std::string text =
+      fmt::format("{0}_deg,{1}_deg,{2}_lower_deg,{2}_upper_deg", name_of(grid.column.angle, map.anatomy),
+                  name_of(grid.row.angle, map.anatomy), varied);
   for (const char* end : {"lower", "upper"}) text += end_columns(end);
   text += "\n";
   const std::size_t columns = grid.column.count();
@@ -85,7 +81,8 @@ std::string map_csv(const MotionMap& map, const AnswerFrame& frame) {
 std::string map_intervals_csv(const MotionMap& map, const AnswerFrame& frame) {
   const MapGrid& grid = map.grid;
   std::string text = fmt::format("{0}_deg,{1}_deg,{2}_low_deg,{2}_high_deg,holds_start",
-                                 name_of(grid.column.angle), name_of(grid.row.angle), name_of(grid.vary));
+                                 name_of(grid.column.angle, map.anatomy),
+                                 name_of(grid.row.angle, map.anatomy), name_of(grid.vary, map.anatomy));
   for (const char* end : {"low", "high"}) text += end_columns(end);
   text += "\n";
   const std::size_t columns = grid.column.count();

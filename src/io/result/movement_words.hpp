@@ -15,8 +15,8 @@ inline std::string spaced(std::string_view name) {
   return words;
 }
 
-inline std::string movement_words(JointAngle angle, RotationSense sense) {
-  return spaced(movement_name(angle, sense));
+inline std::string movement_words(JointAngle angle, RotationSense sense, Anatomy joint) {
+  return spaced(movement_name(angle, sense, joint));
 }
 
 }  // namespace condyle::io

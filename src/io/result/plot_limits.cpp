@@ -77,15 +77,16 @@ void draw_mark(SvgCanvas& canvas, End end, ScreenPoint at) {
 }
 
 /// Of other joints nothing is known here.
-std::optional<Angle> normal_range(std::string_view motion, JointKind joint) noexcept {
-  return joint == JointKind::ball ? normal_hip_range(motion) : std::nullopt;
+std::optional<Angle> normal_range(std::string_view motion, NormalRanges shown) noexcept {
+  return shown == NormalRanges::of_hip ? normal_hip_range(motion) : std::nullopt;
 }
 
-double longest_turn(std::span<const MotionLimit> limits, std::span<const LimitBand> bands, JointKind joint) {
+double longest_turn(std::span<const MotionLimit> limits, std::span<const LimitBand> bands,
+                    NormalRanges shown_ranges) {
   double longest = 10;  // degrees: an axis of some length when nothing turns at all
   for (const MotionLimit& limit : limits) {
     longest = std::max(longest, limit.end.turned.degrees());
-    if (const auto normal = normal_range(limit.motion.name, joint))
+    if (const auto normal = normal_range(limit.motion.name, shown_ranges))
       longest = std::max(longest, normal->degrees());
   }
   for (const LimitBand& band : bands) longest = std::max(longest, band.p95.degrees());
@@ -102,13 +103,13 @@ void draw_whisker(SvgCanvas& canvas, double low, double median, double high, dou
 }
 
 /// `band`: null where there is none.
-void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const LimitBand* band, JointKind joint,
+void draw_row(SvgCanvas& canvas, const MotionLimit& limit, const LimitBand* band, NormalRanges shown_ranges,
               const PlotScale& x, double y) {
   const double zero = x(0), end = x(limit.end.turned.degrees());
   canvas.text({x.px_low - 12, y + name_size / 3},
               text_within(readable_name(limit.motion.name), name_size, x.px_low - 12 - margin),
               {.size = name_size, .anchor = TextAnchor::end});
-  if (const auto normal = normal_range(limit.motion.name, joint)) {
+  if (const auto normal = normal_range(limit.motion.name, shown_ranges)) {
     const double edge = x(normal->degrees());
     canvas.rectangle({zero, y - band_height / 2}, edge - zero, band_height, {.fill = palette::light_grey});
     canvas.line({edge, y - band_height / 2}, {edge, y + band_height / 2},
@@ -142,7 +143,7 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept {
 }
 
 std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits,
-                        std::span<const LimitBand> bands, JointKind joint) {
+                        std::span<const LimitBand> bands, NormalRanges shown_ranges) {
   const auto shown = [&](End end) {
     return std::any_of(limits.begin(), limits.end(), [&](const MotionLimit& l) {
       return end_of(l) == end || (end == End::bearing && l.end.bearing_contact);
@@ -153,7 +154,7 @@ std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit>
        {End::impingement, End::contact, End::bearing, End::end_of_range, End::contact_at_start})
     if (shown(end)) legend.push_back(end);
   const bool any_normal = std::any_of(limits.begin(), limits.end(), [&](const auto& l) {
-    return normal_range(l.motion.name, joint).has_value();
+    return normal_range(l.motion.name, shown_ranges).has_value();
   });
   double names = 0;
   for (const MotionLimit& limit : limits)
@@ -167,13 +168,13 @@ std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit>
                    heading.joint + ": " + heading.subject);
   draw_heading(canvas, heading);
 
-  const double longest = longest_turn(limits, bands, joint), step = tick_step(longest, 8);
+  const double longest = longest_turn(limits, bands, shown_ranges), step = tick_step(longest, 8);
   const PlotScale x{0, step * std::ceil(longest / step), margin + std::min(names, longest_name) + 12,
                     canvas_width - margin - (bands.empty() ? value_column : quoted_column)};
   for (const double value : ticks(0, x.high, step))
     canvas.line({x(value), heading_height}, {x(value), bottom}, {.stroke = palette::light_grey});
   for (std::size_t i = 0; i < limits.size(); ++i)
-    draw_row(canvas, limits[i], bands.empty() ? nullptr : &bands[i], joint, x,
+    draw_row(canvas, limits[i], bands.empty() ? nullptr : &bands[i], shown_ranges, x,
              heading_height + row_height * (static_cast<double>(i) + 0.5));
   draw_bottom_axis(canvas, x, bottom, 8, "turned from the start of the motion, degrees");
 

@@ -21,10 +21,13 @@ std::optional<Angle> normal_hip_range(std::string_view motion) noexcept;
 inline constexpr std::string_view normal_hip_range_source =
     "AAOS, Joint Motion: Method of Measuring and Recording, 1965";
 
+/// Which normal ranges stand behind the bars; of joints other than the hip none with a source are known here.
+enum class NormalRanges { none, of_hip };
+
 /// The limits of all motions as a horizontal bar chart, SVG text: how far each turns from its start in
 /// degrees, with a mark for the reason and, behind the bar, the normal range where there is a source for it.
-/// Normal ranges are those of a hip and are left out for a hinge. With bands, one per limit or none, a whisker from 5 to 95 % with a tick at the median.
+/// With bands, one per limit or none, a whisker from 5 to 95 % with a tick at the median.
 std::string limits_plot(const PlotHeading& heading, std::span<const MotionLimit> limits,
-                        std::span<const LimitBand> bands = {}, JointKind joint = JointKind::ball);
+                        std::span<const LimitBand> bands = {}, NormalRanges normal = NormalRanges::of_hip);
 
 }  // namespace condyle::io

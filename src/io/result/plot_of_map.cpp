@@ -11,9 +11,10 @@
 namespace condyle::io {
 namespace {
 
-std::string axis_label(JointAngle angle) {
-  return fmt::format("{} (+) / {} (\xE2\x88\x92), degrees", movement_words(angle, RotationSense::positive),
-                     movement_words(angle, RotationSense::negative));
+std::string axis_label(JointAngle angle, Anatomy joint) {
+  return fmt::format("{} (+) / {} (\xE2\x88\x92), degrees",
+                     movement_words(angle, RotationSense::positive, joint),
+                     movement_words(angle, RotationSense::negative, joint));
 }
 
 std::vector<double> values_of(const GridAxis& axis) {
@@ -46,14 +47,14 @@ double value_of(const FreeInterval& free, MapView view) noexcept {
   return 0;
 }
 
-std::string quantity_of(JointAngle varied, MapView view) {
+std::string quantity_of(JointAngle varied, MapView view, Anatomy joint) {
   switch (view) {
     case MapView::positive_limit:
-      return "limit of " + movement_words(varied, RotationSense::positive);
+      return "limit of " + movement_words(varied, RotationSense::positive, joint);
     case MapView::negative_limit:
-      return "limit of " + movement_words(varied, RotationSense::negative);
+      return "limit of " + movement_words(varied, RotationSense::negative, joint);
     case MapView::free_range:
-      return "free range of " + spaced(name_of(varied));
+      return "free range of " + spaced(name_of(varied, joint));
   }
   return "";
 }
@@ -62,15 +63,16 @@ std::string quantity_of(JointAngle varied, MapView view) {
 
 MapPlot plot_of(const MotionMap& map, MapView view, std::string_view joint_name) {
   const MapGrid& grid = map.grid;
-  const std::string quantity = quantity_of(grid.vary, view);
-  std::string subject = fmt::format("{} over {} and {}", quantity, spaced(name_of(grid.column.angle)),
-                                    spaced(name_of(grid.row.angle)));
+  const std::string quantity = quantity_of(grid.vary, view, map.anatomy);
+  std::string subject =
+      fmt::format("{} over {} and {}", quantity, spaced(name_of(grid.column.angle, map.anatomy)),
+                  spaced(name_of(grid.row.angle, map.anatomy)));
   subject[0] = static_cast<char>(subject[0] - 'a' + 'A');
   MapPlot plot;
   plot.heading = {std::string(joint_name), subject};
   plot.quantity = quantity;
-  plot.x_label = axis_label(grid.column.angle);
-  plot.y_label = axis_label(grid.row.angle);
+  plot.x_label = axis_label(grid.column.angle, map.anatomy);
+  plot.y_label = axis_label(grid.row.angle, map.anatomy);
   plot.x = values_of(grid.column);
   plot.y = values_of(grid.row);
   for (const FreeAngles& point : map.points) {

@@ -19,7 +19,9 @@ double mm_of(LengthUnit unit) noexcept {
 
 /// The mobile body's frame in W, where its mesh is in the reference pose.
 Pose mobile_in_source(const JointReport& report) noexcept {
-  return report.placement.X_WF * pose_at(report.file.joint.side, report.placement.reference_pose);
+  const JointDescription& joint = report.file.joint;
+  return report.placement.X_WF *
+         pose_at(joint.coordinates(), report.placement.reference_pose, joint.translation_frame);
 }
 
 MeshOrigin origin_of(const BodyReport& body, const Pose& X_W, double unit_mm) {

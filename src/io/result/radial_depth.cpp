@@ -82,14 +82,14 @@ const WayOut* rotation_of(const DeepestReliable& vertex) noexcept {
   return angle ? &*vertex.rotations[static_cast<std::size_t>(*angle)] : nullptr;
 }
 
-io::Json reliable_json(const std::optional<DeepestOf>& deepest) {
+io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   if (!deepest) return nullptr;
   const auto& [view, vertex] = *deepest;
   const auto angle = angle_of(vertex.way);
   const WayOut* rotation = rotation_of(vertex);
   io::Json json{{"depth_mm", vertex.depth_mm},
                 {"kind", angle ? "tangential" : "radial"},
-                {"about", angle ? io::Json(name_of(*angle)) : io::Json(nullptr)},
+                {"about", angle ? io::Json(name_of(*angle, joint)) : io::Json(nullptr)},
                 {"depth_deg", rotation ? io::Json(rotation->angle.degrees()) : io::Json(nullptr)},
                 {"body", view->key},
                 {"vertex", vertex.vertex},
@@ -97,9 +97,9 @@ io::Json reliable_json(const std::optional<DeepestOf>& deepest) {
                 {"nearest_distance_mm", vertex.nearest_distance_mm},
                 {"radial_depth_mm", vertex.radial_depth_mm},
                 {"ray_to_normal_deg", vertex.ray_to_normal.degrees()}};
-  for (const JointAngle about : {JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation}) {
+  for (const JointAngle about : all_joint_angles) {
     const auto& way = vertex.rotations[static_cast<std::size_t>(about)];
-    json["rotations"][name_of(about)] =
+    json["rotations"][name_of(about, joint)] =
         way ? io::Json{{"depth_deg", way->angle.degrees()}, {"depth_mm", way->arc_mm}} : io::Json(nullptr);
   }
   return json;
@@ -117,7 +117,7 @@ std::string json_of(const DepthQuestion& question, DepthMethod method, const Con
   const auto facing = deepest_facing_of(bodies);
   io::Json json = io::depth_header(question, method == DepthMethod::reliable ? "reliable" : "radial");
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
-  json["reliable_depth"] = reliable_json(deepest_of(bodies, reliable));
+  json["reliable_depth"] = reliable_json(deepest_of(bodies, reliable), question.joint.anatomy);
   json["vertices_without_depth"] = without_depth(reliable);
   io::add_measures(json, question, measures);
   json["max_radial_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
@@ -134,12 +134,13 @@ std::string json_of(const DepthQuestion& question, DepthMethod method, const Con
   return io::document(json);
 }
 
-std::string reliable_text(const DeepestOf& deepest) {
+std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
   const auto& [view, vertex] = deepest;
   const WayOut* rotation = rotation_of(vertex);
-  const std::string way = rotation ? fmt::format("along the arc of {}, {:.3f} deg",
-                                                 name_of(*angle_of(vertex.way)), rotation->angle.degrees())
-                                   : "along the ray";
+  const std::string way = rotation
+                              ? fmt::format("along the arc of {}, {:.3f} deg",
+                                            name_of(*angle_of(vertex.way), joint), rotation->angle.degrees())
+                              : "along the ray";
   return fmt::format(
       "  depth: {:.3f} mm {}, vertex {} of {}, {}\n    its nearest surface is {:.3f} mm away\n",
       vertex.depth_mm, way, vertex.vertex, view->body.name, io::place_text(view->place_of(vertex.vertex)),
@@ -151,7 +152,8 @@ std::string text_of(const DepthQuestion& question, DepthMethod method, const Con
                     const ReliableContact& reliable) {
   const Views bodies = views(question, summary);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
-  if (const auto deepest = deepest_of(bodies, reliable)) text += reliable_text(*deepest);
+  if (const auto deepest = deepest_of(bodies, reliable))
+    text += reliable_text(*deepest, question.joint.anatomy);
   if (const std::size_t count = without_depth(reliable); count > 0)
     text += fmt::format("  {} vertices inside have no {}, only a nearest distance\n", count,
                         method == DepthMethod::reliable

@@ -9,15 +9,26 @@
 #include "io/result/rom_parts.hpp"
 
 namespace condyle {
+namespace {
+
+/// "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,".
+std::string angle_columns(std::string_view when, Anatomy joint) {
+  std::string columns;
+  for (const JointAngle angle : all_joint_angles)
+    columns += fmt::format("{}_{}_deg,", when, name_of(angle, joint));
+  return columns;
+}
+
+}  // namespace
 
 std::string rom_csv(const RomResult& result) {
   const AnswerFrame frame = frame_of(result);
+  const Anatomy joint = result.joint.anatomy;
   std::string text =
       io::provenance_comments(result.provenance) +
       "motion,limit_deg,reason,contact_kind,bearing_contact_deg,centre_distance_mm,joint_space_mm,"
-      "error_bound_deg,vary,sense,range_deg,"
-      "start_flexion_deg,start_adduction_deg,start_internal_rotation_deg,"
-      "limit_flexion_deg,limit_adduction_deg,limit_internal_rotation_deg,"
+      "error_bound_deg,vary,sense,range_deg," +
+      angle_columns("start", joint) + angle_columns("limit", joint) +
       "contact_x_mm,contact_y_mm,contact_z_mm,"
       "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour,"
       "band_p5_deg,band_median_deg,band_p95_deg,band_from_centre_deg,band_from_axes_deg,band_from_surface_"
@@ -42,7 +53,7 @@ std::string rom_csv(const RomResult& result) {
         name_of(end.reason), io::ends_in_contact(limit) ? name_of(end.kind()) : "",
         end.bearing_contact ? fmt::format("{}", end.bearing_contact->turned.degrees()) : "",
         head ? field(head->centre_distance_mm) : "", head ? field(head->joint_space_mm) : "",
-        end.error_bound.degrees(), name_of(motion.vary),
+        end.error_bound.degrees(), name_of(motion.vary, joint),
         motion.sense == RotationSense::positive ? "positive" : "negative", io::given_degrees(motion.range),
         start(motion.start), angles(limit.angles_at_limit()));
     const auto hour = io::clock_hour(result, limit);

@@ -26,21 +26,13 @@ namespace {
 /// Whether some result has a file of this name.
 bool is_of_rom(std::string_view name) {
   if (name.starts_with("zone_")) return name.ends_with("_fixed.vtp") || name.ends_with("_mobile.vtp");
-  static constexpr std::string_view names[] = {"rom.json",
-                                               "limits.csv",
-                                               "limits.svg",
-                                               "clock_face.svg",
-                                               "bearing.vtp",
-                                               "map.csv",
-                                               "map_intervals.csv",
-                                               "map.vtp",
-                                               "map_flexion.svg",
-                                               "map_extension.svg",
-                                               "map_adduction.svg",
-                                               "map_abduction.svg",
-                                               "map_internal_rotation.svg",
-                                               "map_external_rotation.svg",
-                                               "map_free_range.svg"};
+  static constexpr std::string_view names[] = {"rom.json",          "limits.csv",  "limits.svg",
+                                               "clock_face.svg",    "bearing.vtp", "map.csv",
+                                               "map_intervals.csv", "map.vtp",     "map_free_range.svg"};
+  for (const Anatomy joint : all_anatomies)
+    for (const auto& [positive, negative] : coordinate_names(joint))
+      for (const std::string_view movement : {positive, negative})
+        if (name == fmt::format("map_{}.svg", movement)) return true;
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
@@ -59,7 +51,7 @@ void write_zones(OutputFolder& out, const RomResult& result) {
                 zone_point_arrays(body), {&in_zone, 1}, vtp_options(result));
     };
     const AnswerFrame frame = frame_of(result);
-    const Pose X_FM = zone_pose(zone, result.joint.side);
+    const Pose X_FM = zone_pose(zone, result.joint.coordinates());
     write("fixed", frame.fixed_mesh(result.joint.fixed.mesh), zone.fixed);
     write("mobile", frame.fixed_mesh(posed(X_FM, result.joint.mobile.mesh)), zone.mobile);
   }
@@ -112,8 +104,8 @@ void write_map(OutputFolder& out, const RomResult& result) {
   io::write_whole_file(out.file("map_intervals.csv"), comments + map_intervals_csv(map, frame_of(result)));
   if (map.grid.row.count() > 1 && map.grid.column.count() > 1)
     write_map_surface(out.file("map.vtp"), map, vtp_options(result));
-  draw(movement_name(map.grid.vary, RotationSense::positive), io::MapView::positive_limit);
-  draw(movement_name(map.grid.vary, RotationSense::negative), io::MapView::negative_limit);
+  draw(movement_name(map.grid.vary, RotationSense::positive, map.anatomy), io::MapView::positive_limit);
+  draw(movement_name(map.grid.vary, RotationSense::negative, map.anatomy), io::MapView::negative_limit);
   draw("free_range", io::MapView::free_range);
 }
 
@@ -133,10 +125,11 @@ std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder
   const std::string& name = result.joint.name;
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
-  io::write_whole_file(out.file("limits.svg"),
-                       io::limits_plot({name, "How far each motion turns from its start"}, result.limits,
-                                       result.bands, result.joint.kind));
-  if (result.joint.kind == JointKind::ball)
+  io::write_whole_file(
+      out.file("limits.svg"),
+      io::limits_plot({name, "How far each motion turns from its start"}, result.limits, result.bands,
+                      result.joint.is_hip() ? io::NormalRanges::of_hip : io::NormalRanges::none));
+  if (result.joint.is_hip())
     io::write_whole_file(
         out.file("clock_face.svg"),
         io::clock_face_plot(

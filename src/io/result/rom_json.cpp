@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "condyle/io/map_result.hpp"
@@ -18,24 +17,24 @@ namespace {
 
 using io::Json;
 
-constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
-
-Json angles_json(const JointAngles& angles) {
+Json angles_json(const JointAngles& angles, Anatomy joint) {
   Json json;
-  for (const JointAngle angle : all_angles) json[name_of(angle)] = angle_of(angles, angle).degrees();
+  for (const JointAngle angle : all_joint_angles)
+    json[name_of(angle, joint)] = angle_of(angles, angle).degrees();
   return json;
 }
 
-Json start_json(const JointAngles& angles) {
+Json start_json(const JointAngles& angles, Anatomy joint) {
   Json json;
-  for (const JointAngle angle : all_angles) json[name_of(angle)] = io::given_degrees(angle_of(angles, angle));
+  for (const JointAngle angle : all_joint_angles)
+    json[name_of(angle, joint)] = io::given_degrees(angle_of(angles, angle));
   return json;
 }
 
-Json held_json(const Motion& motion) {
+Json held_json(const Motion& motion, Anatomy joint) {
   Json json;
-  for (const JointAngle angle : all_angles)
-    if (angle != motion.vary) json[name_of(angle)] = io::given_degrees(angle_of(motion.start, angle));
+  for (const JointAngle angle : all_joint_angles)
+    if (angle != motion.vary) json[name_of(angle, joint)] = io::given_degrees(angle_of(motion.start, angle));
   return json;
 }
 
@@ -110,6 +109,7 @@ Json motion_json(const RomResult& result, std::size_t i) {
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
   const AnswerFrame frame = frame_of(result);
+  const Anatomy joint = result.joint.anatomy;
   Json json{
       {"name", limit.motion.name},
       {"limit_deg", limit.end.turned.degrees()},
@@ -129,12 +129,12 @@ Json motion_json(const RomResult& result, std::size_t i) {
                                   {"mobile", json_of(contact->mobile_feature)}}
                            : Json(nullptr)},
       {"error_bound_deg", limit.end.error_bound.degrees()},
-      {"vary", name_of(limit.motion.vary)},
+      {"vary", name_of(limit.motion.vary, joint)},
       {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
       {"range_deg", io::given_degrees(limit.motion.range)},
-      {"start_deg", start_json(limit.motion.start)},
-      {"held_deg", held_json(limit.motion)},
-      {"at_limit_deg", angles_json(limit.angles_at_limit())},
+      {"start_deg", start_json(limit.motion.start, joint)},
+      {"held_deg", held_json(limit.motion, joint)},
+      {"at_limit_deg", angles_json(limit.angles_at_limit(), joint)},
       {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
   if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
   if (!result.zones.empty()) json["zone"] = json_of(result.zones[i], frame_of(result));
@@ -159,8 +159,8 @@ Json json_of(const ReasonCounts& counts) {
   return json;
 }
 
-Json json_of(const GridAxis& axis) {
-  return {{"angle", name_of(axis.angle)},
+Json json_of(const GridAxis& axis, Anatomy joint) {
+  return {{"angle", name_of(axis.angle, joint)},
           {"first_deg", axis.first_deg},
           {"last_deg", axis.last_deg},
           {"step_deg", axis.step_deg},
@@ -189,11 +189,11 @@ Json other_intervals_json(const MotionMap& map) {
 
 Json json_of(const MotionMap& map) {
   const MapSummary summary = summarise(map);
-  return {{"vary", name_of(map.grid.vary)},
+  return {{"vary", name_of(map.grid.vary, map.anatomy)},
           {"start_deg", map.grid.start.degrees()},
           {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
-          {"columns", json_of(map.grid.column)},
-          {"rows", json_of(map.grid.row)},
+          {"columns", json_of(map.grid.column, map.anatomy)},
+          {"rows", json_of(map.grid.row, map.anatomy)},
           {"points", map.points.size()},
           {"negative_ends", json_of(summary.negative_ends)},
           {"positive_ends", json_of(summary.positive_ends)},
@@ -201,7 +201,9 @@ Json json_of(const MotionMap& map) {
           {"with_islands", summary.with_islands},
           {"other_intervals", other_intervals_json(map)},
           {"free_volume_deg3", summary.volume.plain_deg3},
-          {"free_volume_cosine_weighted_deg3", summary.volume.cosine_weighted_deg3},
+          {map.anatomy == Anatomy::shoulder ? "free_volume_sine_weighted_deg3"
+                                            : "free_volume_cosine_weighted_deg3",
+           summary.volume.weighted_deg3},
           {"row_free_area_deg2", summary.volume.row_area_deg2}};
 }
 
@@ -235,6 +237,7 @@ std::string rom_json(const RomResult& result) {
             {"joint", result.joint.name},
             {"fixed", result.joint.fixed.name},
             {"mobile", result.joint.mobile.name},
+            {"anatomy", io::anatomy_json(result.joint)},
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
             {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},

@@ -147,8 +147,8 @@ std::string rom_text(const RomResult& result) {
   for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
   text += result.bearing.surface
               ? table_text(std::array{name, turned, reason, clock, point, bearing, centres, space})
-          : joint.kind == JointKind::ball ? table_text(std::array{name, turned, reason, clock, point})
-                                          : table_text(std::array{name, turned, reason, point});
+          : joint.is_hip() ? table_text(std::array{name, turned, reason, clock, point})
+                           : table_text(std::array{name, turned, reason, point});
   text += band_text(result);
   if (std::any_of(result.limits.begin(), result.limits.end(), [](const MotionLimit& limit) {
         return limit.motion.name == "fadir" || limit.motion.name == "faber";

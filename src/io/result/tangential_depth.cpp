@@ -46,11 +46,10 @@ io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
           {"min_gap_mm", io::nullable(summary.min_gap_mm)}};
 }
 
-std::string deepest_line(const char* what, const RotationAxis& axis, const Deepest& deepest) {
+std::string deepest_line(const char* what, std::string_view about, const Deepest& deepest) {
   return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
-                     deepest.vertex.depth_mm, name_of(axis.about), deepest.vertex.depth.degrees(),
-                     deepest.vertex.vertex, deepest.view->body.name,
-                     io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
+                     deepest.vertex.depth_mm, about, deepest.vertex.depth.degrees(), deepest.vertex.vertex,
+                     deepest.view->body.name, io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
 }
 
 std::string json_of(const DepthQuestion& question, const ContactMeasures& measures, const RotationAxis& axis,
@@ -58,7 +57,7 @@ std::string json_of(const DepthQuestion& question, const ContactMeasures& measur
   const Views bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
   io::Json json = io::depth_header(question, "tangential");
-  json["about"] = name_of(axis.about);
+  json["about"] = name_of(axis.about, question.joint.anatomy);
   json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
   io::add_measures(json, question, measures);
@@ -76,11 +75,12 @@ std::string json_of(const DepthQuestion& question, const ContactMeasures& measur
 std::string text_of(const DepthQuestion& question, const ContactMeasures& measures, const RotationAxis& axis,
                     const TangentialContact& contact) {
   const Views bodies = views(question, contact);
+  const std::string_view about = name_of(axis.about, question.joint.anatomy);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
   const auto deepest = longest(bodies), furthest = largest(bodies);
-  if (deepest) text += deepest_line("deepest", axis, *deepest);
+  if (deepest) text += deepest_line("deepest", about, *deepest);
   if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
-    text += deepest_line("largest angle", axis, *furthest);
+    text += deepest_line("largest angle", about, *furthest);
   }
   text += io::measures_text(question, measures);
   for (const auto* view : bodies.both()) {
@@ -90,8 +90,8 @@ std::string text_of(const DepthQuestion& question, const ContactMeasures& measur
     }
     text += io::inside_line(view->body, view->summary->vertices_inside, view->summary->vertices_on_surface);
     if (view->summary->without_exit > 0) {
-      text += fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_exit,
-                          name_of(axis.about));
+      text +=
+          fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_exit, about);
     }
   }
   if (const auto gap = bodies.least(&TangentialBodySummary::min_gap)) {

@@ -32,10 +32,10 @@ MeshArray zone_cell_array(const BodyZone& zone, std::size_t triangles) {
   return {"in_zone", std::move(in_zone)};
 }
 
-Pose zone_pose(const ImpingementZone& zone, Side side) {
+Pose zone_pose(const ImpingementZone& zone, CoordinateSystem system) {
   const Motion& motion = zone.limit.motion;
   const Angle onwards = zone.past * sign_of(motion.sense);
-  return pose_at(side, turned_by(zone.limit.angles_at_limit(), motion.vary, onwards));
+  return pose_at(system, turned_by(zone.limit.angles_at_limit(), motion.vary, onwards));
 }
 
 std::string file_name_part(std::string_view motion) {

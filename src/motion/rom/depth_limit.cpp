@@ -52,7 +52,7 @@ enum class EndOfBracket { unknown, too_deep };
 
 struct DepthRange::Parts {
   JointKind kind;
-  Side side;
+  CoordinateSystem system;
   AllowedDepth allowed;
   BearingFinding bearing;
   JointContact contact;
@@ -61,7 +61,7 @@ struct DepthRange::Parts {
 DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed) {
   check(allowed);
   parts_ = std::make_unique<Parts>(
-      Parts{joint.kind, joint.side, allowed, find_bearing_surface(joint), JointContact(joint)});
+      Parts{joint.kind, joint.coordinates(), allowed, find_bearing_surface(joint), JointContact(joint)});
   for (const auto& [body, table] : {std::pair{&joint.fixed, &parts_->contact.fixed_table()},
                                     std::pair{&joint.mobile, &parts_->contact.mobile_table()}})
     if (!table->is_closed()) throw MeshError(body->name + ": is open: depth needs an inside");
@@ -70,7 +70,7 @@ DepthRange::DepthRange(const Joint& joint, const AllowedDepth& allowed) {
 DepthRange::~DepthRange() = default;
 
 DeepestPlace DepthRange::deepest(const JointAngles& at) const {
-  const Pose X = pose_at(parts_->side, at);
+  const Pose X = pose_at(parts_->system, at);
   DeepestPlace deepest;
   const Pose X_MF = X.inverse();
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();

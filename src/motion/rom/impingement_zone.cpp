@@ -63,7 +63,8 @@ struct Sliding {
 }  // namespace
 
 struct ZoneFinder::Parts {
-  Side side;
+  CoordinateSystem system;
+  bool has_socket;
   Angle past;
   ClockFace socket_clock;
   std::optional<NeckAxis> neck;
@@ -77,9 +78,10 @@ ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   const auto bearing = find_bearing_surface(joint, options.bearing).surface;
   std::optional<NeckAxis> neck = options.neck;
   if (!neck && bearing) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
-  parts_ = std::make_unique<Parts>(
-      Parts{joint.side, options.past, options.socket_clock ? *options.socket_clock : sagittal_clock(), neck,
-            Sliding(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
+  parts_ = std::make_unique<Parts>(Parts{joint.coordinates(), joint.is_hip(), options.past,
+                                         options.socket_clock ? *options.socket_clock : sagittal_clock(),
+                                         neck, Sliding(joint.mobile.mesh, bearing, options.bearing.rule),
+                                         JointContact(joint)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -92,15 +94,15 @@ const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;
-  const auto& [side, past, socket_clock, neck, sliding, contact] = *parts_;
+  const auto& [system, has_socket, past, socket_clock, neck, sliding, contact] = *parts_;
   ImpingementZone zone{limit, past, {}, {}, {}, {}, {}, {}};
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
-  const Pose X_FM = pose_at(side, at);
+  const Pose X_FM = pose_at(system, at);
   const RadialContact radial = contact.radial(X_FM);
   const bool both_closed = radial.mobile_in_fixed && radial.fixed_in_mobile;
   const TangentialContact tangential =
-      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, side, at)) : TangentialContact{};
+      both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, system, at)) : TangentialContact{};
   // clang 14 does not let a lambda have a structured binding.
   const Sliding& slides = sliding;
   const auto leaves_through_bearing = [&](const std::vector<Index>& exits, std::size_t v) {
@@ -125,8 +127,8 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   take_triangles(contact.fixed(), std::move(of_fixed), zone.fixed);
   take_triangles(contact.mobile(), std::move(of_mobile), zone.mobile);
 
-  zone.contact_hour = socket_clock.hour_of(limit.end.contact->fixed_point);
-  if (zone.fixed.centroid_mm) zone.zone_hour = socket_clock.hour_of(*zone.fixed.centroid_mm);
+  if (has_socket) zone.contact_hour = socket_clock.hour_of(limit.end.contact->fixed_point);
+  if (has_socket && zone.fixed.centroid_mm) zone.zone_hour = socket_clock.hour_of(*zone.fixed.centroid_mm);
   if (!neck) return zone;
   const ClockFace around_neck = neck_clock(*neck);
   zone.contact_neck_angle = around_neck.angle_of(limit.end.contact->mobile_point);

@@ -165,8 +165,8 @@ class BandJoint {
  public:
   BandJoint(const Joint& joint, const motion::PartsOfJoint& parts, const JointAngles& reference,
             std::span<const Motion> motions)
-      : side_(joint.side),
-        X_ref_(pose_at(joint.side, reference)),
+      : system_(joint.coordinates()),
+        X_ref_(pose_at(joint.coordinates(), reference)),
         motions_(motions),
         groups_(grouped(motions)),
         fixed_(joint.fixed.mesh, parts.fixed.mesh),
@@ -193,14 +193,14 @@ class BandJoint {
 
     const Group* before = nullptr;
     for (const Group& group : groups_) {
-      const Pose X_FM = X_FG * pose_at(side_, group.start) * A.inverse();
+      const Pose X_FM = X_FG * pose_at(system_, group.start) * A.inverse();
       const bool turns_fixed = group.vary == JointAngle::internal_rotation;
       motion::TurningBody& resting = turns_fixed ? resting_mobile : resting_fixed;
       motion::TurningBody& turning = turns_fixed ? turning_fixed : turning_mobile;
       const AxisFrame axis =
           turns_fixed
-              ? AxisFrame(A.translation(), A.linear() * -axis_of(group.vary, side_, {}))
-              : AxisFrame(X_FG.translation(), X_FG.linear() * axis_of(group.vary, side_, group.start));
+              ? AxisFrame(A.translation(), A.linear() * -axis_of(group.vary, system_, {}))
+              : AxisFrame(X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start));
       if (!before || !before->shares_axis(group)) resting.start_at(axis, Pose::Identity());
       before = &group;
       turning.start_at(axis, turns_fixed ? X_FM.inverse() : X_FM);
@@ -215,7 +215,7 @@ class BandJoint {
   }
 
  private:
-  Side side_;
+  CoordinateSystem system_;
   Pose X_ref_;
   std::span<const Motion> motions_;
   std::vector<Group> groups_;

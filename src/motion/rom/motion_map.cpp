@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
+#include <numbers>
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
@@ -48,6 +49,25 @@ class Order {
   bool by_columns_;
 };
 
+/// |e1 x e3| over the second angle: its cosine, of a shoulder its sine.
+struct HaarWeight {
+  Anatomy anatomy;
+
+  double at(Angle second) const noexcept {
+    const double a = second.radians();
+    return anatomy == Anatomy::shoulder ? std::abs(std::sin(a)) : std::cos(a);
+  }
+  double integral(Angle from, Angle to) const noexcept {
+    const double a = from.radians(), b = to.radians();
+    return anatomy == Anatomy::shoulder ? integral_of_abs_sine(b) - integral_of_abs_sine(a)
+                                        : std::sin(b) - std::sin(a);
+  }
+  static double integral_of_abs_sine(double a) noexcept {
+    const double half_turns = std::floor(a / std::numbers::pi);
+    return 2 * half_turns + 1 - std::cos(a - half_turns * std::numbers::pi);
+  }
+};
+
 /// Weight of point i in the integral over the axis, in degrees.
 double trapezoid(const GridAxis& axis, std::size_t i) {
   const std::size_t count = axis.count();
@@ -68,7 +88,7 @@ JointAngles MapGrid::start_of(std::size_t point) const {
 }
 
 void check_grid(const MapGrid& grid, JointKind kind) {
-  if (kind != JointKind::ball) throw UsageError("map: a hinge turns only in flexion");
+  if (kind == JointKind::hinge) throw UsageError("map: a hinge turns only in flexion");
   if (grid.row.angle == grid.column.angle || grid.vary == grid.row.angle || grid.vary == grid.column.angle)
     throw UsageError("map: two angles are held and the third is varied; one is named twice");
   for (const GridAxis* axis : {&grid.row, &grid.column}) check_axis(*axis);
@@ -101,7 +121,7 @@ MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint) {
 std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
                                     const MapControl& control) {
   check_grid(grid, joint.kind());
-  MotionMap map{grid, std::vector<FreeAngles>(grid.size())};
+  MotionMap map{grid, std::vector<FreeAngles>(grid.size()), joint.coordinates().anatomy};
   const Order order(grid);
   std::size_t done = 0;
   std::mutex reporting;
@@ -124,6 +144,7 @@ std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& jo
 FreeVolume free_volume(const MotionMap& map) {
   const MapGrid& grid = map.grid;
   FreeVolume volume;
+  const HaarWeight haar{map.anatomy};
   const std::size_t columns = grid.column.count();
   volume.row_area_deg2.resize(grid.row.count());
   for (std::size_t i = 0; i < map.points.size(); ++i) {
@@ -132,13 +153,13 @@ FreeVolume free_volume(const MotionMap& map) {
     const JointAngles at = grid.start_of(i);
     for (const FreeInterval& free : map.points[i].intervals) {
       const double width = (free.high - free.low).degrees();
-      const double low = (at.adduction + free.low).radians(), high = (at.adduction + free.high).radians();
-      const double weighted_width = grid.vary == JointAngle::adduction
-                                        ? Angle::radians(std::sin(high) - std::sin(low)).degrees()
-                                        : std::cos(at.adduction.radians()) * width;
+      const double weighted_width =
+          grid.vary == JointAngle::adduction
+              ? Angle::radians(haar.integral(at.adduction + free.low, at.adduction + free.high)).degrees()
+              : haar.at(at.adduction) * width;
       volume.row_area_deg2[i / columns] += width * column_weight;
       volume.plain_deg3 += width * weight;
-      volume.cosine_weighted_deg3 += weighted_width * weight;
+      volume.weighted_deg3 += weighted_width * weight;
     }
   }
   return volume;

@@ -17,8 +17,6 @@ constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
   return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
 }
 
-constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
-
 /// Of the Latin alphabet; blanks and hyphens as the names have them.
 std::string in_small_letters(std::string_view name) {
   std::string small(name);
@@ -27,6 +25,54 @@ std::string in_small_letters(std::string_view name) {
     if (c == ' ' || c == '-') c = '_';
   }
   return small;
+}
+
+/// How far an angle may turn either way, degrees.
+struct Ranges {
+  double positive, negative;
+};
+
+/// Every angle of a joint both ways from zero, by its names.
+std::vector<Motion> each_way(Anatomy joint, Ranges first, Ranges second, Ranges third) {
+  const std::array ranges{first, second, third};
+  std::vector<Motion> motions;
+  for (const JointAngle angle : all_joint_angles) {
+    const auto i = static_cast<std::size_t>(angle);
+    const auto& [positive_name, negative_name] = coordinate_names(joint)[i];
+    motions.push_back(
+        {std::string(positive_name), angle, positive, at(0), Angle::degrees(ranges[i].positive)});
+    motions.push_back(
+        {std::string(negative_name), angle, negative, at(0), Angle::degrees(ranges[i].negative)});
+  }
+  return motions;
+}
+
+std::vector<Motion> with_rotations_at_90_flexion(std::vector<Motion> motions, Anatomy joint) {
+  const std::size_t count = motions.size();
+  for (std::size_t i = count - 2; i < count; ++i) {
+    Motion bent = motions[i];
+    bent.name += std::string("_at_90_") + std::string(coordinate_names(joint)[0].positive);
+    bent.start = at(90);
+    motions.push_back(std::move(bent));
+  }
+  return motions;
+}
+
+/// Angles are the plane of elevation, the elevation and rotation.
+std::vector<Motion> shoulder_motions() {
+  const auto plane = JointAngle::flexion, elevation = JointAngle::adduction;
+  const auto half = Angle::degrees(180), quarter = Angle::degrees(90), third = Angle::degrees(120);
+  return {
+      {"abduction", elevation, positive, at(0), half},
+      {"flexion", elevation, positive, at(90), half},
+      {"extension", elevation, positive, at(-90), quarter},
+      {"horizontal_flexion", plane, positive, at(0, 90), half},
+      {"horizontal_extension", plane, negative, at(0, 90), quarter},
+      {"internal_rotation", rotation, positive, at(0), third},
+      {"external_rotation", rotation, negative, at(0), third},
+      {"internal_rotation_at_90_abduction", rotation, positive, at(0, 90), third},
+      {"external_rotation_at_90_abduction", rotation, negative, at(0, 90), third},
+  };
 }
 
 }  // namespace
@@ -49,15 +95,25 @@ std::vector<Motion> hip_motions() {
   };
 }
 
-std::vector<Motion> hinge_motions() {
-  return {
-      {"flexion", flexion, positive, at(0), Angle::degrees(180)},
-      {"extension", flexion, negative, at(0), Angle::degrees(180)},
-  };
-}
-
-std::vector<Motion> built_in_motions(JointKind kind) {
-  return kind == JointKind::ball ? hip_motions() : hinge_motions();
+std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint) {
+  if (kind == JointKind::hinge) {
+    const auto& [positive_name, negative_name] = coordinate_names(joint)[0];
+    return {{std::string(positive_name), flexion, positive, at(0), Angle::degrees(180)},
+            {std::string(negative_name), flexion, negative, at(0), Angle::degrees(180)}};
+  }
+  switch (joint) {
+    case Anatomy::knee:
+      return with_rotations_at_90_flexion(each_way(joint, {180, 90}, {90, 90}, {120, 120}), joint);
+    case Anatomy::ankle:
+      return each_way(joint, {90, 90}, {90, 90}, {120, 120});
+    case Anatomy::elbow:
+      return with_rotations_at_90_flexion(each_way(joint, {180, 90}, {90, 90}, {180, 180}), joint);
+    case Anatomy::shoulder:
+      return shoulder_motions();
+    case Anatomy::hip:
+      break;
+  }
+  return hip_motions();
 }
 
 std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<const Motion> own) {
@@ -96,7 +152,7 @@ void check_motion(const Motion& motion, JointKind kind) {
   if (motion.sense == RotationSense::none) fail("it has no sense of rotation");
   if (!(range > 0)) fail("the range is empty");
   if (!(range <= two_pi)) fail("the range is more than a full turn");
-  for (const JointAngle angle : all_angles) {
+  for (const JointAngle angle : all_joint_angles) {
     const double start = angle_of(motion.start, angle).radians();
     if (!std::isfinite(start)) fail("an angle is not finite");
     if (kind == JointKind::hinge && angle != JointAngle::flexion && (start != 0 || motion.vary == angle))

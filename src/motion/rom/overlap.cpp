@@ -72,7 +72,8 @@ PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
   if (options.leave_out_reference_contacts) {
     const int rings = options.leave_out_reference_contacts->rings;
     if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
-    const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.side, options.reference_pose));
+    const auto pairs =
+        JointContact(fixed, mobile).pairs(pose_at(joint.coordinates(), options.reference_pose));
     for (const TrianglePair& pair : pairs) of_fixed[pair.fixed] = of_mobile[pair.mobile] = 0;
     unmark_neighbours(fixed, rings, of_fixed);
     unmark_neighbours(mobile, rings, of_mobile);
@@ -93,7 +94,7 @@ PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
 
 std::string explain_overlap(const Joint& joint, const JointAngles& at) {
   const JointContact bodies(joint.fixed.mesh, joint.mobile.mesh);
-  const Pose X_FM = pose_at(joint.side, at);
+  const Pose X_FM = pose_at(joint.coordinates(), at);
   const RadialContact contact = bodies.radial(X_FM);
   const RadialSummary summary = summarise(bodies, X_FM, contact);
   std::string text = joint.mobile.name + " and " + joint.fixed.name +

@@ -1,6 +1,5 @@
 #include "condyle/path_limit.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "condyle/error.hpp"
@@ -19,14 +18,12 @@ constexpr double far_enough = 0.5;
 /// Rounding of a step's length, relative; steps are shortened by it.
 constexpr double step_slack = 1e-12;
 
-constexpr std::array all_angles{JointAngle::flexion, JointAngle::adduction, JointAngle::internal_rotation};
-
 void check_path(std::span<const JointAngles> waypoints, Angle tolerance, JointKind kind) {
   if (waypoints.size() < 2) throw UsageError("path: needs two waypoints or more");
   if (!(tolerance >= finest_tolerance) || !std::isfinite(tolerance.radians()))
     throw UsageError("path: the tolerance must be 1e-6 degrees or more");
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
-    for (const JointAngle angle : all_angles) {
+    for (const JointAngle angle : all_joint_angles) {
       const double value = angle_of(waypoints[i], angle).radians();
       if (!std::isfinite(value)) throw UsageError("path: an angle is not finite");
       if (kind == JointKind::hinge && angle != JointAngle::flexion && value != 0)
@@ -39,7 +36,7 @@ void check_path(std::span<const JointAngles> waypoints, Angle tolerance, JointKi
 
 JointAngles between(const JointAngles& from, const JointAngles& to, double fraction) noexcept {
   JointAngles at = from;
-  for (const JointAngle angle : all_angles)
+  for (const JointAngle angle : all_joint_angles)
     at = turned_by(at, angle, (angle_of(to, angle) - angle_of(from, angle)) * fraction);
   return at;
 }
@@ -101,7 +98,7 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
     const double rotation = most_rotation(from, to) * (1 + step_slack);
     for (out.fraction = 0; out.fraction < 1;) {
       out.at = between(from, to, out.fraction);
-      const Pose X_FM = pose_at(range.side(), out.at);
+      const Pose X_FM = pose_at(range.coordinates(), out.at);
       const auto nearest = clearance(parts_->fixed, parts_->mobile, X_FM, far_enough);
       ++out.poses;
       if (nearest && nearest->rotation < tolerance.radians()) {

@@ -59,12 +59,12 @@ ContactWitness exchanged(const ContactWitness& contact) {
 
 /// The axis of internal rotation as seen in M, for F turning about it: adding d to the angle turns M by d
 /// about e3, and so F, seen from M, by -d about e3, which is d about -e3.
-AxisFrame rotation_axis_in_M(Side side) {
-  return {Vec3::Zero(), -axis_of(JointAngle::internal_rotation, side, {})};
+AxisFrame rotation_axis_in_M(CoordinateSystem system) {
+  return {Vec3::Zero(), -axis_of(JointAngle::internal_rotation, system, {})};
 }
 
-AxisFrame flexion_axis(Side side) {
-  return {Vec3::Zero(), axis_of(JointAngle::flexion, side, {})};
+AxisFrame flexion_axis(CoordinateSystem system) {
+  return {Vec3::Zero(), axis_of(JointAngle::flexion, system, {})};
 }
 
 }  // namespace
@@ -75,12 +75,12 @@ struct RangeOfMotion::Parts {
     CountingBody body;
     motion::RotationTable rotation_table;
 
-    MobilePart(motion::PartOfMesh part, Side side)
-        : body(std::move(part)), rotation_table(body.tree, rotation_axis_in_M(side)) {}
+    MobilePart(motion::PartOfMesh part, CoordinateSystem system)
+        : body(std::move(part)), rotation_table(body.tree, rotation_axis_in_M(system)) {}
   };
 
   JointKind kind;
-  Side side;
+  CoordinateSystem system;
   Mesh whole_mobile;
   BearingRule bearing_rule;
   BearingFinding bearing;
@@ -110,23 +110,23 @@ struct RangeOfMotion::Parts {
 
   Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint counting)
       : kind(joint.kind),
-        side(joint.side),
+        system(joint.coordinates()),
         whole_mobile(joint.mobile.mesh),
         bearing_rule(rule),
         bearing(std::move(found)),
         left_out(counting.left_out),
         fixed(std::move(counting.fixed)),
-        ending(std::move(counting.mobile), side),
+        ending(std::move(counting.mobile), system),
         ending_vertices(ending.body.used_vertices()),
-        sliding(counting.bearing ? std::make_unique<MobilePart>(std::move(*counting.bearing), side)
+        sliding(counting.bearing ? std::make_unique<MobilePart>(std::move(*counting.bearing), system)
                                  : nullptr),
-        flexion_table(fixed.tree, flexion_axis(side)),
+        flexion_table(fixed.tree, flexion_axis(system)),
         workers([this] { return Worker(*this); }) {}
 
   const motion::RotationTable& adduction_table(Worker& worker, const JointAngles& start) const {
     if (worker.flexion != start.flexion) {
       worker.adduction_table = std::make_unique<motion::RotationTable>(
-          fixed.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, side, start)));
+          fixed.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, system, start)));
       worker.flexion = start.flexion;
     }
     return *worker.adduction_table;
@@ -135,7 +135,7 @@ struct RangeOfMotion::Parts {
   /// First contact of the fixed body and one part of the mobile one.
   RotationLimits first_contact(Worker& worker, const MobilePart& part, motion::TurningBody& turning,
                                JointAngle vary, const JointAngles& start, const RotationRange& range) const {
-    const Pose X_FM = pose_at(side, start);
+    const Pose X_FM = pose_at(system, start);
     const auto search = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
       body.start_at(table.frame(), X);
       return motion::first_contact(table, body, range);
@@ -166,8 +166,8 @@ struct RangeOfMotion::Parts {
   /// vertices is inside. What is in `known` is not looked at and is in the answer.
   core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
                               std::vector<core::Arc> known) const {
-    const Pose X_FM = pose_at(side, start);
-    const AxisFrame axis(Vec3::Zero(), axis_of(vary, side, start));
+    const Pose X_FM = pose_at(system, start);
+    const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
     if (!worker.resting) worker.resting.emplace(fixed.tree);
     if (!worker.axis_F || *worker.axis_F != axis.direction()) {
       worker.resting->start_at(axis, Pose::Identity());
@@ -191,7 +191,7 @@ struct RangeOfMotion::Parts {
   /// Limits of what ends motions about the axis for which contact_angles() was last asked.
   RotationLimits limits_about_axis(Worker& worker, const JointAngles& start,
                                    const RotationRange& range) const {
-    worker.ending.start_at(worker.resting->frame(), pose_at(side, start));
+    worker.ending.start_at(worker.resting->frame(), pose_at(system, start));
     RotationLimits limits = motion::first_contact(*worker.resting, worker.ending, range);
     for (Limit* limit : {&limits.negative, &limits.positive})
       if (limit->contact) finish(*limit->contact, ending, Turning::mobile);
@@ -200,7 +200,7 @@ struct RangeOfMotion::Parts {
 
   HeadAtLimit head_at(const JointAngles& angles) const {
     const BearingSurface& surface = *bearing.surface;
-    const Pose X_FM = pose_at(side, angles);
+    const Pose X_FM = pose_at(system, angles);
     HeadAtLimit head;
     if (surface.socket)
       head.centre_distance_mm = (posed(X_FM, surface.head.centre) - surface.socket->centre).norm();
@@ -237,7 +237,7 @@ RangeOfMotion::~RangeOfMotion() = default;
 
 RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& start,
                                           const RotationRange& range) const {
-  assert(kind() == JointKind::ball || vary == JointAngle::flexion);
+  assert(kind() != JointKind::hinge || vary == JointAngle::flexion);
   Parts::Worker& worker = parts_->workers.local();
   RotationLimits limits = parts_->first_contact(worker, parts_->ending, worker.ending, vary, start, range);
   if (!worker.sliding || !limits.free_at_start()) return limits;
@@ -317,8 +317,8 @@ std::vector<MotionLimit> RangeOfMotion::limits(std::span<const Motion> motions) 
 JointKind RangeOfMotion::kind() const noexcept {
   return parts_->kind;
 }
-Side RangeOfMotion::side() const noexcept {
-  return parts_->side;
+CoordinateSystem RangeOfMotion::coordinates() const noexcept {
+  return parts_->system;
 }
 const BearingFinding& RangeOfMotion::bearing() const noexcept {
   return parts_->bearing;
