@@ -113,8 +113,15 @@ AnswerFrame::AnswerFrame(AnswerFrameName name, const JointReport& report) : name
   per_mm_ = 1 / mm_of(report.file.joint.units);
 }
 
+AnswerFrame AnswerFrame::of_held(const Vec3& translation_mm) const {
+  AnswerFrame frame = *this;
+  frame.held_ = translation_mm;
+  return frame;
+}
+
 Vec3 AnswerFrame::fixed_point(const Vec3& p_F) const noexcept {
-  return name_ == AnswerFrameName::joint ? p_F : posed(X_WF_, p_F);
+  const Vec3 p = held_ == Vec3::Zero() ? p_F : Vec3(p_F + held_);
+  return name_ == AnswerFrameName::joint ? p : posed(X_WF_, p);
 }
 Vec3 AnswerFrame::fixed_direction(const Vec3& d_F) const noexcept {
   return name_ == AnswerFrameName::joint ? d_F : Vec3(X_WF_.linear() * d_F);
@@ -123,7 +130,9 @@ Vec3 AnswerFrame::mobile_point(const Vec3& p_M) const noexcept {
   return name_ == AnswerFrameName::joint ? p_M : posed(X_WM_, p_M);
 }
 TriMesh AnswerFrame::fixed_mesh(const TriMesh& mesh) const {
-  return name_ == AnswerFrameName::joint ? mesh : moved(X_WF_, per_mm_, mesh);
+  const Pose back{Eigen::Translation3d(held_)};
+  if (name_ == AnswerFrameName::joint) return held_ == Vec3::Zero() ? mesh : posed(back, mesh);
+  return moved(X_WF_ * back, per_mm_, mesh);
 }
 TriMesh AnswerFrame::mobile_mesh(const TriMesh& mesh) const {
   return name_ == AnswerFrameName::joint ? mesh : moved(X_WM_, per_mm_, mesh);
