@@ -18,7 +18,7 @@ namespace condyle {
 /// The frame in which an answer gives points and meshes.
 enum class AnswerFrameName {
   joint,  ///< joint frame: the fixed body's, and for what is fixed to the mobile body the mobile one's
-  source  ///< that of the mesh files
+  source  ///< that of the mesh files; each body's own where they have frames of their own
 };
 
 /// "joint", "source".
@@ -50,8 +50,8 @@ class AnswerFrame {
 
  private:
   AnswerFrameName name_ = AnswerFrameName::joint;
-  Pose X_WF_ = Pose::Identity(), X_WM_ = Pose::Identity();
-  double per_mm_ = 1;  ///< the files' unit
+  Pose X_SF_ = Pose::Identity(), X_SM_ = Pose::Identity();  ///< in the frame of each body's mesh file
+  double per_mm_ = 1;                                       ///< the files' unit
   Vec3 held_ = Vec3::Zero();
 };
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,6 +10,7 @@
 
 #include "condyle/error.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/joint/pose_matrix.hpp"
 
 namespace condyle {
 namespace {
@@ -70,48 +71,28 @@ void for_each_word(std::string_view text, const Word& word) {
   }
 }
 
-/// A rotation off by more than this is refused as none; what tables with seven digits have is accepted.
-constexpr double largest_skew = 1e-6;
-/// Off by no more than this it is a rotation as doubles have it, and kept bit for bit.
-constexpr double rounding_skew = 4e-15;
-
-/// Of R^T R from the identity, the largest entry.
-double skew_of(const Eigen::Matrix3d& R) noexcept {
-  return (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-}
-
 GivenPose pose_of_matrix(std::string_view text) {
   std::vector<double> m;
   for_each_word(text, [&](std::string_view word) {
     const auto value = number_from(word);
     if (!value || !std::isfinite(*value))
       throw UsageError(fmt::format("pose: {} in the matrix is not a finite number", io::in_quotes(word)));
-    m.push_back(*value + 0.0);
+    m.push_back(*value);
   });
   if (m.size() != 16)
     throw UsageError(fmt::format("pose: a matrix has 16 numbers, row by row, not {}", m.size()));
-  GivenPose given{{}, Pose::Identity()};
-  for (std::size_t i = 0; i < 16; ++i)
-    given.X_FM.matrix()(static_cast<int>(i / 4), static_cast<int>(i % 4)) = m[i];
-  if (given.X_FM.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
-    const bool transposed = given.X_FM.matrix().col(3) == Eigen::Vector4d(0, 0, 0, 1);
-    throw UsageError(fmt::format("pose: the last row of the matrix must be 0 0 0 1, not {} {} {} {}{}", m[12],
-                                 m[13], m[14], m[15], transposed ? ": it looks transposed" : ""));
+  std::array<double, 16> rows;
+  std::copy(m.begin(), m.end(), rows.begin());
+  try {
+    const auto [X_FM, skew] = io::pose_of_rows(rows);
+    GivenPose given{{}, X_FM};
+    if (skew > 0)
+      given.notes.push_back(
+          fmt::format("the rotation of the matrix was off by {:.2g}; the nearest one is used", skew));
+    return given;
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("pose: {}", error.what()));
   }
-  const Eigen::Matrix3d R = given.X_FM.linear();
-  const double skew = skew_of(R);
-  if (!(skew <= largest_skew))
-    throw UsageError(
-        fmt::format("pose: the rotation of the matrix is not orthonormal: off by {:.2g}, more than {:g}",
-                    skew, largest_skew));
-  if (R.determinant() < 0) throw UsageError("pose: the matrix mirrors: its determinant is -1");
-  if (skew > rounding_skew) {
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    given.X_FM.linear() = svd.matrixU() * svd.matrixV().transpose();
-    given.notes.push_back(
-        fmt::format("the rotation of the matrix was off by {:.2g}; the nearest one is used", skew));
-  }
-  return given;
 }
 
 std::string hinge_refusal(Anatomy joint, JointAngle angle) {
@@ -172,7 +153,7 @@ GivenPose given_pose(std::string_view text, const Joint& joint) {
                                  name_of(joint.kind), translation.x(), translation.y(), translation.z()));
   if (joint.kind == JointKind::hinge) {
     for (const JointAngle angle : {JointAngle::adduction, JointAngle::internal_rotation})
-      if (std::abs(Angle::degrees(given.pose[angle]).radians()) > largest_skew)
+      if (std::abs(Angle::degrees(given.pose[angle]).radians()) > io::largest_skew)
         throw UsageError(hinge_refusal(joint.anatomy, angle));
     given.pose = {given.pose.flexion, 0, 0, Vec3::Zero()};
     given.X_FM = pose_at(system, given.pose.angles());
