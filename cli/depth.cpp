@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "answer.hpp"
 #include "command_line.hpp"
@@ -13,6 +16,7 @@
 #include "condyle/io/depth_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "io/file/whole_file.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
 
@@ -23,7 +27,7 @@ enum class Method { reliable, radial, tangential };
 enum class Scope { vertices_and_pairs, pairs_only };
 
 struct Options {
-  std::string joint, pose, out;
+  std::string joint, pose, matrix, out;
   Method method = Method::reliable;
   std::optional<std::string> about;
   VertexTables vertices = VertexTables::leave_out;
@@ -37,8 +41,10 @@ DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, 
   const Pose& X_FM = question.X_FM;
   const RadialContact contact = joint.radial(X_FM);
   const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
+  // About which axis such a pose would turn depends on how it got there.
+  const bool rotated_only = X_FM.translation() == Vec3::Zero();
   const ReliableContact reliable =
-      method == DepthMethod::reliable
+      method == DepthMethod::reliable && rotated_only
           ? reliable_depths(joint, question.joint.kind, question.joint.coordinates(), question.pose.angles(),
                             contact, measures.distances)
           : reliable_radial_depths(contact, measures.distances);
@@ -46,6 +52,11 @@ DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, 
 }
 
 DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about) {
+  if (const double moved = question.X_FM.translation().norm(); moved > 0)
+    throw UsageError(fmt::format(
+        "--method tangential: turns about the joint centre, and the pose is translated from it by {:.3f} mm; "
+        "--method radial answers there",
+        moved));
   const RotationAxis axis{about, axis_of(about, question.joint.coordinates(), question.pose.angles())};
   const TangentialContact contact = joint.tangential(question.X_FM, axis.direction_F);
   return depth_result(question, measure_contact(joint, question.X_FM, VertexStates(contact)), axis, contact);
@@ -68,6 +79,28 @@ DepthResult answer_of(const Options& options, const DepthQuestion& question) {
   return by_tangential(question, joint, about);
 }
 
+/// By its coordinates, as a matrix, or as a matrix in a file.
+GivenPose pose_of(const Options& options, const Joint& joint) {
+  if (options.matrix.empty()) return given_pose(options.pose, joint);
+  const std::string text = io::read_whole_file(options.matrix);
+  try {
+    if (!is_matrix(text)) throw UsageError("pose: a matrix begins with a number");
+    return given_pose(text, joint);
+  } catch (const UsageError& error) {
+    throw FileError(fmt::format("{}: {}", options.matrix, error.what()));
+  }
+}
+
+/// What an answer for a pose that translates must be read with.
+std::vector<std::string> terms_of(const Pose& X_FM, Method method) {
+  const double moved = X_FM.translation().norm();
+  if (moved == 0) return {};
+  return {fmt::format(
+      "the mobile body's centre is {:.3f} mm from the fixed body's: rays of mobile vertices start at the "
+      "fixed body's, those of fixed vertices at the mobile body's{}",
+      moved, method == Method::reliable ? "; no depth along arcs is told" : "")};
+}
+
 void require_solids(const LoadedJoint& loaded) {
   try {
     mesh::require_solid(loaded.joint.fixed.mesh, loaded.report.fixed.mesh.string());
@@ -80,11 +113,16 @@ void require_solids(const LoadedJoint& loaded) {
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
-  const PoseDegrees pose = parse_pose(options.pose, joint.kind, joint.anatomy);
+  const GivenPose given = pose_of(options, joint);
+  for (const std::string& remark : given.notes) note("pose: " + remark);
   if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  const DepthQuestion question{joint, pose, pose_at(joint.coordinates(), pose.angles()),
-                               noted(loaded, options.strictness), &from};
+  const DepthQuestion question{.joint = joint,
+                               .pose = given.pose,
+                               .X_FM = given.X_FM,
+                               .notes = noted(loaded, options.strictness),
+                               .terms = terms_of(given.X_FM, options.method),
+                               .provenance = &from};
   const DepthResult result = answer_of(options, question);
   if (!options.out.empty())
     say_written(write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
@@ -101,10 +139,12 @@ void add_depth(CLI::App& app) {
       "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  command->add_option("--pose", options->pose,
-                      "Angles in degrees, such as \"flexion=90 adduction=-10 internal_rotation=20\", by the "
-                      "names they have at "
-                      "the joint; those left out are 0");
+  auto* pose = command->add_option(
+      "--pose", options->pose,
+      "Angles in degrees (and x, y, z in mm of a free joint) by the names they have at the joint, such as "
+      "\"flexion=90 adduction=-10 internal_rotation=20\"; those left out are 0. Or the matrix X_FM: 16 "
+      "numbers row by row, in mm");
+  command->add_option("--matrix", options->matrix, "File with the pose as such a matrix")->excludes(pose);
   command
       ->add_option_function<std::string>(
           "--method",

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/error.hpp"
+#include "condyle/held_translation.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/io/grid_text.hpp"
 #include "condyle/io/joint_file.hpp"
@@ -34,7 +35,7 @@ enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
 
 struct Options {
-  std::string joint, out, vary;
+  std::string joint, out, vary, translation;
   std::vector<std::string> motions, map;
   std::optional<double> allow_depth_mm, past_deg;
   std::size_t band_samples = 0;  ///< 0: no bands
@@ -177,6 +178,25 @@ std::unique_ptr<RangeOfMotion> ready(const Joint& joint, const RangeOptions& opt
   }
 }
 
+/// The translation that a free joint keeps in all its motions: that of its reference pose unless told otherwise. Empty
+/// for joints that do not translate.
+std::optional<Vec3> held_translation(const Options& options, const LoadedJoint& loaded) {
+  const Joint& joint = loaded.joint;
+  if (joint.kind != JointKind::free) {
+    if (!options.translation.empty()) throw UsageError("--translation: only a free joint translates");
+    return std::nullopt;
+  }
+  const PoseDegrees pose = parse_pose(options.translation, joint.kind, joint.anatomy);
+  if (pose.angles() != JointAngles{}) throw UsageError("--translation: takes x, y and z only");
+  const Vec3 held = options.translation.empty() ? loaded.report.placement.reference_pose.translation_mm
+                                                : pose.translation_mm;
+  if (joint.translation_frame == TranslationFrame::joint_axes && held != Vec3::Zero())
+    throw UsageError(
+        "--translation: held along the joint's axes it would turn with them: motions need \"x=0\" or "
+        "translation_frame = \"fixed\"");
+  return held;
+}
+
 /// The clock that is wanted; throws MeshError where the socket has none.
 ClockFace clock_of(const Options& options, const Joint& joint, const BearingFinding& bearing) {
   if (options.clock == ClockPlane::sagittal) return sagittal_clock();
@@ -188,7 +208,8 @@ ClockFace clock_of(const Options& options, const Joint& joint, const BearingFind
 
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
-  const Joint& joint = loaded.joint;
+  const std::optional<Vec3> translation = held_translation(options, loaded);
+  const Joint joint = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
   const std::vector<Motion> known =
       with_own_motions(built_in_motions(joint.kind, joint.anatomy), loaded.report.file.motions);
   const std::vector<Motion> motions = chosen_motions(known, options.motions);
@@ -211,6 +232,10 @@ void run(const Options& options, const CLI::App& command) {
     found = {range->limits(motions), {}, range->bearing(), range->bearing_rule(), terms_of(asked, *range)};
     if (grid) map = computed_map(*grid, *range);
   }
+  if (translation)
+    found.terms.push_back(fmt::format(
+        "translation held at x {:g}, y {:g}, z {:g} mm: the mobile body turns about its own origin",
+        translation->x(), translation->y(), translation->z()));
   const BandOptions band = band_options(options, loaded.report.file.uncertainty);
   std::vector<LimitBand> bands;
   if (options.band_samples > 0) {
@@ -222,7 +247,8 @@ void run(const Options& options, const CLI::App& command) {
   if (finder)
     for (const MotionLimit& limit : found.limits) zones.push_back(finder->zone(limit));
 
-  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  if (translation) from.frame = from.frame.of_held(*translation);
   const RomResult result{.joint = joint,
                          .limits = found.limits,
                          .bearing = found.bearing,
@@ -230,6 +256,7 @@ void run(const Options& options, const CLI::App& command) {
                          .clock = clock_of(options, joint, found.bearing),
                          .clock_plane = options.clock,
                          .terms = found.terms,
+                         .held_translation_mm = translation,
                          .notes = notes,
                          .depths = found.depths,
                          .zones = zones,
@@ -268,6 +295,10 @@ void add_rom(CLI::App& app) {
               "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
               "adduction=-40:30:1; the first one runs to the right")
           ->expected(2);
+  command->add_option(
+      "--translation", options->translation,
+      "Of a free joint: what all motions keep, such as \"x=1.5 y=-0.2 z=0\" in mm; without it "
+      "that of the reference pose");
   command->add_option("--vary", options->vary, "The angle that varies in the map: the third one");
   command->add_option("--past", options->past_deg,
                       "Also find the impingement zones this many degrees past each limit");

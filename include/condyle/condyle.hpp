@@ -24,6 +24,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/fit.hpp"
 #include "condyle/make_joint.hpp"
+#include "condyle/held_translation.hpp"
 #include "condyle/joint_checks.hpp"
 
 // One pose.

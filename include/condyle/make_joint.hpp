@@ -12,8 +12,8 @@
 #include "condyle/joint_frame.hpp"
 #include "condyle/length_unit.hpp"
 
-/// A joint from two meshes as a segmentation gives them, both in one frame W and in one unit: where the joint
-/// frame F lies in W is given by directions, landmarks or a fit, and both meshes are placed in it.
+/// A joint from two meshes in one unit, both in one frame W as a segmentation gives them, or each in a frame of its own that
+/// lies in W. Where the joint frame F lies in W is given by directions, landmarks or a fit, and both meshes are placed in it.
 ///
 ///     JointDescription right_hip{.name = "right hip", .kind = JointKind::ball, .side = Side::right};
 ///     right_hip.frame.centre = CentreFit{};  // the centre of the femoral head
@@ -62,6 +62,8 @@ struct JointDescription {
   JointCoordinates reference_pose = {};
   Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint
+  /// X_WB of each body, in mm: where the frame B in which its mesh is given lies in W, in the reference pose.
+  Pose fixed_in_W = Pose::Identity(), mobile_in_W = Pose::Identity();
 
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };
@@ -91,7 +93,7 @@ struct PlacedJoint {
   JointPlacement placement;
 };
 
-/// Places both bodies, whose meshes are in W, in the joint frame:
+/// Places both bodies in the joint frame, from where their meshes are in W, p_W = X_WB p_B:
 ///
 ///     p_F = X_WF^-1 p_W                        fixed vertices
 ///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices; with mobile_axes X_WM^-1 p_W

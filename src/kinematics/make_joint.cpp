@@ -29,11 +29,14 @@ void check_units(const Body& fixed, const LikelyUnit& of_fixed, const Body& mobi
                      mobile.name + " like " + name_of(*of_mobile.unit) + ": give both in one unit");
 }
 
-/// X * (scale p) in extended precision, rounded once per coordinate; untouched where nothing is to be done.
-Mesh placed(const Pose& X, double scale, const Body& body) {
-  if (scale == 1 && X.matrix() == Pose::Identity().matrix()) return body.mesh;
+/// X_AW X_WB * (scale p) in extended precision, rounded once per coordinate; untouched where nothing is to be done.
+Mesh placed(const Pose& X_AW, const Pose& X_WB, double scale, const Body& body) {
+  const auto wide = [](const Pose& X) -> Eigen::Matrix<long double, 4, 4> {
+    return X.matrix().cast<long double>();
+  };
+  const Eigen::Matrix<long double, 4, 4> m = wide(X_AW) * wide(X_WB);
+  if (scale == 1 && m == wide(Pose::Identity())) return body.mesh;
   Points points = body.mesh.vertices();
-  const auto& m = X.matrix();
   for (std::size_t v = 0; v < points.size(); ++v) {
     const long double x = scale * static_cast<long double>(points.x[v]);
     const long double y = scale * static_cast<long double>(points.y[v]);
@@ -96,7 +99,8 @@ bool has_head(const JointDescription& description) noexcept {
 Pose fitted_frame(const JointDescription& description, const CentreFit& fit, const Body& body,
                   JointPlacement& placement) {
   placement.fitted_body = fit.body;
-  const Mesh mesh = placed(Pose::Identity(), scale_of(description.units), body);
+  const Pose& X_WB = fit.body == BodyRole::fixed ? description.fixed_in_W : description.mobile_in_W;
+  const Mesh mesh = placed(Pose::Identity(), X_WB, scale_of(description.units), body);
   try {
     if (has_head(description)) {
       SphereSearch search;
@@ -206,8 +210,8 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   const Pose X_FW = placement.X_WF.inverse();
   const Pose X_MW = mobile_frame(description, X_FW, placement);
   const double scale = scale_of(description.units);
-  fixed.mesh = placed(X_FW, scale, fixed);
-  mobile.mesh = placed(X_MW, scale, mobile);
+  fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);
+  mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
   placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
   placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
   placement.notes = notes_on(placement);

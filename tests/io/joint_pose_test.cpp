@@ -2,6 +2,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <cmath>
+#include <sstream>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -117,6 +118,104 @@ TEST(PoseText, ANameOfAnotherJointIsRefusedWithThoseThereAre) {
               "pose: unknown angle 'flexion'; there are dorsiflexion, inversion and internal_rotation, and "
               "plantarflexion, eversion and external_rotation with the opposite sign");
   }
+}
+
+TEST(PoseText, OnlyAFreeJointTranslates) {
+  EXPECT_EQ(parse_pose("flexion=30 x=1.5,z=-2 y=+0.25", JointKind::free, Anatomy::knee),
+            (PoseDegrees{30, 0, 0, {1.5, 0.25, -2}}));
+  EXPECT_EQ(to_text(PoseDegrees{30, 0, 0, {1.5, 0, -2}}, Anatomy::knee),
+            "flexion=30 adduction=0 internal_rotation=0 x=1.5 y=0 z=-2");
+  EXPECT_NE(refusal("x=1"), "accepted");
+  const auto refused = [](std::string_view text) {
+    try {
+      parse_pose(text, JointKind::free, Anatomy::knee);
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refused("x=1 x=1"), "pose: x is given twice");
+  EXPECT_EQ(refused("x=1m"), "pose: x='1m' is not a number of mm");
+  for (const char* name : {"xy=1", "w=1", "=1", "X=1"}) EXPECT_NE(refused(name), "accepted") << name;
+}
+
+// Poses as matrices.
+
+Joint joint_of(JointKind kind, Anatomy anatomy) {
+  Joint joint{"joint", kind, Side::right, {"fixed", TriMesh{}}, {"mobile", TriMesh{}}};
+  joint.anatomy = anatomy;
+  return joint;
+}
+
+std::string matrix_text(const Pose& X) {
+  std::ostringstream text;
+  text.precision(17);
+  for (int i = 0; i < 16; ++i) text << X.matrix()(i / 4, i % 4) << (i % 4 == 3 ? "\n" : " ");
+  return text.str();
+}
+
+std::string matrix_refusal(const std::string& text, JointKind kind = JointKind::free) {
+  try {
+    given_pose(text, joint_of(kind, Anatomy::knee));
+  } catch (const UsageError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    return error.what();
+  }
+  return "accepted";
+}
+
+const JointCoordinates bent{{Angle::degrees(40), Angle::degrees(-3), Angle::degrees(12)}, {1, -2, 3}};
+
+TEST(PoseMatrix, IsThePoseBitForBitAndItsCoordinatesAreTold) {
+  const Joint knee = joint_of(JointKind::free, Anatomy::knee);
+  const Pose X = pose_at(knee.coordinates(), bent, TranslationFrame::fixed);
+  const GivenPose given = given_pose(matrix_text(X), knee);
+  EXPECT_TRUE(given.X_FM.matrix() == X.matrix());
+  EXPECT_TRUE(given.notes.empty());
+  EXPECT_NEAR(given.pose.flexion, 40, 1e-12);
+  EXPECT_NEAR(given.pose.adduction, -3, 1e-12);
+  EXPECT_NEAR(given.pose.internal_rotation, 12, 1e-12);
+  EXPECT_EQ(given.pose.translation_mm, Vec3(1, -2, 3));
+}
+
+TEST(PoseMatrix, WithSevenDigitsIsMadeARotationAndSaysSo) {
+  const Joint knee = joint_of(JointKind::free, Anatomy::knee);
+  const Pose X = pose_at(knee.coordinates(), bent, TranslationFrame::fixed);
+  Pose rounded = X;
+  rounded.matrix() = (X.matrix() * 1e7).array().round() / 1e7;
+  const GivenPose given = given_pose(matrix_text(rounded), knee);
+  ASSERT_EQ(given.notes.size(), 1u);
+  EXPECT_NE(given.notes[0].find("the nearest one is used"), std::string::npos);
+  const Eigen::Matrix3d R = given.X_FM.linear();
+  EXPECT_LE((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 4e-15);
+  EXPECT_LE((R - X.linear()).cwiseAbs().maxCoeff(), 3 * 0.5e-7);
+}
+
+TEST(PoseMatrix, ThatIsNoPoseIsRefusedInOneLine) {
+  EXPECT_EQ(matrix_refusal("1 0 0 0 0 1"), "pose: a matrix has 16 numbers, row by row, not 6");
+  EXPECT_EQ(matrix_refusal("1 0 0 0, 0 1 0 0, 0 0 1 0, 0 0 0 1, 5"),
+            "pose: a matrix has 16 numbers, row by row, not 17");
+  EXPECT_EQ(matrix_refusal("1 0 0 ten"), "pose: 'ten' in the matrix is not a finite number");
+  EXPECT_EQ(matrix_refusal("1 0 0 nan"), "pose: 'nan' in the matrix is not a finite number");
+  EXPECT_EQ(matrix_refusal("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1"),
+            "pose: the last row of the matrix must be 0 0 0 1, not 5 6 7 1: it looks transposed");
+  EXPECT_EQ(matrix_refusal("1 0 0 0 0 1 0 0 0 0 -1 0 0 0 0 1"),
+            "pose: the matrix mirrors: its determinant is -1");
+  EXPECT_EQ(matrix_refusal("1 0.01 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
+            "pose: the rotation of the matrix is not orthonormal: off by 0.01, more than 1e-06");
+}
+
+TEST(PoseMatrix, OfAJointThatDoesNotTranslateHasNoTranslation) {
+  EXPECT_EQ(matrix_refusal("1 0 0 5 0 1 0 0 0 0 1 0 0 0 0 1", JointKind::ball),
+            "pose: a ball does not translate, and the matrix has (5, 0, 0) mm");
+  EXPECT_EQ(matrix_refusal("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", JointKind::ball), "accepted");
+}
+
+TEST(PoseMatrix, OfAHingeTurnsAboutItsAxis) {
+  const Joint hinge = joint_of(JointKind::hinge, Anatomy::knee);
+  EXPECT_EQ(given_pose("0 1 0 0 -1 0 0 0 0 0 1 0 0 0 0 1", hinge).pose.flexion, 90);
+  EXPECT_EQ(matrix_refusal("1 0 0 0 0 0 -1 0 0 1 0 0 0 0 0 1", JointKind::hinge),
+            "pose: a hinge rotates in flexion only, not in adduction");
 }
 
 }  // namespace

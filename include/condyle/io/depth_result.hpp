@@ -22,7 +22,8 @@ struct DepthQuestion {
   const Joint& joint;
   PoseDegrees pose;  ///< as it was given
   Pose X_FM;
-  std::vector<JointNote> notes = {};  ///< what looks wrong with the joint
+  std::vector<JointNote> notes = {};    ///< what looks wrong with the joint
+  std::vector<std::string> terms = {};  ///< what the answer must be read with, one line each
   /// Where the answer comes from and in which frame it is given; null: not known, and the joint frame.
   const Provenance* provenance = nullptr;
 

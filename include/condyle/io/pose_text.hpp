@@ -2,7 +2,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "condyle/joint.hpp"
 #include "condyle/joint_coordinates.hpp"
 
 namespace condyle {
@@ -28,10 +30,27 @@ struct PoseDegrees {
 
 /// Reads a pose as people write it: "flexion=90 adduction=-10 internal_rotation=20", in degrees, in any
 /// order, separated by spaces or commas, by the names that the joint's angles have (coordinate_names()). Angles left out
-/// are 0; the empty text is the neutral pose. Under its negative name, `extension`, an angle has the opposite sign. Throws
-/// UsageError on unknown names, on an angle given twice under either name, on anything that is not a finite
-/// number, and on a hinge for angles other than the first other than 0.
+/// are 0; the empty text is the neutral pose. Under its negative name, `extension`, an angle has the opposite sign. A free
+/// joint has `x`, `y` and `z` besides, in mm. Throws UsageError on unknown names, on one given twice under either name, on
+/// anything that is not a finite number, and on a hinge for angles other than the first other than 0.
 PoseDegrees parse_pose(std::string_view text, JointKind kind, Anatomy joint);
+
+/// A pose as it is used and by its coordinates.
+struct GivenPose {
+  PoseDegrees pose;
+  Pose X_FM;
+  std::vector<std::string> notes = {};  ///< one line each: what was made of it
+};
+
+/// Whether a text gives a pose as a matrix: it begins with a number.
+bool is_matrix(std::string_view text) noexcept;
+
+/// A pose of this joint, by its coordinates as parse_pose() reads them or as the matrix X_FM (p_F = X_FM p_M, lengths in mm):
+/// 16 numbers row by row, separated by blanks, commas or line ends, the last four 0 0 0 1. Its rotation must be orthonormal
+/// within 1e-6; where it is not to rounding the nearest rotation is used, and a note says so. Throws UsageError for
+/// anything else, for a matrix with a translation where the joint does not translate, and for one that turns a hinge out of
+/// its axis.
+GivenPose given_pose(std::string_view text, const Joint& joint);
 
 /// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
 std::string to_text(const PoseDegrees& pose, Anatomy joint);

@@ -18,7 +18,7 @@ namespace condyle {
 /// The frame in which an answer gives points and meshes.
 enum class AnswerFrameName {
   joint,  ///< joint frame: the fixed body's, and for what is fixed to the mobile body the mobile one's
-  source  ///< that of the mesh files
+  source  ///< that of the mesh files; each body's own where they have frames of their own
 };
 
 /// "joint", "source".
@@ -36,6 +36,9 @@ class AnswerFrame {
 
   AnswerFrameName name() const noexcept { return name_; }
 
+  /// The same for an answer about held_at(joint, translation): what it gives in F is moved back.
+  AnswerFrame of_held(const Vec3& translation_mm) const;
+
   /// A point or a direction of F, and a point fixed to the mobile body, given in M.
   Vec3 fixed_point(const Vec3& p_F) const noexcept;
   Vec3 fixed_direction(const Vec3& d_F) const noexcept;
@@ -47,8 +50,9 @@ class AnswerFrame {
 
  private:
   AnswerFrameName name_ = AnswerFrameName::joint;
-  Pose X_WF_ = Pose::Identity(), X_WM_ = Pose::Identity();
-  double per_mm_ = 1;  ///< the files' unit
+  Pose X_SF_ = Pose::Identity(), X_SM_ = Pose::Identity();  ///< in the frame of each body's mesh file
+  double per_mm_ = 1;                                       ///< the files' unit
+  Vec3 held_ = Vec3::Zero();
 };
 
 /// A mesh file and how its mesh came into the joint: p_joint = joint_from_source * p_source for a vertex of the file,

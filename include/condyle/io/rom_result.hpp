@@ -34,6 +34,8 @@ struct RomResult {
   ClockPlane clock_plane = ClockPlane::sagittal;
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
   std::vector<std::string> terms = {};
+  /// Of a free joint, the translation at which `joint` is held (held_at()), along the fixed body's axes.
+  std::optional<Vec3> held_translation_mm = {};
   /// What looks wrong with the joint.
   std::span<const JointNote> notes = {};
   /// One per limit where a depth was allowed, none where limits are exact.

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/repair_text.hpp"
 #include "io/file/format_version.hpp"
+#include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/joint/pose_matrix.hpp"
 #include "io/joint/toml_table.hpp"
 
 namespace condyle {
@@ -36,6 +39,7 @@ class Lengths {
   Vec3 required_point(io::TomlTable& table, std::string_view key) const {
     return scale_ * table.required(key, table.triple(key));
   }
+  Vec3 in_mm(const Vec3& lengths) const { return scale_ * lengths; }
   double positive(io::TomlTable& table, std::string_view key) const {
     const double value = table.required(key, table.number(key));
     if (!(value > 0)) table.fail(key, "must be above 0");
@@ -55,13 +59,59 @@ class Lengths {
   double scale_;
 };
 
-BodyEntry body_entry(io::TomlTable& file, std::string_view key) {
-  io::TomlTable table = file.required(key, file.table(key));
+/// The text with ${NAME} replaced by the environment variable of that name.
+std::string with_environment(const io::TomlTable& table, std::string_view key, std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = text.find("${", at);
+    out += text.substr(at, begin == text.npos ? begin : begin - at);
+    if (begin == text.npos) break;
+    const std::size_t end = text.find('}', begin);
+    if (end == text.npos) table.fail(key, "has ${ without }");
+    const std::string name(text.substr(begin + 2, end - begin - 2));
+    const char* value = std::getenv(name.c_str());
+    if (!value) table.fail(key, fmt::format("the environment variable {} is not set", io::in_quotes(name)));
+    out += value;
+    at = end + 1;
+  }
+  return out;
+}
+
+std::filesystem::path mesh_path(io::TomlTable& table) {
+  const std::string mesh = with_environment(table, "mesh", table.required("mesh", table.text("mesh")));
+  if (mesh.empty()) table.fail("mesh", "must name a file");
+  return mesh;
+}
+
+/// X_WB of a body: a matrix row by row, or a translation and the joint's angles, about the axes of W.
+Pose body_pose(io::TomlTable& body, CoordinateSystem system, const Lengths& lengths) {
+  if (body.is_list("pose")) {
+    try {
+      Pose X = io::pose_of_rows(*body.sixteen("pose")).X;
+      X.translation() = lengths.in_mm(X.translation());
+      return X;
+    } catch (const UsageError& error) {
+      body.fail("pose", error.what());
+    }
+  }
+  std::optional<io::TomlTable> given = body.table("pose");
+  if (!given) return Pose::Identity();
+  io::TomlTable& table = *given;
+  const auto angle = [&](JointAngle name) {
+    return Angle::degrees(table.number(name_of(name, system.anatomy)).value_or(0));
+  };
+  Pose X = pose_at(system, JointAngles{angle(JointAngle::flexion), angle(JointAngle::adduction),
+                                       angle(JointAngle::internal_rotation)});
+  X.translation() = lengths.in_mm(table.triple("translation").value_or(Vec3::Zero()));
+  table.finish();
+  return X;
+}
+
+/// A body's table is read in two parts: its pose needs what is known of the joint.
+BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
   BodyEntry entry;
   entry.name = table.text("name").value_or(std::string(key));
-  const std::string mesh = table.required("mesh", table.text("mesh"));
-  if (mesh.empty()) table.fail("mesh", "must name a file");
-  entry.mesh = mesh;
+  entry.mesh = mesh_path(table);
   for (const std::string& word : table.texts("repair").value_or(std::vector<std::string>{})) {
     try {
       entry.repairs.push_back(repair_named(word));
@@ -69,7 +119,6 @@ BodyEntry body_entry(io::TomlTable& file, std::string_view key) {
       table.fail("repair", error.what());
     }
   }
-  table.finish();
   return entry;
 }
 
@@ -282,12 +331,18 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.kind = kinds[file.required_word("kind", {"ball", "hinge", "free"})];
   joint.side = file.required_word("side", {"right", "left"}) == 0 ? Side::right : Side::left;
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
-  out.fixed = body_entry(file, "fixed");
-  out.mobile = body_entry(file, "mobile");
+  io::TomlTable fixed = file.required("fixed", file.table("fixed"));
+  io::TomlTable mobile = file.required("mobile", file.table("mobile"));
+  out.fixed = body_entry(fixed, "fixed");
+  out.mobile = body_entry(mobile, "mobile");
   for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
   joint.anatomy = anatomy_of(file, joint);
   joint.translation_frame = translation_frame_of(file, joint);
+  joint.fixed_in_W = body_pose(fixed, joint.coordinates(), Lengths(joint.units));
+  joint.mobile_in_W = body_pose(mobile, joint.coordinates(), Lengths(joint.units));
+  fixed.finish();
+  mobile.finish();
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
   joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);

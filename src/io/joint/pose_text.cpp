@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "condyle/error.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/joint/pose_matrix.hpp"
 
 namespace condyle {
 namespace {
@@ -22,56 +24,141 @@ struct AngleName {
 
 constexpr std::string_view separators = " \t\r\n,";
 
-AngleName angle_name(std::string_view name, Anatomy joint) {
-  const auto& names = coordinate_names(joint);
+std::optional<AngleName> angle_name(std::string_view name, Anatomy joint) {
   for (const JointAngle angle : all_joint_angles) {
-    const auto& [positive, negative] = names[static_cast<std::size_t>(angle)];
-    if (name == positive) return {positive, angle, 1};
-    if (name == negative) return {negative, angle, -1};
+    const auto& [positive, negative] = coordinate_names(joint)[static_cast<std::size_t>(angle)];
+    if (name == positive) return AngleName{positive, angle, 1};
+    if (name == negative) return AngleName{negative, angle, -1};
   }
-  throw UsageError(
-      fmt::format("pose: unknown angle {}; there are {}, {} and {}, and {}, {} and {} with the opposite sign",
-                  io::in_quotes(name), names[0].positive, names[1].positive, names[2].positive,
-                  names[0].negative, names[1].negative, names[2].negative));
+  return std::nullopt;
 }
 
-double degrees_from(std::string_view text, std::string_view name) {
+[[noreturn]] void fail_unknown(std::string_view name, JointKind kind, Anatomy joint) {
+  const auto& names = coordinate_names(joint);
+  throw UsageError(
+      fmt::format("pose: unknown {} {}; there are {}, {} and {}, and {}, {} and {} with the opposite sign{}",
+                  kind == JointKind::free ? "coordinate" : "angle", io::in_quotes(name), names[0].positive,
+                  names[1].positive, names[2].positive, names[0].negative, names[1].negative,
+                  names[2].negative, kind == JointKind::free ? ", and x, y and z" : ""));
+}
+
+std::optional<double> number_from(std::string_view text) noexcept {
   const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
   double value = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() ||
       digits.starts_with("-") != text.starts_with("-"))
-    throw UsageError(fmt::format("pose: {}={} is not a number of degrees", name, io::in_quotes(text)));
-  if (!std::isfinite(value))
-    throw UsageError(fmt::format("pose: {} must be finite, not {}", name, io::in_quotes(text)));
+    return std::nullopt;
   return value;
+}
+
+double finite_number(std::string_view text, std::string_view name, std::string_view unit) {
+  const auto value = number_from(text);
+  if (!value)
+    throw UsageError(fmt::format("pose: {}={} is not a number of {}", name, io::in_quotes(text), unit));
+  if (!std::isfinite(*value))
+    throw UsageError(fmt::format("pose: {} must be finite, not {}", name, io::in_quotes(text)));
+  return *value;
+}
+
+/// Calls back with each word between separators.
+template <class Word>
+void for_each_word(std::string_view text, const Word& word) {
+  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != text.npos;) {
+    const std::string_view next = text.substr(at, text.find_first_of(separators, at) - at);
+    at += next.size();
+    word(next);
+  }
+}
+
+GivenPose pose_of_matrix(std::string_view text) {
+  std::vector<double> m;
+  for_each_word(text, [&](std::string_view word) {
+    const auto value = number_from(word);
+    if (!value || !std::isfinite(*value))
+      throw UsageError(fmt::format("pose: {} in the matrix is not a finite number", io::in_quotes(word)));
+    m.push_back(*value);
+  });
+  if (m.size() != 16)
+    throw UsageError(fmt::format("pose: a matrix has 16 numbers, row by row, not {}", m.size()));
+  std::array<double, 16> rows;
+  std::copy(m.begin(), m.end(), rows.begin());
+  try {
+    const auto [X_FM, skew] = io::pose_of_rows(rows);
+    GivenPose given{{}, X_FM};
+    if (skew > 0)
+      given.notes.push_back(
+          fmt::format("the rotation of the matrix was off by {:.2g}; the nearest one is used", skew));
+    return given;
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("pose: {}", error.what()));
+  }
+}
+
+std::string hinge_refusal(Anatomy joint, JointAngle angle) {
+  return fmt::format("pose: a hinge rotates in {} only, not in {}", name_of(JointAngle::flexion, joint),
+                     name_of(angle, joint));
 }
 
 }  // namespace
 
 PoseDegrees parse_pose(std::string_view text, JointKind kind, Anatomy joint) {
-  std::array<std::optional<double>, 3> degrees;
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != text.npos;) {
-    const std::string_view word = text.substr(at, text.find_first_of(separators, at) - at);
-    at += word.size();
+  std::array<std::optional<double>, 3> degrees, mm;
+  for_each_word(text, [&](std::string_view word) {
     const std::size_t equals = word.find('=');
     if (equals == word.npos)
       throw UsageError(fmt::format("pose: {} is not of the form {}=90", io::in_quotes(word),
                                    name_of(JointAngle::flexion, joint)));
-    const AngleName known = angle_name(word.substr(0, equals), joint);
-    auto& value = degrees[static_cast<std::size_t>(known.angle)];
-    if (value) throw UsageError(fmt::format("pose: {} is given twice", name_of(known.angle, joint)));
-    // Adding 0 makes 0 of -0, which extension=0 would be.
-    value = known.sign * degrees_from(word.substr(equals + 1), known.name) + 0.0;
-  }
+    const std::string_view name = word.substr(0, equals), value = word.substr(equals + 1);
+    const auto set = [](std::optional<double>& to, std::string_view as, double number) {
+      if (to) throw UsageError(fmt::format("pose: {} is given twice", as));
+      to = number + 0.0;  // 0 of -0, which extension=0 would be
+    };
+    if (const auto known = angle_name(name, joint))
+      set(degrees[static_cast<std::size_t>(known->angle)], name_of(known->angle, joint),
+          known->sign * finite_number(value, known->name, "degrees"));
+    else if (const auto axis = std::string_view("xyz").find(name);
+             kind == JointKind::free && name.size() == 1 && axis != name.npos)
+      set(mm[axis], name, finite_number(value, name, "mm"));
+    else
+      fail_unknown(name, kind, joint);
+  });
   const auto given = [&](JointAngle a) { return degrees[static_cast<std::size_t>(a)].value_or(0); };
   if (kind == JointKind::hinge)
     for (const JointAngle angle : {JointAngle::adduction, JointAngle::internal_rotation})
-      if (given(angle) != 0)
-        throw UsageError(fmt::format("pose: a hinge rotates in {} only, not in {}",
-                                     name_of(JointAngle::flexion, joint), name_of(angle, joint)));
-  return {given(JointAngle::flexion), given(JointAngle::adduction), given(JointAngle::internal_rotation),
-          Vec3::Zero()};
+      if (given(angle) != 0) throw UsageError(hinge_refusal(joint, angle));
+  return {given(JointAngle::flexion),
+          given(JointAngle::adduction),
+          given(JointAngle::internal_rotation),
+          {mm[0].value_or(0), mm[1].value_or(0), mm[2].value_or(0)}};
+}
+
+bool is_matrix(std::string_view text) noexcept {
+  const std::size_t first = text.find_first_not_of(separators);
+  return first != text.npos && std::string_view("0123456789+-.").find(text[first]) != text.npos;
+}
+
+GivenPose given_pose(std::string_view text, const Joint& joint) {
+  const CoordinateSystem system = joint.coordinates();
+  if (!is_matrix(text)) {
+    const PoseDegrees pose = parse_pose(text, joint.kind, joint.anatomy);
+    return {pose, pose_at(system, pose.coordinates(), joint.translation_frame)};
+  }
+  GivenPose given = pose_of_matrix(text);
+  const auto [angles, translation] = coordinates_at(system, given.X_FM, joint.translation_frame);
+  given.pose = {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees(),
+                translation};
+  if (joint.kind != JointKind::free && given.X_FM.translation() != Vec3::Zero())
+    throw UsageError(fmt::format("pose: a {} does not translate, and the matrix has ({}, {}, {}) mm",
+                                 name_of(joint.kind), translation.x(), translation.y(), translation.z()));
+  if (joint.kind == JointKind::hinge) {
+    for (const JointAngle angle : {JointAngle::adduction, JointAngle::internal_rotation})
+      if (std::abs(Angle::degrees(given.pose[angle]).radians()) > io::largest_skew)
+        throw UsageError(hinge_refusal(joint.anatomy, angle));
+    given.pose = {given.pose.flexion, 0, 0, Vec3::Zero()};
+    given.X_FM = pose_at(system, given.pose.angles());
+  }
+  return given;
 }
 
 std::string to_text(const PoseDegrees& pose, Anatomy joint) {

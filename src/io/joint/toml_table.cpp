@@ -50,6 +50,11 @@ bool TomlTable::is_text(std::string_view key) const {
   return node && node->is_string();
 }
 
+bool TomlTable::is_list(std::string_view key) const {
+  const toml::node* node = table_->get(key);
+  return node && node->is_array();
+}
+
 void TomlTable::fail(std::string_view key, std::string_view what) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? *node : static_cast<const toml::node&>(*table_)).source().begin.line;
@@ -108,6 +113,10 @@ std::optional<std::array<double, 2>> TomlTable::pair(std::string_view key) {
 std::optional<Vec3> TomlTable::triple(std::string_view key) {
   const auto values = numbers<3>(key, "three");
   return values ? std::optional(Vec3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
+}
+
+std::optional<std::array<double, 16>> TomlTable::sixteen(std::string_view key) {
+  return numbers<16>(key, "sixteen");
 }
 
 std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {

@@ -38,6 +38,8 @@ class TomlTable {
   std::optional<long long> integer(std::string_view key);
   std::optional<std::array<double, 2>> pair(std::string_view key);
   std::optional<Vec3> triple(std::string_view key);
+  std::optional<std::array<double, 16>> sixteen(std::string_view key);
+  bool is_list(std::string_view key) const;
   std::optional<std::vector<std::string>> texts(std::string_view key);
   std::optional<TomlTable> table(std::string_view key);
   /// Tables written as [[key]], in their order; none where the key is not there.

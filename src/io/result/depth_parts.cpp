@@ -18,25 +18,37 @@ Json matrix_json(const Pose& X) {
 }  // namespace
 
 Json depth_header(const DepthQuestion& question, const char* method) {
-  const auto& [joint, pose, X_FM, notes, provenance] = question;
-  return {{"condyle", format_version},
-          {"joint", joint.name},
-          {"fixed", joint.fixed.name},
-          {"mobile", joint.mobile.name},
-          {"anatomy", anatomy_json(joint)},
-          {"side", joint.side == Side::right ? "right" : "left"},
-          {"method", method},
-          {"pose_deg", pose_json(pose, joint.anatomy)},
-          {"X_FM", matrix_json(X_FM)},
-          {"notes", notes_json(notes)}};
+  const auto& [joint, pose, X_FM, notes, terms, provenance] = question;
+  Json json{{"condyle", format_version},
+            {"joint", joint.name},
+            {"fixed", joint.fixed.name},
+            {"mobile", joint.mobile.name},
+            {"anatomy", anatomy_json(joint)},
+            {"side", joint.side == Side::right ? "right" : "left"},
+            {"method", method},
+            {"pose_deg", pose_json(pose, joint.anatomy)},
+            {"X_FM", matrix_json(X_FM)},
+            {"terms", terms},
+            {"notes", notes_json(notes)}};
+  if (joint.kind == JointKind::free) {
+    json["translation_mm"] = numbers(pose.translation_mm);
+    json["translation_frame"] = name_of(joint.translation_frame);
+  }
+  return json;
 }
 
 std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
-  const auto& [joint, pose, X_FM, notes, provenance] = question;
+  const auto& [joint, pose, X_FM, notes, terms, provenance] = question;
   std::string text = fmt::format("{}: {} in {}", joint.name, joint.mobile.name, joint.fixed.name);
   for (const JointAngle angle : all_joint_angles)
     text += fmt::format(", {} {}", spaced(name_of(angle, joint.anatomy)), pose[angle]);
-  return text + " deg\n" +
+  text += " deg";
+  if (joint.kind == JointKind::free)
+    text += fmt::format(", x {}, y {}, z {} mm", pose.translation_mm.x(), pose.translation_mm.y(),
+                        pose.translation_mm.z());
+  text += "\n";
+  for (const std::string& term : terms) text += fmt::format("  {}\n", term);
+  return text +
          fmt::format("  {}; {} intersecting triangle pairs\n", in_contact ? "in contact" : "free", pairs);
 }
 

@@ -17,16 +17,19 @@ double mm_of(LengthUnit unit) noexcept {
   return unit == LengthUnit::metres ? 1000.0 : 1.0;
 }
 
-/// The mobile body's frame in W, where its mesh is in the reference pose.
+/// Each body's frame in that of its mesh file: in W, unless the body has a frame of its own there.
+Pose fixed_in_source(const JointReport& report) noexcept {
+  return report.file.joint.fixed_in_W.inverse() * report.placement.X_WF;
+}
 Pose mobile_in_source(const JointReport& report) noexcept {
   const JointDescription& joint = report.file.joint;
-  return report.placement.X_WF *
+  return joint.mobile_in_W.inverse() * report.placement.X_WF *
          pose_at(joint.coordinates(), report.placement.reference_pose, joint.translation_frame);
 }
 
-MeshOrigin origin_of(const BodyReport& body, const Pose& X_W, double unit_mm) {
-  const Eigen::Affine3d joint_from_source = X_W.inverse() * Eigen::Scaling(unit_mm);
-  const Eigen::Affine3d source_from_joint = Eigen::Scaling(1 / unit_mm) * Eigen::Affine3d(X_W);
+MeshOrigin origin_of(const BodyReport& body, const Pose& in_source, double unit_mm) {
+  const Eigen::Affine3d joint_from_source = in_source.inverse() * Eigen::Scaling(unit_mm);
+  const Eigen::Affine3d source_from_joint = Eigen::Scaling(1 / unit_mm) * Eigen::Affine3d(in_source);
   return {body.mesh, body.digest, joint_from_source, source_from_joint};
 }
 
@@ -108,25 +111,34 @@ AnswerFrameName answer_frame_named(std::string_view name) {
 
 AnswerFrame::AnswerFrame(AnswerFrameName name, const JointReport& report) : name_(name) {
   if (name == AnswerFrameName::joint) return;
-  X_WF_ = report.placement.X_WF;
-  X_WM_ = mobile_in_source(report);
+  X_SF_ = fixed_in_source(report);
+  X_SM_ = mobile_in_source(report);
   per_mm_ = 1 / mm_of(report.file.joint.units);
 }
 
+AnswerFrame AnswerFrame::of_held(const Vec3& translation_mm) const {
+  AnswerFrame frame = *this;
+  frame.held_ = translation_mm;
+  return frame;
+}
+
 Vec3 AnswerFrame::fixed_point(const Vec3& p_F) const noexcept {
-  return name_ == AnswerFrameName::joint ? p_F : posed(X_WF_, p_F);
+  const Vec3 p = held_ == Vec3::Zero() ? p_F : Vec3(p_F + held_);
+  return name_ == AnswerFrameName::joint ? p : posed(X_SF_, p);
 }
 Vec3 AnswerFrame::fixed_direction(const Vec3& d_F) const noexcept {
-  return name_ == AnswerFrameName::joint ? d_F : Vec3(X_WF_.linear() * d_F);
+  return name_ == AnswerFrameName::joint ? d_F : Vec3(X_SF_.linear() * d_F);
 }
 Vec3 AnswerFrame::mobile_point(const Vec3& p_M) const noexcept {
-  return name_ == AnswerFrameName::joint ? p_M : posed(X_WM_, p_M);
+  return name_ == AnswerFrameName::joint ? p_M : posed(X_SM_, p_M);
 }
 TriMesh AnswerFrame::fixed_mesh(const TriMesh& mesh) const {
-  return name_ == AnswerFrameName::joint ? mesh : moved(X_WF_, per_mm_, mesh);
+  const Pose back{Eigen::Translation3d(held_)};
+  if (name_ == AnswerFrameName::joint) return held_ == Vec3::Zero() ? mesh : posed(back, mesh);
+  return moved(X_SF_ * back, per_mm_, mesh);
 }
 TriMesh AnswerFrame::mobile_mesh(const TriMesh& mesh) const {
-  return name_ == AnswerFrameName::joint ? mesh : moved(X_WM_, per_mm_, mesh);
+  return name_ == AnswerFrameName::joint ? mesh : moved(X_SM_, per_mm_, mesh);
 }
 
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command, AnswerFrameName frame) {
@@ -136,7 +148,7 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           report.file.path,
           report.file.digest,
           loaded.joint.side,
-          origin_of(report.fixed, report.placement.X_WF, unit_mm),
+          origin_of(report.fixed, fixed_in_source(report), unit_mm),
           origin_of(report.mobile, mobile_in_source(report), unit_mm),
           AnswerFrame(frame, report)};
 }

@@ -241,6 +241,8 @@ std::string rom_json(const RomResult& result) {
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
             {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},
+            {"held_translation_mm",
+             result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
             {"terms", result.terms},
             {"notes", io::notes_json(result.notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};

@@ -12,11 +12,12 @@
 namespace condyle {
 namespace {
 
-struct Body {
+struct BodyFile {
   const char *name, *mesh;
 };
 
-std::string joint_file_text(const std::string& joint, const Body& fixed, const Body& mobile, Side side) {
+std::string joint_file_text(const std::string& joint, const BodyFile& fixed, const BodyFile& mobile,
+                            Side side) {
   return fmt::format(R"(condyle = {}
 name = "{}"
 kind = "ball"
@@ -43,7 +44,7 @@ superior = [0.0, 1.0, 0.0]
 }  // namespace
 
 void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
-  const Body hip_bone = {"hip bone", "hip_bone.ply"}, femur = {"femur", "femur.ply"};
+  const BodyFile hip_bone = {"hip bone", "hip_bone.ply"}, femur = {"femur", "femur.ply"};
   write_mesh(out.file(hip_bone.mesh), hip.hip_bone);
   write_mesh(out.file(femur.mesh), hip.femur);
   io::write_whole_file(out.file("hip.toml"),
@@ -51,8 +52,8 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
 }
 
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side) {
-  const Body acetabular = {"acetabular cartilage", "acetabular_cartilage.ply"};
-  const Body femoral = {"femoral cartilage", "femoral_cartilage.ply"};
+  const BodyFile acetabular = {"acetabular cartilage", "acetabular_cartilage.ply"};
+  const BodyFile femoral = {"femoral cartilage", "femoral_cartilage.ply"};
   write_mesh(out.file(acetabular.mesh), cartilages.acetabular);
   write_mesh(out.file(femoral.mesh), cartilages.femoral);
   const std::string name = fmt::format("cartilages of the sample {} hip", name_of(side));

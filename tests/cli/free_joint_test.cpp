@@ -1,0 +1,154 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/angle.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+/// Joints that translate, and joints other than the hip, on the command line.
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// A shank hanging from the joint centre and a post behind it, which a knee's flexion meets.
+class FreeJoint : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_mesh(folder / "post.ply", post(0));
+    write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
+    write_joint("knee.toml", "free", "joint = \"knee\"\n", "post.ply", "");
+  }
+  static TriMesh post(double forwards) { return box({-60 + forwards, -120, -50}, {-40 + forwards, -80, 50}); }
+  void write_joint(const std::string& name, const std::string& kind, const std::string& keys,
+                   const std::string& fixed, const std::string& more) const {
+    std::ofstream(folder / name) << "condyle = 1\nname = \"knee\"\nkind = \"" << kind << "\"\n"
+                                 << keys << "side = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"" << fixed
+                                 << "\"\n[mobile]\nmesh = \"shank.ply\"\n[frame]\ncentre = [0, 0, 0]\n"
+                                 << "anterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n"
+                                 << more;
+  }
+  Ran run(const std::string& arguments) const { return run_condyle(folder / ".", arguments); }
+  Json answer(const std::string& arguments) const {
+    const Ran ran = run(arguments + " --json");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return Json::parse(ran.out);
+  }
+  Json flexion(const std::string& joint, const std::string& arguments = "") const {
+    return answer("rom " + joint + " --motion flexion" + arguments)["motions"][0];
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(FreeJoint, AHeldTranslationIsAPostThatMuchNearer) {
+  write_mesh(folder / "nearer.ply", post(10));
+  write_joint("ball.toml", "ball", "joint = \"knee\"\n", "nearer.ply", "");
+  const Json held = flexion("knee.toml", " --translation x=-10"), ball = flexion("ball.toml");
+  EXPECT_EQ(held["reason"], "contact");
+  EXPECT_EQ(held["limit_deg"], ball["limit_deg"]);
+  EXPECT_EQ(held["features"], ball["features"]);
+  // In the frame of the fixed body, the contact is where the post of the file has it.
+  for (const int i : {0, 1, 2})
+    EXPECT_EQ(held["contact_point_mm"][i].get<double>(),
+              ball["contact_point_mm"][i].get<double>() + (i == 0 ? -10 : 0));
+  EXPECT_LT(held["limit_deg"].get<double>(), flexion("knee.toml")["limit_deg"].get<double>());
+}
+
+TEST_F(FreeJoint, TheTranslationOfTheReferencePoseIsHeldUnlessToldOtherwise) {
+  write_joint("placed.toml", "free", "joint = \"knee\"\n", "post.ply", "[reference_pose]\nx = -10\n");
+  // The shank, given 10 mm behind, is 10 mm before its origin in its own frame: the joint is the one given.
+  const Json rom = answer("rom placed.toml --motion flexion");
+  EXPECT_EQ(rom["held_translation_mm"], Json({-10.0, 0.0, 0.0}));
+  EXPECT_EQ(rom["anatomy"], "knee");
+  EXPECT_EQ(answer("rom placed.toml --motion flexion --translation x=0")["held_translation_mm"],
+            Json({0.0, 0.0, 0.0}));
+  EXPECT_NE(run("rom placed.toml --motion flexion").out.find("translation held at x -10, y 0, z 0 mm"),
+            std::string::npos);
+}
+
+TEST_F(FreeJoint, AHeldTranslationIsRefusedWhereItMakesNoSense) {
+  write_joint("ball.toml", "ball", "joint = \"knee\"\n", "post.ply", "");
+  write_joint("axes.toml", "free", "joint = \"knee\"\ntranslation_frame = \"joint_axes\"\n", "post.ply", "");
+  expect_refusal(run("rom ball.toml --translation x=1"), 2, "--translation: only a free joint translates",
+                 "");
+  expect_refusal(run("rom knee.toml --translation flexion=1"), 2, "--translation: takes x, y and z only", "");
+  expect_refusal(run("rom axes.toml --translation x=1"), 2, "it would turn with them", "");
+}
+
+TEST_F(FreeJoint, DepthAtATranslatedPoseIsThatOfTheMeshMovedThere) {
+  const std::string pose = " --pose \"flexion=30 x=3 y=4\" --method radial";
+  const Json translated = answer("depth knee.toml" + pose);
+  EXPECT_TRUE(translated["in_contact"].get<bool>());
+  EXPECT_EQ(translated["pose_deg"]["flexion"], 30.0);
+  EXPECT_EQ(translated["translation_mm"], Json({3.0, 4.0, 0.0}));
+  EXPECT_EQ(translated["X_FM"][0][3], 3.0);
+  EXPECT_EQ(translated["terms"].size(), 1u);
+
+  // X_FM is R_z(-30) with (3, 4, 0): the posed shank as a mesh of its own meets the same triangles.
+  Pose X_FM(Eigen::AngleAxisd(-Angle::degrees(30).radians(), Vec3::UnitZ()));
+  X_FM.pretranslate(Vec3(3, 4, 0));
+  write_mesh(folder / "shank.ply", posed(X_FM, box({-1, -100, -2}, {1, -10, 2})));
+  const Json moved = answer("depth knee.toml --method radial");
+  EXPECT_EQ(moved["triangle_pairs"], translated["triangle_pairs"]);
+  EXPECT_EQ(moved["mobile_vertices_inside"], translated["mobile_vertices_inside"]);
+  EXPECT_NEAR(moved["nearest_distance_mm"].get<double>(), translated["nearest_distance_mm"].get<double>(),
+              1e-12);
+}
+
+TEST_F(FreeJoint, AMatrixInAFileOrOnTheLineIsThePoseByItsCoordinates) {
+  std::ofstream(folder / "pose.txt") << "0 1 0 -35\n-1 0 0 4\n0 0 1 0\n0 0 0 1\n";
+  const Json named = answer("depth knee.toml --method radial --pose \"flexion=90 x=-35 y=4\"");
+  Json by_file = answer("depth knee.toml --method radial --matrix pose.txt");
+  Json by_line = answer("depth knee.toml --method radial --pose \"0 1 0 -35  -1 0 0 4  0 0 1 0  0 0 0 1\"");
+  for (Json* given : {&by_file, &by_line}) (*given)["provenance"] = named["provenance"];
+  EXPECT_EQ(by_file, named);
+  EXPECT_EQ(by_line, named);
+}
+
+TEST_F(FreeJoint, ABadMatrixFileIsNamed) {
+  std::ofstream(folder / "pose.txt") << "1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+  expect_refusal(run("depth knee.toml --matrix pose.txt"), 3,
+                 "pose.txt: pose: a matrix has 16 numbers, row by row, not 12", "");
+  EXPECT_NE(run("depth knee.toml --matrix pose.txt --pose flexion=1").exit_code, 0);
+}
+
+TEST_F(FreeJoint, ArcsAreNotToldWhereThePoseTranslates) {
+  expect_refusal(run("depth knee.toml --method tangential --pose \"flexion=30 x=-3 y=4\""), 2,
+                 "the pose is translated from it by 5.000 mm", "");
+  const Json rotated = answer("depth knee.toml --pose \"flexion=30\"");
+  EXPECT_TRUE(rotated["terms"].empty());
+}
+
+TEST_F(FreeJoint, MotionsOfAKneeAreListedByItsNames) {
+  const Ran ran = run("rom knee.toml --list-motions");
+  EXPECT_NE(ran.out.find("internal_rotation_at_90_flexion"), std::string::npos);
+  EXPECT_EQ(ran.out.find("fadir"), std::string::npos);
+}
+
+TEST_F(FreeJoint, AnAnklesResultsHaveItsNames) {
+  write_joint("ankle.toml", "ball", "joint = \"ankle\"\n", "post.ply", "");
+  const Json motion = answer("rom ankle.toml --motion plantarflexion --out out")["motions"][0];
+  EXPECT_EQ(motion["vary"], "dorsiflexion");
+  EXPECT_EQ(motion["sense"], "negative");
+  EXPECT_TRUE(motion["start_deg"].contains("inversion"));
+  EXPECT_FALSE(fs::exists(folder / "out/clock_face.svg"));
+  std::ifstream csv(folder / "out/limits.csv");
+  const std::string text{std::istreambuf_iterator<char>(csv), {}};
+  EXPECT_NE(text.find("start_dorsiflexion_deg,start_inversion_deg,start_internal_rotation_deg"),
+            std::string::npos);
+  const Ran map = run("rom ankle.toml --map inversion=-5:5:5 internal_rotation=0:10:5 --out map");
+  EXPECT_EQ(map.exit_code, 0) << map.err;
+  EXPECT_TRUE(fs::exists(folder / "map/map_plantarflexion.svg"));
+}
+
+}  // namespace
+}  // namespace condyle::test
