@@ -13,6 +13,8 @@ void add_inspect(CLI::App& app);
 void add_frame(CLI::App& app);
 void add_depth(CLI::App& app);
 void add_rom(CLI::App& app);
+void add_load(CLI::App& app);
+void add_motion(CLI::App& app);
 void add_sample(CLI::App& app);
 
 }  // namespace condyle::cli

@@ -123,6 +123,8 @@ int run(int argc, char** argv) {
   cli::add_frame(app);
   cli::add_depth(app);
   cli::add_rom(app);
+  cli::add_load(app);
+  cli::add_motion(app);
   cli::add_sample(app);
 
   try {

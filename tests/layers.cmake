@@ -25,7 +25,7 @@ set(kinematics_headers fit joint joint_checks joint_coordinates joint_frame make
 set(radial_headers radial)
 set(tangential_headers tangential)
 set(contact_headers load_balance normal_depth pressure contact contact_measures reliable_depth)
-set(motion_headers bearing clock_face depth_limit first_contact impingement_zone limit_band motion_map
+set(motion_headers motion_contact bearing clock_face depth_limit first_contact impingement_zone limit_band motion_map
                    overlap_options path_limit range_of_motion)
 set(sample_headers)
 set(io_headers)

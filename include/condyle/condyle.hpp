@@ -49,6 +49,7 @@
 #include "condyle/motion_map.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/path_limit.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
 
 #include "condyle/version.hpp"

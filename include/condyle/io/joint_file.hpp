@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/file_digest.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -31,6 +33,8 @@ struct JointFile {
   std::vector<Motion> motions;      ///< of the [[motion]] tables, in their order, each name once
   Uncertainty uncertainty = {};     ///< of the [uncertainty] table; what is usual where it says nothing
   PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
+  std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
+  std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table
   FileDigest digest = {};
 };
 JointFile read_joint_file(const std::filesystem::path& path);

@@ -12,7 +12,10 @@
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/joint/contact_table.hpp"
+#include "io/joint/mesh_path.hpp"
 #include "io/joint/pose_matrix.hpp"
+#include "io/joint/recorded_motion_table.hpp"
 #include "io/joint/toml_table.hpp"
 
 namespace condyle {
@@ -31,10 +34,14 @@ toml::table parsed(std::string_view text, const std::filesystem::path& path) {
   }
 }
 
+double mm_per(LengthUnit unit) {
+  return unit == LengthUnit::metres ? 1000 : 1;
+}
+
 /// Points of the file in mm.
 class Lengths {
  public:
-  explicit Lengths(LengthUnit unit) : scale_(unit == LengthUnit::metres ? 1000.0 : 1.0) {}
+  explicit Lengths(LengthUnit unit) : scale_(mm_per(unit)) {}
 
   Vec3 required_point(io::TomlTable& table, std::string_view key) const {
     return scale_ * table.required(key, table.triple(key));
@@ -58,30 +65,6 @@ class Lengths {
  private:
   double scale_;
 };
-
-/// The text with ${NAME} replaced by the environment variable of that name.
-std::string with_environment(const io::TomlTable& table, std::string_view key, std::string_view text) {
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t begin = text.find("${", at);
-    out += text.substr(at, begin == text.npos ? begin : begin - at);
-    if (begin == text.npos) break;
-    const std::size_t end = text.find('}', begin);
-    if (end == text.npos) table.fail(key, "has ${ without }");
-    const std::string name(text.substr(begin + 2, end - begin - 2));
-    const char* value = std::getenv(name.c_str());
-    if (!value) table.fail(key, fmt::format("the environment variable {} is not set", io::in_quotes(name)));
-    out += value;
-    at = end + 1;
-  }
-  return out;
-}
-
-std::filesystem::path mesh_path(io::TomlTable& table) {
-  const std::string mesh = with_environment(table, "mesh", table.required("mesh", table.text("mesh")));
-  if (mesh.empty()) table.fail("mesh", "must name a file");
-  return mesh;
-}
 
 /// X_WB of a body: a matrix row by row, or a translation and the joint's angles, about the axes of W.
 Pose body_pose(io::TomlTable& body, CoordinateSystem system, const Lengths& lengths) {
@@ -111,7 +94,7 @@ Pose body_pose(io::TomlTable& body, CoordinateSystem system, const Lengths& leng
 BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
   BodyEntry entry;
   entry.name = table.text("name").value_or(std::string(key));
-  entry.mesh = mesh_path(table);
+  entry.mesh = io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh")));
   for (const std::string& word : table.texts("repair").value_or(std::vector<std::string>{})) {
     try {
       entry.repairs.push_back(repair_named(word));
@@ -347,6 +330,11 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);
   out.uncertainty = uncertainty(file, Lengths(joint.units));
+  if (auto table = file.table("contact"))
+    out.contact = io::contact_entry(*table, mm_per(joint.units), path.parent_path());
+  if (auto table = file.table("recorded_motion"))
+    out.recorded_motion =
+        io::recorded_motion_mapping(*table, io::coordinate_names_of(joint.kind, joint.anatomy));
   file.finish();
   return out;
 }

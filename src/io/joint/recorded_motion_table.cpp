@@ -50,6 +50,17 @@ ColumnsOfPoses columns_of_poses(TomlTable& table) {
 
 }  // namespace
 
+std::vector<CoordinateName> coordinate_names_of(JointKind kind, Anatomy joint) {
+  std::vector<CoordinateName> names;
+  for (const AngleNames& angle : coordinate_names(joint)) {
+    names.push_back({std::string(angle.positive), CoordinateKind::angle});
+    if (kind == JointKind::hinge) return names;
+  }
+  if (kind == JointKind::free)
+    for (const char* name : {"x", "y", "z"}) names.push_back({name, CoordinateKind::length});
+  return names;
+}
+
 RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates) {
   if (table.has("fixed_body") || table.has("mobile_body") || table.has("units")) {
     for (const CoordinateName& coordinate : coordinates)

@@ -2,8 +2,10 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "condyle/io/recorded_motion.hpp"
+#include "condyle/joint_coordinates.hpp"
 #include "io/joint/toml_table.hpp"
 
 namespace condyle::io {
@@ -13,6 +15,9 @@ struct CoordinateName {
   std::string name;
   CoordinateKind kind = CoordinateKind::angle;
 };
+
+/// What a joint has: angles by their positive names, and of a free joint x, y and z.
+std::vector<CoordinateName> coordinate_names_of(JointKind kind, Anatomy joint);
 
 /// The table [recorded_motion] of a joint file, whose keys are docs/motion-files.md: either columns of coordinates, of
 /// those that the joint has, or columns of poses. Raises FileError with line and key.

@@ -1,0 +1,136 @@
+#include "contact_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "condyle/error.hpp"
+
+namespace condyle::cli {
+namespace {
+
+Vec3 vector_of(const std::vector<double>& values) {
+  return values.empty() ? Vec3(Vec3::Zero()) : Vec3(values[0], values[1], values[2]);
+}
+
+/// The one value for both bodies, or that of this one.
+void take(const std::vector<double>& given, std::size_t body, double& value) {
+  if (!given.empty()) value = given.size() == 1 ? given[0] : given[body];
+}
+
+std::optional<LayerEntry> layer_of(const ContactOptions& options, const std::optional<LayerEntry>& in_file,
+                                   std::size_t body) {
+  if (options.e.empty() && options.nu.empty() && options.thickness.empty()) return in_file;
+  if (!in_file && (options.e.empty() || options.nu.empty() || options.thickness.empty()))
+    throw UsageError("--e, --nu and --thickness: a layer needs all three, and the joint file has none");
+  LayerEntry layer = in_file.value_or(LayerEntry{});
+  take(options.e, body, layer.youngs_modulus_mpa);
+  take(options.nu, body, layer.poisson_ratio);
+  if (!options.thickness.empty()) take(options.thickness, body, layer.thickness.emplace<double>());
+  return layer;
+}
+
+}  // namespace
+
+void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options) {
+  command
+      .add_option_function<std::string>(
+          "--casting",
+          [options](const std::string& name) {
+            options->casting = name == "fixed"    ? Casting::fixed
+                               : name == "mobile" ? Casting::mobile
+                                                  : Casting::both;
+          },
+          "The body from whose surface rays are cast")
+      ->check(CLI::IsMember({"fixed", "mobile", "both"}))
+      ->option_text("fixed|mobile|both (both)");
+  command
+      .add_option_function<std::string>(
+          "--rule",
+          [options](const std::string& name) {
+            options->rule = name == "face_centre" ? FaceRule::face_centre : FaceRule::cut_faces;
+          },
+          "face_centre: each triangle by its centre, as OpenSim-JAM; cut_faces: triangles cut where the "
+          "depth is 0")
+      ->check(CLI::IsMember({"face_centre", "cut_faces"}))
+      ->option_text("face_centre|cut_faces (cut_faces)");
+  command.add_option("--reach", options->reach_mm, "How far rays go, mm")->option_text("MM (20)");
+}
+
+void add_layers(CLI::App& command, const std::shared_ptr<ContactOptions>& options) {
+  const auto add = [&](const char* name, std::vector<double>& values, const char* what, const char* text) {
+    command.add_option(name, values, what)->expected(1, 2)->option_text(text);
+  };
+  add("--e", options->e, "Young's modulus of the layers, MPa: one, or the fixed body's and the mobile one's",
+      "MPA [MPA]");
+  add("--nu", options->nu, "Poisson's ratio of the layers", "NU [NU]");
+  add("--thickness", options->thickness, "Thickness of the layers, mm", "MM [MM]");
+  command
+      .add_option_function<std::string>(
+          "--law",
+          [options](const std::string& name) {
+            options->law = name == "linear" ? PressureLaw::linear : PressureLaw::logarithmic;
+          },
+          "How the layers answer an overlap")
+      ->check(CLI::IsMember({"linear", "logarithmic"}))
+      ->option_text("linear|logarithmic (linear)");
+}
+
+ContactEntry contact_of(const ContactOptions& options, const JointFile& file, bool with_pressure) {
+  ContactEntry entry = file.contact.value_or(ContactEntry{});
+  if (options.casting) entry.casting = *options.casting;
+  if (options.rule) entry.rays.rule = *options.rule;
+  if (options.reach_mm) entry.rays.reach_mm = *options.reach_mm;
+  if (options.law) entry.law = *options.law;
+  entry.fixed = layer_of(options, entry.fixed, 0);
+  entry.mobile = layer_of(options, entry.mobile, 1);
+  if (with_pressure && !entry.fixed && !entry.mobile)
+    throw UsageError(
+        fmt::format("{}: no layers: give --e, --nu and --thickness, or [contact.fixed] and [contact.mobile] "
+                    "in the joint file",
+                    file.path.string()));
+  return entry;
+}
+
+void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) {
+  command
+      .add_option("--force", given->force,
+                  "Balance this force on the mobile body, N: moves it to where the contact carries it")
+      ->expected(3)
+      ->option_text("X Y Z");
+  command
+      .add_option("--moment", given->moment,
+                  "A moment about the mobile body's origin, N mm; with --free-rotations")
+      ->expected(3)
+      ->option_text("X Y Z");
+  command
+      .add_option_function<std::string>(
+          "--force-frame",
+          [given](const std::string& name) {
+            given->frame = name == "fixed" ? BodyRole::fixed : BodyRole::mobile;
+          },
+          "The body in whose frame force and moment are given")
+      ->check(CLI::IsMember({"fixed", "mobile"}))
+      ->option_text("fixed|mobile (fixed)");
+  command.add_option("--along", given->along, "Translate along this direction of the fixed frame only")
+      ->expected(3)
+      ->option_text("X Y Z");
+  command.add_flag_callback(
+      "--free-rotations", [given] { given->rotations = true; }, "Balance by rotations too");
+}
+
+Load load_of(const BalanceGiven& given) {
+  return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
+}
+
+BalanceOptions balance_options_of(const BalanceGiven& given) {
+  if (!given.moment.empty() && !given.rotations) throw UsageError("--moment: needs --free-rotations");
+  BalanceOptions options;
+  if (!given.along.empty()) options.free_directions = {vector_of(given.along)};
+  options.free_rotations = given.rotations;
+  return options;
+}
+
+}  // namespace condyle::cli

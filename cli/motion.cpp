@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/motion_result.hpp"
+#include "contact_options.hpp"
+#include "followed.hpp"
+#include "notes.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string joint, motion, loads, out;
+  bool with_pressure = false;
+  std::shared_ptr<ContactOptions> contact = std::make_shared<ContactOptions>();
+  std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
+  std::vector<double> cycle;
+  MotionFiles files;
+  Strictness strictness = Strictness::notes;
+  std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();
+  AnswerForm form = AnswerForm::text;
+};
+
+/// Forces and moments of every frame, from columns force_x_n ... and, where there, moment_x_nmm ...
+std::vector<Load> loads_from(const std::string& path, const BalanceGiven& given, const JointMotion& motion) {
+  const MotionTable table = read_motion_table(path);
+  for (const std::string& remark : table.notes) note(remark);
+  if (frame_times(table).values != motion.times.values)
+    throw FileError(fmt::format("{}: its rows are not at the times of the motion", path));
+  const auto column = [&](const std::string& name) -> const std::vector<double>* {
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      if (table.columns[c] == name) return &table.values[c];
+    return nullptr;
+  };
+  std::vector<Load> loads(motion.times.values.size(), Load{.on_mobile = {}, .frame = given.frame});
+  constexpr const char* axes[] = {"x", "y", "z"};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto* force = column(fmt::format("force_{}_n", axes[axis]));
+    if (!force) throw FileError(fmt::format("{}: no column force_{}_n", path, axes[axis]));
+    const auto* moment = column(fmt::format("moment_{}_nmm", axes[axis]));
+    for (std::size_t i = 0; i < loads.size(); ++i) {
+      loads[i].on_mobile.force_n[axis] = (*force)[i];
+      if (moment && given.rotations) loads[i].on_mobile.moment_nmm[axis] = (*moment)[i];
+    }
+  }
+  return loads;
+}
+
+MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
+  const Joint& joint = question.joint.joint;
+  const JointContact bodies(joint);
+  std::optional<ElasticContact> elastic;
+  std::optional<NormalDepth> depth;
+  SurfaceQuestion surfaces;
+  const BodyRole casting = question.contact.casting == Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
+  if (question.with_pressure) {
+    surfaces = &elastic.emplace(joint.fixed.mesh, joint.mobile.mesh,
+                                elastic_options(question.contact, question.joint));
+  } else {
+    const bool fixed = casting == BodyRole::fixed;
+    surfaces = &depth.emplace(fixed ? joint.fixed.mesh : joint.mobile.mesh,
+                              fixed ? joint.mobile.mesh : joint.fixed.mesh, question.contact.rays);
+  }
+  MotionAnswer answer;
+  std::vector<std::optional<Pose>> X_FM = question.motion.X_FM;
+  if (options.balance->any() || !options.loads.empty()) {
+    const std::vector<Load> loads = options.loads.empty()
+                                        ? std::vector<Load>{load_of(*options.balance)}
+                                        : loads_from(options.loads, *options.balance, question.motion);
+    answer.balanced = followed("balanced frames", [&](const auto& follow, std::stop_token stop) {
+      return balance_along(*elastic, X_FM, loads, balance_options_of(*options.balance),
+                           {.progress = follow, .stop = stop});
+    });
+    // What is not balanced has no contact to tell of.
+    for (std::size_t i = 0; i < X_FM.size(); ++i) {
+      if (!X_FM[i]) continue;
+      if (answer.balanced[i]->outcome == BalanceOutcome::balanced)
+        X_FM[i] = answer.balanced[i]->X_FM;
+      else
+        X_FM[i].reset();
+    }
+  }
+  answer.frames = followed("frames", [&](const auto& follow, std::stop_token stop) {
+    return contact_along(bodies, surfaces, X_FM, {.casting = casting, .progress = follow, .stop = stop});
+  });
+  return answer;
+}
+
+void run(const Options& options, const CLI::App& command) {
+  const LoadedJoint loaded = read_joint(options.joint);
+  const JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
+  for (const std::string& remark : motion.notes) note(remark);
+  const bool with_pressure = options.with_pressure || options.balance->any() || !options.loads.empty();
+  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  const MotionQuestion question{loaded,
+                                motion,
+                                contact_of(*options.contact, loaded.report.file, with_pressure),
+                                with_pressure,
+                                noted(loaded, options.strictness),
+                                &from};
+  const MotionAnswer answer = answer_of(options, question);
+  if (!options.out.empty()) {
+    MotionFiles files = options.files;
+    files.encoding = options.where->vtp_encoding;
+    if (!options.cycle.empty()) files.cycle = Cycle{options.cycle[0], options.cycle[1]};
+    const auto written = write_motion(options.out, question, answer, files);
+    if (written.size() <= 8)
+      say_written(written);
+    else
+      note(fmt::format("wrote {} files into {}", written.size(), options.out));
+  }
+  print(options.form == AnswerForm::json ? motion_json(question, answer) : motion_text(question, answer));
+}
+
+}  // namespace
+
+void add_motion(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "motion", "Contact in every frame of a recorded motion: area, depth, pressure, force");
+  command->footer(
+      "Example: condyle motion examples/tibiofemoral.toml --motion states.sto --load --out flexion\n"
+      "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
+      "the like.");
+  auto options = std::make_shared<Options>();
+  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("--motion", options->motion, "Recorded motion: .mot, .sto or .csv")
+      ->required()
+      ->option_text("FILE");
+  command->add_flag_callback(
+      "--load", [options] { options->with_pressure = true; },
+      "Pressure, force and moment too; layers by options or the joint file");
+  add_rays(*command, options->contact);
+  add_layers(*command, options->contact);
+  add_balance(*command, options->balance);
+  command
+      ->add_option("--loads", options->loads,
+                   "Balance a force per frame: columns force_x_n, force_y_n, force_z_n")
+      ->option_text("FILE");
+  auto* out = command->add_option("--out", options->out, "Folder for curves.csv, curves.sto and motion.json");
+  command
+      ->add_option("--cycle", options->cycle,
+                   "With --out: also cycle.csv, 101 points between two times in seconds")
+      ->expected(2)
+      ->needs(out)
+      ->option_text("START END");
+  command
+      ->add_flag_callback(
+          "--maps", [options] { options->files.maps = true; },
+          "With --out: also a VTP file per frame, and motion.pvd for ParaView")
+      ->needs(out);
+  command
+      ->add_flag_callback(
+          "--jam", [options] { options->files.jam = true; },
+          "With --out: also jam.h5, as OpenSim-JAM writes contact")
+      ->needs(out);
+  add_where(*command, options->where);
+  command->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+  add_strict(*command, options->strictness);
+  command->callback([options, command] { run(*options, *command); });
+}
+
+}  // namespace condyle::cli

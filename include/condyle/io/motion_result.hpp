@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/io/contact_entry.hpp"
+#include "condyle/io/curve_files.hpp"
+#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/provenance.hpp"
+#include "condyle/joint_checks.hpp"
+#include "condyle/motion_contact.hpp"
+
+/// What `condyle motion` found, for files. Every column, key and array is in docs/motion-files.md.
+
+namespace condyle {
+
+struct MotionQuestion {
+  const LoadedJoint& joint;
+  const JointMotion& motion;
+  ContactEntry contact;
+  bool with_pressure = false;
+  std::vector<JointNote> notes = {};
+  const Provenance* provenance = nullptr;
+};
+
+/// Contact of all frames, and where a load was balanced, how.
+struct MotionAnswer {
+  std::vector<std::optional<FrameContact>> frames;
+  std::vector<std::optional<BalancedPose>> balanced = {};  ///< none where no load was given
+};
+
+/// One curve for each number of a frame; nothing for gaps, and for centres of frames without contact.
+Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer);
+
+/// The curves' largest values and when, frames in contact, gaps: a few lines.
+std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer);
+std::string motion_json(const MotionQuestion& question, const MotionAnswer& answer);
+
+struct Cycle {
+  double start_s, end_s;
+};
+
+struct MotionFiles {
+  std::optional<Cycle> cycle = {};  ///< also cycle.csv, 101 points
+  bool maps = false;                ///< also a VTP file per frame and body, and motion.pvd
+  bool jam = false;                 ///< also jam.h5
+  VtpEncoding encoding = VtpEncoding::binary;
+};
+
+/// Writes curves.csv, curves.sto and motion.json into a folder, and what else is asked for; all or none. Returns what was
+/// written. FileError; UsageError for a cycle that is not within the motion.
+std::vector<std::filesystem::path> write_motion(const std::filesystem::path& folder,
+                                                const MotionQuestion& question, const MotionAnswer& answer,
+                                                const MotionFiles& files = {});
+
+}  // namespace condyle

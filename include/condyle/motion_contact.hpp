@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <variant>
+#include <vector>
+
+#include "condyle/contact.hpp"
+#include "condyle/load_balance.hpp"
+#include "condyle/normal_depth.hpp"
+#include "condyle/pressure.hpp"
+
+/// Contact in every frame of a recorded motion.
+///
+///     const JointContact joint(femur, tibia);
+///     const ElasticContact surfaces(femur, tibia, options);
+///     const auto frames = contact_along(joint, &surfaces, X_FM);  // one entry per pose, empty where that is a gap
+
+namespace condyle {
+
+/// What is asked of the surfaces: pressure and depths, or depths with one of the bodies casting.
+using SurfaceQuestion = std::variant<const ElasticContact*, const NormalDepth*>;
+
+/// Contact of one frame.
+struct FrameContact {
+  Pose X_FM;
+  bool in_contact = false;             ///< the surfaces meet, or one body is inside the other
+  std::size_t intersecting_pairs = 0;  ///< of triangles
+  double smallest_gap_mm = 0;          ///< between the surfaces; 0 where they meet
+  /// Of the surface that casts, in its body's frame: the mobile one's where both are cast.
+  SurfaceContact surface = {};
+  Wrench on_mobile = {};  ///< by the fixed body, in F, about the origin of M; with pressure only
+};
+
+struct AlongMotionOptions {
+  /// The body that casts in a NormalDepth, which does not know.
+  BodyRole casting = BodyRole::mobile;
+  std::function<void(std::size_t done, std::size_t total)> progress = {};
+  std::stop_token stop = {};
+};
+
+/// One entry per pose, empty for gaps; frames in parallel, with the same answers on any number of threads. The outer
+/// optional is empty where it was stopped before the end. Raises what ElasticContact::at() raises, the message begun with
+/// the frame's number.
+std::optional<std::vector<std::optional<FrameContact>>> contact_along(
+    const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
+    const AlongMotionOptions& options = {});
+
+/// The poses that balance a load, frame after frame: rotations are the recorded ones, and each frame starts from its
+/// translation as the last balanced frame has moved its own. One load for all frames, or one for each. Frames without
+/// balance say so in their outcome and hand nothing on; gaps stay gaps. Not parallel.
+std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
+    const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
+    const BalanceOptions& balance = {}, const AlongMotionOptions& options = {});
+
+}  // namespace condyle

@@ -1,0 +1,103 @@
+#include "io/joint/contact_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/provenance.hpp"
+#include "io/joint/mesh_path.hpp"
+
+namespace condyle {
+namespace io {
+namespace {
+
+LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesystem::path& folder) {
+  LayerEntry layer;
+  layer.youngs_modulus_mpa = table.required("youngs_modulus_mpa", table.number("youngs_modulus_mpa"));
+  if (!(layer.youngs_modulus_mpa > 0)) table.fail("youngs_modulus_mpa", "must be above 0");
+  layer.poisson_ratio = table.required("poisson_ratio", table.number("poisson_ratio"));
+  if (!(layer.poisson_ratio > -1 && layer.poisson_ratio < 0.5))
+    table.fail("poisson_ratio", "must be above -1 and below 0.5");
+  if (table.has("behind")) {
+    if (table.has("thickness"))
+      table.fail("thickness", "is measured to the mesh behind: leave one of the two out");
+    const std::string mesh = table.required("behind", table.text("behind"));
+    layer.thickness = folder / mesh_path(table, "behind", mesh);
+  } else {
+    const double thickness = table.required("thickness", table.number("thickness"));
+    if (!(thickness > 0)) table.fail("thickness", "must be above 0");
+    layer.thickness = mm_per_unit * thickness;
+  }
+  table.finish();
+  return layer;
+}
+
+}  // namespace
+
+ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::filesystem::path& folder) {
+  ContactEntry entry;
+  constexpr Casting castings[] = {Casting::fixed, Casting::mobile, Casting::both};
+  if (table.has("casting"))
+    entry.casting = castings[table.required_word("casting", {"fixed", "mobile", "both"})];
+  if (table.has("rule"))
+    entry.rays.rule = table.required_word("rule", {"face_centre", "cut_faces"}) == 0 ? FaceRule::face_centre
+                                                                                     : FaceRule::cut_faces;
+  if (const auto reach = table.number("reach")) {
+    if (!(*reach > 0)) table.fail("reach", "must be above 0");
+    entry.rays.reach_mm = mm_per_unit * *reach;
+  }
+  if (table.has("law"))
+    entry.law = table.required_word("law", {"linear", "logarithmic"}) == 0 ? PressureLaw::linear
+                                                                           : PressureLaw::logarithmic;
+  if (table.has("moment_on"))
+    entry.moment_on =
+        table.required_word("moment_on", {"casting", "target"}) == 0 ? MomentOn::casting : MomentOn::target;
+  if (auto layer = table.table("fixed")) entry.fixed = layer_entry(*layer, mm_per_unit, folder);
+  if (auto layer = table.table("mobile")) entry.mobile = layer_entry(*layer, mm_per_unit, folder);
+  table.finish();
+  return entry;
+}
+
+}  // namespace io
+
+namespace {
+
+/// Of each vertex of a body's mesh, to the mesh behind it, which is brought into the joint as the body's own mesh was.
+std::vector<double> measured(const Mesh& layer, const std::filesystem::path& behind, const MeshOrigin& origin,
+                             double reach) {
+  TriMesh bone = read_mesh(behind).mesh;
+  for (std::size_t v = 0; v < bone.vertices.size(); ++v)
+    bone.vertices.set(v, origin.joint_from_source * bone.vertices[v]);
+  std::vector<double> thickness = thickness_to(layer, Mesh(std::move(bone)), reach);
+  std::size_t without = 0, first = 0;
+  for (std::size_t v = thickness.size(); v-- > 0;)
+    if (!(thickness[v] > 0)) ++without, first = v;
+  if (without > 0)
+    throw MeshError(
+        fmt::format("{}: {} of {} vertices, vertex {} the first, have nothing of {} behind them within {} mm",
+                    origin.path.string(), without, thickness.size(), first, behind.string(), reach));
+  return thickness;
+}
+
+}  // namespace
+
+ElasticContactOptions elastic_options(const ContactEntry& entry, const LoadedJoint& joint) {
+  const Provenance from = provenance_of(joint, {});
+  const auto layer = [&](const std::optional<LayerEntry>& of, const Mesh& mesh, const MeshOrigin& origin) {
+    std::optional<ElasticLayer> made;
+    if (!of) return made;
+    made.emplace(ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, 0.0});
+    if (const auto* thickness = std::get_if<double>(&of->thickness))
+      made->thickness_mm = *thickness;
+    else
+      made->thickness_mm =
+          measured(mesh, std::get<std::filesystem::path>(of->thickness), origin, entry.rays.reach_mm);
+    return made;
+  };
+  return {entry.casting, entry.rays, entry.law, layer(entry.fixed, joint.joint.fixed.mesh, from.fixed),
+          layer(entry.mobile, joint.joint.mobile.mesh, from.mobile)};
+}
+
+}  // namespace condyle

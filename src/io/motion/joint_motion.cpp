@@ -1,0 +1,120 @@
+#include "condyle/io/joint_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/provenance.hpp"
+#include "io/joint/recorded_motion_table.hpp"
+
+namespace condyle {
+namespace {
+
+/// The columns that name coordinates of the joint and their units.
+std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const Joint& joint) {
+  constexpr std::pair<const char*, ColumnUnit> angles[] = {{"_deg", ColumnUnit::degrees},
+                                                           {"_rad", ColumnUnit::radians}};
+  constexpr std::pair<const char*, ColumnUnit> lengths[] = {{"_mm", ColumnUnit::millimetres},
+                                                            {"_m", ColumnUnit::metres}};
+  std::vector<ColumnOfCoordinate> columns;
+  std::string wanted;
+  for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy)) {
+    for (const auto& [ending, unit] : name.kind == CoordinateKind::angle ? angles : lengths) {
+      wanted += (wanted.empty() ? "" : ", ") + name.name + ending;
+      if (std::find(table.columns.begin(), table.columns.end(), name.name + ending) != table.columns.end())
+        columns.push_back(
+            {.coordinate = name.name, .kind = name.kind, .column = name.name + ending, .unit = unit});
+    }
+  }
+  if (columns.empty())
+    throw FileError(fmt::format(
+        "{}: no column says a coordinate of the joint ({}), and the joint file has no [recorded_motion]",
+        table.path.string(), wanted));
+  return columns;
+}
+
+JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
+                           const std::vector<ColumnOfCoordinate>& mapping) {
+  NamedCoordinates recorded = recorded_coordinates(table, mapping);
+  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes)};
+  std::string missing;
+  for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy))
+    if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
+      missing += (missing.empty() ? "" : ", ") + name.name;
+  if (!missing.empty())
+    motion.notes.push_back(fmt::format("{}: not recorded, held at 0: {}", table.path.string(), missing));
+  for (const auto& frame : recorded.frames) {
+    if (!frame) {
+      motion.X_FM.emplace_back();
+      continue;
+    }
+    JointCoordinates at;
+    for (std::size_t i = 0; i < recorded.names.size(); ++i) {
+      const double value = (*frame)[i];
+      const std::string& name = recorded.names[i];
+      if (name == "x" || name == "y" || name == "z") {
+        at.translation_mm[name[0] - 'x'] = value;
+        continue;
+      }
+      switch (joint_angle_named(name, joint.anatomy)) {
+        case JointAngle::flexion:
+          at.angles.flexion = Angle::degrees(value);
+          break;
+        case JointAngle::adduction:
+          at.angles.adduction = Angle::degrees(value);
+          break;
+        case JointAngle::internal_rotation:
+          at.angles.internal_rotation = Angle::degrees(value);
+          break;
+      }
+    }
+    motion.X_FM.emplace_back(pose_at(joint.coordinates(), at, joint.translation_frame));
+  }
+  return motion;
+}
+
+/// Where a mesh file's frame lies in the body's joint frame, its lengths in mm.
+Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
+  const double mm = unit == LengthUnit::metres ? 1000 : 1;
+  Pose X = Pose::Identity();
+  X.linear() = origin.joint_from_source.linear() / mm;
+  X.translation() = origin.joint_from_source.translation();
+  return X;
+}
+
+JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const ColumnsOfPoses& mapping) {
+  RecordedPoses recorded = recorded_poses(table, mapping);
+  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes)};
+  const Provenance from = provenance_of(loaded, {});
+  const LengthUnit unit = loaded.report.file.joint.units;
+  const Pose X_FA = joint_from_file(from.fixed, unit), X_BM = joint_from_file(from.mobile, unit).inverse();
+  for (std::size_t i = 0; i < recorded.X_FM.size(); ++i) {
+    if (!recorded.X_FM[i]) {
+      motion.X_FM.emplace_back();
+      continue;
+    }
+    const Pose X_FM = X_FA * *recorded.X_FM[i] * X_BM;
+    constexpr double rounding = 1e-6;
+    if (loaded.joint.kind != JointKind::free && X_FM.translation().norm() > rounding)
+      throw FileError(fmt::format(
+          "{}: line {}: the mobile body's centre is {:.3f} mm from the fixed body's, and a {} does not "
+          "translate",
+          table.path.string(), table.line_of_row[i], X_FM.translation().norm(), name_of(loaded.joint.kind)));
+    motion.X_FM.emplace_back(X_FM);
+  }
+  return motion;
+}
+
+}  // namespace
+
+JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
+  const auto& mapping = joint.report.file.recorded_motion;
+  if (!mapping) return of_coordinates(joint.joint, table, columns_by_name(table, joint.joint));
+  if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping)) return of_poses(joint, table, *poses);
+  return of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
+}
+
+}  // namespace condyle

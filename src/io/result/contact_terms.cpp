@@ -1,0 +1,97 @@
+#include "io/result/contact_terms.hpp"
+
+#include <fmt/format.h>
+
+namespace condyle::io {
+namespace {
+
+Json layer_json(const std::optional<LayerEntry>& layer) {
+  if (!layer) return nullptr;
+  Json json{{"youngs_modulus_mpa", layer->youngs_modulus_mpa}, {"poisson_ratio", layer->poisson_ratio}};
+  if (const auto* thickness = std::get_if<double>(&layer->thickness))
+    json["thickness_mm"] = *thickness;
+  else
+    json["thickness_to"] = std::get<std::filesystem::path>(layer->thickness).string();
+  return json;
+}
+
+std::string layer_text(const std::optional<LayerEntry>& layer) {
+  if (!layer) return "rigid";
+  const std::string elastic =
+      fmt::format("E {} MPa, nu {}, ", layer->youngs_modulus_mpa, layer->poisson_ratio);
+  if (const auto* thickness = std::get_if<double>(&layer->thickness))
+    return elastic + fmt::format("{} mm", *thickness);
+  return elastic + "thickness measured";
+}
+
+}  // namespace
+
+std::string_view name_of(Casting casting) noexcept {
+  return casting == Casting::fixed ? "fixed" : casting == Casting::mobile ? "mobile" : "both";
+}
+std::string_view name_of(FaceRule rule) noexcept {
+  return rule == FaceRule::face_centre ? "face_centre" : "cut_faces";
+}
+std::string_view name_of(PressureLaw law) noexcept {
+  return law == PressureLaw::linear ? "linear" : "logarithmic";
+}
+std::string_view name_of(BalanceOutcome outcome) noexcept {
+  switch (outcome) {
+    case BalanceOutcome::balanced:
+      return "balanced";
+    case BalanceOutcome::pulled_apart:
+      return "pulled_apart";
+    case BalanceOutcome::over_the_rim:
+      return "over_the_rim";
+    case BalanceOutcome::unstable:
+      return "unstable";
+    case BalanceOutcome::free_direction:
+      return "free_direction";
+  }
+  return "";
+}
+
+Json contact_terms(const ContactEntry& entry, bool with_pressure) {
+  Json json{{"casting", name_of(entry.casting)},
+            {"rule", name_of(entry.rays.rule)},
+            {"reach_mm", entry.rays.reach_mm}};
+  if (!with_pressure) return json;
+  json["law"] = name_of(entry.law);
+  json["fixed_layer"] = layer_json(entry.fixed);
+  json["mobile_layer"] = layer_json(entry.mobile);
+  json["moment_on"] = entry.moment_on == MomentOn::casting ? "casting" : "target";
+  return json;
+}
+
+std::string contact_terms_text(const ContactEntry& entry, const Joint& joint, bool with_pressure) {
+  const std::string caster = entry.casting == Casting::both    ? "both surfaces"
+                             : entry.casting == Casting::fixed ? joint.fixed.name
+                                                               : joint.mobile.name;
+  std::string text = fmt::format(
+      "  rays along normals of {}, {}, reach {} mm\n", caster,
+      entry.rays.rule == FaceRule::face_centre ? "one per face" : "faces cut where the depth is 0",
+      entry.rays.reach_mm);
+  if (with_pressure)
+    text +=
+        fmt::format("  {} law; {}: {}; {}: {}\n  {}\n", name_of(entry.law), joint.fixed.name,
+                    layer_text(entry.fixed), joint.mobile.name, layer_text(entry.mobile), foundation_note);
+  return text;
+}
+
+Json totals_json(const ContactTotals& totals, bool with_pressure) {
+  const auto point = [](const std::optional<Vec3>& p) { return p ? numbers(*p) : Json(nullptr); };
+  Json json{{"triangles", totals.triangles},
+            {"area_mm2", totals.area_mm2},
+            {"mean_depth_mm", totals.mean_depth_mm},
+            {"max_depth_mm", totals.max_depth_mm},
+            {"centre_of_depth_mm", point(totals.centre_of_depth)}};
+  if (!with_pressure) return json;
+  json["mean_pressure_mpa"] = totals.mean_pressure_mpa;
+  json["max_pressure_mpa"] = totals.max_pressure_mpa;
+  json["centre_of_pressure_mm"] = point(totals.centre_of_pressure);
+  json["force_n"] = numbers(totals.force_n);
+  json["moment_nmm"] = numbers(totals.moment_nmm);
+  return json;
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+#include "condyle/io/contact_entry.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/load_balance.hpp"
+#include "io/result/json.hpp"
+
+/// What depths and pressures of surfaces in contact rest on, as every answer says it.
+
+namespace condyle::io {
+
+/// What an elastic foundation leaves out.
+inline constexpr const char* foundation_note =
+    "elastic foundation: thin layers without shear or lateral spread, so peaks run above those of finite "
+    "elements";
+
+std::string_view name_of(Casting casting) noexcept;
+std::string_view name_of(FaceRule rule) noexcept;
+std::string_view name_of(PressureLaw law) noexcept;
+std::string_view name_of(BalanceOutcome outcome) noexcept;
+
+/// casting, rule, reach, and with pressure law, layers and whose moment is told.
+Json contact_terms(const ContactEntry& entry, bool with_pressure);
+/// The same as one line.
+std::string contact_terms_text(const ContactEntry& entry, const Joint& joint, bool with_pressure);
+
+Json totals_json(const ContactTotals& totals, bool with_pressure);
+
+}  // namespace condyle::io

@@ -1,0 +1,137 @@
+#include "condyle/io/load_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "condyle/io/output_folder.hpp"
+#include "io/file/format_version.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/result/contact_terms.hpp"
+#include "io/result/json.hpp"
+#include "io/result/pressure_map.hpp"
+#include "io/result/provenance_forms.hpp"
+
+namespace condyle {
+namespace {
+
+using io::Json;
+
+bool is_of_load(std::string_view name) {
+  static constexpr std::string_view names[] = {"fixed.vtp", "mobile.vtp", "load.json"};
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+Json wrench_json(const Wrench& wrench) {
+  return {{"force_n", io::numbers(wrench.force_n)}, {"moment_nmm", io::numbers(wrench.moment_nmm)}};
+}
+
+Json surface_json(const std::optional<SurfaceContact>& surface) {
+  if (!surface) return nullptr;
+  Json json = io::totals_json(surface->totals, true);
+  json["met_from_front"] = surface->met_from_front;
+  json["rim_faces"] = surface->rim_faces;
+  return json;
+}
+
+std::string vector_text(const Vec3& v) {
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
+
+std::string surface_text(const Body& body, const std::optional<SurfaceContact>& surface) {
+  if (!surface) return "";
+  const ContactTotals& totals = surface->totals;
+  if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name);
+  std::string text = fmt::format("  {}: {:.2f} mm2 in contact, depth {:.3f} mm in the mean, {:.3f} at most\n",
+                                 body.name, totals.area_mm2, totals.mean_depth_mm, totals.max_depth_mm);
+  text +=
+      fmt::format("    pressure {:.3f} MPa in the mean, {:.3f} at most, centre {} mm of its own frame\n",
+                  totals.mean_pressure_mpa, totals.max_pressure_mpa, vector_text(*totals.centre_of_pressure));
+  if (surface->met_from_front > 0)
+    text += fmt::format("    {} rays met the open surface from its front: overlap there may be none\n",
+                        surface->met_from_front);
+  return text;
+}
+
+}  // namespace
+
+std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
+  const Joint& joint = question.joint;
+  std::string text = fmt::format("{}: {} in {}, {}\n", joint.name, joint.mobile.name, joint.fixed.name,
+                                 to_text(question.pose, joint.anatomy));
+  text += io::contact_terms_text(question.contact, joint, true);
+  if (answer.balanced) {
+    const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
+    if (answer.balanced->outcome == BalanceOutcome::balanced)
+      text += fmt::format("  balanced after {} steps, {} mm from the pose given\n", answer.balanced->steps,
+                          vector_text(moved));
+    else
+      text += fmt::format("  not balanced: {}\n", reason_of(*answer.balanced));
+  }
+  text += surface_text(joint.fixed, answer.contact.fixed) + surface_text(joint.mobile, answer.contact.mobile);
+  const Wrench& load = answer.contact.on_mobile;
+  text +=
+      fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
+                  vector_text(load.force_n), load.force_n.norm(), vector_text(load.moment_nmm));
+  if (answer.cut_off_by_reach > 0)
+    text += fmt::format("  the reach of {} mm cuts off {} rays that would be in contact\n",
+                        question.contact.rays.reach_mm, answer.cut_off_by_reach);
+  return text;
+}
+
+std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
+  const Joint& joint = question.joint;
+  Json json{{"condyle", io::format_version},
+            {"joint", joint.name},
+            {"fixed", joint.fixed.name},
+            {"mobile", joint.mobile.name},
+            {"anatomy", io::anatomy_json(joint)},
+            {"side", name_of(joint.side)},
+            {"pose_deg", io::pose_json(question.pose, joint.anatomy)},
+            {"contact", io::contact_terms(question.contact, true)}};
+  Json rows = Json::array();
+  for (int r = 0; r < 4; ++r)
+    rows.push_back({answer.X_FM.matrix()(r, 0), answer.X_FM.matrix()(r, 1), answer.X_FM.matrix()(r, 2),
+                    answer.X_FM.matrix()(r, 3)});
+  json["X_FM"] = std::move(rows);
+  if (answer.balanced) {
+    json["balance"] = {{"outcome", io::name_of(answer.balanced->outcome)},
+                       {"reason", reason_of(*answer.balanced)},
+                       {"steps", answer.balanced->steps},
+                       {"load", wrench_json(question.load->on_mobile)},
+                       {"load_frame", question.load->frame == BodyRole::fixed ? "fixed" : "mobile"},
+                       {"moved_mm", io::numbers(answer.X_FM.translation() - question.X_FM.translation())},
+                       {"residual", wrench_json(answer.balanced->residual)}};
+  }
+  json["fixed_surface"] = surface_json(answer.contact.fixed);
+  json["mobile_surface"] = surface_json(answer.contact.mobile);
+  json["on_mobile"] = wrench_json(answer.contact.on_mobile);
+  json["energy_nmm"] = answer.contact.energy_nmm;
+  json["cut_off_by_reach"] = answer.cut_off_by_reach;
+  json["terms"] = io::foundation_note;
+  json["notes"] = io::notes_json(question.notes);
+  json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(question.provenance);
+  return io::document(std::move(json));
+}
+
+std::vector<std::filesystem::path> write_load(const std::filesystem::path& folder,
+                                              const LoadQuestion& question, const LoadAnswer& answer,
+                                              VtpEncoding encoding) {
+  OutputFolder out(folder, is_of_load);
+  const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
+  const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
+  const auto write = [&](const char* name, const TriMesh& mesh,
+                         const std::optional<SurfaceContact>& surface) {
+    std::vector<MeshArray> arrays;
+    if (surface) arrays = io::pressure_map(*surface, mesh.triangles.size(), true);
+    write_vtp(out.file(name), frame.fixed_mesh(mesh), {}, arrays, options);
+  };
+  write("fixed.vtp", question.joint.fixed.mesh, answer.contact.fixed);
+  write("mobile.vtp", posed(answer.X_FM, question.joint.mobile.mesh), answer.contact.mobile);
+  io::write_whole_file(out.file("load.json"), load_json(question, answer));
+  return out.commit();
+}
+
+}  // namespace condyle

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <limits>
+
+#include "condyle/error.hpp"
+#include "condyle/io/jam_file.hpp"
+#include "condyle/io/motion_result.hpp"
+#include "condyle/io/output_folder.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/result/pressure_map.hpp"
+#include "io/result/provenance_forms.hpp"
+
+namespace condyle {
+namespace {
+
+/// Whether some motion has a file of this name.
+bool is_of_motion(std::string_view name) {
+  static constexpr std::string_view names[] = {"curves.csv", "curves.sto", "cycle.csv",    "motion.json",
+                                               "motion.pvd", "jam.h5",     "map_fixed.vtp"};
+  if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
+  return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
+}
+
+/// A name as MATLAB takes it for a field.
+std::string field_name(std::string_view name) {
+  std::string out;
+  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  if (out.empty() || !std::isalpha(static_cast<unsigned char>(out.front()))) out.insert(0, "m");
+  return out.substr(0, 63);
+}
+
+/// Of each triangle of the casting body; 0 where it is not in contact.
+std::vector<double> per_triangle(const FrameContact& frame, std::size_t triangles,
+                                 double (FaceContact::*value)() const noexcept) {
+  std::vector<double> values(triangles, 0);
+  for (const FaceContact& face : frame.surface.faces) values[face.face] = (face.*value)();
+  return values;
+}
+
+void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionAnswer& answer,
+                VtpEncoding encoding) {
+  const Joint& joint = question.joint.joint;
+  const AnswerFrame frame_of_answer = question.provenance ? question.provenance->frame : AnswerFrame{};
+  const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
+  const bool fixed_casts = question.contact.casting == Casting::fixed;
+  const Mesh& casting = fixed_casts ? joint.fixed.mesh : joint.mobile.mesh;
+  std::vector<SeriesFile> series;
+  if (!fixed_casts)
+    write_vtp(out.file("map_fixed.vtp"), frame_of_answer.fixed_mesh(joint.fixed.mesh), {}, {}, options);
+  for (std::size_t i = 0; i < answer.frames.size(); ++i) {
+    if (!answer.frames[i]) continue;
+    const FrameContact& frame = *answer.frames[i];
+    const auto arrays = io::pressure_map(frame.surface, casting.triangles().size(), question.with_pressure);
+    const double time = question.motion.times.values[i];
+    const std::string mobile = fmt::format("map_mobile_{:05}.vtp", i);
+    const std::string fixed = fixed_casts ? fmt::format("map_fixed_{:05}.vtp", i) : "map_fixed.vtp";
+    const std::vector<MeshArray> none;
+    write_vtp(out.file(mobile), frame_of_answer.fixed_mesh(posed(frame.X_FM, joint.mobile.mesh)), {},
+              fixed_casts ? none : arrays, options);
+    if (fixed_casts)
+      write_vtp(out.file(fixed), frame_of_answer.fixed_mesh(joint.fixed.mesh), {}, arrays, options);
+    series.push_back({time, "fixed", fixed});
+    series.push_back({time, "mobile", mobile});
+  }
+  write_pvd(out.file("motion.pvd"), series);
+}
+
+JamFrame jam_frame(const std::optional<FrameContact>& frame, std::size_t triangles, bool with_pressure) {
+  JamFrame jam;
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  if (!frame) {
+    jam.contact_area_m2 = jam.mean_proximity_m = jam.max_proximity_m = jam.mean_pressure_pa =
+        jam.max_pressure_pa = nothing;
+    jam.centre_of_proximity_m = jam.centre_of_pressure_m = jam.contact_force_n = jam.contact_moment_nm =
+        Vec3::Constant(nothing);
+    jam.triangle_proximity_m.assign(triangles, nothing);
+    if (with_pressure) jam.triangle_pressure_pa.assign(triangles, nothing);
+    return jam;
+  }
+  const ContactTotals& totals = frame->surface.totals;
+  jam.contact_area_m2 = 1e-6 * totals.area_mm2;
+  jam.mean_proximity_m = 1e-3 * totals.mean_depth_mm;
+  jam.max_proximity_m = 1e-3 * totals.max_depth_mm;
+  jam.centre_of_proximity_m = 1e-3 * totals.centre_of_depth.value_or(Vec3::Zero());
+  jam.mean_pressure_pa = 1e6 * totals.mean_pressure_mpa;
+  jam.max_pressure_pa = 1e6 * totals.max_pressure_mpa;
+  jam.centre_of_pressure_m = 1e-3 * totals.centre_of_pressure.value_or(Vec3::Zero());
+  jam.contact_force_n = totals.force_n;
+  jam.contact_moment_nm = -1e-3 * totals.moment_nmm;  // JAM tells the moment on the target
+  jam.triangle_proximity_m = per_triangle(*frame, triangles, &FaceContact::mean_depth_mm);
+  for (double& depth : jam.triangle_proximity_m) depth *= 1e-3;
+  if (with_pressure) {
+    jam.triangle_pressure_pa = per_triangle(*frame, triangles, &FaceContact::mean_pressure_mpa);
+    for (double& pressure : jam.triangle_pressure_pa) pressure *= 1e6;
+  }
+  return jam;
+}
+
+void write_jam(const std::filesystem::path& path, const MotionQuestion& question,
+               const MotionAnswer& answer) {
+  const Joint& joint = question.joint.joint;
+  const bool fixed_casts = question.contact.casting == Casting::fixed;
+  const Body &casting = fixed_casts ? joint.fixed : joint.mobile,
+             &target = fixed_casts ? joint.mobile : joint.fixed;
+  JamContact contact{field_name(joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
+  for (const auto& frame : answer.frames)
+    contact.casting.frames.push_back(
+        jam_frame(frame, casting.mesh.triangles().size(), question.with_pressure));
+  write_jam_file(path, question.motion.times.values, {&contact, 1});
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> write_motion(const std::filesystem::path& folder,
+                                                const MotionQuestion& question, const MotionAnswer& answer,
+                                                const MotionFiles& files) {
+  if ((files.cycle || files.jam) && !question.motion.times.in_seconds)
+    throw UsageError("a cycle and jam.h5 need times, and this motion has frame numbers only");
+  OutputFolder out(folder, is_of_motion);
+  Curves curves = curves_of(question, answer);
+  // Without comments, so that every reader of tables takes it; motion.json says where it comes from.
+  write_curves_csv(out.file("curves.csv"), curves);
+  if (question.motion.times.in_seconds) {
+    curves.axis = "time";
+    write_sto(out.file("curves.sto"), question.joint.joint.name, curves, AngleUnit::degrees);
+    if (files.cycle)
+      write_curves_csv(out.file("cycle.csv"), cycle_of(curves, files.cycle->start_s, files.cycle->end_s));
+  }
+  if (files.maps) write_maps(out, question, answer, files.encoding);
+  if (files.jam) write_jam(out.file("jam.h5"), question, answer);
+  io::write_whole_file(out.file("motion.json"), motion_json(question, answer));
+  return out.commit();
+}
+
+}  // namespace condyle

@@ -1,0 +1,103 @@
+#include "condyle/motion_contact.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <mutex>
+#include <string>
+
+#include "condyle/error.hpp"
+#include "mesh/surface_to_surface.hpp"
+
+namespace condyle {
+namespace {
+
+/// Counts frames done and reports them, one thread at a time.
+class Followed {
+ public:
+  Followed(const AlongMotionOptions& options, std::size_t total) : options_(options), total_(total) {}
+
+  bool stopped() const { return options_.stop.stop_requested(); }
+  void one_done() {
+    if (!options_.progress) return;
+    const std::lock_guard lock(mutex_);
+    options_.progress(++done_, total_);
+  }
+
+ private:
+  const AlongMotionOptions& options_;
+  std::size_t total_, done_ = 0;
+  std::mutex mutex_;
+};
+
+template <class Answer>
+auto named(std::size_t frame, const Answer& answer) {
+  const auto with_frame = [&](const std::exception& error) {
+    return "frame " + std::to_string(frame) + ": " + error.what();
+  };
+  try {
+    return answer();
+  } catch (const MeshError& error) {
+    throw MeshError(with_frame(error));
+  } catch (const UsageError& error) {
+    throw UsageError(with_frame(error));
+  }
+}
+
+void ask(const ElasticContact& surfaces, const AlongMotionOptions&, FrameContact& frame) {
+  ElasticContactResults results = surfaces.at(frame.X_FM);
+  frame.surface = std::move(results.mobile ? *results.mobile : *results.fixed);
+  frame.on_mobile = results.on_mobile;
+}
+void ask(const NormalDepth& surfaces, const AlongMotionOptions& options, FrameContact& frame) {
+  surfaces.at(options.casting == BodyRole::fixed ? frame.X_FM : frame.X_FM.inverse(), frame.surface);
+}
+
+}  // namespace
+
+std::optional<std::vector<std::optional<FrameContact>>> contact_along(
+    const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
+    const AlongMotionOptions& options) {
+  const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
+  std::vector<std::optional<FrameContact>> frames(X_FM.size());
+  Followed followed(options, frames.size());
+  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
+    if (followed.stopped()) return;
+    if (X_FM[i]) {
+      FrameContact& frame = frames[i].emplace(FrameContact{.X_FM = *X_FM[i]});
+      frame.intersecting_pairs = joint.pairs(frame.X_FM).size();
+      frame.in_contact = frame.intersecting_pairs > 0 || joint.in_contact(frame.X_FM);
+      if (frame.intersecting_pairs == 0)
+        if (const auto nearest = mesh::closest_points(fixed, mobile, frame.X_FM))
+          frame.smallest_gap_mm = nearest->distance_mm;
+      named(i, [&] { std::visit([&](const auto* of) { ask(*of, options, frame); }, surfaces); });
+    }
+    followed.one_done();
+  });
+  if (followed.stopped()) return std::nullopt;
+  return frames;
+}
+
+std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
+    const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
+    const BalanceOptions& how, const AlongMotionOptions& options) {
+  if (loads.size() != 1 && loads.size() != X_FM.size())
+    throw UsageError(std::to_string(loads.size()) + " loads for " + std::to_string(X_FM.size()) + " frames");
+  std::vector<std::optional<BalancedPose>> frames(X_FM.size());
+  Followed followed(options, frames.size());
+  Vec3 moved = Vec3::Zero();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (followed.stopped()) return std::nullopt;
+    if (X_FM[i]) {
+      Pose start = *X_FM[i];
+      start.translation() += moved;
+      frames[i] = named(i, [&] { return balance(surfaces, start, loads[loads.size() == 1 ? 0 : i], how); });
+      if (frames[i]->outcome == BalanceOutcome::balanced)
+        moved = frames[i]->X_FM.translation() - X_FM[i]->translation();
+    }
+    followed.one_done();
+  }
+  return frames;
+}
+
+}  // namespace condyle
