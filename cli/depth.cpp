@@ -101,10 +101,16 @@ std::vector<std::string> terms_of(const Pose& X_FM, Method method) {
       moved, method == Method::reliable ? "; no depth along arcs is told" : "")};
 }
 
+std::string files_of(const std::vector<BodyMeshReport>& meshes) {
+  std::string files;
+  for (const BodyMeshReport& mesh : meshes) files += (files.empty() ? "" : " + ") + mesh.mesh.string();
+  return files;
+}
+
 void require_solids(const LoadedJoint& loaded) {
   try {
-    mesh::require_solid(loaded.joint.fixed.mesh, loaded.report.fixed.mesh.string());
-    mesh::require_solid(loaded.joint.mobile.mesh, loaded.report.mobile.mesh.string());
+    mesh::require_solid(loaded.joint.fixed.mesh, files_of(loaded.report.fixed));
+    mesh::require_solid(loaded.joint.mobile.mesh, files_of(loaded.report.mobile));
   } catch (const MeshError& error) {
     throw MeshError(std::string(error.what()) + " (--pairs-only accepts such meshes)");
   }

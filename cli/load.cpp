@@ -45,14 +45,12 @@ void run(const Options& options, const CLI::App& command) {
   const GivenPose given = given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  LoadQuestion question{joint,      given.pose,
-                        given.X_FM, contact_of(*options.contact, loaded.report.file, true),
-                        {},         noted(loaded, options.strictness),
-                        &from};
+  const ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
+  const ContactSurfaces surfaces = surfaces_of(contact, joint);
+  LoadQuestion question{joint, given.pose, given.X_FM, surfaces, contact, {}, noted(loaded, options.strictness), &from};
   if (options.balance->any()) question.load = load_of(*options.balance);
-  const ElasticContact surfaces(joint.fixed.mesh, joint.mobile.mesh,
-                                elastic_options(question.contact, loaded));
-  const LoadAnswer answer = answer_of(surfaces, question, *options.balance);
+  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(contact, surfaces, loaded));
+  const LoadAnswer answer = answer_of(layers, question, *options.balance);
   if (!options.out.empty())
     say_written(write_load(options.out, question, answer, options.where->vtp_encoding));
   print(options.form == AnswerForm::json ? load_json(question, answer) : load_text(question, answer));

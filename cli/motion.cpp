@@ -60,19 +60,17 @@ std::vector<Load> loads_from(const std::string& path, const BalanceGiven& given,
 }
 
 MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
-  const Joint& joint = question.joint.joint;
-  const JointContact bodies(joint);
+  const Mesh &fixed = question.surfaces.fixed.mesh, &mobile = question.surfaces.mobile.mesh;
+  const JointContact bodies(fixed, mobile);
   std::optional<ElasticContact> elastic;
   std::optional<NormalDepth> depth;
   SurfaceQuestion surfaces;
   const BodyRole casting = question.contact.casting == Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
   if (question.with_pressure) {
-    surfaces = &elastic.emplace(joint.fixed.mesh, joint.mobile.mesh,
-                                elastic_options(question.contact, question.joint));
+    surfaces = &elastic.emplace(fixed, mobile, elastic_options(question.contact, question.surfaces, question.joint));
   } else {
-    const bool fixed = casting == BodyRole::fixed;
-    surfaces = &depth.emplace(fixed ? joint.fixed.mesh : joint.mobile.mesh,
-                              fixed ? joint.mobile.mesh : joint.fixed.mesh, question.contact.rays);
+    const bool fixed_casts = casting == BodyRole::fixed;
+    surfaces = &depth.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, question.contact.rays);
   }
   MotionAnswer answer;
   std::vector<std::optional<Pose>> X_FM = question.motion.X_FM;
@@ -105,11 +103,9 @@ void run(const Options& options, const CLI::App& command) {
   for (const std::string& remark : motion.notes) note(remark);
   const bool with_pressure = options.with_pressure || options.balance->any() || !options.loads.empty();
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  const MotionQuestion question{loaded,
-                                motion,
-                                contact_of(*options.contact, loaded.report.file, with_pressure),
-                                with_pressure,
-                                noted(loaded, options.strictness),
+  const ContactEntry contact = contact_of(*options.contact, loaded.report.file, with_pressure);
+  const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
+  const MotionQuestion question{loaded,        motion, surfaces, contact, with_pressure, noted(loaded, options.strictness),
                                 &from};
   const MotionAnswer answer = answer_of(options, question);
   if (!options.out.empty()) {

@@ -7,8 +7,8 @@
 int main() {
   const condyle::Joint hip = condyle::read_joint("sample/hip.toml").joint;
   const condyle::JointContact contact(hip);  // tables and trees, built once and asked at any pose
-  const auto X_FM = condyle::pose_at(hip.coordinates(),
-                                     {condyle::Angle::degrees(140), {}, {}});  // p_fixed = X_FM * p_mobile
+  const condyle::JointAngles flexed{condyle::Angle::degrees(140), {}, {}};
+  const auto X_FM = condyle::pose_at(hip.coordinates(), flexed);  // p_fixed = X_FM * p_mobile
   const condyle::Contact at = contact.at(X_FM);
   const condyle::Penetrations& femur = *at.mobile_in_fixed;  // its vertices inside the hip bone
   double deepest_mm = 0;

@@ -1,17 +1,35 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/mesh.hpp"
 
 namespace condyle {
 
+/// Which vertices and triangles of a body's mesh came from one of several meshes.
+struct BodyPart {
+  std::string name;
+  std::size_t first_vertex, vertices;
+  std::size_t first_triangle, triangles;
+};
+
 /// One bone (or cartilage) of a joint, by the name its user gave it.
 struct Body {
   std::string name;
-  Mesh mesh;
+  Mesh mesh;                         ///< of all parts together
+  std::vector<BodyPart> parts = {};  ///< in their order, covering the mesh; empty where it is one mesh
 };
+
+/// The mesh of the part of this name. Throws UsageError with the names there are. Linear in the part.
+Mesh mesh_of_part(const Body& body, std::string_view part);
+
+/// The part that a vertex or a triangle of the body's mesh is of; null where the body is one mesh.
+const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
+const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
 
 /// Two bodies and how one rotates in the other. Both meshes are in the joint frame of joint_coordinates.hpp:
 /// millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile mesh

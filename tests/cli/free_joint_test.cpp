@@ -150,5 +150,50 @@ TEST_F(FreeJoint, AnAnklesResultsHaveItsNames) {
   EXPECT_TRUE(fs::exists(folder / "map/map_plantarflexion.svg"));
 }
 
+/// A shank of two bars side by side, of which the second reaches as far as the post.
+class Parts : public FreeJoint {
+ protected:
+  void SetUp() override {
+    FreeJoint::SetUp();
+    write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
+    write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -70, 2}));
+    std::ofstream(folder / "parts.toml")
+        << "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
+           "\"mm\"\n"
+           "[fixed]\nmesh = \"post.ply\"\n[mobile]\nname = \"shank\"\nmeshes = [{ name = \"upper\", mesh = "
+           "\"upper.ply\" }, { name = \"lower\", mesh = \"lower.ply\" }]\n[frame]\ncentre = [0, 0, 0]\n"
+           "anterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n";
+  }
+  std::string text_of(const std::string& name) const {
+    std::ifstream file(folder / name);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+};
+
+TEST_F(Parts, TheWitnessOfALimitIsOfAPart) {
+  const Json whole = flexion("knee.toml"), parts = flexion("parts.toml");
+  EXPECT_NEAR(parts["limit_deg"].get<double>(), whole["limit_deg"].get<double>(), 1e-9);
+  EXPECT_EQ(parts["features"]["mobile"]["part"], "lower");
+  EXPECT_FALSE(parts["features"]["fixed"].contains("part"));
+  EXPECT_FALSE(whole["features"]["mobile"].contains("part"));
+}
+
+TEST_F(Parts, DepthsNameTheirPart) {
+  const Ran ran = run("depth parts.toml --pose flexion=30 --out out --csv");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find(" of lower)"), std::string::npos) << ran.out;
+  const Json depth = Json::parse(text_of("out/depth.json"));
+  EXPECT_EQ(depth["reliable_depth"]["part"]["name"], "lower");
+  // The vertices of the upper bar, 8 of them, come first.
+  EXPECT_EQ(depth["reliable_depth"]["part"]["vertex"].get<int>(),
+            depth["reliable_depth"]["vertex"].get<int>() - 8);
+  EXPECT_NE(text_of("out/pairs.csv").find("fixed_triangle,mobile_triangle,fixed_part,mobile_part\n"),
+            std::string::npos);
+  EXPECT_NE(text_of("out/pairs.csv").find(",,lower\n"), std::string::npos);
+  EXPECT_NE(text_of("out/mobile.csv").find(",part\n"), std::string::npos);
+  EXPECT_NE(text_of("out/mobile.vtp").find("Name=\"part\""), std::string::npos);
+  EXPECT_EQ(text_of("out/fixed.vtp").find("Name=\"part\""), std::string::npos);
+}
+
 }  // namespace
 }  // namespace condyle::test

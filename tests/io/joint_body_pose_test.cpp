@@ -125,7 +125,7 @@ TEST_F(JointBodyPose, AnswersInTheSourceFrameLieOnTheFiles) {
 TEST_F(JointBodyPose, AMeshMayBeNamedByTheEnvironment) {
   ASSERT_EQ(::setenv("CONDYLE_TEST_FOLDER", folder.path().c_str(), 1), 0);
   const JointFile file = read_joint_file(write("mesh = \"${CONDYLE_TEST_FOLDER}/femur.ply\"", plain_tibia));
-  EXPECT_EQ(file.fixed.mesh, folder / "femur.ply");
+  EXPECT_EQ(file.fixed.meshes[0].mesh, folder / "femur.ply");
   ASSERT_EQ(::unsetenv("CONDYLE_TEST_FOLDER"), 0);
   EXPECT_EQ(refusal("mesh = \"${CONDYLE_TEST_FOLDER}/femur.ply\""),
             "line 8: fixed.mesh: the environment variable 'CONDYLE_TEST_FOLDER' is not set");

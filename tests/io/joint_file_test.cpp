@@ -281,9 +281,9 @@ TEST_F(ReadJoint, RepairsAreMadeInOrderAndReported) {
       read(replaced(plain, "mesh = \"femur.ply\"",
                     "mesh = \"femur.ply\"\nrepair = [\"drop_unreferenced\", \"flip_inverted\"]"));
   EXPECT_EQ(joint.mobile.mesh.vertices(), femur_like().vertices);
-  ASSERT_EQ(report.mobile.repairs.size(), 2u);
-  EXPECT_EQ(report.mobile.repairs[0].count, 1u);
-  EXPECT_EQ(report.mobile.repairs[1].count, dirty.triangles.size());
+  ASSERT_EQ(report.mobile[0].repairs.size(), 2u);
+  EXPECT_EQ(report.mobile[0].repairs[0].count, 1u);
+  EXPECT_EQ(report.mobile[0].repairs[1].count, dirty.triangles.size());
   EXPECT_EQ(report.notes.size(), 2u);
 }
 

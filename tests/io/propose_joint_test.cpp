@@ -122,7 +122,7 @@ TEST(ProposedJoint, OfTwoBoxesIsToBeFilledIn) {
   filled = "kind = \"ball\"\nside = \"right\"\n" + filled;
   std::filesystem::create_directory(folder / "sub");
   std::ofstream(folder / "sub" / "joint.toml") << filled;
-  EXPECT_TRUE(std::filesystem::equivalent(read_joint_file(folder / "sub" / "joint.toml").fixed.mesh,
+  EXPECT_TRUE(std::filesystem::equivalent(read_joint_file(folder / "sub" / "joint.toml").fixed.meshes[0].mesh,
                                           folder / "a \"quoted\".ply"))
       << filled;
   EXPECT_NE(proposal.toml.find("units = \"m\"  # given"), std::string::npos);

@@ -53,10 +53,10 @@ void expect_near(const TriMesh& a, const TriMesh& b, double tolerance) {
 
 TEST_F(ProvenanceOfAJoint, NamesItsFilesBySizeAndDigest) {
   const Provenance from = provenance_of(read(), {"depth", "joint.toml"});
-  EXPECT_EQ(from.fixed.digest, digest_of(io::read_whole_file(folder / "fixed.ply")));
-  EXPECT_EQ(from.mobile.digest, digest_of(io::read_whole_file(folder / "mobile.ply")));
+  EXPECT_EQ(from.fixed.files[0].digest, digest_of(io::read_whole_file(folder / "fixed.ply")));
+  EXPECT_EQ(from.mobile.files[0].digest, digest_of(io::read_whole_file(folder / "mobile.ply")));
   EXPECT_EQ(from.joint_digest, digest_of(io::read_whole_file(folder / "joint.toml")));
-  EXPECT_EQ(from.fixed.path, folder / "fixed.ply");
+  EXPECT_EQ(from.fixed.files[0].path, folder / "fixed.ply");
 }
 
 TEST_F(ProvenanceOfAJoint, ItsMatricesBringVerticesOfTheFilesIntoTheJointAndBack) {
@@ -64,7 +64,7 @@ TEST_F(ProvenanceOfAJoint, ItsMatricesBringVerticesOfTheFilesIntoTheJointAndBack
   const Provenance from = provenance_of(loaded, {});
   for (const auto& [origin, body] :
        {std::pair(from.fixed, loaded.joint.fixed), {from.mobile, loaded.joint.mobile}}) {
-    const TriMesh of_file = read_mesh(origin.path).mesh;
+    const TriMesh of_file = read_mesh(origin.files[0].path).mesh;
     for (std::size_t v = 0; v < of_file.vertices.size(); ++v) {
       const Vec3 p_joint = body.mesh.vertices()[v];
       EXPECT_LT((origin.joint_from_source * of_file.vertices[v] - p_joint).norm(), rounding_mm);

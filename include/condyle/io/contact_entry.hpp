@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <variant>
 
+#include "condyle/joint.hpp"
 #include "condyle/pressure.hpp"
 
 /// What a joint file says of its surfaces in contact: the table [contact], whose keys are docs/joint-file.md.
@@ -23,6 +25,7 @@ struct LayerEntry {
 enum class MomentOn { casting, target };
 
 struct ContactEntry {
+  std::string fixed_part = {}, mobile_part = {};  ///< of the bodies; empty: all of it
   Casting casting = Casting::both;
   NormalDepthOptions rays = {};
   PressureLaw law = PressureLaw::linear;
@@ -30,8 +33,15 @@ struct ContactEntry {
   MomentOn moment_on = MomentOn::casting;
 };
 
-/// The options of an elastic contact of the joint, thicknesses measured. FileError for a mesh that cannot be read,
+/// The surfaces that an entry speaks of, by their names; in the bodies' joint frames.
+struct ContactSurfaces {
+  Body fixed, mobile;
+};
+/// UsageError for a part that a body does not have, with those it has.
+ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
+
+/// The options of an elastic contact of these surfaces, thicknesses measured. FileError for a mesh that cannot be read,
 /// MeshError where a vertex of a layer has nothing behind it within the reach.
-ElasticContactOptions elastic_options(const ContactEntry& entry, const LoadedJoint& joint);
+ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces, const LoadedJoint& joint);
 
 }  // namespace condyle

@@ -18,11 +18,17 @@
 
 namespace condyle {
 
+/// One mesh of a body.
+struct MeshEntry {
+  std::string part;            ///< its name among several; empty where it is the only one
+  std::filesystem::path mesh;  ///< found from the joint file's folder
+  std::vector<Repair> repairs;
+};
+
 /// A [fixed] or [mobile] table.
 struct BodyEntry {
   std::string name;
-  std::filesystem::path mesh;  ///< found from the joint file's folder
-  std::vector<Repair> repairs;
+  std::vector<MeshEntry> meshes;  ///< one or more
 };
 
 /// A joint file's contents, checked one by one; no mesh was read. Lengths were converted to mm.
@@ -40,7 +46,8 @@ struct JointFile {
 JointFile read_joint_file(const std::filesystem::path& path);
 
 /// What became of one mesh on its way into the joint.
-struct BodyReport {
+struct BodyMeshReport {
+  std::string part;  ///< as in MeshEntry
   std::filesystem::path mesh;
   std::size_t vertices, triangles;
   std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
@@ -51,7 +58,7 @@ struct BodyReport {
 /// What was done to make a joint of a file, for reading and for checking.
 struct JointReport {
   JointFile file;
-  BodyReport fixed, mobile;
+  std::vector<BodyMeshReport> fixed, mobile;  ///< one for each mesh of the body
   JointPlacement placement;
   /// One line each: what was converted, repaired or fitted. What looks wrong is for check_joint().
   std::vector<std::string> notes;

@@ -21,6 +21,7 @@ struct LoadQuestion {
   const Joint& joint;
   PoseDegrees pose;
   Pose X_FM;
+  const ContactSurfaces& surfaces;
   ContactEntry contact;
   std::optional<Load> load = {};  ///< that was balanced
   std::vector<JointNote> notes = {};
@@ -38,7 +39,7 @@ struct LoadAnswer {
 std::string load_text(const LoadQuestion& question, const LoadAnswer& answer);
 std::string load_json(const LoadQuestion& question, const LoadAnswer& answer);
 
-/// Writes fixed.vtp and mobile.vtp, both in F, with pressure, depth and area in contact of each triangle of what was cast,
+/// Writes both surfaces as fixed.vtp and mobile.vtp, in F, with pressure, depth and area in contact of each triangle of what was cast,
 /// and load.json; all or none. Returns what was written. FileError.
 std::vector<std::filesystem::path> write_load(const std::filesystem::path& folder,
                                               const LoadQuestion& question, const LoadAnswer& answer,

@@ -21,6 +21,7 @@ namespace condyle {
 struct MotionQuestion {
   const LoadedJoint& joint;
   const JointMotion& motion;
+  const ContactSurfaces& surfaces;
   ContactEntry contact;
   bool with_pressure = false;
   std::vector<JointNote> notes = {};

@@ -55,11 +55,17 @@ class AnswerFrame {
   Vec3 held_ = Vec3::Zero();
 };
 
-/// A mesh file and how its mesh came into the joint: p_joint = joint_from_source * p_source for a vertex of the file,
-/// in the file's unit, and the same vertex in the body's own joint frame (at zero angles), in mm.
-struct MeshOrigin {
+/// The file of one mesh.
+struct MeshSource {
+  std::string part;  ///< its name among several of one body
   std::filesystem::path path;
   FileDigest digest;
+};
+
+/// The mesh files of a body and how their meshes came into the joint: p_joint = joint_from_source * p_source for a vertex of the file,
+/// in the file's unit, and the same vertex in the body's own joint frame (at zero angles), in mm.
+struct MeshOrigin {
+  std::vector<MeshSource> files;  ///< one or more
   Eigen::Affine3d joint_from_source, source_from_joint;
 };
 

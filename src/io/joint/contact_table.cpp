@@ -38,6 +38,8 @@ LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesyst
 
 ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::filesystem::path& folder) {
   ContactEntry entry;
+  entry.fixed_part = table.text("fixed_part").value_or("");
+  entry.mobile_part = table.text("mobile_part").value_or("");
   constexpr Casting castings[] = {Casting::fixed, Casting::mobile, Casting::both};
   if (table.has("casting"))
     entry.casting = castings[table.required_word("casting", {"fixed", "mobile", "both"})];
@@ -65,39 +67,45 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
 namespace {
 
 /// Of each vertex of a body's mesh, to the mesh behind it, which is brought into the joint as the body's own mesh was.
-std::vector<double> measured(const Mesh& layer, const std::filesystem::path& behind, const MeshOrigin& origin,
+std::vector<double> measured(const Body& layer, const std::filesystem::path& behind, const MeshOrigin& origin,
                              double reach) {
   TriMesh bone = read_mesh(behind).mesh;
   for (std::size_t v = 0; v < bone.vertices.size(); ++v)
     bone.vertices.set(v, origin.joint_from_source * bone.vertices[v]);
-  std::vector<double> thickness = thickness_to(layer, Mesh(std::move(bone)), reach);
+  std::vector<double> thickness = thickness_to(layer.mesh, Mesh(std::move(bone)), reach);
   std::size_t without = 0, first = 0;
   for (std::size_t v = thickness.size(); v-- > 0;)
     if (!(thickness[v] > 0)) ++without, first = v;
   if (without > 0)
     throw MeshError(
         fmt::format("{}: {} of {} vertices, vertex {} the first, have nothing of {} behind them within {} mm",
-                    origin.path.string(), without, thickness.size(), first, behind.string(), reach));
+                    layer.name, without, thickness.size(), first, behind.string(), reach));
   return thickness;
 }
 
 }  // namespace
 
-ElasticContactOptions elastic_options(const ContactEntry& entry, const LoadedJoint& joint) {
+ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint) {
+  const auto surface = [](const Body& body, const std::string& part) {
+    return part.empty() ? Body{body.name, body.mesh} : Body{part, mesh_of_part(body, part)};
+  };
+  return {surface(joint.fixed, entry.fixed_part), surface(joint.mobile, entry.mobile_part)};
+}
+
+ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces, const LoadedJoint& joint) {
   const Provenance from = provenance_of(joint, {});
-  const auto layer = [&](const std::optional<LayerEntry>& of, const Mesh& mesh, const MeshOrigin& origin) {
+  const auto layer = [&](const std::optional<LayerEntry>& of, const Body& surface, const MeshOrigin& origin) {
     std::optional<ElasticLayer> made;
     if (!of) return made;
     made.emplace(ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, 0.0});
     if (const auto* thickness = std::get_if<double>(&of->thickness))
       made->thickness_mm = *thickness;
     else
-      made->thickness_mm =
-          measured(mesh, std::get<std::filesystem::path>(of->thickness), origin, entry.rays.reach_mm);
+      made->thickness_mm = measured(surface, std::get<std::filesystem::path>(of->thickness), origin, entry.rays.reach_mm);
     return made;
   };
-  return {entry.casting, entry.rays, entry.law, layer(entry.fixed, joint.joint.fixed.mesh, from.fixed),
-          layer(entry.mobile, joint.joint.mobile.mesh, from.mobile)};
+  return {entry.casting, entry.rays, entry.law, layer(entry.fixed, surfaces.fixed, from.fixed),
+          layer(entry.mobile, surfaces.mobile, from.mobile)};
 }
 
 }  // namespace condyle

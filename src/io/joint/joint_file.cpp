@@ -90,11 +90,8 @@ Pose body_pose(io::TomlTable& body, CoordinateSystem system, const Lengths& leng
   return X;
 }
 
-/// A body's table is read in two parts: its pose needs what is known of the joint.
-BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
-  BodyEntry entry;
-  entry.name = table.text("name").value_or(std::string(key));
-  entry.mesh = io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh")));
+MeshEntry mesh_entry(io::TomlTable& table) {
+  MeshEntry entry{{}, io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh"))), {}};
   for (const std::string& word : table.texts("repair").value_or(std::vector<std::string>{})) {
     try {
       entry.repairs.push_back(repair_named(word));
@@ -103,6 +100,29 @@ BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
     }
   }
   return entry;
+}
+
+std::vector<MeshEntry> mesh_entries(io::TomlTable& body) {
+  if (!body.has("meshes")) return {mesh_entry(body)};
+  for (const auto key : {"mesh", "repair"})
+    if (body.has(key)) body.fail(key, "with meshes each of them has its own");
+  std::vector<MeshEntry> entries;
+  for (io::TomlTable& table : body.tables("meshes")) {
+    MeshEntry entry = mesh_entry(table);
+    entry.part = table.required("name", table.text("name"));
+    if (entry.part.empty()) table.fail("name", "must not be empty");
+    for (const MeshEntry& other : entries)
+      if (other.part == entry.part) table.fail("name", fmt::format("\"{}\" is given twice", entry.part));
+    table.finish();
+    entries.push_back(std::move(entry));
+  }
+  if (entries.empty()) body.fail("meshes", "must name one mesh or more");
+  return entries;
+}
+
+/// A body's table is read in two parts: its pose needs what is known of the joint.
+BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
+  return {table.text("name").value_or(std::string(key)), mesh_entries(table)};
 }
 
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
@@ -318,7 +338,8 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   io::TomlTable mobile = file.required("mobile", file.table("mobile"));
   out.fixed = body_entry(fixed, "fixed");
   out.mobile = body_entry(mobile, "mobile");
-  for (BodyEntry* body : {&out.fixed, &out.mobile}) body->mesh = path.parent_path() / body->mesh;
+  for (BodyEntry* body : {&out.fixed, &out.mobile})
+    for (MeshEntry& entry : body->meshes) entry.mesh = path.parent_path() / entry.mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
   joint.anatomy = anatomy_of(file, joint);
   joint.translation_frame = translation_frame_of(file, joint);

@@ -11,14 +11,20 @@
 namespace condyle {
 namespace {
 
-/// A body by its file: that is what errors name.
+/// A mesh of a body, and what became of it.
+struct LoadedMesh {
+  TriMesh mesh;
+  BodyMeshReport report;
+};
+
+/// A body by its file or files: that is what errors name.
 struct LoadedBody {
   Body body;
-  BodyReport report;
+  std::vector<BodyMeshReport> reports;
 };
 
 /// `key` and the joint file are named where the mesh cannot be opened: it may be the key that is wrong.
-void check_mesh_exists(const BodyEntry& entry, std::string_view key,
+void check_mesh_exists(const MeshEntry& entry, const std::string& key,
                        const std::filesystem::path& joint_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(entry.mesh, ignored))
@@ -26,13 +32,13 @@ void check_mesh_exists(const BodyEntry& entry, std::string_view key,
         fmt::format("{}: {}.mesh: there is no file {}", joint_file.string(), key, entry.mesh.string()));
 }
 
-LoadedBody load(const BodyEntry& entry, std::string_view key, const std::filesystem::path& joint_file) {
+LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {
   check_mesh_exists(entry, key, joint_file);
   io::check_is_file(entry.mesh);
   const MeshFormat format = mesh_format_of(entry.mesh);
   const std::string bytes = io::read_whole_file(entry.mesh);
   MeshFile file = read_mesh(bytes, format, entry.mesh.string());
-  BodyReport report{entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
+  BodyMeshReport report{entry.part, entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
   try {
     report.repairs = repair_mesh(file.mesh, entry.repairs);
   } catch (const MeshError& error) {
@@ -40,7 +46,35 @@ LoadedBody load(const BodyEntry& entry, std::string_view key, const std::filesys
   }
   report.vertices = file.mesh.vertices.size();
   report.triangles = file.mesh.triangles.size();
-  return {{entry.mesh.string(), std::move(file.mesh)}, std::move(report)};
+  return {std::move(file.mesh), std::move(report)};
+}
+
+/// Appends a mesh to those before it.
+void append(TriMesh& whole, const TriMesh& mesh) {
+  const auto first = static_cast<Index>(whole.vertices.size());
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) whole.vertices.push_back(mesh.vertices[v]);
+  for (const auto& [a, b, c] : mesh.triangles) whole.triangles.push_back({a + first, b + first, c + first});
+}
+
+LoadedBody load(const BodyEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {
+  if (entry.meshes.size() == 1) {
+    const bool in_list = !entry.meshes.front().part.empty();
+    LoadedMesh only = load(entry.meshes.front(), in_list ? key + ".meshes[0]" : key, joint_file);
+    return {{entry.meshes.front().mesh.string(), std::move(only.mesh)}, {std::move(only.report)}};
+  }
+  TriMesh whole;
+  std::vector<BodyPart> parts;
+  std::vector<BodyMeshReport> reports;
+  std::string files;
+  for (std::size_t i = 0; i < entry.meshes.size(); ++i) {
+    LoadedMesh one = load(entry.meshes[i], fmt::format("{}.meshes[{}]", key, i), joint_file);
+    parts.push_back({one.report.part, whole.vertices.size(), one.report.vertices, whole.triangles.size(),
+                     one.report.triangles});
+    append(whole, one.mesh);
+    reports.push_back(std::move(one.report));
+    files += (files.empty() ? "" : " + ") + entry.meshes[i].mesh.string();
+  }
+  return {{files, std::move(whole), std::move(parts)}, std::move(reports)};
 }
 
 PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {
@@ -56,11 +90,11 @@ PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {
   }
 }
 
-std::string file_name(const BodyReport& body) {
+std::string file_name(const BodyMeshReport& body) {
   return body.mesh.filename().string();
 }
 
-void note_repairs(const BodyReport& body, std::vector<std::string>& notes) {
+void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
   if (body.welded_vertices > 0)
     notes.push_back(fmt::format("{}: merged {} duplicate vertices", file_name(body), body.welded_vertices));
   for (const RepairDone& done : body.repairs)
@@ -72,8 +106,8 @@ std::vector<std::string> notes_on(const JointReport& report) {
   const JointPlacement& placement = report.placement;
   if (report.file.joint.units == LengthUnit::metres)
     notes.push_back("meshes and lengths converted from metres to mm");
-  note_repairs(report.fixed, notes);
-  note_repairs(report.mobile, notes);
+  for (const auto* meshes : {&report.fixed, &report.mobile})
+    for (const BodyMeshReport& mesh : *meshes) note_repairs(mesh, notes);
   notes.insert(notes.end(), placement.notes.begin(), placement.notes.end());
   return notes;
 }
@@ -85,7 +119,7 @@ LoadedJoint read_joint(const std::filesystem::path& path) {
   LoadedBody fixed = load(file.fixed, "fixed", file.path), mobile = load(file.mobile, "mobile", file.path);
   PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
   JointReport report{
-      std::move(file), std::move(fixed.report), std::move(mobile.report), std::move(made.placement), {}};
+      std::move(file), std::move(fixed.reports), std::move(mobile.reports), std::move(made.placement), {}};
   report.notes = notes_on(report);
   return {std::move(made.joint), std::move(report)};
 }

@@ -63,18 +63,18 @@ Json contact_terms(const ContactEntry& entry, bool with_pressure) {
   return json;
 }
 
-std::string contact_terms_text(const ContactEntry& entry, const Joint& joint, bool with_pressure) {
+std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces, bool with_pressure) {
   const std::string caster = entry.casting == Casting::both    ? "both surfaces"
-                             : entry.casting == Casting::fixed ? joint.fixed.name
-                                                               : joint.mobile.name;
+                             : entry.casting == Casting::fixed ? surfaces.fixed.name
+                                                               : surfaces.mobile.name;
   std::string text = fmt::format(
       "  rays along normals of {}, {}, reach {} mm\n", caster,
       entry.rays.rule == FaceRule::face_centre ? "one per face" : "faces cut where the depth is 0",
       entry.rays.reach_mm);
   if (with_pressure)
     text +=
-        fmt::format("  {} law; {}: {}; {}: {}\n  {}\n", name_of(entry.law), joint.fixed.name,
-                    layer_text(entry.fixed), joint.mobile.name, layer_text(entry.mobile), foundation_note);
+        fmt::format("  {} law; {}: {}; {}: {}\n  {}\n", name_of(entry.law), surfaces.fixed.name,
+                    layer_text(entry.fixed), surfaces.mobile.name, layer_text(entry.mobile), foundation_note);
   return text;
 }
 

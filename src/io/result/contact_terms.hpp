@@ -3,7 +3,6 @@
 #include <string>
 
 #include "condyle/io/contact_entry.hpp"
-#include "condyle/joint.hpp"
 #include "condyle/load_balance.hpp"
 #include "io/result/json.hpp"
 
@@ -24,7 +23,7 @@ std::string_view name_of(BalanceOutcome outcome) noexcept;
 /// casting, rule, reach, and with pressure law, layers and whose moment is told.
 Json contact_terms(const ContactEntry& entry, bool with_pressure);
 /// The same as one line.
-std::string contact_terms_text(const ContactEntry& entry, const Joint& joint, bool with_pressure);
+std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces, bool with_pressure);
 
 Json totals_json(const ContactTotals& totals, bool with_pressure);
 

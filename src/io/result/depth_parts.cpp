@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/file/format_version.hpp"
+#include "io/result/csv_field.hpp"
 #include "io/result/movement_words.hpp"
 
 namespace condyle::io {
@@ -115,16 +116,44 @@ std::string open_line(const Body& body) {
   return fmt::format("  {}: no answer, the other mesh is open and has no inside\n", body.name);
 }
 
+void add_part(Json& json, const char* key, const Body& body, Index vertex) {
+  if (const BodyPart* part = part_of_vertex(body, vertex))
+    json[key] = {{"name", part->name}, {"vertex", vertex - part->first_vertex}};
+}
+
+std::string vertex_text(const Body& body, Index vertex) {
+  const BodyPart* part = part_of_vertex(body, vertex);
+  return fmt::format("vertex {} of {}{}", vertex, body.name,
+                     part ? fmt::format(" ({} of {})", vertex - part->first_vertex, part->name) : "");
+}
+
 DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
                       Index TrianglePair::*triangle) {
   std::vector<std::uint8_t> in_contact(body.mesh.triangles().size());
   for (const TrianglePair& pair : pairs) in_contact[pair.*triangle] = 1;
+  if (!body.parts.empty()) {
+    std::vector<std::int32_t> part;
+    for (std::size_t i = 0; i < body.parts.size(); ++i)
+      part.insert(part.end(), body.parts[i].vertices, static_cast<std::int32_t>(i));
+    points.push_back({"part", std::move(part)});
+  }
   return {std::move(points), {"in_contact", std::move(in_contact)}};
 }
 
-std::string pairs_csv(const std::vector<TrianglePair>& pairs) {
-  std::string text = "fixed_triangle,mobile_triangle\n";
-  for (const auto& [fixed, mobile] : pairs) text += fmt::format("{},{}\n", fixed, mobile);
+std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs) {
+  const bool parts = !joint.fixed.parts.empty() || !joint.mobile.parts.empty();
+  std::string text =
+      fmt::format("fixed_triangle,mobile_triangle{}\n", parts ? ",fixed_part,mobile_part" : "");
+  const auto name_of_part = [](const Body& body, Index triangle) {
+    const BodyPart* part = part_of_triangle(body, triangle);
+    return part ? csv_field(part->name) : std::string();
+  };
+  for (const auto& [fixed, mobile] : pairs) {
+    text += fmt::format("{},{}", fixed, mobile);
+    if (parts)
+      text += fmt::format(",{},{}", name_of_part(joint.fixed, fixed), name_of_part(joint.mobile, mobile));
+    text += "\n";
+  }
   return text;
 }
 

@@ -17,6 +17,12 @@ Json depth_header(const DepthQuestion& question, const char* method);
 /// "right hip: femur in hip bone, flexion 90, ...", and whether they touch; two lines.
 std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs);
 
+/// The part of the body that a vertex is of and its number there, under this key; nothing where the body is one mesh.
+void add_part(Json& json, const char* key, const Body& body, Index vertex);
+
+/// "vertex 12 of femur", and of which part of it where it has several.
+std::string vertex_text(const Body& body, Index vertex);
+
 /// "  femur: 25 of 7349 vertices inside" and what is worth saying besides; one line.
 std::string inside_line(const Body& body, std::size_t inside, std::size_t on_surface);
 
@@ -89,6 +95,7 @@ template <class Deepest>
 void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
   json["deepest_body"] = deepest ? Json(deepest->view->key) : Json(nullptr);
   json["deepest_vertex"] = deepest ? Json(deepest->vertex.vertex) : Json(nullptr);
+  if (deepest) add_part(json, "deepest_part", deepest->view->body, deepest->vertex.vertex);
   json["deepest_point_mm"] =
       deepest ? numbers(deepest->view->place_of(deepest->vertex.vertex)) : Json(nullptr);
 }
@@ -110,8 +117,8 @@ MeshArray nearest_array(const std::vector<double>& distances);
 DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
                       Index TrianglePair::*triangle);
 
-/// Intersecting triangle pairs as CSV text with a header line.
-std::string pairs_csv(const std::vector<TrianglePair>& pairs);
+/// Intersecting triangle pairs as CSV text with a header line; with their parts where a body has several.
+std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs);
 
 /// Why a body has no figures; one line.
 std::string open_line(const Body& body);

@@ -26,26 +26,42 @@ std::array<std::pair<const char*, Vec3>, 3> axes_of(const Pose& X_WF) {
   return {{{"anterior", m.col(0)}, {"superior", m.col(1)}, {"right", m.col(2)}}};
 }
 
-std::string text_of(const char* role, const Body& body, const BodyReport& report, const BoundingBox& bounds) {
+std::string text_of(const char* role, const Body& body, const std::vector<BodyMeshReport>& meshes,
+                    const BoundingBox& bounds) {
+  std::string text;
+  for (const BodyMeshReport& mesh : meshes)
+    text += fmt::format("  {:<8} {}{}: {}, {} vertices, {} triangles\n", text.empty() ? role : "", body.name,
+                        mesh.part.empty() ? "" : ", " + mesh.part, mesh.mesh.string(), mesh.vertices,
+                        mesh.triangles);
   const auto& [low, high] = bounds;
-  return fmt::format(
-      "  {:<8} {}: {}, {} vertices, {} triangles\n"
-      "           x {:.3f} .. {:.3f}, y {:.3f} .. {:.3f}, z {:.3f} .. {:.3f} mm\n",
-      role, body.name, report.mesh.string(), report.vertices, report.triangles, low.x(), high.x(), low.y(),
-      high.y(), low.z(), high.z());
+  return text + fmt::format("           x {:.3f} .. {:.3f}, y {:.3f} .. {:.3f}, z {:.3f} .. {:.3f} mm\n",
+                            low.x(), high.x(), low.y(), high.y(), low.z(), high.z());
 }
 
-Json json_of(const Body& body, const BodyReport& report, const BoundingBox& bounds) {
+void add_mesh(Json& json, const BodyMeshReport& report) {
   Json repairs = Json::array();
   for (const RepairDone& done : report.repairs)
     repairs.push_back({{"repair", name_of(done.repair)}, {"count", done.count}});
-  return {{"name", body.name},
-          {"mesh", report.mesh.string()},
-          {"vertices", report.vertices},
-          {"triangles", report.triangles},
-          {"welded_vertices", report.welded_vertices},
-          {"repairs", std::move(repairs)},
-          {"bounds_mm", {{"low", io::numbers(bounds.low)}, {"high", io::numbers(bounds.high)}}}};
+  json["mesh"] = report.mesh.string();
+  json["vertices"] = report.vertices;
+  json["triangles"] = report.triangles;
+  json["welded_vertices"] = report.welded_vertices;
+  json["repairs"] = std::move(repairs);
+}
+
+Json json_of(const Body& body, const std::vector<BodyMeshReport>& meshes, const BoundingBox& bounds) {
+  Json json{{"name", body.name}};
+  if (body.parts.empty()) {
+    add_mesh(json, meshes.front());
+  } else {
+    for (const BodyMeshReport& mesh : meshes) {
+      Json part{{"name", mesh.part}};
+      add_mesh(part, mesh);
+      json["meshes"].push_back(std::move(part));
+    }
+  }
+  json["bounds_mm"] = {{"low", io::numbers(bounds.low)}, {"high", io::numbers(bounds.high)}};
+  return json;
 }
 
 Json json_of(const SphericalPatch& head) {

@@ -60,7 +60,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   const Joint& joint = question.joint;
   std::string text = fmt::format("{}: {} in {}, {}\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  to_text(question.pose, joint.anatomy));
-  text += io::contact_terms_text(question.contact, joint, true);
+  text += io::contact_terms_text(question.contact, question.surfaces, true);
   if (answer.balanced) {
     const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
     if (answer.balanced->outcome == BalanceOutcome::balanced)
@@ -69,7 +69,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
     else
       text += fmt::format("  not balanced: {}\n", reason_of(*answer.balanced));
   }
-  text += surface_text(joint.fixed, answer.contact.fixed) + surface_text(joint.mobile, answer.contact.mobile);
+  text += surface_text(question.surfaces.fixed, answer.contact.fixed) + surface_text(question.surfaces.mobile, answer.contact.mobile);
   const Wrench& load = answer.contact.on_mobile;
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
@@ -84,8 +84,8 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
   const Joint& joint = question.joint;
   Json json{{"condyle", io::format_version},
             {"joint", joint.name},
-            {"fixed", joint.fixed.name},
-            {"mobile", joint.mobile.name},
+            {"fixed", question.surfaces.fixed.name},
+            {"mobile", question.surfaces.mobile.name},
             {"anatomy", io::anatomy_json(joint)},
             {"side", name_of(joint.side)},
             {"pose_deg", io::pose_json(question.pose, joint.anatomy)},
@@ -128,8 +128,8 @@ std::vector<std::filesystem::path> write_load(const std::filesystem::path& folde
     if (surface) arrays = io::pressure_map(*surface, mesh.triangles.size(), true);
     write_vtp(out.file(name), frame.fixed_mesh(mesh), {}, arrays, options);
   };
-  write("fixed.vtp", question.joint.fixed.mesh, answer.contact.fixed);
-  write("mobile.vtp", posed(answer.X_FM, question.joint.mobile.mesh), answer.contact.mobile);
+  write("fixed.vtp", question.surfaces.fixed.mesh, answer.contact.fixed);
+  write("mobile.vtp", posed(answer.X_FM, question.surfaces.mobile.mesh), answer.contact.mobile);
   io::write_whole_file(out.file("load.json"), load_json(question, answer));
   return out.commit();
 }

@@ -42,14 +42,14 @@ std::vector<double> per_triangle(const FrameContact& frame, std::size_t triangle
 
 void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionAnswer& answer,
                 VtpEncoding encoding) {
-  const Joint& joint = question.joint.joint;
+  const ContactSurfaces& surfaces = question.surfaces;
   const AnswerFrame frame_of_answer = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
   const bool fixed_casts = question.contact.casting == Casting::fixed;
-  const Mesh& casting = fixed_casts ? joint.fixed.mesh : joint.mobile.mesh;
+  const Mesh& casting = fixed_casts ? surfaces.fixed.mesh : surfaces.mobile.mesh;
   std::vector<SeriesFile> series;
   if (!fixed_casts)
-    write_vtp(out.file("map_fixed.vtp"), frame_of_answer.fixed_mesh(joint.fixed.mesh), {}, {}, options);
+    write_vtp(out.file("map_fixed.vtp"), frame_of_answer.fixed_mesh(surfaces.fixed.mesh), {}, {}, options);
   for (std::size_t i = 0; i < answer.frames.size(); ++i) {
     if (!answer.frames[i]) continue;
     const FrameContact& frame = *answer.frames[i];
@@ -58,10 +58,10 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
     const std::string mobile = fmt::format("map_mobile_{:05}.vtp", i);
     const std::string fixed = fixed_casts ? fmt::format("map_fixed_{:05}.vtp", i) : "map_fixed.vtp";
     const std::vector<MeshArray> none;
-    write_vtp(out.file(mobile), frame_of_answer.fixed_mesh(posed(frame.X_FM, joint.mobile.mesh)), {},
+    write_vtp(out.file(mobile), frame_of_answer.fixed_mesh(posed(frame.X_FM, surfaces.mobile.mesh)), {},
               fixed_casts ? none : arrays, options);
     if (fixed_casts)
-      write_vtp(out.file(fixed), frame_of_answer.fixed_mesh(joint.fixed.mesh), {}, arrays, options);
+      write_vtp(out.file(fixed), frame_of_answer.fixed_mesh(surfaces.fixed.mesh), {}, arrays, options);
     series.push_back({time, "fixed", fixed});
     series.push_back({time, "mobile", mobile});
   }
@@ -101,10 +101,11 @@ JamFrame jam_frame(const std::optional<FrameContact>& frame, std::size_t triangl
 
 void write_jam(const std::filesystem::path& path, const MotionQuestion& question,
                const MotionAnswer& answer) {
-  const Joint& joint = question.joint.joint;
+  const ContactSurfaces& surfaces = question.surfaces;
   const bool fixed_casts = question.contact.casting == Casting::fixed;
-  const Body &casting = fixed_casts ? joint.fixed : joint.mobile,
-             &target = fixed_casts ? joint.mobile : joint.fixed;
+  const ContactSurfaces& surfaces = question.surfaces;
+  const Body &casting = fixed_casts ? surfaces.fixed : surfaces.mobile,
+             &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
   JamContact contact{field_name(joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
   for (const auto& frame : answer.frames)
     contact.casting.frames.push_back(

@@ -60,7 +60,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
       fmt::format("{}: {} frames, {}{:g} to {:g}{}\n", joint.name, summary.frames,
                   times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit);
   if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
-  text += io::contact_terms_text(question.contact, joint, question.with_pressure);
+  text += io::contact_terms_text(question.contact, question.surfaces, question.with_pressure);
   text += fmt::format("  {} frames in contact\n", summary.in_contact);
   const auto line = [&](const char* what, const Summary::Largest& largest, const char* of) {
     if (largest.value > 0)
@@ -93,8 +93,8 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
   const auto largest = [&](const Summary::Largest& of) { return Json{{"value", of.value}, {axis, of.at}}; };
   Json json{{"condyle", io::format_version},
             {"joint", joint.name},
-            {"fixed", joint.fixed.name},
-            {"mobile", joint.mobile.name},
+            {"fixed", question.surfaces.fixed.name},
+            {"mobile", question.surfaces.mobile.name},
             {"anatomy", io::anatomy_json(joint)},
             {"side", name_of(joint.side)},
             {"contact", io::contact_terms(question.contact, question.with_pressure)},

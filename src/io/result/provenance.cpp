@@ -27,10 +27,12 @@ Pose mobile_in_source(const JointReport& report) noexcept {
          pose_at(joint.coordinates(), report.placement.reference_pose, joint.translation_frame);
 }
 
-MeshOrigin origin_of(const BodyReport& body, const Pose& in_source, double unit_mm) {
+MeshOrigin origin_of(const std::vector<BodyMeshReport>& meshes, const Pose& in_source, double unit_mm) {
   const Eigen::Affine3d joint_from_source = in_source.inverse() * Eigen::Scaling(unit_mm);
   const Eigen::Affine3d source_from_joint = Eigen::Scaling(1 / unit_mm) * Eigen::Affine3d(in_source);
-  return {body.mesh, body.digest, joint_from_source, source_from_joint};
+  MeshOrigin origin{{}, joint_from_source, source_from_joint};
+  for (const BodyMeshReport& mesh : meshes) origin.files.push_back({mesh.part, mesh.mesh, mesh.digest});
+  return origin;
 }
 
 TriMesh moved(const Pose& X, double scale, const TriMesh& mesh) {
@@ -87,7 +89,16 @@ io::Json file_json(const std::filesystem::path& path, const FileDigest& digest) 
 }
 
 io::Json mesh_json(const MeshOrigin& mesh) {
-  io::Json json = file_json(mesh.path, mesh.digest);
+  io::Json json;
+  if (mesh.files.size() == 1) {
+    json = file_json(mesh.files.front().path, mesh.files.front().digest);
+  } else {
+    for (const MeshSource& file : mesh.files) {
+      io::Json part{{"name", file.part}};
+      part.update(file_json(file.path, file.digest));
+      json["files"].push_back(std::move(part));
+    }
+  }
   json["joint_from_source"] = matrix_json(mesh.joint_from_source);
   json["source_from_joint"] = matrix_json(mesh.source_from_joint);
   return json;
@@ -95,6 +106,13 @@ io::Json mesh_json(const MeshOrigin& mesh) {
 
 std::string file_text(const std::filesystem::path& path, const FileDigest& digest) {
   return one_line(fmt::format("{}, {} bytes, sha256 {}", path.string(), digest.bytes, digest.sha256));
+}
+
+std::string files_text(const MeshOrigin& mesh) {
+  std::string text;
+  for (const MeshSource& file : mesh.files)
+    text += (text.empty() ? "" : "; ") + file_text(file.path, file.digest);
+  return text;
 }
 
 }  // namespace
@@ -171,8 +189,8 @@ std::vector<VtpField> provenance_fields(const Provenance* from) {
   return {{"condyle_version", std::string(condyle::version)},
           {"condyle_command", command_text(*from)},
           {"joint_file", file_text(from->joint_path, from->joint_digest)},
-          {"fixed_mesh", file_text(from->fixed.path, from->fixed.digest)},
-          {"mobile_mesh", file_text(from->mobile.path, from->mobile.digest)},
+          {"fixed_mesh", files_text(from->fixed)},
+          {"mobile_mesh", files_text(from->mobile)},
           {"side", std::string(name_of(from->side))},
           {"frame", std::string(name_of(from->frame.name()))},
           {"fixed_joint_from_source", row_by_row(from->fixed.joint_from_source)},

@@ -97,6 +97,7 @@ io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
                 {"nearest_distance_mm", vertex.nearest_distance_mm},
                 {"radial_depth_mm", vertex.radial_depth_mm},
                 {"ray_to_normal_deg", vertex.ray_to_normal.degrees()}};
+  io::add_part(json, "part", view->body, vertex.vertex);
   for (const JointAngle about : all_joint_angles) {
     const auto& way = vertex.rotations[static_cast<std::size_t>(about)];
     json["rotations"][name_of(about, joint)] =
@@ -141,10 +142,9 @@ std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
                               ? fmt::format("along the arc of {}, {:.3f} deg",
                                             name_of(*angle_of(vertex.way), joint), rotation->angle.degrees())
                               : "along the ray";
-  return fmt::format(
-      "  depth: {:.3f} mm {}, vertex {} of {}, {}\n    its nearest surface is {:.3f} mm away\n",
-      vertex.depth_mm, way, vertex.vertex, view->body.name, io::place_text(view->place_of(vertex.vertex)),
-      vertex.nearest_distance_mm);
+  return fmt::format("  depth: {:.3f} mm {}, {}, {}\n    its nearest surface is {:.3f} mm away\n",
+                     vertex.depth_mm, way, io::vertex_text(view->body, vertex.vertex),
+                     io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);
 }
 
 std::string text_of(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
@@ -204,7 +204,8 @@ DepthResult depth_result(const DepthQuestion& question, DepthMethod method, cons
                          const RadialContact& contact, const RadialSummary& summary,
                          const ReliableContact& reliable) {
   return {text_of(question, method, measures, contact, summary, reliable),
-          json_of(question, method, measures, contact, summary, reliable), io::pairs_csv(contact.pairs),
+          json_of(question, method, measures, contact, summary, reliable),
+          io::pairs_csv(question.joint, contact.pairs),
           io::arrays_of(question.joint.fixed,
                         arrays_of(contact.fixed_in_mobile, measures.distances.fixed, reliable.fixed),
                         contact.pairs, &TrianglePair::fixed),

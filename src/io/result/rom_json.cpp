@@ -38,12 +38,16 @@ Json held_json(const Motion& motion, Anatomy joint) {
   return json;
 }
 
-Json json_of(const Feature& feature) {
+/// A feature of a body, and of which part where it has several.
+Json json_of(const Feature& feature, const Body& body) {
   Json json{{"kind", io::name_of(feature.kind)}};
   if (feature.kind == FeatureKind::edge)
     json["vertices"] = {feature.id, feature.other_end};
   else
     json["id"] = feature.id;
+  if (const BodyPart* part = feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id)
+                                                               : part_of_vertex(body, feature.id))
+    json["part"] = part->name;
   return json;
 }
 
@@ -125,8 +129,8 @@ Json motion_json(const RomResult& result, std::size_t i) {
       {"contact_point_mobile_mm",
        contact ? io::numbers(frame.mobile_point(contact->mobile_point)) : Json(nullptr)},
       {"clock_hour", nullable(io::clock_hour(result, limit))},
-      {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature)},
-                                  {"mobile", json_of(contact->mobile_feature)}}
+      {"features", contact ? Json{{"fixed", json_of(contact->fixed_feature, result.joint.fixed)},
+                                  {"mobile", json_of(contact->mobile_feature, result.joint.mobile)}}
                            : Json(nullptr)},
       {"error_bound_deg", limit.end.error_bound.degrees()},
       {"vary", name_of(limit.motion.vary, joint)},

@@ -47,7 +47,7 @@ io::Json body_json(const io::BodyView<TangentialBodySummary>& view) {
 }
 
 std::string deepest_line(const char* what, std::string_view about, const Deepest& deepest) {
-  return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, vertex {} of {}, {}\n", what,
+  return fmt::format("  {}: {:.3f} mm along the arc of {}, {:.3f} deg, {}, {}\n", what,
                      deepest.vertex.depth_mm, about, deepest.vertex.depth.degrees(), deepest.vertex.vertex,
                      deepest.view->body.name, io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
 }
@@ -138,7 +138,7 @@ std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results
 DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
                          const RotationAxis& axis, const TangentialContact& contact) {
   return {text_of(question, measures, axis, contact), json_of(question, measures, axis, contact),
-          io::pairs_csv(contact.pairs),
+          io::pairs_csv(question.joint, contact.pairs),
           io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile, measures.distances.fixed),
                         contact.pairs, &TrianglePair::fixed),
           io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed, measures.distances.mobile),

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include "condyle/contact.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/frame_result.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/provenance.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+/// Bodies of several meshes.
+
+namespace condyle {
+namespace {
+
+TriMesh bone() {
+  return test::box({-25, -300, -35}, {25, -20, 35});
+}
+TriMesh meniscus() {
+  return test::sphere({0, -10, 20}, 8, 2);
+}
+
+class JointParts : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_mesh(folder / "femur.ply", test::box({-30, 0, -40}, {30, 300, 40}));
+    write_mesh(folder / "tibia.ply", bone());
+    write_mesh(folder / "meniscus.ply", meniscus());
+  }
+  std::filesystem::path write(std::string_view mobile) const {
+    return folder.file("joint.toml",
+                       "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\n"
+                       "side = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"femur.ply\"\n"
+                       "[mobile]\nname = \"shank\"\n" +
+                           std::string(mobile) +
+                           "\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\n"
+                           "superior = [0, 1, 0]\n");
+  }
+  std::string refusal(std::string_view mobile) const {
+    const auto path = write(mobile);
+    try {
+      read_joint(path);
+    } catch (const FileError& error) {
+      return std::string(error.what()).substr(path.string().size() + 2);
+    }
+    return "accepted";
+  }
+
+  const test::TemporaryFolder folder;
+  static constexpr const char* two =
+      "meshes = [{ name = \"tibia\", mesh = \"tibia.ply\" },\n"
+      "          { name = \"meniscus\", mesh = \"meniscus.ply\", repair = [\"weld\"] }]";
+};
+
+TEST_F(JointParts, AreOneMeshThatKnowsItsParts) {
+  const auto [joint, report] = read_joint(write(two));
+  const Body& shank = joint.mobile;
+  ASSERT_EQ(shank.parts.size(), 2u);
+  EXPECT_EQ(shank.mesh.vertices().size(), bone().vertices.size() + meniscus().vertices.size());
+  EXPECT_TRUE(shank.mesh.is_closed());
+  EXPECT_EQ(mesh_of_part(shank, "tibia").arrays(), bone());
+  EXPECT_EQ(mesh_of_part(shank, "meniscus").arrays(), meniscus());
+  EXPECT_THROW(mesh_of_part(shank, "fibula"), UsageError);
+  EXPECT_EQ(report.mobile.size(), 2u);
+  EXPECT_EQ(report.mobile[1].repairs.size(), 1u);
+  EXPECT_TRUE(joint.fixed.parts.empty());
+}
+
+TEST_F(JointParts, TellOfWhichAVertexAndATriangleIs) {
+  const Body shank = read_joint(write(two)).joint.mobile;
+  const std::size_t vertices = bone().vertices.size(), triangles = bone().triangles.size();
+  EXPECT_EQ(part_of_vertex(shank, vertices - 1)->name, "tibia");
+  EXPECT_EQ(part_of_vertex(shank, vertices)->name, "meniscus");
+  EXPECT_EQ(part_of_triangle(shank, triangles - 1)->name, "tibia");
+  EXPECT_EQ(part_of_triangle(shank, triangles)->name, "meniscus");
+  EXPECT_EQ(part_of_vertex({"one", bone()}, 0), nullptr);
+}
+
+TEST_F(JointParts, AreMetAsIfTheyWereBodiesOfTheirOwn) {
+  const Joint joint = read_joint(write(two)).joint;
+  Pose X_FM = Pose::Identity();
+  X_FM.translation() =
+      Vec3(0, 6, 0);  // the meniscus reaches 4 mm into the femur, the tibia stays 14 mm below it
+  const JointContact whole(joint), meniscus_only(joint.fixed.mesh, mesh_of_part(joint.mobile, "meniscus"));
+  auto pairs = whole.pairs(X_FM);
+  EXPECT_FALSE(pairs.empty());
+  for (TrianglePair& pair : pairs) pair.mobile -= static_cast<Index>(joint.mobile.parts[1].first_triangle);
+  const auto expected = meniscus_only.pairs(X_FM);
+  ASSERT_EQ(pairs.size(), expected.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    EXPECT_EQ(pairs[i].fixed, expected[i].fixed);
+    EXPECT_EQ(pairs[i].mobile, expected[i].mobile);
+  }
+}
+
+TEST_F(JointParts, AreReportedOneByOneWithTheirFiles) {
+  const LoadedJoint loaded = read_joint(write(two));
+  const Provenance from = provenance_of(loaded, {});
+  ASSERT_EQ(from.mobile.files.size(), 2u);
+  EXPECT_EQ(from.mobile.files[1].part, "meniscus");
+  EXPECT_EQ(from.mobile.files[1].path, folder / "meniscus.ply");
+  EXPECT_NE(to_text(loaded).find("shank, meniscus: "), std::string::npos);
+  EXPECT_NE(to_json(loaded, {}, &from).find("\"name\": \"meniscus\""), std::string::npos);
+}
+
+TEST_F(JointParts, WithoutSenseAreRefusedByLineAndKey) {
+  EXPECT_EQ(refusal("mesh = \"tibia.ply\"\n" + std::string(two)),
+            "line 11: mobile.mesh: with meshes each of them has its own");
+  EXPECT_EQ(refusal("meshes = []"), "line 11: mobile.meshes: must name one mesh or more");
+  EXPECT_EQ(refusal("meshes = [{ mesh = \"tibia.ply\" }]"), "line 11: mobile.meshes[0].name: is missing");
+  EXPECT_EQ(
+      refusal("meshes = [{ name = \"a\", mesh = \"tibia.ply\" }, { name = \"a\", mesh = \"tibia.ply\" }]"),
+      "line 11: mobile.meshes[1].name: \"a\" is given twice");
+  EXPECT_NE(refusal("meshes = [{ name = \"a\", mesh = \"no.ply\" }]")
+                .find("mobile.meshes[0].mesh: there is no file"),
+            std::string::npos);
+  EXPECT_EQ(refusal("meshes = [{ name = \"a\", mesh = \"tibia.ply\", poze = 1 }]").substr(0, 36),
+            "line 11: mobile.meshes[0].poze: unkn");
+}
+
+}  // namespace
+}  // namespace condyle
