@@ -38,6 +38,7 @@ struct JointFile {
   Uncertainty uncertainty = {};     ///< of the [uncertainty] table; what is usual where it says nothing
   PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
   FileDigest digest = {};
+  std::vector<std::string> notes = {};  ///< one line each: what was corrected in reading
 };
 JointFile read_joint_file(const std::filesystem::path& path);
 
