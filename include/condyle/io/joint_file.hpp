@@ -42,6 +42,7 @@ struct JointFile {
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
   std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table
   FileDigest digest = {};
+  std::vector<std::string> notes = {};  ///< one line each: what was corrected in reading
 };
 JointFile read_joint_file(const std::filesystem::path& path);
 

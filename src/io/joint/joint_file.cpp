@@ -67,10 +67,14 @@ class Lengths {
 };
 
 /// X_WB of a body: a matrix row by row, or a translation and the joint's angles, about the axes of W.
-Pose body_pose(io::TomlTable& body, CoordinateSystem system, const Lengths& lengths) {
+Pose body_pose(io::TomlTable& body, std::string_view key, CoordinateSystem system, const Lengths& lengths,
+               std::vector<std::string>& notes) {
   if (body.is_list("pose")) {
     try {
-      Pose X = io::pose_of_rows(*body.sixteen("pose")).X;
+      auto [X, skew] = io::pose_of_rows(*body.sixteen("pose"));
+      if (skew > 0)
+        notes.push_back(
+            fmt::format("{}.pose: its rotation was off by {:.2g}; the nearest one is used", key, skew));
       X.translation() = lengths.in_mm(X.translation());
       return X;
     } catch (const UsageError& error) {
@@ -343,8 +347,8 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.frame = frame_description(file, Lengths(joint.units));
   joint.anatomy = anatomy_of(file, joint);
   joint.translation_frame = translation_frame_of(file, joint);
-  joint.fixed_in_W = body_pose(fixed, joint.coordinates(), Lengths(joint.units));
-  joint.mobile_in_W = body_pose(mobile, joint.coordinates(), Lengths(joint.units));
+  joint.fixed_in_W = body_pose(fixed, "fixed", joint.coordinates(), Lengths(joint.units), out.notes);
+  joint.mobile_in_W = body_pose(mobile, "mobile", joint.coordinates(), Lengths(joint.units), out.notes);
   fixed.finish();
   mobile.finish();
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));

@@ -106,6 +106,7 @@ std::vector<std::string> notes_on(const JointReport& report) {
   const JointPlacement& placement = report.placement;
   if (report.file.joint.units == LengthUnit::metres)
     notes.push_back("meshes and lengths converted from metres to mm");
+  notes.insert(notes.end(), report.file.notes.begin(), report.file.notes.end());
   for (const auto* meshes : {&report.fixed, &report.mobile})
     for (const BodyMeshReport& mesh : *meshes) note_repairs(mesh, notes);
   notes.insert(notes.end(), placement.notes.begin(), placement.notes.end());
