@@ -26,7 +26,7 @@ set(radial_headers radial)
 set(tangential_headers tangential)
 set(contact_headers contact contact_measures reliable_depth)
 set(motion_headers bearing clock_face depth_limit first_contact impingement_zone limit_band motion_map
-                   overlap_options path_limit range_of_motion)
+                   overlap_options path_limit range_of_motion recorded_contact)
 set(sample_headers)
 set(io_headers)
 

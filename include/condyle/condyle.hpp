@@ -46,5 +46,6 @@
 #include "condyle/depth_limit.hpp"
 #include "condyle/path_limit.hpp"
 #include "condyle/impingement_zone.hpp"
+#include "condyle/recorded_contact.hpp"
 
 #include "condyle/version.hpp"
