@@ -51,5 +51,6 @@
 #include "condyle/path_limit.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
+#include "condyle/recorded_contact.hpp"
 
 #include "condyle/version.hpp"

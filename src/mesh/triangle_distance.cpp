@@ -17,24 +17,6 @@ Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) noexcept {
   return length > 0 ? Vec3(a + std::clamp((p - a).dot(u) / length, 0.0, 1.0) * u) : a;
 }
 
-/// Of two segments. The nearest pair either lies inside both lines, where the connecting line is at a right
-/// angle to both, or holds an end: ends against triangles are compared elsewhere, but an end's nearest point
-/// on the other segment is cheap.
-NearestPoints between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
-  const Vec3 u = b - a, w = d - c, across = u.cross(w);
-  const double size = across.squaredNorm();
-  if (size > 0) {
-    const double s = (c - a).cross(w).dot(across) / size, r = (c - a).cross(u).dot(across) / size;
-    if (s >= 0 && s <= 1 && r >= 0 && r <= 1) return between(a + s * u, c + r * w);
-  }
-  NearestPoints best = between(a, nearest_on_segment(a, c, d));
-  for (const NearestPoints& other :
-       {between(b, nearest_on_segment(b, c, d)), between(nearest_on_segment(c, a, b), c),
-        between(nearest_on_segment(d, a, b), d)})
-    if (other.squared_distance < best.squared_distance) best = other;
-  return best;
-}
-
 }  // namespace
 
 Vec3 nearest_on_triangle(const Vec3& p, const Corners3& t) noexcept {
@@ -48,6 +30,21 @@ Vec3 nearest_on_triangle(const Vec3& p, const Corners3& t) noexcept {
     const Vec3 candidate = nearest_on_segment(p, t[k], t[k + 1]);
     if ((candidate - p).squaredNorm() < (best - p).squaredNorm()) best = candidate;
   }
+  return best;
+}
+
+NearestPoints between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept {
+  const Vec3 u = b - a, w = d - c, across = u.cross(w);
+  const double size = across.squaredNorm();
+  if (size > 0) {
+    const double s = (c - a).cross(w).dot(across) / size, r = (c - a).cross(u).dot(across) / size;
+    if (s >= 0 && s <= 1 && r >= 0 && r <= 1) return between(a + s * u, c + r * w);
+  }
+  NearestPoints best = between(a, nearest_on_segment(a, c, d));
+  for (const NearestPoints& other :
+       {between(b, nearest_on_segment(b, c, d)), between(nearest_on_segment(c, a, b), c),
+        between(nearest_on_segment(d, a, b), d)})
+    if (other.squared_distance < best.squared_distance) best = other;
   return best;
 }
 

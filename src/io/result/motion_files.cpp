@@ -103,10 +103,9 @@ void write_jam(const std::filesystem::path& path, const MotionQuestion& question
                const MotionAnswer& answer) {
   const ContactSurfaces& surfaces = question.surfaces;
   const bool fixed_casts = question.contact.casting == Casting::fixed;
-  const ContactSurfaces& surfaces = question.surfaces;
   const Body &casting = fixed_casts ? surfaces.fixed : surfaces.mobile,
              &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
-  JamContact contact{field_name(joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
+  JamContact contact{field_name(question.joint.joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
   for (const auto& frame : answer.frames)
     contact.casting.frames.push_back(
         jam_frame(frame, casting.mesh.triangles().size(), question.with_pressure));

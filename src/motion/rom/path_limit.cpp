@@ -101,13 +101,13 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
       const Pose X_FM = pose_at(range.coordinates(), out.at);
       const auto nearest = clearance(parts_->fixed, parts_->mobile, X_FM, far_enough);
       ++out.poses;
-      if (nearest && nearest->rotation < tolerance.radians()) {
+      if (nearest && nearest->free_for < tolerance.radians()) {
         out.reason = LimitReason::contact;
         out.contact = parts_->witness(*nearest, X_FM);
         out.distance_mm = nearest->distance_mm;
         return out;
       }
-      const double free = nearest ? nearest->rotation : far_enough;
+      const double free = nearest ? nearest->free_for : far_enough;
       out.fraction =
           free < rotation * (1 - out.fraction) ? out.fraction + free / rotation * (1 - step_slack) : 1;
     }

@@ -24,19 +24,29 @@ constexpr double rounding_mm = 1e-9;
 struct Radii {
   double low, high;
 
-  bool meet(const Radii& other) const noexcept {
-    return low <= other.high + rounding_mm && other.low <= high + rounding_mm;
+  /// 0 or less where they overlap.
+  double apart_from(const Radii& other) const noexcept {
+    return std::max(low - other.high, other.low - high) - rounding_mm;
   }
 };
 
-Radii radii_of(const Corners3& t) noexcept {
-  return {nearest_on_triangle(Vec3::Zero(), t).norm(), std::max({t[0].norm(), t[1].norm(), t[2].norm()})};
+/// From `origin`.
+Radii radii_of(const Corners3& t, const Vec3& origin) noexcept {
+  return {(nearest_on_triangle(origin, t) - origin).norm(),
+          std::max({(t[0] - origin).norm(), (t[1] - origin).norm(), (t[2] - origin).norm()})};
 }
 
 class Search {
  public:
-  Search(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM, double enough)
-      : fixed_(fixed), mobile_(mobile), X_FM_(X_FM), best_rotation_(enough) {}
+  Search(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM, double enough,
+         const Speed& speed)
+      : fixed_(fixed),
+        mobile_(mobile),
+        X_FM_(X_FM),
+        origin_(X_FM.translation()),
+        origin_off_(origin_.norm()),
+        speed_(speed),
+        free_for_(enough) {}
 
   std::optional<Clearance> run() {
     if (fixed_.empty() || mobile_.empty()) return std::nullopt;
@@ -44,7 +54,7 @@ class Search {
     while (!open_.empty()) {
       const NodePair pair = open_.back();
       open_.pop_back();
-      if (pair.gap >= best_rotation_) continue;
+      if (pair.gap >= free_for_) continue;
       const auto &m = mobile_.nodes()[pair.turning], &f = fixed_.nodes()[pair.resting];
       if (m.is_leaf() && f.is_leaf()) {
         compare_leaves(m, f);
@@ -59,14 +69,23 @@ class Search {
   }
 
  private:
+  /// Least of the motion that brings together what is so far apart, in space and in radius.
+  double least(double apart, double radii_apart, double largest_radius) const noexcept {
+    const double by_distance =
+        std::max(apart - rounding_mm, 0.0) / (speed_.rotation * largest_radius + speed_.origin_mm);
+    return radii_apart > 0 ? std::max(by_distance, radii_apart / speed_.origin_mm) : by_distance;
+  }
+
   void push(Index mobile, Index fixed) {
     const auto &m = mobile_.nodes()[mobile], &f = fixed_.nodes()[fixed];
-    if (!Radii{m.nearest, m.farthest}.meet({f.nearest, f.farthest})) return;
     const NodeBall of_mobile = ball_of(m), of_fixed = ball_of(f);
-    const double apart = (posed(X_FM_, of_mobile.centre) - of_fixed.centre).norm() - of_mobile.radius -
-                         of_fixed.radius - rounding_mm;
-    const double rotation = std::max(apart, 0.0) / m.farthest;
-    if (rotation < best_rotation_) open_.push_back({mobile, fixed, rotation});
+    const double from_origin = (of_fixed.centre - origin_).norm();
+    const Radii fixed_radii{std::max(f.nearest - origin_off_, from_origin - of_fixed.radius),
+                            std::min(f.farthest + origin_off_, from_origin + of_fixed.radius)};
+    const double apart =
+        (posed(X_FM_, of_mobile.centre) - of_fixed.centre).norm() - of_mobile.radius - of_fixed.radius;
+    const double motion = least(apart, fixed_radii.apart_from({m.nearest, m.farthest}), m.farthest);
+    if (motion < free_for_) open_.push_back({mobile, fixed, motion});
   }
 
   Corners3 corners(const FeatureTree& tree, Index t) const {
@@ -77,24 +96,28 @@ class Search {
   void compare_leaves(const FeatureTree::Node& m, const FeatureTree::Node& f) {
     for (Index s = m.first; s < m.last; ++s) {
       const Corners3 own = corners(mobile_, s);
-      const Radii radii = radii_of(own);
+      const Radii radii = radii_of(own, Vec3::Zero());
       const Corners3 placed{posed(X_FM_, own[0]), posed(X_FM_, own[1]), posed(X_FM_, own[2])};
       for (Index t = f.first; t < f.last; ++t) {
         const Corners3 fixed = corners(fixed_, t);
-        if (!radii.meet(radii_of(fixed))) continue;
+        const double radii_apart = radii.apart_from(radii_of(fixed, origin_));
+        if (least(0, radii_apart, radii.high) >= free_for_) continue;
         const NearestPoints nearest = between_triangles(fixed, placed);
         const double distance = std::sqrt(nearest.squared_distance);
-        const double rotation = std::max(distance - rounding_mm, 0.0) / radii.high;
-        if (rotation >= best_rotation_) continue;
-        best_rotation_ = rotation;
-        found_ = Clearance{rotation, distance, t, s, nearest.a, nearest.b};
+        const double motion = least(distance, radii_apart, radii.high);
+        if (motion >= free_for_) continue;
+        free_for_ = motion;
+        found_ = Clearance{motion, distance, t, s, nearest.a, nearest.b};
       }
     }
   }
 
   const FeatureTree &fixed_, &mobile_;
   const Pose& X_FM_;
-  double best_rotation_;
+  Vec3 origin_;  ///< of M, in F
+  double origin_off_;
+  Speed speed_;
+  double free_for_;
   std::vector<NodePair> open_;
   std::optional<Clearance> found_;
 };
@@ -102,8 +125,8 @@ class Search {
 }  // namespace
 
 std::optional<Clearance> clearance(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM,
-                                   double enough) {
-  return Search(fixed, mobile, X_FM, enough).run();
+                                   double enough, const Speed& speed) {
+  return Search(fixed, mobile, X_FM, enough, speed).run();
 }
 
 }  // namespace condyle::motion

@@ -7,23 +7,30 @@
 
 namespace condyle::motion {
 
-/// Two triangles of two bodies that some rotation about the origin may bring together, and the smallest such
-/// rotation.
+/// How fast a body moves along some motion, at most, per unit of the motion's parameter.
+struct Speed {
+  double rotation = 1;   ///< rad, about whatever axis
+  double origin_mm = 0;  ///< of its origin
+};
+
+/// Two triangles of two bodies that the motion may bring together, and the least of the motion that can.
 struct Clearance {
-  double rotation;  ///< rad: none by less, about any axis through the origin, brings two triangles together
-  double distance_mm;                     ///< between the two
+  double free_for;     ///< less of the motion than this, either way, brings nothing together
+  double distance_mm;  ///< between the two
   Index fixed_triangle, mobile_triangle;  ///< slots in tree order
   Vec3 fixed_point, mobile_point;         ///< nearest points, both in F
 };
 
-/// The smallest rotation about the origin, about whatever axis, after which the bodies may meet; empty where
-/// it is `enough` or more. For bodies that do not meet at X_FM.
+/// How much of a motion is free on either side of X_FM, whatever its path, the mobile body moving no faster than
+/// `speed`; empty where it is `enough` or more. For bodies that do not meet at X_FM. By default the motion is a
+/// rotation about M's origin, and its parameter the angle.
 ///
-/// A point at radius rho moves by at most rho times the angle, so triangles D apart need a rotation of D / rho,
-/// rho the largest radius of the mobile one; and it keeps every radius, so that triangles whose radii do
-/// not overlap never meet at all: a head gliding in its socket needs no small steps. D is lowered by more
-/// than all rounding on the way, for coordinates up to 10 m.
+/// A point at radius rho from M's origin moves by at most rotation * rho + origin_mm per unit, so triangles D apart
+/// are free for D / (rotation * rho + origin_mm), rho the largest radius of the mobile one. Every point keeps its
+/// radius, and radii of fixed points change only as M's origin moves: triangles whose radii are G apart are free for
+/// G / origin_mm, for ever where the origin rests: a head gliding in its socket needs no small steps. D and G are
+/// lowered by more than all rounding on the way, for coordinates up to 10 m.
 std::optional<Clearance> clearance(const FeatureTree& fixed, const FeatureTree& mobile, const Pose& X_FM,
-                                   double enough);
+                                   double enough, const Speed& speed = {});
 
 }  // namespace condyle::motion

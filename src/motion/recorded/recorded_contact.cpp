@@ -1,0 +1,215 @@
+#include "condyle/recorded_contact.hpp"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "core/parallel.hpp"
+#include "motion/recorded/rotation_contacts.hpp"
+#include "motion/recorded/screw_contacts.hpp"
+
+namespace condyle {
+namespace {
+
+using motion::ContactStretch;
+using motion::ContactStretches;
+using motion::ScrewMotion;
+
+/// Entries of R^T R - 1 up to this: what is farther from a rotation was not meant as one.
+constexpr double rotation_tolerance = 1e-9;
+
+/// Past this the sense in which the body turned would hang on rounding and on noise.
+constexpr Angle most_rotation = Angle::degrees(179);
+
+bool is_rotation(const Eigen::Matrix3d& R) {
+  const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return off <= rotation_tolerance && R.determinant() > 0;  // false for what is not a number
+}
+
+void check_samples(std::span<const double> time_s, std::span<const Pose> X_FM,
+                   const RecordedContactOptions& options) {
+  const auto refuse = [](std::size_t sample, const char* what) {
+    throw UsageError("recorded motion: sample " + std::to_string(sample) + ": " + what);
+  };
+  if (time_s.size() != X_FM.size())
+    throw UsageError("recorded motion: " + std::to_string(time_s.size()) + " times and " +
+                     std::to_string(X_FM.size()) + " poses");
+  if (time_s.size() < 2) throw UsageError("recorded motion: needs two samples or more");
+  if (!(options.resolution_s > 0) || !std::isfinite(options.resolution_s))
+    throw UsageError("recorded motion: the resolution must be above 0 s");
+  for (std::size_t i = 0; i < time_s.size(); ++i) {
+    if (!std::isfinite(time_s[i])) refuse(i, "its time is not finite");
+    if (i > 0 && !(time_s[i] > time_s[i - 1])) refuse(i, "its time is not after the one before");
+    if (!X_FM[i].translation().allFinite()) refuse(i, "its translation is not finite");
+    if (!is_rotation(X_FM[i].linear())) refuse(i, "its rotation is none");
+  }
+}
+
+double reach_of(const Mesh& mesh) {
+  double reach = 0;
+  for (std::size_t v = 0; v < mesh.vertices().size(); ++v) reach = std::max(reach, mesh.vertices()[v].norm());
+  return reach;
+}
+
+/// What was found on the way from one sample to the next.
+struct Way {
+  BetweenSamples searched = BetweenSamples::exact;
+  Angle rotation = {};
+  ContactStretches contacts = {};
+  std::size_t poses = 0;
+};
+
+/// The bodies, and what each thread keeps of them.
+class WaySearch {
+ public:
+  explicit WaySearch(const JointContact& bodies)
+      : bodies_(bodies),
+        reach_mm_(reach_of(bodies.mobile())),
+        fixed_(bodies.fixed()),
+        mobile_(bodies.mobile()),
+        workers_([this] {
+          return Worker{motion::TurningBody(fixed_), motion::TurningBody(mobile_)};
+        }) {}
+
+  ScrewMotion motion(const Pose& from, const Pose& to) const { return {from, to, reach_mm_}; }
+
+  /// The resolution as a fraction of the way.
+  Way search(const ScrewMotion& motion, double resolution) {
+    Way way{BetweenSamples::exact, motion.rotation(), {}, 0};
+    if (motion.is_still()) {
+      if (bodies_.in_contact(motion.at(0))) way.contacts = {{0, 1, ContactStretch::Proven{0, 1}}};
+    } else if (motion.holds_origin()) {
+      Worker& worker = workers_.local();
+      way.contacts = motion::rotation_contacts(worker.fixed, worker.mobile, motion);
+    } else {
+      way.searched = BetweenSamples::bounded;
+      motion::ScrewContacts found = motion::screw_contacts({bodies_, fixed_, mobile_}, motion, resolution);
+      way.contacts = std::move(found.contacts), way.poses = found.poses;
+    }
+    return way;
+  }
+
+ private:
+  struct Worker {
+    motion::TurningBody fixed, mobile;
+  };
+
+  const JointContact& bodies_;
+  double reach_mm_;
+  motion::FeatureTree fixed_, mobile_;
+  tbb::enumerable_thread_specific<Worker> workers_;
+};
+
+/// A place in the recording.
+struct Place {
+  std::size_t sample;
+  double fraction;  ///< of the way to the next one
+};
+
+/// A contact over one way or several, put together in their order.
+struct Run {
+  Place entry, exit;
+  struct Proven {
+    Place first, last;
+  };
+  std::optional<Proven> proven;
+  double undecided_s;
+  std::optional<ContactWitness> at_entry, at_exit;
+
+  void continue_with(Run next) {
+    exit = next.exit;
+    undecided_s += next.undecided_s;
+    if (!next.proven) return;
+    if (!proven) proven = next.proven, at_entry = std::move(next.at_entry);
+    proven->last = next.proven->last, at_exit = std::move(next.at_exit);
+  }
+};
+
+std::vector<Run> runs_of(std::span<const double> time_s, std::span<const Way> ways) {
+  std::vector<Run> runs;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    for (const ContactStretch& s : ways[i].contacts) {
+      Run run{{i, s.entry}, {i, s.exit}, {}, s.undecided * (time_s[i + 1] - time_s[i]),
+              s.at_entry,   s.at_exit};
+      if (s.proven) run.proven = Run::Proven{{i, s.proven->first}, {i, s.proven->last}};
+      const bool continues =
+          !runs.empty() && s.entry == 0 && runs.back().exit.sample + 1 == i && runs.back().exit.fraction == 1;
+      if (continues) {
+        runs.back().continue_with(std::move(run));
+      } else {
+        runs.push_back(std::move(run));
+      }
+    }
+  }
+  return runs;
+}
+
+RecordedContact put_together(std::span<const double> time_s, std::span<const Way> ways) {
+  RecordedContact out;
+  for (const Way& way : ways) out.searched.push_back(way.searched), out.poses += way.poses;
+  const auto time = [&](const Place& p) {
+    const double from = time_s[p.sample], to = time_s[p.sample + 1];
+    return p.fraction == 1 ? to : from + p.fraction * (to - from);
+  };
+  const auto end_at = [&](const Place& place, bool of_recording, std::optional<ContactWitness> contact) {
+    const Way& way = ways[place.sample];
+    const ContactEndKind kind = of_recording                              ? ContactEndKind::recording
+                                : way.searched == BetweenSamples::bounded ? ContactEndKind::bounded
+                                                                          : ContactEndKind::exact;
+    return ContactEnd{kind, time(place), 0, place.sample, way.rotation * place.fraction, std::move(contact)};
+  };
+  for (Run& run : runs_of(time_s, ways)) {
+    const bool from_begin = run.entry.sample == 0 && run.entry.fraction == 0;
+    const bool to_end = run.exit.sample + 1 == ways.size() && run.exit.fraction == 1;
+    ContactInterval contact{end_at(run.entry, from_begin, std::move(run.at_entry)),
+                            end_at(run.exit, to_end, std::move(run.at_exit)), run.proven.has_value(),
+                            run.undecided_s};
+    contact.entry.uncertainty_s = time(run.proven ? run.proven->first : run.exit) - contact.entry.time_s;
+    contact.exit.uncertainty_s = contact.exit.time_s - time(run.proven ? run.proven->last : run.entry);
+    out.contacts.push_back(std::move(contact));
+  }
+  return out;
+}
+
+}  // namespace
+
+RecordedContact contact_between(const JointContact& bodies, std::span<const double> time_s,
+                                std::span<const Pose> X_FM, const RecordedContactOptions& options) {
+  return *contact_between(bodies, time_s, X_FM, options, {});
+}
+
+std::optional<RecordedContact> contact_between(const JointContact& bodies, std::span<const double> time_s,
+                                               std::span<const Pose> X_FM,
+                                               const RecordedContactOptions& options,
+                                               const RecordedContactControl& control) {
+  check_samples(time_s, X_FM, options);
+  WaySearch search(bodies);
+  std::vector<ScrewMotion> motions;
+  for (std::size_t i = 0; i + 1 < X_FM.size(); ++i) {
+    motions.push_back(search.motion(X_FM[i], X_FM[i + 1]));
+    if (motions.back().rotation() > most_rotation)
+      throw UsageError("recorded motion: samples " + std::to_string(i) + " and " + std::to_string(i + 1) +
+                       " are more than 179 degrees apart: which way round is not known");
+  }
+
+  std::vector<Way> ways(motions.size());
+  std::size_t done = 0;
+  std::mutex reporting;
+  core::parallel_chunks(ways.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last && !control.stop.stop_requested(); ++i) {
+      ways[i] = search.search(motions[i], options.resolution_s / (time_s[i + 1] - time_s[i]));
+      const std::scoped_lock lock(reporting);
+      ++done;
+      if (control.progress) control.progress(done, ways.size());
+    }
+  });
+  if (done < ways.size()) return std::nullopt;
+  return put_together(time_s, ways);
+}
+
+}  // namespace condyle
