@@ -28,7 +28,8 @@ std::optional<LayerEntry> layer_of(const ContactOptions& options, const std::opt
   LayerEntry layer = in_file.value_or(LayerEntry{});
   take(options.e, body, layer.youngs_modulus_mpa);
   take(options.nu, body, layer.poisson_ratio);
-  if (!options.thickness.empty()) take(options.thickness, body, layer.thickness.emplace<double>());
+  if (!options.thickness.empty()) layer.behind.reset();
+  take(options.thickness, body, layer.thickness_mm);
   return layer;
 }
 

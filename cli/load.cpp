@@ -30,6 +30,9 @@ LoadAnswer answer_of(const ElasticContact& surfaces, const LoadQuestion& questio
   LoadAnswer answer{question.X_FM, {}, {}, 0};
   if (question.load) {
     answer.balanced = balance(surfaces, question.X_FM, *question.load, balance_options_of(given));
+    const BalanceOutcome outcome = answer.balanced->outcome;
+    if (outcome != BalanceOutcome::balanced && outcome != BalanceOutcome::unstable)
+      throw UsageError("--force: " + reason_of(*answer.balanced));
     answer.X_FM = answer.balanced->X_FM;
     answer.contact = answer.balanced->contact;
   } else {
@@ -47,9 +50,11 @@ void run(const Options& options, const CLI::App& command) {
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   const ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
   const ContactSurfaces surfaces = surfaces_of(contact, joint);
-  LoadQuestion question{joint, given.pose, given.X_FM, surfaces, contact, {}, noted(loaded, options.strictness), &from};
+  LoadQuestion question{
+      joint, given.pose, given.X_FM, surfaces, contact, {}, noted(loaded, options.strictness), &from};
   if (options.balance->any()) question.load = load_of(*options.balance);
-  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(contact, surfaces, loaded));
+  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
+                              elastic_options(contact, surfaces, loaded));
   const LoadAnswer answer = answer_of(layers, question, *options.balance);
   if (!options.out.empty())
     say_written(write_load(options.out, question, answer, options.where->vtp_encoding));
@@ -62,8 +67,8 @@ void add_load(CLI::App& app) {
   auto* command = app.add_subcommand(
       "load", "Contact pressure in one pose, and the pose in which the contact carries a load");
   command->footer(
-      "Example: condyle sample hip --cartilages gap --out sample\n"
-      "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 -1500 200");
+      "Example: condyle sample cartilages --scenario 7 --out sample\n"
+      "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
   command->add_option(

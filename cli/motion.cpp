@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,7 +25,7 @@ namespace {
 
 struct Options {
   std::string joint, motion, loads, out;
-  bool with_pressure = false;
+  bool with_pressure = false, between = false;
   std::shared_ptr<ContactOptions> contact = std::make_shared<ContactOptions>();
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
   std::vector<double> cycle;
@@ -67,10 +68,12 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
   SurfaceQuestion surfaces;
   const BodyRole casting = question.contact.casting == Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
   if (question.with_pressure) {
-    surfaces = &elastic.emplace(fixed, mobile, elastic_options(question.contact, question.surfaces, question.joint));
+    surfaces =
+        &elastic.emplace(fixed, mobile, elastic_options(question.contact, question.surfaces, question.joint));
   } else {
     const bool fixed_casts = casting == BodyRole::fixed;
-    surfaces = &depth.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, question.contact.rays);
+    surfaces =
+        &depth.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, question.contact.rays);
   }
   MotionAnswer answer;
   std::vector<std::optional<Pose>> X_FM = question.motion.X_FM;
@@ -91,6 +94,14 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
         X_FM[i].reset();
     }
   }
+  // Between samples of a held centre contact is exact and cheap, so it is always looked for; else on request.
+  const bool held = std::all_of(X_FM.begin(), X_FM.end(),
+                                [](const std::optional<Pose>& X) { return !X || X->translation().isZero(); });
+  if (answer.balanced.empty() && question.motion.times.in_seconds && (options.between || held)) {
+    answer.between = followed("ways between samples", [&](const auto& follow, std::stop_token stop) {
+      return contact_between_frames(bodies, question.motion, {.progress = follow, .stop = stop});
+    });
+  }
   answer.frames = followed("frames", [&](const auto& follow, std::stop_token stop) {
     return contact_along(bodies, surfaces, X_FM, {.casting = casting, .progress = follow, .stop = stop});
   });
@@ -103,10 +114,12 @@ void run(const Options& options, const CLI::App& command) {
   for (const std::string& remark : motion.notes) note(remark);
   const bool with_pressure = options.with_pressure || options.balance->any() || !options.loads.empty();
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  const ContactEntry contact = contact_of(*options.contact, loaded.report.file, with_pressure);
+  ContactEntry contact = contact_of(*options.contact, loaded.report.file, with_pressure);
+  // Depths alone have no mean of two castings: the surface that moves casts.
+  if (!with_pressure && contact.casting == Casting::both) contact.casting = Casting::mobile;
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
-  const MotionQuestion question{loaded,        motion, surfaces, contact, with_pressure, noted(loaded, options.strictness),
-                                &from};
+  const MotionQuestion question{
+      loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
   const MotionAnswer answer = answer_of(options, question);
   if (!options.out.empty()) {
     MotionFiles files = options.files;
@@ -145,6 +158,10 @@ void add_motion(CLI::App& app) {
       ->add_option("--loads", options->loads,
                    "Balance a force per frame: columns force_x_n, force_y_n, force_z_n")
       ->option_text("FILE");
+  command->add_flag_callback(
+      "--between", [options] { options->between = true; },
+      "Contact between the samples too, bounded where the centre moves; where it is held that is exact and "
+      "always done");
   auto* out = command->add_option("--out", options->out, "Folder for curves.csv, curves.sto and motion.json");
   command
       ->add_option("--cycle", options->cycle,

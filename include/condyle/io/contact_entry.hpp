@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <variant>
+#include <vector>
 
 #include "condyle/joint.hpp"
 #include "condyle/pressure.hpp"
@@ -17,8 +17,16 @@ struct LoadedJoint;
 /// A layer as a file describes it.
 struct LayerEntry {
   double youngs_modulus_mpa = 0, poisson_ratio = 0;
-  /// mm; or the mesh of what lies behind the layer, in the frame of the body's own mesh file.
-  std::variant<double, std::filesystem::path> thickness = 0.0;
+  /// Of the layer, or where nothing lies behind it; 0: not given.
+  double thickness_mm = 0;
+  /// The mesh of what lies behind the layer, in the frame of the body's own mesh file: its thickness is measured.
+  std::optional<std::filesystem::path> behind = {};
+};
+
+/// A part of the casting surface by its place: the faces whose centre is in all half-spaces.
+struct RegionEntry {
+  std::string name;
+  std::vector<HalfSpace> half_spaces;  ///< in the casting body's joint frame
 };
 
 /// The body that a moment is told of: the casting one, as the force is, or the target, as OpenSim-JAM prints it.
@@ -31,6 +39,7 @@ struct ContactEntry {
   PressureLaw law = PressureLaw::linear;
   std::optional<LayerEntry> fixed = {}, mobile = {};
   MomentOn moment_on = MomentOn::casting;
+  std::vector<RegionEntry> regions = {};  ///< by name, each once
 };
 
 /// The surfaces that an entry speaks of, by their names; in the bodies' joint frames.
@@ -41,7 +50,8 @@ struct ContactSurfaces {
 ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
 
 /// The options of an elastic contact of these surfaces, thicknesses measured. FileError for a mesh that cannot be read,
-/// MeshError where a vertex of a layer has nothing behind it within the reach.
-ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces, const LoadedJoint& joint);
+/// MeshError where a vertex of a layer has nothing behind it within the reach and the entry gives no thickness for that.
+ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                                      const LoadedJoint& joint);
 
 }  // namespace condyle

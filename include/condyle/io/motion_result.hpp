@@ -13,6 +13,7 @@
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/motion_contact.hpp"
+#include "condyle/recorded_contact.hpp"
 
 /// What `condyle motion` found, for files. Every column, key and array is in docs/motion-files.md.
 
@@ -32,10 +33,20 @@ struct MotionQuestion {
 struct MotionAnswer {
   std::vector<std::optional<FrameContact>> frames;
   std::vector<std::optional<BalancedPose>> balanced = {};  ///< none where no load was given
+  /// Contact between the samples too, where that was asked for; samples are numbered as the frames.
+  std::optional<RecordedContact> between = {};
 };
+
+/// contact_between() over frames with gaps: each run of frames without one is a recording of its own. Empty where it was
+/// stopped. UsageError where times are not in seconds.
+std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const JointMotion& motion,
+                                                      const RecordedContactControl& control = {});
 
 /// One curve for each number of a frame; nothing for gaps, and for centres of frames without contact.
 Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer);
+
+/// The same of each region of the casting surface, under names that begin with the region's: "medial_area_mm2".
+Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answer);
 
 /// The curves' largest values and when, frames in contact, gaps: a few lines.
 std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer);
@@ -52,7 +63,8 @@ struct MotionFiles {
   VtpEncoding encoding = VtpEncoding::binary;
 };
 
-/// Writes curves.csv, curves.sto and motion.json into a folder, and what else is asked for; all or none. Returns what was
+/// Writes curves.csv, curves.sto and motion.json into a folder, contacts.csv where contact between the samples was looked
+/// for, regions.csv where the contact has regions, and what else is asked for; all or none. Returns what was
 /// written. FileError; UsageError for a cycle that is not within the motion.
 std::vector<std::filesystem::path> write_motion(const std::filesystem::path& folder,
                                                 const MotionQuestion& question, const MotionAnswer& answer,

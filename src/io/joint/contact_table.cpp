@@ -20,18 +20,31 @@ LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesyst
   layer.poisson_ratio = table.required("poisson_ratio", table.number("poisson_ratio"));
   if (!(layer.poisson_ratio > -1 && layer.poisson_ratio < 0.5))
     table.fail("poisson_ratio", "must be above -1 and below 0.5");
-  if (table.has("behind")) {
-    if (table.has("thickness"))
-      table.fail("thickness", "is measured to the mesh behind: leave one of the two out");
-    const std::string mesh = table.required("behind", table.text("behind"));
-    layer.thickness = folder / mesh_path(table, "behind", mesh);
-  } else {
+  if (const auto behind = table.text("behind")) layer.behind = folder / mesh_path(table, "behind", *behind);
+  if (!layer.behind || table.has("thickness")) {
     const double thickness = table.required("thickness", table.number("thickness"));
     if (!(thickness > 0)) table.fail("thickness", "must be above 0");
-    layer.thickness = mm_per_unit * thickness;
+    layer.thickness_mm = mm_per_unit * thickness;
   }
   table.finish();
   return layer;
+}
+
+RegionEntry region_entry(TomlTable& table, double mm_per_unit) {
+  RegionEntry region{table.required("name", table.text("name")), {}};
+  // The name begins names of columns.
+  if (region.name.empty() ||
+      region.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") != std::string::npos)
+    table.fail("name", "must be of small letters, digits and _");
+  for (TomlTable& half : table.tables("half_space")) {
+    const Vec3 normal = half.required("normal", half.triple("normal"));
+    if (normal.isZero()) half.fail("normal", "must not be zero");
+    region.half_spaces.push_back({normal.normalized(), mm_per_unit * half.number("offset").value_or(0)});
+    half.finish();
+  }
+  if (region.half_spaces.empty()) table.fail_missing("half_space");
+  table.finish();
+  return region;
 }
 
 }  // namespace
@@ -56,6 +69,12 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
   if (table.has("moment_on"))
     entry.moment_on =
         table.required_word("moment_on", {"casting", "target"}) == 0 ? MomentOn::casting : MomentOn::target;
+  for (TomlTable& region : table.tables("region")) {
+    entry.regions.push_back(region_entry(region, mm_per_unit));
+    for (std::size_t i = 0; i + 1 < entry.regions.size(); ++i)
+      if (entry.regions[i].name == entry.regions.back().name)
+        region.fail("name", fmt::format("\"{}\" is given twice", entry.regions[i].name));
+  }
   if (auto layer = table.table("fixed")) entry.fixed = layer_entry(*layer, mm_per_unit, folder);
   if (auto layer = table.table("mobile")) entry.mobile = layer_entry(*layer, mm_per_unit, folder);
   table.finish();
@@ -67,19 +86,20 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
 namespace {
 
 /// Of each vertex of a body's mesh, to the mesh behind it, which is brought into the joint as the body's own mesh was.
-std::vector<double> measured(const Body& layer, const std::filesystem::path& behind, const MeshOrigin& origin,
+std::vector<double> measured(const Body& layer, const LayerEntry& entry, const MeshOrigin& origin,
                              double reach) {
-  TriMesh bone = read_mesh(behind).mesh;
+  TriMesh bone = read_mesh(*entry.behind).mesh;
   for (std::size_t v = 0; v < bone.vertices.size(); ++v)
     bone.vertices.set(v, origin.joint_from_source * bone.vertices[v]);
   std::vector<double> thickness = thickness_to(layer.mesh, Mesh(std::move(bone)), reach);
   std::size_t without = 0, first = 0;
   for (std::size_t v = thickness.size(); v-- > 0;)
-    if (!(thickness[v] > 0)) ++without, first = v;
-  if (without > 0)
+    if (!(thickness[v] > 0)) thickness[v] = entry.thickness_mm, ++without, first = v;
+  if (without > 0 && entry.thickness_mm == 0)
     throw MeshError(
-        fmt::format("{}: {} of {} vertices, vertex {} the first, have nothing of {} behind them within {} mm",
-                    layer.name, without, thickness.size(), first, behind.string(), reach));
+        fmt::format("{}: {} of {} vertices, vertex {} the first, have nothing of {} behind them within {} mm "
+                    "(a thickness beside it would count there)",
+                    layer.name, without, thickness.size(), first, entry.behind->string(), reach));
   return thickness;
 }
 
@@ -92,16 +112,14 @@ ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint) {
   return {surface(joint.fixed, entry.fixed_part), surface(joint.mobile, entry.mobile_part)};
 }
 
-ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces, const LoadedJoint& joint) {
+ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                                      const LoadedJoint& joint) {
   const Provenance from = provenance_of(joint, {});
   const auto layer = [&](const std::optional<LayerEntry>& of, const Body& surface, const MeshOrigin& origin) {
     std::optional<ElasticLayer> made;
     if (!of) return made;
-    made.emplace(ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, 0.0});
-    if (const auto* thickness = std::get_if<double>(&of->thickness))
-      made->thickness_mm = *thickness;
-    else
-      made->thickness_mm = measured(surface, std::get<std::filesystem::path>(of->thickness), origin, entry.rays.reach_mm);
+    made.emplace(ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, of->thickness_mm});
+    if (of->behind) made->thickness_mm = measured(surface, *of, origin, entry.rays.reach_mm);
     return made;
   };
   return {entry.casting, entry.rays, entry.law, layer(entry.fixed, surfaces.fixed, from.fixed),

@@ -8,10 +8,9 @@ namespace {
 Json layer_json(const std::optional<LayerEntry>& layer) {
   if (!layer) return nullptr;
   Json json{{"youngs_modulus_mpa", layer->youngs_modulus_mpa}, {"poisson_ratio", layer->poisson_ratio}};
-  if (const auto* thickness = std::get_if<double>(&layer->thickness))
-    json["thickness_mm"] = *thickness;
-  else
-    json["thickness_to"] = std::get<std::filesystem::path>(layer->thickness).string();
+  if (layer->behind) json["thickness_to"] = layer->behind->string();
+  json[layer->behind ? "thickness_elsewhere_mm" : "thickness_mm"] =
+      layer->thickness_mm > 0 ? Json(layer->thickness_mm) : Json(nullptr);
   return json;
 }
 
@@ -19,9 +18,10 @@ std::string layer_text(const std::optional<LayerEntry>& layer) {
   if (!layer) return "rigid";
   const std::string elastic =
       fmt::format("E {} MPa, nu {}, ", layer->youngs_modulus_mpa, layer->poisson_ratio);
-  if (const auto* thickness = std::get_if<double>(&layer->thickness))
-    return elastic + fmt::format("{} mm", *thickness);
-  return elastic + "thickness measured";
+  if (!layer->behind) return elastic + fmt::format("{} mm", layer->thickness_mm);
+  return elastic + "thickness measured" +
+         (layer->thickness_mm > 0 ? fmt::format(", {} mm where nothing lies behind", layer->thickness_mm)
+                                  : "");
 }
 
 }  // namespace
@@ -63,7 +63,8 @@ Json contact_terms(const ContactEntry& entry, bool with_pressure) {
   return json;
 }
 
-std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces, bool with_pressure) {
+std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                               bool with_pressure) {
   const std::string caster = entry.casting == Casting::both    ? "both surfaces"
                              : entry.casting == Casting::fixed ? surfaces.fixed.name
                                                                : surfaces.mobile.name;

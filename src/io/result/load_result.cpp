@@ -67,9 +67,10 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
       text += fmt::format("  balanced after {} steps, {} mm from the pose given\n", answer.balanced->steps,
                           vector_text(moved));
     else
-      text += fmt::format("  not balanced: {}\n", reason_of(*answer.balanced));
+      text += fmt::format("  {}\n", reason_of(*answer.balanced));
   }
-  text += surface_text(question.surfaces.fixed, answer.contact.fixed) + surface_text(question.surfaces.mobile, answer.contact.mobile);
+  text += surface_text(question.surfaces.fixed, answer.contact.fixed) +
+          surface_text(question.surfaces.mobile, answer.contact.mobile);
   const Wrench& load = answer.contact.on_mobile;
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,

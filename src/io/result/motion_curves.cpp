@@ -50,7 +50,50 @@ Wrench load_of(const ContactEntry& contact, const FrameContact& frame) {
   return {R_MF * frame.on_mobile.force_n, R_MF * frame.on_mobile.moment_nmm};
 }
 
+/// What totals and a load say, under names that begin with `prefix`.
+template <class Totals, class LoadOf>
+void add_contact(const MotionQuestion& question, Columns& columns, const std::string& prefix,
+                 const std::vector<std::optional<FrameContact>>& frames, const Totals& totals,
+                 const LoadOf& load) {
+  columns.add(prefix + "area_mm2", frames, [&](const auto& f) { return totals(f).area_mm2; });
+  columns.add(prefix + "mean_depth_mm", frames, [&](const auto& f) { return totals(f).mean_depth_mm; });
+  columns.add(prefix + "max_depth_mm", frames, [&](const auto& f) { return totals(f).max_depth_mm; });
+  columns.add_vector(prefix + "centre_of_depth", "_mm", frames,
+                     [&](const auto& f) { return or_nothing(totals(f).centre_of_depth); });
+  if (!question.with_pressure) return;
+  const double sign = question.contact.moment_on == MomentOn::casting ? 1 : -1;
+  columns.add(prefix + "mean_pressure_mpa", frames,
+              [&](const auto& f) { return totals(f).mean_pressure_mpa; });
+  columns.add(prefix + "max_pressure_mpa", frames, [&](const auto& f) { return totals(f).max_pressure_mpa; });
+  columns.add_vector(prefix + "centre_of_pressure", "_mm", frames,
+                     [&](const auto& f) { return or_nothing(totals(f).centre_of_pressure); });
+  columns.add_vector(prefix + "force", "_n", frames, [&](const auto& f) { return load(f).force_n; });
+  columns.add_vector(prefix + "moment", "_nmm", frames,
+                     [&](const auto& f) { return Vec3(sign * load(f).moment_nmm); });
+}
+
 }  // namespace
+
+Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
+  Curves curves;
+  curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
+  curves.at = question.motion.times.values;
+  Columns columns(curves, answer.frames.size());
+  const ContactEntry& contact = question.contact;
+  const Mesh& casting =
+      contact.casting == Casting::fixed ? question.surfaces.fixed.mesh : question.surfaces.mobile.mesh;
+  for (const RegionEntry& region : contact.regions) {
+    const auto totals = [&](const FrameContact& frame) {
+      return totals_of(faces_within(frame.surface.faces, casting, region.half_spaces), casting,
+                       contact.rays.rule);
+    };
+    add_contact(question, columns, region.name + "_", answer.frames, totals, [&](const FrameContact& frame) {
+      const ContactTotals of = totals(frame);
+      return Wrench{of.force_n, of.moment_nmm};
+    });
+  }
+  return curves;
+}
 
 Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   const auto& frames = answer.frames;
@@ -58,23 +101,9 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
   curves.at = question.motion.times.values;
   Columns columns(curves, frames.size());
-  const auto totals = [](const FrameContact& frame) -> const ContactTotals& { return frame.surface.totals; };
-  columns.add("area_mm2", frames, [&](const auto& f) { return totals(f).area_mm2; });
-  columns.add("mean_depth_mm", frames, [&](const auto& f) { return totals(f).mean_depth_mm; });
-  columns.add("max_depth_mm", frames, [&](const auto& f) { return totals(f).max_depth_mm; });
-  columns.add_vector("centre_of_depth", "_mm", frames,
-                     [&](const auto& f) { return or_nothing(totals(f).centre_of_depth); });
-  if (question.with_pressure) {
-    const double sign = question.contact.moment_on == MomentOn::casting ? 1 : -1;
-    columns.add("mean_pressure_mpa", frames, [&](const auto& f) { return totals(f).mean_pressure_mpa; });
-    columns.add("max_pressure_mpa", frames, [&](const auto& f) { return totals(f).max_pressure_mpa; });
-    columns.add_vector("centre_of_pressure", "_mm", frames,
-                       [&](const auto& f) { return or_nothing(totals(f).centre_of_pressure); });
-    columns.add_vector("force", "_n", frames,
-                       [&](const auto& f) { return load_of(question.contact, f).force_n; });
-    columns.add_vector("moment", "_nmm", frames,
-                       [&](const auto& f) { return Vec3(sign * load_of(question.contact, f).moment_nmm); });
-  }
+  add_contact(
+      question, columns, "", frames, [](const FrameContact& frame) { return frame.surface.totals; },
+      [&](const FrameContact& frame) { return load_of(question.contact, frame); });
   columns.add("in_contact", frames, [](const auto& f) { return f.in_contact ? 1.0 : 0.0; });
   columns.add("intersecting_pairs", frames,
               [](const auto& f) { return static_cast<double>(f.intersecting_pairs); });

@@ -18,8 +18,9 @@ namespace {
 
 /// Whether some motion has a file of this name.
 bool is_of_motion(std::string_view name) {
-  static constexpr std::string_view names[] = {"curves.csv", "curves.sto", "cycle.csv",    "motion.json",
-                                               "motion.pvd", "jam.h5",     "map_fixed.vtp"};
+  static constexpr std::string_view names[] = {"curves.csv",  "curves.sto", "cycle.csv",
+                                               "motion.json", "motion.pvd", "contacts.csv",
+                                               "regions.csv", "jam.h5",     "map_fixed.vtp"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
   return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
 }
@@ -38,6 +39,16 @@ std::vector<double> per_triangle(const FrameContact& frame, std::size_t triangle
   std::vector<double> values(triangles, 0);
   for (const FaceContact& face : frame.surface.faces) values[face.face] = (face.*value)();
   return values;
+}
+
+std::string contacts_csv(const RecordedContact& between) {
+  std::string text =
+      "entry_s,entry_uncertainty_s,entry_turned_deg,exit_s,exit_uncertainty_s,exit_turned_deg,is_certain\n";
+  for (const ContactInterval& contact : between.contacts)
+    text += fmt::format("{},{},{},{},{},{},{}\n", contact.entry.time_s, contact.entry.uncertainty_s,
+                        contact.entry.turned.degrees(), contact.exit.time_s, contact.exit.uncertainty_s,
+                        contact.exit.turned.degrees(), contact.is_certain ? 1 : 0);
+  return text;
 }
 
 void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionAnswer& answer,
@@ -105,7 +116,8 @@ void write_jam(const std::filesystem::path& path, const MotionQuestion& question
   const bool fixed_casts = question.contact.casting == Casting::fixed;
   const Body &casting = fixed_casts ? surfaces.fixed : surfaces.mobile,
              &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
-  JamContact contact{field_name(question.joint.joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
+  JamContact contact{
+      field_name(question.joint.joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
   for (const auto& frame : answer.frames)
     contact.casting.frames.push_back(
         jam_frame(frame, casting.mesh.triangles().size(), question.with_pressure));
@@ -129,6 +141,9 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
     if (files.cycle)
       write_curves_csv(out.file("cycle.csv"), cycle_of(curves, files.cycle->start_s, files.cycle->end_s));
   }
+  if (!question.contact.regions.empty())
+    write_curves_csv(out.file("regions.csv"), region_curves_of(question, answer));
+  if (answer.between) io::write_whole_file(out.file("contacts.csv"), contacts_csv(*answer.between));
   if (files.maps) write_maps(out, question, answer, files.encoding);
   if (files.jam) write_jam(out.file("jam.h5"), question, answer);
   io::write_whole_file(out.file("motion.json"), motion_json(question, answer));

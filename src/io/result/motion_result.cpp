@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/contact_terms.hpp"
@@ -49,7 +50,80 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
   return summary;
 }
 
+const char* name_of(ContactEndKind kind) {
+  return kind == ContactEndKind::exact ? "exact" : kind == ContactEndKind::bounded ? "bounded" : "recording";
+}
+
+Json end_json(const ContactEnd& end) {
+  return {{"time_s", end.time_s},
+          {"kind", name_of(end.kind)},
+          {"uncertainty_s", end.uncertainty_s},
+          {"after_frame", end.sample},
+          {"turned_deg", end.turned.degrees()}};
+}
+
+Json between_json(const RecordedContact& between) {
+  const auto exact = std::count(between.searched.begin(), between.searched.end(), BetweenSamples::exact);
+  Json contacts = Json::array();
+  for (const ContactInterval& contact : between.contacts)
+    contacts.push_back({{"entry", end_json(contact.entry)},
+                        {"exit", end_json(contact.exit)},
+                        {"is_certain", contact.is_certain},
+                        {"undecided_s", contact.undecided_s}});
+  return {{"ways_exact", exact},
+          {"ways_bounded", between.searched.size() - static_cast<std::size_t>(exact)},
+          {"contacts", std::move(contacts)}};
+}
+
+std::string between_text(const RecordedContact& between) {
+  const bool exact = std::all_of(between.searched.begin(), between.searched.end(),
+                                 [](BetweenSamples searched) { return searched == BetweenSamples::exact; });
+  std::string text = fmt::format(
+      "  between the samples too ({}): {}\n", exact ? "exact" : "bounded where the centre moves",
+      between.contacts.empty() ? "no contact" : fmt::format("{} contacts", between.contacts.size()));
+  constexpr std::size_t most = 10;
+  for (std::size_t i = 0; i < std::min(most, between.contacts.size()); ++i) {
+    const ContactInterval& contact = between.contacts[i];
+    const auto end = [](const ContactEnd& at) {
+      return fmt::format("{:.6f} s{}", at.time_s,
+                         at.kind == ContactEndKind::recording ? " (of the recording)"
+                         : at.uncertainty_s > 0 ? fmt::format(" within {:.1e} s", at.uncertainty_s)
+                                                : "");
+    };
+    text += fmt::format("    from {} to {}{}\n", end(contact.entry), end(contact.exit),
+                        contact.is_certain ? "" : ", possible only");
+  }
+  if (between.contacts.size() > most)
+    text += fmt::format("    and {} more\n", between.contacts.size() - most);
+  return text;
+}
+
 }  // namespace
+
+std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const JointMotion& motion,
+                                                      const RecordedContactControl& control) {
+  if (!motion.times.in_seconds) throw UsageError("contact between frames needs their times in seconds");
+  RecordedContact all;
+  const auto& X_FM = motion.X_FM;
+  for (std::size_t first = 0; first < X_FM.size();) {
+    std::size_t last = first;
+    std::vector<Pose> run;
+    while (last < X_FM.size() && X_FM[last]) run.push_back(*X_FM[last++]);
+    if (run.size() > 1) {
+      const auto times = std::span(motion.times.values).subspan(first, run.size());
+      auto found = contact_between(bodies, times, run, {}, control);
+      if (!found) return std::nullopt;
+      for (ContactInterval& contact : found->contacts) {
+        contact.entry.sample += first, contact.exit.sample += first;
+        all.contacts.push_back(std::move(contact));
+      }
+      all.searched.insert(all.searched.end(), found->searched.begin(), found->searched.end());
+      all.poses += found->poses;
+    }
+    first = last + 1;
+  }
+  return all;
+}
 
 std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer) {
   const Summary summary = summary_of(question, answer);
@@ -72,6 +146,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
     line("pressure", summary.pressure, "MPa");
     line("force", summary.force, "N");
   }
+  if (answer.between) text += between_text(*answer.between);
   if (!answer.balanced.empty()) {
     text += fmt::format("  the load is balanced in {} of {} frames\n", summary.balanced,
                         summary.frames - summary.gaps);
@@ -122,6 +197,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
                            {"reason", reason_of(*answer.balanced[i])}});
     json["without_balance"] = without;
   }
+  json["between_samples"] = answer.between ? between_json(*answer.between) : Json(nullptr);
   json["done"] = question.motion.notes;
   json["notes"] = io::notes_json(question.notes);
   json["scope"] = io::scope_note;
