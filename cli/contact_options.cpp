@@ -23,8 +23,9 @@ void take(const std::vector<double>& given, std::size_t body, double& value) {
 std::optional<LayerEntry> layer_of(const ContactOptions& options, const std::optional<LayerEntry>& in_file,
                                    std::size_t body) {
   if (options.e.empty() && options.nu.empty() && options.thickness.empty()) return in_file;
-  if (!in_file && (options.e.empty() || options.nu.empty() || options.thickness.empty()))
-    throw UsageError("--e, --nu and --thickness: a layer needs all three, and the joint file has none");
+  // Changes to what the joint file has are none to a body without a layer; a whole layer is one for either.
+  const bool whole = !options.e.empty() && !options.nu.empty() && !options.thickness.empty();
+  if (!in_file && !whole) return std::nullopt;
   LayerEntry layer = in_file.value_or(LayerEntry{});
   take(options.e, body, layer.youngs_modulus_mpa);
   take(options.nu, body, layer.poisson_ratio);
@@ -87,6 +88,9 @@ ContactEntry contact_of(const ContactOptions& options, const JointFile& file, bo
   if (options.law) entry.law = *options.law;
   entry.fixed = layer_of(options, entry.fixed, 0);
   entry.mobile = layer_of(options, entry.mobile, 1);
+  const bool any = !options.e.empty() || !options.nu.empty() || !options.thickness.empty();
+  if (any && !entry.fixed && !entry.mobile)
+    throw UsageError("--e, --nu and --thickness: a layer needs all three, and the joint file has none");
   if (with_pressure && !entry.fixed && !entry.mobile)
     throw UsageError(
         fmt::format("{}: no layers: give --e, --nu and --thickness, or [contact.fixed] and [contact.mobile] "

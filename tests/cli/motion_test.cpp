@@ -1,0 +1,286 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "command.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/cup.hpp"
+#include "support/knee.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+
+/// Recorded motions and loads on the command line.
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string text_of(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// A CSV file's numbers; an empty field is NaN.
+NumberTable csv_of(const fs::path& path) {
+  std::ifstream file(path);
+  NumberTable table;
+  std::string line, field;
+  std::getline(file, line);
+  for (std::istringstream names(line); std::getline(names, field, ',');) table.columns.push_back(field);
+  while (std::getline(file, line)) {
+    std::vector<double> row;
+    line += ",";
+    for (std::istringstream fields(line); std::getline(fields, field, ',');)
+      row.push_back(field.empty() ? std::nan("") : std::stod(field));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+const std::vector<std::string> contact_columns = {"time_s",
+                                                  "area_mm2",
+                                                  "mean_depth_mm",
+                                                  "max_depth_mm",
+                                                  "centre_of_depth_x_mm",
+                                                  "centre_of_depth_y_mm",
+                                                  "centre_of_depth_z_mm",
+                                                  "mean_pressure_mpa",
+                                                  "max_pressure_mpa",
+                                                  "centre_of_pressure_x_mm",
+                                                  "centre_of_pressure_y_mm",
+                                                  "centre_of_pressure_z_mm",
+                                                  "force_x_n",
+                                                  "force_y_n",
+                                                  "force_z_n",
+                                                  "moment_x_nmm",
+                                                  "moment_y_nmm",
+                                                  "moment_z_nmm"};
+
+struct Example {
+  const char *file, *contact;
+};
+class PublishedMotion : public ::testing::TestWithParam<Example> {};
+
+TEST_P(PublishedMotion, TheExampleGivesThePublishedCurves) {
+  const auto knee = shared_knee();
+  if (!knee) GTEST_SKIP() << "the shared knee is missing";
+  ::setenv("CONDYLE_DATA", fs::absolute(shared_data_folder()).c_str(), 1);
+  const TemporaryFolder folder;
+  const auto states =
+      fs::absolute(shared_data_folder() / "knee_lenhart2015_right" / "passive_flexion_states.sto");
+  const Ran ran =
+      run_condyle(folder / ".", std::string("motion " CONDYLE_EXAMPLES "/") + GetParam().file + " --motion " +
+                                    states.string() + " --load --out out --cycle 0 2.5 --jam");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  ASSERT_EQ(curves.rows.size(), 251u);
+  ASSERT_GE(curves.columns.size(), contact_columns.size());
+  EXPECT_TRUE(std::equal(contact_columns.begin(), contact_columns.end(), curves.columns.begin()));
+  const std::vector<std::pair<std::string, double>> of_column = {
+      {"contact_area", 1e6},          {"mean_proximity", 1e3},        {"max_proximity", 1e3},
+      {"center_of_proximity_x", 1e3}, {"center_of_proximity_y", 1e3}, {"center_of_proximity_z", 1e3},
+      {"mean_pressure", 1e-6},        {"max_pressure", 1e-6},         {"center_of_pressure_x", 1e3},
+      {"center_of_pressure_y", 1e3},  {"center_of_pressure_z", 1e3},  {"contact_force_x", 1},
+      {"contact_force_y", 1},         {"contact_force_z", 1},         {"contact_moment_x", 1e3},
+      {"contact_moment_y", 1e3},      {"contact_moment_z", 1e3}};
+  // What rounding the published states to 1e-8 m leaves open: tests/contact holds every frame to its own bound.
+  double largest_force = 0;
+  for (const auto& row : curves.rows)
+    largest_force = std::max(largest_force, std::hypot(row[12], row[13], row[14]));
+  for (std::size_t frame = 0; frame < 251; ++frame) {
+    for (std::size_t c = 0; c < of_column.size(); ++c) {
+      const double published =
+          of_column[c].second * knee->published(GetParam().contact, frame, of_column[c].first);
+      const double size = c < 3 || (c > 5 && c < 8) ? std::abs(published)
+                          : c < 11                  ? 30
+                          : c < 14                  ? largest_force
+                                                    : 40 * largest_force;
+      EXPECT_NEAR(curves.rows[frame][c + 1], published, 1e-4 * size + 0.5000001e-8 * of_column[c].second)
+          << of_column[c].first << " frame " << frame;
+    }
+  }
+  EXPECT_EQ(csv_of(folder / "out/cycle.csv").rows.size(), 101u);
+  EXPECT_GT(fs::file_size(folder / "out/jam.h5"), 1000u);
+  EXPECT_EQ(text_of(folder / "out/curves.sto").find("nan"), std::string::npos);
+  const Json json = Json::parse(text_of(folder / "out/motion.json"));
+  EXPECT_EQ(json["frames"], 251);
+  EXPECT_EQ(json["contact"]["casting"], "mobile");
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, PublishedMotion,
+                         ::testing::Values(Example{"tibiofemoral.toml", "tf"},
+                                           Example{"patellofemoral.toml", "pf"}),
+                         [](const auto& param) { return std::string(param.param.contact); });
+
+/// A ball in a cup, and a shank that swings against a post.
+class Motion : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_mesh(folder / "cup.ply", cup(25, 5));
+    write_mesh(folder / "ball.ply", sphere(Vec3::Zero(), 24.8, 5));
+    write("cup.toml",
+          joint("free", "cup.ply", "ball.ply", "[contact]\ncasting = \"fixed\"\n" + layer("fixed")));
+    write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
+    write("shank.toml", joint("ball", "post.ply", "shank.ply", ""));
+  }
+  static std::string layer(const std::string& body) {
+    return "[contact." + body + "]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\nthickness = 6\n";
+  }
+  static std::string joint(const std::string& kind, const std::string& fixed, const std::string& mobile,
+                           const std::string& more) {
+    return "condyle = 1\nname = \"hip\"\nkind = \"" + kind +
+           "\"\njoint = \"hip\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"" + fixed +
+           "\"\n[mobile]\nmesh = \"" + mobile +
+           "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" + more;
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  Ran run(const std::string& arguments) const { return run_condyle(folder / ".", arguments); }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(Motion, ContactBetweenTwoSamplesIsFound) {
+  // The shank, 1 mm before its axis, meets the post where its front corner does: at 100 mm below and 40 in front.
+  write("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n0.2,10\n0.3,0\n0.4,30\n");
+  const Ran ran = run("motion shank.toml --motion swing.csv --json --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json between = Json::parse(ran.out)["between_samples"];
+  EXPECT_EQ(between["ways_exact"], 4);
+  ASSERT_EQ(between["contacts"].size(), 1u);
+  // The corner (1, -100) goes round with radius hypot(1, 100); x = 40 is met at this angle.
+  const double radius = std::hypot(1, 100);
+  const double angle = (std::asin(40 / radius) - std::asin(1 / radius)) * 180 / std::numbers::pi;
+  EXPECT_NEAR(between["contacts"][0]["entry"]["turned_deg"].get<double>(), angle, 1e-9);
+  EXPECT_NEAR(between["contacts"][0]["entry"]["time_s"].get<double>(), 0.3 + 0.1 * angle / 30, 1e-9);
+  EXPECT_EQ(between["contacts"][0]["exit"]["kind"], "recording");
+  EXPECT_EQ(csv_of(folder / "out/contacts.csv").rows.size(), 1u);
+  EXPECT_EQ(csv_of(folder / "out/curves.csv").rows[4][csv_of(folder / "out/curves.csv").column("in_contact")],
+            1);
+}
+
+TEST_F(Motion, AGapStaysAGap) {
+  write("gap.csv", "time,flexion_deg\n0,0\n0.1,\n0.2,10\n");
+  const Ran ran = run("motion shank.toml --motion gap.csv --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("1 frames are gaps"), std::string::npos) << ran.out;
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  ASSERT_EQ(curves.rows.size(), 3u);
+  for (std::size_t c = 1; c < curves.columns.size(); ++c)
+    EXPECT_TRUE(std::isnan(curves.rows[1][c])) << curves.columns[c];
+}
+
+TEST_F(Motion, FramesAreTheSameOnAnyNumberOfThreads) {
+  write("rock.csv", "time,y_mm,x_mm\n0,-0.3,0\n0.1,-0.4,0.1\n0.2,-0.5,0\n0.3,-0.4,-0.1\n");
+  for (const char* threads : {"1", "2"})
+    ASSERT_EQ(run(std::string("motion cup.toml --motion rock.csv --load --maps --out t") + threads +
+                  " --threads " + threads)
+                  .exit_code,
+              0);
+  for (const char* file :
+       {"curves.csv", "curves.sto", "map_fixed_00002.vtp", "map_mobile_00003.vtp", "motion.pvd"}) {
+    const std::string one = text_of(folder / "t1" / file);
+    EXPECT_FALSE(one.empty()) << file;
+    if (std::string(file).ends_with(".vtp")) continue;  // their provenance has the command line
+    EXPECT_EQ(one, text_of(folder / "t2" / file)) << file;
+  }
+}
+
+TEST_F(Motion, ALoadIsBalancedFrameAfterFrame) {
+  write("rock.csv", "time,flexion_deg\n0,0\n0.1,5\n0.2,10\n");
+  write("loads.csv", "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n0.1,0,-1500,0\n0.2,0,-2000,0\n");
+  const Ran ran = run("motion cup.toml --motion rock.csv --loads loads.csv --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("balanced in 3 of 3 frames"), std::string::npos) << ran.out;
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  BallInCup known{25, 24.8, 0, 6.321839};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(curves.rows[i][curves.column("force_y_n")], -1000 - 500.0 * static_cast<double>(i), 1e-5);
+    known.d = -curves.rows[i][curves.column("y_mm")];
+    // Edges of 1.5 mm: ball and cup sag by up to edge^2 / (8 R) = 0.012 mm each.
+    const double sag = 2 * 0.012;
+    BallInCup less = known;
+    less.d -= sag;
+    EXPECT_GT(known.force(), 1000 + 500.0 * static_cast<double>(i));
+    EXPECT_LT(less.force(), 1000 + 500.0 * static_cast<double>(i));
+  }
+}
+
+TEST_F(Motion, BadInputGetsOneLine) {
+  write("names.csv", "time,bending\n0,0\n");
+  write("word.csv", "time,flexion_deg\n0,zero\n");
+  write("times.csv", "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n");
+  write("good.csv", "time,flexion_deg\n0,0\n0.1,5\n");
+  write("frames.csv", "flexion_deg\n0\n5\n");
+  const auto refused = [&](const std::string& arguments, int exit_code, const char* saying) {
+    expect_refusal(run(arguments), exit_code, saying, arguments);
+  };
+  refused("motion shank.toml --motion none.csv", 3, "none.csv");
+  refused("motion shank.toml --motion names.csv", 3, "flexion_deg");
+  refused("motion shank.toml --motion word.csv", 3, "line 2");
+  refused("motion shank.toml --motion good.csv --load", 2, "no layers");
+  refused("motion cup.toml --motion good.csv --loads times.csv", 3, "not at the times");
+  refused("motion shank.toml --motion good.csv --cycle 0 9 --out out", 2, "cycle");
+  refused("motion shank.toml --motion frames.csv --cycle 0 1 --out out", 2, "times");
+  refused("motion shank.toml --motion good.csv --e 10", 2, "a layer needs all three");
+  refused("motion cup.toml --motion good.csv --force 0 -100 0 --moment 1 0 0", 2, "--free-rotations");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(Motion, LoadTellsPressureAndBalances) {
+  const Ran ran = run("load cup.toml --force 0 -2000 0 --json --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  EXPECT_EQ(json["balance"]["outcome"], "balanced");
+  EXPECT_NEAR(json["on_mobile"]["force_n"][1].get<double>(), 2000, 1e-5);
+  // d = 0.530583 for a perfect ball; facets of 1.5 mm sag by 0.012 mm on either side.
+  EXPECT_NEAR(json["X_FM"][1][3].get<double>(), -0.530583, 2 * 0.012);
+  EXPECT_EQ(json["mobile_surface"], nullptr);
+  EXPECT_GT(json["fixed_surface"]["area_mm2"].get<double>(), 2000);
+  for (const char* file : {"fixed.vtp", "mobile.vtp", "load.json"})
+    EXPECT_TRUE(fs::exists(folder / "out" / file));
+}
+
+TEST_F(Motion, LoadRefusesWhatNoContactCarries) {
+  const auto refused = [&](const std::string& arguments, const char* saying) {
+    expect_refusal(run(arguments), 2, saying, arguments);
+  };
+  refused("load cup.toml --force 0 2000 0", "pulls the bodies apart");
+  refused("load cup.toml --force 0 0 0", "zero");
+  refused("load shank.toml", "no layers");
+  refused("load cup.toml --nu 0.5", "Poisson");
+}
+
+TEST(GaitOnAHip, IsFreeInEveryFrameAndBetween) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "the shared hip is missing";
+  const TemporaryFolder folder;
+  const std::string hip = fs::absolute(*data / "hip_vhf_right").string();
+  std::ofstream(folder / "hip.toml") << "condyle = 1\nname = \"right hip\"\nkind = \"ball\"\nside = "
+                                        "\"right\"\nunits = \"mm\"\n[fixed]\nmesh = \""
+                                     << hip << "/hip_bone.ply\"\n[mobile]\nmesh = \"" << hip
+                                     << "/femur.ply\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, "
+                                        "0]\nsuperior = [0, 1, 0]\n[recorded_motion]\n"
+                                     << "flexion = \"hip_flexion_r\"\nadduction = "
+                                        "\"hip_adduction_r\"\ninternal_rotation = \"hip_rotation_r\"\n";
+  const std::string walk = fs::absolute(*data / "motion_gait2354_walk" / "subject01_walk1_ik.mot").string();
+  const Ran ran = run_condyle(folder / ".", "motion hip.toml --motion " + walk + " --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.out.find("between the samples too (exact): no contact"), std::string::npos) << ran.out;
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  ASSERT_EQ(curves.rows.size(), 73u);
+  // Degrees of the file come back.
+  EXPECT_NEAR(curves.rows[0][curves.column("flexion_deg")], 19.56730088, 1e-10);
+  for (const auto& row : curves.rows) EXPECT_GT(row[curves.column("smallest_gap_mm")], 0);
+}
+
+}  // namespace
+}  // namespace condyle::test
