@@ -16,6 +16,8 @@ struct JointMotion {
   FrameTimes times;
   std::vector<std::optional<Pose>> X_FM;  ///< in the joint frame; empty for gaps
   std::vector<std::string> notes;         ///< of the table and of its reading
+  std::filesystem::path path = {};        ///< of the table
+  FileDigest digest = {};
 };
 
 /// By the joint file's [recorded_motion]. Without one the table must have columns named after the joint's coordinates and

@@ -39,7 +39,7 @@ std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const 
 JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
                            const std::vector<ColumnOfCoordinate>& mapping) {
   NamedCoordinates recorded = recorded_coordinates(table, mapping);
-  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes)};
+  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes), {}, {}};
   std::string missing;
   for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy))
     if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
@@ -87,7 +87,7 @@ Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
 
 JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const ColumnsOfPoses& mapping) {
   RecordedPoses recorded = recorded_poses(table, mapping);
-  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes)};
+  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes), {}, {}};
   const Provenance from = provenance_of(loaded, {});
   const LengthUnit unit = loaded.report.file.joint.units;
   const Pose X_FA = joint_from_file(from.fixed, unit), X_BM = joint_from_file(from.mobile, unit).inverse();
@@ -112,9 +112,15 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const 
 
 JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
   const auto& mapping = joint.report.file.recorded_motion;
-  if (!mapping) return of_coordinates(joint.joint, table, columns_by_name(table, joint.joint));
-  if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping)) return of_poses(joint, table, *poses);
-  return of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
+  const auto read = [&] {
+    if (!mapping) return of_coordinates(joint.joint, table, columns_by_name(table, joint.joint));
+    if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping)) return of_poses(joint, table, *poses);
+    return of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
+  };
+  JointMotion motion = read();
+  motion.path = table.path;
+  motion.digest = table.digest;
+  return motion;
 }
 
 }  // namespace condyle
