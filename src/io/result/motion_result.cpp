@@ -45,7 +45,9 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     consider(summary.area, totals.area_mm2);
     consider(summary.depth, totals.max_depth_mm);
     consider(summary.pressure, totals.max_pressure_mpa);
-    consider(summary.force, totals.force_n.norm());
+    const bool both = question.contact.casting == Casting::both;
+    consider(summary.force,
+             (both ? frame->on_mobile : Wrench{totals.force_n, totals.moment_nmm}).force_n.norm());
   }
   return summary;
 }
