@@ -36,7 +36,7 @@ std::optional<LayerEntry> layer_of(const ContactOptions& options, const std::opt
 
 }  // namespace
 
-void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options) {
+void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options, const std::string& when) {
   command
       .add_option_function<std::string>(
           "--casting",
@@ -45,7 +45,7 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options)
                                : name == "mobile" ? Casting::mobile
                                                   : Casting::both;
           },
-          "The body from whose surface rays are cast")
+          when + "The body from whose surface rays are cast")
       ->check(CLI::IsMember({"fixed", "mobile", "both"}))
       ->option_text("fixed|mobile|both (both)");
   command
@@ -54,11 +54,12 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options)
           [options](const std::string& name) {
             options->rule = name == "face_centre" ? FaceRule::face_centre : FaceRule::cut_faces;
           },
-          "face_centre: each triangle by its centre, as OpenSim-JAM; cut_faces: triangles cut where the "
-          "depth is 0")
+          when +
+              "face_centre: each triangle by its centre, as OpenSim-JAM; cut_faces: triangles cut where the "
+              "depth is 0")
       ->check(CLI::IsMember({"face_centre", "cut_faces"}))
       ->option_text("face_centre|cut_faces (cut_faces)");
-  command.add_option("--reach", options->reach_mm, "How far rays go, mm")->option_text("MM (20)");
+  command.add_option("--reach", options->reach_mm, when + "How far rays go, mm")->option_text("MM (20)");
 }
 
 void add_layers(CLI::App& command, const std::shared_ptr<ContactOptions>& options) {

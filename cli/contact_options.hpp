@@ -24,8 +24,12 @@ struct ContactOptions {
   std::optional<double> reach_mm;
   std::optional<PressureLaw> law;
   std::vector<double> e, nu, thickness;  ///< one for both layers, or one of each: fixed, mobile
+
+  bool any_of_rays() const noexcept { return casting || rule || reach_mm; }
 };
-void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options);
+/// `when` begins each line of help, where rays are not all that the command knows.
+void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options,
+              const std::string& when = "");
 void add_layers(CLI::App& command, const std::shared_ptr<ContactOptions>& options);
 
 /// What the joint file says with what was given. With pressure UsageError where no body has a layer or one misses a value.

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "answer.hpp"
@@ -13,9 +14,12 @@
 #include "commands.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "condyle/inspect.hpp"
 #include "condyle/io/depth_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/normal_contact.hpp"
+#include "contact_options.hpp"
 #include "io/file/whole_file.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
@@ -23,13 +27,14 @@
 namespace condyle::cli {
 namespace {
 
-enum class Method { reliable, radial, tangential };
+enum class Method { reliable, radial, tangential, normal };
 enum class Scope { vertices_and_pairs, pairs_only };
 
 struct Options {
   std::string joint, pose, matrix, out;
   Method method = Method::reliable;
   std::optional<std::string> about;
+  std::shared_ptr<ContactOptions> rays = std::make_shared<ContactOptions>();
   VertexTables vertices = VertexTables::leave_out;
   Scope scope = Scope::vertices_and_pairs;
   Strictness strictness = Strictness::notes;
@@ -62,15 +67,20 @@ DepthResult by_tangential(const DepthQuestion& question, const JointContact& joi
   return depth_result(question, measure_contact(joint, question.X_FM, VertexStates(contact)), axis, contact);
 }
 
-DepthResult answer_of(const Options& options, const DepthQuestion& question) {
-  if (options.about && options.method != Method::tangential)
-    throw UsageError("--about: is for --method tangential");
+DepthResult by_normal(const DepthQuestion& question, const JointContact& joint, const ContactEntry& entry) {
+  return depth_result(question, entry, measure_contact(joint, question.X_FM, VertexStates()),
+                      normal_contact(joint, question.X_FM, entry.casting, entry.rays));
+}
+
+DepthResult answer_of(const Options& options, const DepthQuestion& question, const ContactEntry& entry) {
   const JointContact joint(question.joint);
   switch (options.method) {
     case Method::reliable:
       return by_radial(question, joint, DepthMethod::reliable);
     case Method::radial:
       return by_radial(question, joint, DepthMethod::radial);
+    case Method::normal:
+      return by_normal(question, joint, entry);
     case Method::tangential:
       break;
   }
@@ -91,8 +101,13 @@ GivenPose pose_of(const Options& options, const Joint& joint) {
   }
 }
 
-/// What an answer for a pose that translates must be read with.
+/// What an answer must be read with, for a pose that translates or along normals.
 std::vector<std::string> terms_of(const Pose& X_FM, Method method) {
+  if (method == Method::normal)
+    return {
+        "depths along normals compare with those of the same casting surface and rule only, not with radial "
+        "or "
+        "tangential ones"};
   const double moved = X_FM.translation().norm();
   if (moved == 0) return {};
   return {fmt::format(
@@ -107,21 +122,44 @@ std::string files_of(const std::vector<BodyMeshReport>& meshes) {
   return files;
 }
 
-void require_solids(const LoadedJoint& loaded) {
-  try {
-    mesh::require_solid(loaded.joint.fixed.mesh, files_of(loaded.report.fixed));
-    mesh::require_solid(loaded.joint.mobile.mesh, files_of(loaded.report.mobile));
-  } catch (const MeshError& error) {
-    throw MeshError(std::string(error.what()) + " (--pairs-only accepts such meshes)");
-  }
+/// Whether the meshes allow the question: solids for vertices inside, outer sides for normals, nothing for pairs.
+void require_meshes(const LoadedJoint& loaded, const Options& options) {
+  const auto require = [&](const Mesh& mesh, const std::vector<BodyMeshReport>& reports) {
+    if (options.method == Method::normal) return mesh::require_oriented(mesh, files_of(reports));
+    if (options.scope == Scope::pairs_only) return;
+    try {
+      mesh::require_solid(mesh, files_of(reports));
+    } catch (const MeshError& error) {
+      const bool is_oriented = !mesh.is_closed() && inspect(mesh).inconsistent_edges.count == 0;
+      throw MeshError(std::string(error.what()) +
+                      (is_oriented ? " (--method normal or --pairs-only accept such meshes)"
+                                   : " (--pairs-only accepts such meshes)"));
+    }
+  };
+  require(loaded.joint.fixed.mesh, loaded.report.fixed);
+  require(loaded.joint.mobile.mesh, loaded.report.mobile);
+}
+
+/// The joint with the parts that cast and are cast at in the place of bodies of several.
+Joint joint_of_surfaces(const ContactEntry& entry, Joint joint) {
+  ContactSurfaces surfaces = surfaces_of(entry, joint);
+  if (!entry.fixed_part.empty()) joint.fixed = std::move(surfaces.fixed);
+  if (!entry.mobile_part.empty()) joint.mobile = std::move(surfaces.mobile);
+  return joint;
 }
 
 void run(const Options& options, const CLI::App& command) {
+  if (options.about && options.method != Method::tangential)
+    throw UsageError("--about: is for --method tangential");
+  const bool by_normals = options.method == Method::normal;
+  if (options.rays->any_of_rays() && !by_normals)
+    throw UsageError("--casting, --rule, --reach: are for --method normal");
   const LoadedJoint loaded = read_joint(options.joint);
-  const Joint& joint = loaded.joint;
+  const ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
+  const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
   const GivenPose given = pose_of(options, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
-  if (options.scope == Scope::vertices_and_pairs) require_solids(loaded);
+  require_meshes(loaded, options);
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   const DepthQuestion question{.joint = joint,
                                .pose = given.pose,
@@ -129,7 +167,7 @@ void run(const Options& options, const CLI::App& command) {
                                .notes = noted(loaded, options.strictness),
                                .terms = terms_of(given.X_FM, options.method),
                                .provenance = &from};
-  const DepthResult result = answer_of(options, question);
+  const DepthResult result = answer_of(options, question, entry);
   if (!options.out.empty())
     say_written(write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
   print(options.form == AnswerForm::json ? result.json : result.text);
@@ -142,7 +180,8 @@ void add_depth(CLI::App& app) {
       app.add_subcommand("depth", "Where and how deep two bones penetrate each other in one pose");
   command->footer(
       "Example: condyle sample hip --out sample\n"
-      "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep");
+      "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep\n"
+      "         condyle depth sample/hip.toml --pose flexion=130 --method normal --casting mobile");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
   auto* pose = command->add_option(
@@ -155,19 +194,21 @@ void add_depth(CLI::App& app) {
       ->add_option_function<std::string>(
           "--method",
           [options](const std::string& name) {
-            options->method = name == "reliable" ? Method::reliable
-                              : name == "radial" ? Method::radial
-                                                 : Method::tangential;
+            options->method = name == "reliable"     ? Method::reliable
+                              : name == "radial"     ? Method::radial
+                              : name == "tangential" ? Method::tangential
+                                                     : Method::normal;
           },
           "reliable: along rays from the centre where that is a depth, else along the arc about the joint "
-          "axis "
-          "that frees a vertex soonest; radial: along rays; tangential: along arcs about one axis")
-      ->check(CLI::IsMember({"reliable", "radial", "tangential"}))
-      ->option_text("reliable|radial|tangential (reliable)");
+          "axis that frees a vertex soonest; radial: along rays; tangential: along arcs about one axis; "
+          "normal: from triangles along their normals to the other surface, open meshes too")
+      ->check(CLI::IsMember({"reliable", "radial", "tangential", "normal"}))
+      ->option_text("reliable|radial|tangential|normal (reliable)");
   command
       ->add_option("--about", options->about,
                    "With --method tangential: the angle about whose axis it rotates")
       ->option_text("flexion|adduction|internal_rotation (flexion)");
+  add_rays(*command, options->rays, "With --method normal: ");
   auto* out = command->add_option("--out", options->out,
                                   "Folder for fixed.vtp, mobile.vtp, pairs.csv and depth.json");
   add_where(*command, options->where);

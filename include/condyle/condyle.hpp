@@ -37,6 +37,7 @@
 #include "condyle/reliable_depth.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
+#include "condyle/normal_contact.hpp"
 #include "condyle/load_balance.hpp"
 
 // Motions.

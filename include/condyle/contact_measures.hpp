@@ -45,10 +45,12 @@ struct ContactMeasures {
   std::optional<Vec3> centroid;
 };
 
-/// Which vertices are inside the other body, as ContactResults have it; empty where that is open.
+/// Which vertices are inside the other body, as ContactResults have it; empty where that is open. Without any the
+/// measures are distances only.
 struct VertexStates {
   std::optional<std::span<const PointState>> mobile, fixed;
 
+  VertexStates() = default;
   template <class VertexResults>
   explicit VertexStates(const ContactResults<VertexResults>& of) {
     if (of.mobile_in_fixed) mobile = of.mobile_in_fixed->state;

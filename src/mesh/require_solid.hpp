@@ -12,4 +12,8 @@ namespace condyle::mesh {
 /// Linear for a solid; n log n where it refuses an open mesh.
 void require_solid(const Mesh& mesh, const std::string& name);
 
+/// Raises MeshError where normals do not say which side of a surface is outside: where triangles are wound against each other,
+/// and where a closed mesh is inverted. Open meshes pass. As require_solid() otherwise; n log n for an open mesh.
+void require_oriented(const Mesh& mesh, const std::string& name);
+
 }  // namespace condyle::mesh

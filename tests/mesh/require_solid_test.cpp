@@ -43,5 +43,26 @@ TEST(RequireSolid, AnInvertedMeshIsRefusedWithItsRepair) {
   EXPECT_NE(refusal(test::flipped(test::sphere({0, 0, 0}, 1, 1))).find("flip_inverted"), std::string::npos);
 }
 
+std::string refused_orientation(const TriMesh& mesh) {
+  try {
+    mesh::require_oriented(mesh, "bone.ply");
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RequireOriented, AnOpenMeshPassesUnlessItsTrianglesAreWoundAgainstEachOther) {
+  TriMesh mesh = test::sphere({0, 0, 0}, 1, 1);
+  EXPECT_EQ(refused_orientation(mesh), "");
+  EXPECT_NE(refused_orientation(test::flipped(mesh)).find("flip_inverted"), std::string::npos);
+  mesh.triangles.pop_back();
+  EXPECT_EQ(refused_orientation(mesh), "");
+  std::swap(mesh.triangles[5][0], mesh.triangles[5][1]);
+  EXPECT_TRUE(
+      refused_orientation(mesh).starts_with("bone.ply: triangles wound against each other at the edge from "))
+      << refused_orientation(mesh);
+}
+
 }  // namespace
 }  // namespace condyle

@@ -6,11 +6,13 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/contact_measures.hpp"
+#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
+#include "condyle/normal_contact.hpp"
 #include "condyle/reliable_depth.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
@@ -36,12 +38,11 @@ struct RotationAxis {
   Vec3 direction_F;
 };
 
-/// Point arrays of one body, the first one to colour by: finite everywhere, 0 for vertices that are not inside. Where the
-/// other mesh is open nothing can be inside it: nearest distances only. And its cell array in_contact, 1 for a triangle
-/// that is in a pair.
+/// Arrays of one body, the first of each to colour by: finite everywhere, 0 for what is not inside. On points, where the
+/// other mesh is open and nothing can be inside it, nearest distances only. On triangles what rays along their normals
+/// found, where the body casts, and in_contact, 1 for a triangle that is in a pair.
 struct DepthArrays {
-  std::vector<MeshArray> points;
-  MeshArray in_contact;
+  std::vector<MeshArray> points, triangles;
 };
 
 /// An answer in every form in which it is given.
@@ -66,6 +67,10 @@ DepthResult depth_result(const DepthQuestion& question, DepthMethod method, cons
 /// The tangential depths about one axis.
 DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
                          const RotationAxis& axis, const TangentialContact& contact);
+
+/// Depths along normals, of the bodies that `rays` has cast. Of the measures nearest distances only.
+DepthResult depth_result(const DepthQuestion& question, const ContactEntry& rays,
+                         const ContactMeasures& measures, const NormalContact& contact);
 
 /// Whether tables of vertices are written too.
 enum class VertexTables { leave_out, write };

@@ -53,8 +53,7 @@ std::vector<std::filesystem::path> write_depth(const std::filesystem::path& fold
   const AnswerFrame frame = question.frame();
   const VtpOptions options{files.encoding, io::provenance_fields(question.provenance)};
   const auto write = [&](const std::string& name, const TriMesh& mesh, const DepthArrays& arrays) {
-    write_vtp(out.file(name + ".vtp"), frame.fixed_mesh(mesh), arrays.points, {&arrays.in_contact, 1},
-              options);
+    write_vtp(out.file(name + ".vtp"), frame.fixed_mesh(mesh), arrays.points, arrays.triangles, options);
     if (files.vertices == VertexTables::write)
       io::write_whole_file(out.file(name + ".csv"),
                            io::provenance_comments(question.provenance) +

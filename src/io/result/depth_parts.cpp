@@ -85,7 +85,11 @@ std::string measures_text(const DepthQuestion& question, const ContactMeasures& 
                         place_text(question.frame().fixed_point(*measures.centroid)));
   if (measures.centroid && measures.volume_mm3)
     text += fmt::format("  penetration volume: {} mm3\n", fixed_digits(*measures.volume_mm3, 1));
-  return text + fmt::format("  nearest distance of the surfaces: {:.3f} mm\n", measures.nearest.distance_mm);
+  return text + nearest_text(measures);
+}
+
+std::string nearest_text(const ContactMeasures& measures) {
+  return fmt::format("  nearest distance of the surfaces: {:.3f} mm\n", measures.nearest.distance_mm);
 }
 
 void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures) {
@@ -103,6 +107,11 @@ void add_measures(Json& json, const DepthQuestion& question, const ContactMeasur
                      {"fixed", patch_json(measures.fixed)},
                      {"centroid_mm", point(measures.centroid)},
                      {"volume_mm3", nullable(measures.volume_mm3)}};
+  add_nearest(json, question, measures);
+}
+
+void add_nearest(Json& json, const DepthQuestion& question, const ContactMeasures& measures) {
+  const AnswerFrame frame = question.frame();
   json["nearest_distance_mm"] = measures.nearest.distance_mm;
   json["nearest_points_mm"] = {{"mobile", numbers(frame.fixed_point(measures.nearest.on_mobile))},
                                {"fixed", numbers(frame.fixed_point(measures.nearest.on_fixed))}};
@@ -128,7 +137,7 @@ std::string vertex_text(const Body& body, Index vertex) {
 }
 
 DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
-                      Index TrianglePair::*triangle) {
+                      Index TrianglePair::*triangle, std::vector<MeshArray> triangles) {
   std::vector<std::uint8_t> in_contact(body.mesh.triangles().size());
   for (const TrianglePair& pair : pairs) in_contact[pair.*triangle] = 1;
   if (!body.parts.empty()) {
@@ -137,7 +146,8 @@ DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std
       part.insert(part.end(), body.parts[i].vertices, static_cast<std::int32_t>(i));
     points.push_back({"part", std::move(part)});
   }
-  return {std::move(points), {"in_contact", std::move(in_contact)}};
+  triangles.push_back({"in_contact", std::move(in_contact)});
+  return {std::move(points), std::move(triangles)};
 }
 
 std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs) {

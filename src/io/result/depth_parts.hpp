@@ -7,7 +7,7 @@
 #include "condyle/io/depth_result.hpp"
 #include "io/result/json.hpp"
 
-/// What the results of both methods have in common.
+/// What the results of all methods have in common.
 
 namespace condyle::io {
 
@@ -78,7 +78,7 @@ struct BodyViews {
     return deepest;
   }
 
-  /// The counts that both methods give, under the keys of docs/formats.md.
+  /// The counts that methods with an inside give, under the keys of docs/formats.md.
   void add_counts(Json& json, bool in_contact, std::size_t pairs) const {
     const auto inside = [](const BodyView<Summary>& view) {
       return view.summary ? Json(view.summary->vertices_inside) : Json(nullptr);
@@ -110,12 +110,16 @@ std::string fixed_digits(double value, int digits);
 std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures);
 void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
 
+/// Of these the nearest distance only.
+std::string nearest_text(const ContactMeasures& measures);
+void add_nearest(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
+
 /// Nearest distances as the one array that a body has where the other mesh is open.
 MeshArray nearest_array(const std::vector<double>& distances);
 
-/// Point arrays of one body, with those of its triangles marked that are in a pair.
+/// Arrays of one body, with those of its triangles marked that are in a pair.
 DepthArrays arrays_of(const Body& body, std::vector<MeshArray> points, const std::vector<TrianglePair>& pairs,
-                      Index TrianglePair::*triangle);
+                      Index TrianglePair::*triangle, std::vector<MeshArray> triangles = {});
 
 /// Intersecting triangle pairs as CSV text with a header line; with their parts where a body has several.
 std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs);

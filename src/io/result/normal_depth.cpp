@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/result/contact_terms.hpp"
+#include "io/result/depth_parts.hpp"
+#include "io/result/pressure_map.hpp"
+#include "io/result/provenance_forms.hpp"
+
+namespace condyle {
+namespace {
+
+using View = io::BodyView<NormalCast>;
+using Views = io::BodyViews<NormalCast>;
+
+Views views(const DepthQuestion& question, const NormalContact& contact) {
+  return {question, contact.mobile, contact.fixed};
+}
+
+const View& other_of(const Views& bodies, const View& view) {
+  return &view == &bodies.mobile ? bodies.fixed : bodies.mobile;
+}
+
+/// Of a body that casts, the triangle with the greatest depth; null without contact.
+const FaceContact* deepest_of(const SurfaceContact& surface) {
+  const auto deepest =
+      std::max_element(surface.faces.begin(), surface.faces.end(),
+                       [](const auto& a, const auto& b) { return a.max_depth_mm < b.max_depth_mm; });
+  return deepest == surface.faces.end() ? nullptr : &*deepest;
+}
+
+/// Where the contact of a body that is in contact has its centre, in F.
+Vec3 centre_of(const View& view) {
+  return view.frame.fixed_point(posed(view.X_F, *view.summary->surface.totals.centre_of_depth));
+}
+
+io::Json body_json(const Views& bodies, const View& view) {
+  if (!view.summary) return nullptr;
+  const auto& [surface, cut_off_by_reach] = *view.summary;
+  const ContactTotals& totals = surface.totals;
+  const FaceContact* deepest = deepest_of(surface);
+  io::Json json{{"target", other_of(bodies, view).body.name},
+                {"triangles", view.body.mesh.triangles().size()},
+                {"triangles_in_contact", totals.triangles},
+                {"area_mm2", totals.area_mm2},
+                {"mean_normal_depth_mm", totals.mean_depth_mm},
+                {"max_normal_depth_mm", totals.max_depth_mm},
+                {"deepest_triangle", deepest ? io::Json(deepest->face) : io::Json(nullptr)}};
+  if (deepest)
+    if (const BodyPart* part = part_of_triangle(view.body, deepest->face))
+      json["deepest_part"] = {{"name", part->name}, {"triangle", deepest->face - part->first_triangle}};
+  const auto& centre = totals.centre_of_depth;
+  json["centre_mm"] = centre ? io::numbers(centre_of(view)) : io::Json(nullptr);
+  json["centre_own_mm"] = !centre                   ? io::Json(nullptr)
+                          : &view == &bodies.mobile ? io::numbers(view.frame.mobile_point(*centre))
+                                                    : io::numbers(view.frame.fixed_point(*centre));
+  json["met_from_front"] = surface.met_from_front;
+  json["rim_faces"] = surface.rim_faces;
+  json["cut_off_by_reach"] = cut_off_by_reach;
+  return json;
+}
+
+std::string json_of(const DepthQuestion& question, const ContactEntry& rays, const ContactMeasures& measures,
+                    const NormalContact& contact) {
+  const Views bodies = views(question, contact);
+  io::Json json = io::depth_header(question, "normal");
+  json["in_contact"] = contact.in_contact;
+  json["triangle_pairs"] = contact.pairs.size();
+  json["rays"] = io::contact_terms(rays, false);
+  io::add_nearest(json, question, measures);
+  for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(bodies, *view);
+  json["scope"] = io::scope_note;
+  json["provenance"] = io::provenance_json(question.provenance);
+  return io::document(json);
+}
+
+std::string body_text(const Views& bodies, const View& view, double reach_mm) {
+  const auto& [surface, cut_off_by_reach] = *view.summary;
+  const ContactTotals& totals = surface.totals;
+  const std::string& target = other_of(bodies, view).body.name;
+  std::string text = fmt::format("  from {} to {}: ", view.body.name, target);
+  if (const FaceContact* deepest = deepest_of(surface)) {
+    const BodyPart* part = part_of_triangle(view.body, deepest->face);
+    text += fmt::format(
+        "{:.2f} mm2 of {} triangles, centred {}\n"
+        "    depth along normals {:.3f} mm in the mean, {:.3f} at most, triangle {}{}\n",
+        totals.area_mm2, totals.triangles, io::place_text(centre_of(view)), totals.mean_depth_mm,
+        totals.max_depth_mm, deepest->face,
+        part ? fmt::format(" ({} of {})", deepest->face - part->first_triangle, part->name) : "");
+  } else {
+    text += "no depth along normals\n";
+  }
+  if (surface.met_from_front > 0)
+    text += fmt::format("    {} rays met {}, which is open, from its front: overlap there may be none\n",
+                        surface.met_from_front, target);
+  if (surface.rim_faces > 0)
+    text += fmt::format("    {} triangles at the rim of {}, decided by 16 parts of each\n", surface.rim_faces,
+                        target);
+  if (cut_off_by_reach > 0)
+    text += fmt::format("    the reach of {} mm cuts off {} rays that would be in contact\n", reach_mm,
+                        cut_off_by_reach);
+  return text;
+}
+
+std::string text_of(const DepthQuestion& question, const ContactEntry& rays, const ContactMeasures& measures,
+                    const NormalContact& contact) {
+  const Views bodies = views(question, contact);
+  std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  text += io::contact_terms_text(rays, {question.joint.fixed, question.joint.mobile}, false);
+  bool any_depth = false;
+  for (const auto* view : bodies.both()) {
+    if (!view->summary) continue;
+    text += body_text(bodies, *view, rays.rays.reach_mm);
+    any_depth |= view->summary->surface.totals.triangles > 0;
+  }
+  if (any_depth && !contact.in_contact)
+    text += "  the surfaces do not meet: what open ones overlap by may be none\n";
+  return text + io::nearest_text(measures);
+}
+
+std::vector<MeshArray> arrays_of(const std::optional<NormalCast>& cast, const Body& body) {
+  if (!cast) return {};
+  return io::pressure_map(cast->surface, body.mesh.triangles().size(), false);
+}
+
+}  // namespace
+
+DepthResult depth_result(const DepthQuestion& question, const ContactEntry& rays,
+                         const ContactMeasures& measures, const NormalContact& contact) {
+  const Body &fixed = question.joint.fixed, &mobile = question.joint.mobile;
+  return {text_of(question, rays, measures, contact), json_of(question, rays, measures, contact),
+          io::pairs_csv(question.joint, contact.pairs),
+          io::arrays_of(fixed, {io::nearest_array(measures.distances.fixed)}, contact.pairs,
+                        &TrianglePair::fixed, arrays_of(contact.fixed, fixed)),
+          io::arrays_of(mobile, {io::nearest_array(measures.distances.mobile)}, contact.pairs,
+                        &TrianglePair::mobile, arrays_of(contact.mobile, mobile))};
+}
+
+}  // namespace condyle

@@ -1,0 +1,269 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "condyle/io/depth_result.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+/// What `condyle depth --method normal` answers, on a ball that stands in a flat sheet.
+///
+///          ___
+///        /     \                  ball of radius R, its centre h above the sheet: at the distance r from the
+///       |   +   |  ^              middle the depth is sqrt(R^2 - r^2) - h
+///     ___\_____/___| h______      sheet, normal +y
+///          ---
+
+namespace condyle {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double R = 20, h = 19;
+constexpr double spacing = 0.5;
+
+/// A flat square of side 20 in y = 0, normal +y, with a vertex in its middle.
+TriMesh sheet() {
+  constexpr int n = 40;
+  TriMesh mesh;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) mesh.vertices.push_back({spacing * (i - n / 2), 0, spacing * (j - n / 2)});
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) {
+      const Index a = i * (n + 1) + j, b = a + n + 1;
+      mesh.triangles.push_back({a, a + 1, b});
+      mesh.triangles.push_back({b, a + 1, b + 1});
+    }
+  }
+  return mesh;
+}
+const TriMesh& ball() {
+  static const TriMesh mesh = test::sphere(Vec3::Zero(), R, 6);
+  return mesh;
+}
+
+double longest_edge(const TriMesh& mesh) {
+  double longest = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (const int k : {0, 1, 2})
+      longest = std::max(longest, (mesh.corner(t, (k + 1) % 3) - mesh.corner(t, k)).norm());
+  return longest;
+}
+
+Joint joint_of(Body fixed, Body mobile) {
+  return {.name = "joint",
+          .kind = JointKind::free,
+          .side = Side::right,
+          .fixed = std::move(fixed),
+          .mobile = std::move(mobile),
+          .anatomy = Anatomy::knee};
+}
+const Joint& ball_on_sheet() {
+  static const Joint joint = joint_of({"sheet", sheet()}, {"ball", ball()});
+  return joint;
+}
+Pose at_height(double y) {
+  return Pose(Eigen::Translation3d(0, y, 0));
+}
+
+DepthResult result_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
+  const DepthQuestion question{.joint = joint, .pose = {.translation_mm = X_FM.translation()}, .X_FM = X_FM};
+  const JointContact bodies(joint);
+  return depth_result(question, entry, measure_contact(bodies, X_FM, VertexStates()),
+                      normal_contact(bodies, X_FM, entry.casting, entry.rays));
+}
+Json json_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
+  return Json::parse(result_of(joint, X_FM, entry).json);
+}
+
+const MeshArray* array_named(const std::vector<MeshArray>& arrays, std::string_view name) {
+  for (const MeshArray& array : arrays)
+    if (array.name == name) return &array;
+  return nullptr;
+}
+
+TEST(NormalDepthResult, ABallInASheetIsAsDeepAsItsCap) {
+  const Json json = json_of(ball_on_sheet(), at_height(h));
+  EXPECT_EQ(json["method"], "normal");
+  EXPECT_TRUE(json["in_contact"]);
+  EXPECT_GT(json["triangle_pairs"], 0);
+  EXPECT_EQ(json["rays"], Json({{"casting", "both"}, {"rule", "cut_faces"}, {"reach_mm", 20.0}}));
+  EXPECT_EQ(json["nearest_distance_mm"], 0);
+
+  // Vertex above vertex.
+  const Json &from_sheet = json["bodies"]["fixed"], &from_ball = json["bodies"]["mobile"];
+  for (const Json* body : {&from_sheet, &from_ball})
+    EXPECT_NEAR((*body)["max_normal_depth_mm"].get<double>(), R - h, 1e-12);
+
+  // The ball's mesh sags by up to edge^2 / 4 R (mathematics.md, section 8), upwards by R / y of that at the height y, and a
+  // depth taken as linear along edges e of the sheet falls short by up to e^2 / 8 times its curvature, R^2 / y^3. Both are
+  // largest an edge beyond the border. What is found is then between the cap's figures and those of a sheet so much higher.
+  const double e = std::numbers::sqrt2 * spacing, edge = longest_edge(ball());
+  const double y = std::sqrt(R * R - std::pow(std::sqrt(R * R - h * h) + e, 2));
+  const double off = e * e / 8 * R * R / (y * y * y) + edge * edge / (4 * R) * R / y;
+  const auto area = [](double height) { return std::numbers::pi * (R * R - height * height); };
+  const auto volume = [](double height) {
+    const double d = R - height;
+    return std::numbers::pi * d * d * (3 * R - d) / 3;
+  };
+  const double found = from_sheet["area_mm2"];
+  EXPECT_LT(found, area(h));
+  EXPECT_GT(found, area(h + off));
+  EXPECT_LT(area(h) - area(h + off), 0.02 * area(h)) << "narrow enough to say something";
+  EXPECT_LT(found * from_sheet["mean_normal_depth_mm"].get<double>(), volume(h));
+  EXPECT_GT(found * from_sheet["mean_normal_depth_mm"].get<double>(), volume(h + off));
+
+  EXPECT_EQ(from_sheet["target"], "ball");
+  EXPECT_EQ(from_ball["target"], "sheet");
+  EXPECT_EQ(from_sheet["triangles"], 3200);
+  for (const int k : {0, 1, 2}) EXPECT_NEAR(from_sheet["centre_mm"][k].get<double>(), 0, spacing / 100);
+  EXPECT_EQ(from_sheet["centre_own_mm"], from_sheet["centre_mm"]);
+  // The ball's own centre is h above.
+  EXPECT_NEAR(from_ball["centre_mm"][1].get<double>() - from_ball["centre_own_mm"][1].get<double>(), h,
+              1e-12);
+  EXPECT_LT(from_ball["centre_mm"][1], 0);
+}
+
+TEST(NormalDepthResult, OnlyTheBodyThatCastsHasFiguresAndArrays) {
+  const DepthResult result = result_of(ball_on_sheet(), at_height(h), {.casting = Casting::fixed});
+  const Json json = Json::parse(result.json);
+  EXPECT_TRUE(json["bodies"]["mobile"].is_null());
+  EXPECT_EQ(json["rays"]["casting"], "fixed");
+  EXPECT_EQ(result.text.find("from ball"), std::string::npos);
+  EXPECT_NE(result.text.find("  from sheet to ball: "), std::string::npos);
+  EXPECT_NE(result.text.find("depth along normals "), std::string::npos);
+  EXPECT_NE(result.text.find(", 1.000 at most, triangle "), std::string::npos) << result.text;
+
+  EXPECT_EQ(array_named(result.mobile.triangles, "depth_mm"), nullptr);
+  ASSERT_EQ(result.fixed.triangles.size(), 3u);
+  EXPECT_EQ(result.fixed.triangles[0].name, "depth_mm") << "the one to colour by";
+  const auto& depth = std::get<std::vector<double>>(result.fixed.triangles[0].values);
+  const auto& areas =
+      std::get<std::vector<double>>(array_named(result.fixed.triangles, "contact_area_mm2")->values);
+  ASSERT_EQ(depth.size(), 3200u);
+  ASSERT_EQ(areas.size(), 3200u);
+  double area = 0, overlap = 0;
+  std::size_t in_contact = 0;
+  for (std::size_t t = 0; t < areas.size(); ++t) {
+    area += areas[t];
+    overlap += areas[t] * depth[t];
+    in_contact += areas[t] > 0;
+  }
+  const Json& body = json["bodies"]["fixed"];
+  EXPECT_NEAR(area, body["area_mm2"].get<double>(), 1e-10);
+  EXPECT_NEAR(overlap / area, body["mean_normal_depth_mm"].get<double>(), 1e-12);
+  EXPECT_EQ(in_contact, body["triangles_in_contact"]);
+  EXPECT_GT(depth[body["deepest_triangle"].get<std::size_t>()], 0.9);
+  EXPECT_EQ(array_named(result.fixed.points, "nearest_distance_mm"), &result.fixed.points.front());
+}
+
+TEST(NormalDepthResult, ExchangingTheBodiesExchangesTheirFigures) {
+  const Joint exchanged = joint_of({"ball", ball()}, {"sheet", sheet()});
+  const Pose X = at_height(h) * Eigen::AngleAxisd(0.4, Vec3(1, 2, 3).normalized());
+  const Json here = json_of(ball_on_sheet(), X)["bodies"], there = json_of(exchanged, X.inverse())["bodies"];
+  for (const auto& [one, other] : {std::pair{"fixed", "mobile"}, {"mobile", "fixed"}}) {
+    const Json &a = here[one], &b = there[other];
+    EXPECT_EQ(a["target"], b["target"]);
+    EXPECT_EQ(a["triangles_in_contact"], b["triangles_in_contact"]);
+    EXPECT_EQ(a["deepest_triangle"], b["deepest_triangle"]);
+    for (const char* key : {"area_mm2", "mean_normal_depth_mm", "max_normal_depth_mm"})
+      EXPECT_NEAR(a[key].get<double>(), b[key].get<double>(), 1e-9) << one << " " << key;
+    for (const int k : {0, 1, 2})
+      EXPECT_NEAR(a["centre_own_mm"][k].get<double>(), b["centre_own_mm"][k].get<double>(), 1e-9);
+  }
+}
+
+TEST(NormalDepthResult, WithoutContactThereAreNoDepthsAndNoCentre) {
+  const DepthResult result = result_of(ball_on_sheet(), at_height(R + 2));
+  const Json json = Json::parse(result.json);
+  EXPECT_FALSE(json["in_contact"]);
+  EXPECT_NEAR(json["nearest_distance_mm"].get<double>(), 2, 1e-12);
+  for (const char* body : {"fixed", "mobile"}) {
+    const Json& figures = json["bodies"][body];
+    EXPECT_EQ(figures["area_mm2"], 0);
+    EXPECT_EQ(figures["max_normal_depth_mm"], 0);
+    EXPECT_EQ(figures["triangles_in_contact"], 0);
+    for (const char* key : {"deepest_triangle", "centre_mm", "centre_own_mm"})
+      EXPECT_TRUE(figures[key].is_null()) << key;
+  }
+  EXPECT_NE(result.text.find("  free; 0 intersecting"), std::string::npos);
+  EXPECT_NE(result.text.find("  from ball to sheet: no depth along normals\n"), std::string::npos);
+}
+
+TEST(NormalDepthResult, RaysFromTheFrontAndBeyondTheReachAreCounted) {
+  // From the sheet to the ball, whose bottom is up to 1 mm below: a ray of half of that is cut off.
+  const Json near = json_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 0.9}});
+  EXPECT_GT(near["bodies"]["fixed"]["cut_off_by_reach"], 0);
+  EXPECT_LE(near["bodies"]["fixed"]["max_normal_depth_mm"], 0.9);
+  const Json usual = json_of(ball_on_sheet(), at_height(h));
+  EXPECT_EQ(usual["bodies"]["fixed"]["cut_off_by_reach"], 0);
+  EXPECT_EQ(usual["bodies"]["mobile"]["met_from_front"], 0);
+  // The top of the ball is 39 mm above the sheet: its rays go down through all of the ball and meet the sheet's front.
+  const DepthResult far = result_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 50}});
+  const Json bodies = Json::parse(far.json)["bodies"];
+  EXPECT_GT(bodies["mobile"]["met_from_front"], 0);
+  EXPECT_EQ(bodies["fixed"]["met_from_front"], 0) << "the ball is closed";
+  EXPECT_NE(far.text.find("rays met sheet, which is open, from its front"), std::string::npos) << far.text;
+  EXPECT_NE(result_of(ball_on_sheet(), at_height(h), {.rays = {.reach_mm = 0.9}})
+                .text.find("the reach of 0.9 mm cuts off "),
+            std::string::npos);
+}
+
+TEST(NormalDepthResult, AnOverlapOfSheetsThatDoNotMeetIsSaid) {
+  // A lid within the bounds of a larger sheet above it: rays down from the large one's middle meet the lid from behind.
+  TriMesh lid;
+  for (const Vec3& corner : {Vec3(-2, 0, -2), Vec3(0, 0, 2), Vec3(2, 0, -2)}) lid.vertices.push_back(corner);
+  lid.triangles = {{0, 2, 1}};
+  const Joint joint = joint_of({"sheet", sheet()}, {"lid", lid});
+  const DepthResult below = result_of(joint, at_height(-1), {.casting = Casting::fixed});
+  const Json json = Json::parse(below.json);
+  EXPECT_FALSE(json["in_contact"]);
+  EXPECT_NEAR(json["bodies"]["fixed"]["max_normal_depth_mm"].get<double>(), 1, 1e-12);
+  EXPECT_GT(json["bodies"]["fixed"]["rim_faces"], 0);
+  EXPECT_NE(below.text.find("  the surfaces do not meet: "), std::string::npos) << below.text;
+  EXPECT_NE(below.text.find(" triangles at the rim of lid, "), std::string::npos) << below.text;
+}
+
+TEST(NormalDepthResult, TheDeepestTriangleIsOfAPart) {
+  const TriMesh far = posed(at_height(100), ball());
+  const std::size_t first = far.triangles.size();
+  Body body{"both balls", test::joined(far, ball())};
+  body.parts = {{"far", 0, far.vertices.size(), 0, first},
+                {"near", far.vertices.size(), ball().vertices.size(), first, ball().triangles.size()}};
+  const DepthResult result =
+      result_of(joint_of({"sheet", sheet()}, body), at_height(h), {.casting = Casting::mobile});
+  const Json deepest = Json::parse(result.json)["bodies"]["mobile"];
+  EXPECT_EQ(deepest["deepest_part"]["name"], "near");
+  EXPECT_EQ(deepest["deepest_part"]["triangle"].get<std::size_t>(),
+            deepest["deepest_triangle"].get<std::size_t>() - first);
+  EXPECT_NE(result.text.find(" of near)\n"), std::string::npos) << result.text;
+  EXPECT_NE(result.pairs.find(",,near\n"), std::string::npos);
+}
+
+TEST(NormalDepthResult, IsWrittenWithItsTriangles) {
+  const test::TemporaryFolder folder;
+  const Joint& joint = ball_on_sheet();
+  const DepthQuestion question{.joint = joint, .pose = {.translation_mm = {0, h, 0}}, .X_FM = at_height(h)};
+  const DepthResult result = result_of(joint, at_height(h), {.casting = Casting::fixed});
+  write_depth(folder / "out", question, result, {VtpEncoding::text, VertexTables::write});
+  const std::string fixed = io::read_whole_file(folder / "out/fixed.vtp"),
+                    mobile = io::read_whole_file(folder / "out/mobile.vtp");
+  for (const char* array : {"depth_mm", "contact_area_mm2", "in_contact", "nearest_distance_mm"}) {
+    const std::string name = "Name=\"" + std::string(array) + "\"";
+    EXPECT_NE(fixed.find(name), std::string::npos) << array;
+    EXPECT_EQ(mobile.find(name) != std::string::npos,
+              std::string(array) == "in_contact" || std::string(array) == "nearest_distance_mm")
+        << array;
+  }
+  EXPECT_EQ(read_mesh(folder / "out/mobile.vtp").mesh, posed(at_height(h), ball()));
+  EXPECT_NE(io::read_whole_file(folder / "out/fixed.csv").find("vertex,x_mm,y_mm,z_mm,nearest_distance_mm\n"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle
