@@ -57,7 +57,7 @@ class Search {
       : contact_(contact), options_(options), load_(load), start_(start), free_(free_motions(options)) {
     if (!load.on_mobile.force_n.allFinite() || !load.on_mobile.moment_nmm.allFinite())
       throw UsageError("the load is not finite");
-    if (!(free_.transpose() * load_at(start)).norm()) throw UsageError("the load is zero along what is free");
+    if ((free_.transpose() * load_at(start)).norm() == 0) throw UsageError("the load is zero along what is free");
     out_.X_FM = start;
   }
 
