@@ -21,10 +21,11 @@ LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesyst
   if (!(layer.poisson_ratio > -1 && layer.poisson_ratio < 0.5))
     table.fail("poisson_ratio", "must be above -1 and below 0.5");
   if (const auto behind = table.text("behind")) layer.behind = folder / mesh_path(table, "behind", *behind);
-  if (!layer.behind || table.has("thickness")) {
-    const double thickness = table.required("thickness", table.number("thickness"));
-    if (!(thickness > 0)) table.fail("thickness", "must be above 0");
-    layer.thickness_mm = mm_per_unit * thickness;
+  const auto thickness = table.number("thickness");
+  if (!layer.behind) table.required("thickness", thickness);
+  if (thickness) {
+    if (!(*thickness > 0)) table.fail("thickness", "must be above 0");
+    layer.thickness_mm = mm_per_unit * *thickness;
   }
   table.finish();
   return layer;
@@ -54,21 +55,17 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
   entry.fixed_part = table.text("fixed_part").value_or("");
   entry.mobile_part = table.text("mobile_part").value_or("");
   constexpr Casting castings[] = {Casting::fixed, Casting::mobile, Casting::both};
-  if (table.has("casting"))
-    entry.casting = castings[table.required_word("casting", {"fixed", "mobile", "both"})];
-  if (table.has("rule"))
-    entry.rays.rule = table.required_word("rule", {"face_centre", "cut_faces"}) == 0 ? FaceRule::face_centre
-                                                                                     : FaceRule::cut_faces;
+  if (const auto word = table.word("casting", {"fixed", "mobile", "both"})) entry.casting = castings[*word];
+  if (const auto word = table.word("rule", {"face_centre", "cut_faces"}))
+    entry.rays.rule = *word == 0 ? FaceRule::face_centre : FaceRule::cut_faces;
   if (const auto reach = table.number("reach")) {
     if (!(*reach > 0)) table.fail("reach", "must be above 0");
     entry.rays.reach_mm = mm_per_unit * *reach;
   }
-  if (table.has("law"))
-    entry.law = table.required_word("law", {"linear", "logarithmic"}) == 0 ? PressureLaw::linear
-                                                                           : PressureLaw::logarithmic;
-  if (table.has("moment_on"))
-    entry.moment_on =
-        table.required_word("moment_on", {"casting", "target"}) == 0 ? MomentOn::casting : MomentOn::target;
+  if (const auto word = table.word("law", {"linear", "logarithmic"}))
+    entry.law = *word == 0 ? PressureLaw::linear : PressureLaw::logarithmic;
+  if (const auto word = table.word("moment_on", {"casting", "target"}))
+    entry.moment_on = *word == 0 ? MomentOn::casting : MomentOn::target;
   for (TomlTable& region : table.tables("region")) {
     entry.regions.push_back(region_entry(region, mm_per_unit));
     for (std::size_t i = 0; i + 1 < entry.regions.size(); ++i)

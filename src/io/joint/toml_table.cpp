@@ -155,11 +155,17 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return out;
 }
 
-std::size_t TomlTable::required_word(std::string_view key, std::initializer_list<std::string_view> words) {
-  const std::string word = required(key, text(key));
+std::optional<std::size_t> TomlTable::word(std::string_view key,
+                                           std::initializer_list<std::string_view> words) {
+  const std::optional<std::string> given = text(key);
+  if (!given) return std::nullopt;
   for (std::size_t i = 0; i < words.size(); ++i)
-    if (word == words.begin()[i]) return i;
-  fail(key, fmt::format("must be \"{}\", not \"{}\"", fmt::join(words, "\" or \""), word));
+    if (*given == words.begin()[i]) return i;
+  fail(key, fmt::format("must be \"{}\", not \"{}\"", fmt::join(words, "\" or \""), *given));
+}
+
+std::size_t TomlTable::required_word(std::string_view key, std::initializer_list<std::string_view> words) {
+  return required(key, word(key, words));
 }
 
 void TomlTable::fail_missing(std::string_view key) const {

@@ -53,6 +53,7 @@ class TomlTable {
   }
 
   /// One of the words given, by its position among them.
+  std::optional<std::size_t> word(std::string_view key, std::initializer_list<std::string_view> words);
   std::size_t required_word(std::string_view key, std::initializer_list<std::string_view> words);
 
   void finish() const;

@@ -1,0 +1,251 @@
+#include "io/joint/contact_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle {
+namespace {
+
+constexpr const char* layer = "youngs_modulus_mpa = 10\npoisson_ratio = 0.45\n";
+
+ContactEntry entry_of(std::string_view keys, double mm_per_unit = 1) {
+  const toml::table file = toml::parse("[contact]\n" + std::string(keys));
+  const std::filesystem::path path = "knee.toml";
+  io::TomlTable table(path, *file["contact"].as_table(), "contact");
+  return io::contact_entry(table, mm_per_unit, "joints");
+}
+
+std::string refusal(std::string_view keys) {
+  try {
+    entry_of(keys);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(ContactTable, LeftOutKeysAreThoseOfTheDocumentation) {
+  const ContactEntry entry = entry_of("");
+  EXPECT_EQ(entry.fixed_part, "");
+  EXPECT_EQ(entry.mobile_part, "");
+  EXPECT_EQ(entry.casting, Casting::both);
+  EXPECT_EQ(entry.rays.rule, FaceRule::cut_faces);
+  EXPECT_EQ(entry.rays.reach_mm, 20);
+  EXPECT_EQ(entry.law, PressureLaw::linear);
+  EXPECT_EQ(entry.moment_on, MomentOn::casting);
+  EXPECT_TRUE(entry.regions.empty());
+  EXPECT_FALSE(entry.fixed || entry.mobile);
+}
+
+TEST(ContactTable, GivesEveryKey) {
+  const ContactEntry entry = entry_of(
+      "fixed_part = \"cartilage\"\nmobile_part = \"meniscus\"\ncasting = \"fixed\"\nrule = \"face_centre\"\n"
+      "reach = 12.5\nlaw = \"logarithmic\"\nmoment_on = \"target\"\n"
+      "[[contact.region]]\nname = \"medial_2\"\nhalf_space = [{ normal = [0, 0, -4], offset = 1.5 }, { "
+      "normal = "
+      "[3, 4, 0] }]\n[[contact.region]]\nname = \"lateral\"\nhalf_space = [{ normal = [0, 0, 1] }]\n"
+      "[contact.fixed]\nyoungs_modulus_mpa = 12\npoisson_ratio = 0.42\nthickness = 1.5\n"
+      "[contact.mobile]\nyoungs_modulus_mpa = 8\npoisson_ratio = -0.1\nbehind = \"bones/tibia.ply\"\n");
+  EXPECT_EQ(entry.fixed_part, "cartilage");
+  EXPECT_EQ(entry.mobile_part, "meniscus");
+  EXPECT_EQ(entry.casting, Casting::fixed);
+  EXPECT_EQ(entry.rays.rule, FaceRule::face_centre);
+  EXPECT_EQ(entry.rays.reach_mm, 12.5);
+  EXPECT_EQ(entry.law, PressureLaw::logarithmic);
+  EXPECT_EQ(entry.moment_on, MomentOn::target);
+
+  ASSERT_EQ(entry.regions.size(), 2u);
+  EXPECT_EQ(entry.regions[0].name, "medial_2");
+  ASSERT_EQ(entry.regions[0].half_spaces.size(), 2u);
+  EXPECT_EQ(entry.regions[0].half_spaces[0].normal, Vec3(0, 0, -1)) << "of length 1";
+  EXPECT_EQ(entry.regions[0].half_spaces[0].offset_mm, 1.5);
+  EXPECT_LT((entry.regions[0].half_spaces[1].normal - Vec3(0.6, 0.8, 0)).norm(), 1e-15);
+  EXPECT_EQ(entry.regions[0].half_spaces[1].offset_mm, 0);
+  EXPECT_EQ(entry.regions[1].name, "lateral");
+
+  ASSERT_TRUE(entry.fixed && entry.mobile);
+  EXPECT_EQ(entry.fixed->youngs_modulus_mpa, 12);
+  EXPECT_EQ(entry.fixed->poisson_ratio, 0.42);
+  EXPECT_EQ(entry.fixed->thickness_mm, 1.5);
+  EXPECT_FALSE(entry.fixed->behind);
+  EXPECT_EQ(entry.mobile->poisson_ratio, -0.1);
+  EXPECT_EQ(entry.mobile->thickness_mm, 0) << "not given";
+  EXPECT_EQ(entry.mobile->behind, std::filesystem::path("joints/bones/tibia.ply"));
+}
+
+TEST(ContactTable, EveryWordIsKnown) {
+  EXPECT_EQ(entry_of("casting = \"mobile\"").casting, Casting::mobile);
+  EXPECT_EQ(entry_of("casting = \"both\"").casting, Casting::both);
+  EXPECT_EQ(entry_of("rule = \"cut_faces\"").rays.rule, FaceRule::cut_faces);
+  EXPECT_EQ(entry_of("law = \"linear\"").law, PressureLaw::linear);
+  EXPECT_EQ(entry_of("moment_on = \"casting\"").moment_on, MomentOn::casting);
+}
+
+TEST(ContactTable, LengthsAreInTheUnitsOfTheFile) {
+  const ContactEntry entry = entry_of(
+      "reach = 0.0125\n[[contact.region]]\nname = \"a\"\nhalf_space = [{ normal = [1, 0, 0], offset = 0.002 "
+      "}]\n[contact.fixed]\n" +
+          std::string(layer) + "behind = \"bone.ply\"\nthickness = 0.003\n",
+      1000);
+  EXPECT_EQ(entry.rays.reach_mm, 12.5);
+  EXPECT_EQ(entry.regions[0].half_spaces[0].offset_mm, 2);
+  EXPECT_EQ(entry.fixed->thickness_mm, 3) << "where nothing lies behind";
+  EXPECT_TRUE(entry.fixed->behind);
+  EXPECT_EQ(entry.fixed->youngs_modulus_mpa, 10) << "no length";
+}
+
+TEST(ContactTable, RefusesByLineAndKey) {
+  EXPECT_EQ(refusal("casting = \"tibia\"\n"),
+            "knee.toml: line 2: contact.casting: must be \"fixed\" or \"mobile\" or \"both\", not \"tibia\"");
+  EXPECT_EQ(refusal("rule = 1\n"),
+            "knee.toml: line 2: contact.rule: must be a text in quotes, not a whole number");
+  EXPECT_EQ(refusal("casting = \"both\"\nreach = 0\n"), "knee.toml: line 3: contact.reach: must be above 0");
+  EXPECT_EQ(refusal("reach = inf\n"), "knee.toml: line 2: contact.reach: must be a finite number");
+  EXPECT_EQ(refusal("law = \"quadratic\"\n"),
+            "knee.toml: line 2: contact.law: must be \"linear\" or \"logarithmic\", not \"quadratic\"");
+  EXPECT_EQ(refusal("moment_on = \"fixed\"\n"),
+            "knee.toml: line 2: contact.moment_on: must be \"casting\" or \"target\", not \"fixed\"");
+  EXPECT_EQ(refusal("mobile_part = [\"meniscus\"]\n"),
+            "knee.toml: line 2: contact.mobile_part: must be a text in quotes, not a list");
+  EXPECT_EQ(
+      refusal("rech = 5\n"),
+      "knee.toml: line 2: contact.rech: unknown key (did you mean \"reach\"?); known here: casting, fixed, "
+      "fixed_part, law, mobile, mobile_part, moment_on, reach, region, rule");
+  EXPECT_EQ(refusal("fixed = 3.0\n"), "knee.toml: line 2: contact.fixed: must be a table, not a number");
+}
+
+TEST(ContactTable, RefusesLayersByLineAndKey) {
+  const auto of = [](std::string_view keys) { return refusal("[contact.fixed]\n" + std::string(keys)); };
+  EXPECT_EQ(of(layer), "knee.toml: line 2: contact.fixed.thickness: is missing");
+  EXPECT_EQ(of("poisson_ratio = 0.45\nthickness = 3\n"),
+            "knee.toml: line 2: contact.fixed.youngs_modulus_mpa: is missing");
+  EXPECT_EQ(of("young_modulus_mpa = 10\n"),
+            "knee.toml: line 2: contact.fixed.youngs_modulus_mpa: is missing; there is \"young_modulus_mpa\" "
+            "(did you "
+            "mean \"youngs_modulus_mpa\"?)");
+  EXPECT_EQ(of("youngs_modulus_mpa = -1\n"),
+            "knee.toml: line 3: contact.fixed.youngs_modulus_mpa: must be above 0");
+  for (const char* ratio : {"0.5", "-1", "0.6"})
+    EXPECT_EQ(of("youngs_modulus_mpa = 10\npoisson_ratio = " + std::string(ratio) + "\nthickness = 3\n"),
+              "knee.toml: line 4: contact.fixed.poisson_ratio: must be above -1 and below 0.5");
+  EXPECT_EQ(of(std::string(layer) + "thickness = 0\n"),
+            "knee.toml: line 5: contact.fixed.thickness: must be above 0");
+  EXPECT_EQ(of(std::string(layer) + "behind = \"bone.ply\"\nthickness = -3\n"),
+            "knee.toml: line 6: contact.fixed.thickness: must be above 0");
+  EXPECT_EQ(of(std::string(layer) + "behind = \"\"\n"),
+            "knee.toml: line 5: contact.fixed.behind: must name a file");
+  EXPECT_EQ(
+      of(std::string(layer) + "behind = \"${NO_SUCH_FOLDER_OF_BONES}/bone.ply\"\n"),
+      "knee.toml: line 5: contact.fixed.behind: the environment variable 'NO_SUCH_FOLDER_OF_BONES' is not "
+      "set");
+  EXPECT_EQ(of(std::string(layer) + "thickness = \"3 mm\"\n"),
+            "knee.toml: line 5: contact.fixed.thickness: must be a number, not a text");
+  EXPECT_EQ(of(std::string(layer) + "thickness = 3\nstiffness = 4\n"),
+            "knee.toml: line 6: contact.fixed.stiffness: unknown key; known here: behind, poisson_ratio, "
+            "thickness, "
+            "youngs_modulus_mpa");
+}
+
+TEST(ContactTable, RefusesRegionsByLineAndKey) {
+  const auto of = [](std::string_view keys) { return refusal("[[contact.region]]\n" + std::string(keys)); };
+  const std::string half = "half_space = [{ normal = [0, 0, 1] }]\n";
+  EXPECT_EQ(of("name = \"medial\"\n" + half), "accepted");
+  EXPECT_EQ(of(half), "knee.toml: line 2: contact.region[0].name: is missing");
+  EXPECT_EQ(of("name = \"Medial side\"\n" + half),
+            "knee.toml: line 3: contact.region[0].name: must be of small letters, digits and _");
+  EXPECT_EQ(of("name = \"medial\"\n"), "knee.toml: line 2: contact.region[0].half_space: is missing");
+  EXPECT_EQ(of("name = \"a\"\nhalf_space = [{ normal = [0, 0, 0] }]\n"),
+            "knee.toml: line 4: contact.region[0].half_space[0].normal: must not be zero");
+  EXPECT_EQ(of("name = \"a\"\nhalf_space = [{ offset = 1 }]\n"),
+            "knee.toml: line 4: contact.region[0].half_space[0].normal: is missing");
+  EXPECT_EQ(of("name = \"a\"\n" + half + "[[contact.region]]\nname = \"a\"\n" + half),
+            "knee.toml: line 6: contact.region[1].name: \"a\" is given twice");
+  EXPECT_EQ(refusal("region = \"medial\"\n"),
+            "knee.toml: line 2: contact.region: must be tables written as [[region]], not a text");
+}
+
+/// A flat layer, normal +y, 2 mm above a bone; of the small bone half of the layer is.
+class ContactSurfacesOfAJoint : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    TriMesh square;
+    for (const Vec3& corner : {Vec3(-5, 0, -5), Vec3(-5, 0, 5), Vec3(5, 0, -5), Vec3(5, 0, 5)})
+      square.vertices.push_back(corner);
+    square.triangles = {{0, 1, 2}, {2, 1, 3}};
+    write_mesh(folder / "layer.ply", square);
+    write_mesh(folder / "bone.ply", test::box({-20, -10, -20}, {20, -2, 20}));
+    write_mesh(folder / "small.ply", test::box({-20, -10, -20}, {0, -2, 20}));
+    write_mesh(folder / "ball.ply", test::sphere({0, 20, 0}, 5, 2));
+  }
+  LoadedJoint joint(const std::string& more) const {
+    return read_joint(folder.file(
+        "joint.toml",
+        "condyle = 1\nname = \"joint\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
+        "\"mm\"\n[fixed]\nname = \"plate\"\nmeshes = [{ name = \"layer\", mesh = \"layer.ply\" }, { name "
+        "= \"bone\", mesh = \"bone.ply\" }]\n[mobile]\nname = \"ball\"\nmesh = \"ball.ply\"\n[frame]\n"
+        "centre = [1, 2, 3]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
+            more));
+  }
+  static ElasticContactOptions options_of(const LoadedJoint& loaded) {
+    const ContactEntry& entry = *loaded.report.file.contact;
+    return elastic_options(entry, surfaces_of(entry, loaded.joint), loaded);
+  }
+
+  const test::TemporaryFolder folder;
+};
+
+TEST_F(ContactSurfacesOfAJoint, AreItsPartsByName) {
+  const LoadedJoint loaded = joint("[contact]\nfixed_part = \"layer\"\n");
+  const ContactSurfaces surfaces = surfaces_of(*loaded.report.file.contact, loaded.joint);
+  EXPECT_EQ(surfaces.fixed.name, "layer");
+  EXPECT_EQ(surfaces.fixed.mesh.arrays(), mesh_of_part(loaded.joint.fixed, "layer").arrays());
+  EXPECT_EQ(surfaces.mobile.name, "ball");
+  EXPECT_THROW(surfaces_of({.mobile_part = "layer"}, loaded.joint), UsageError) << "the ball is one mesh";
+}
+
+TEST_F(ContactSurfacesOfAJoint, AThicknessIsMeasuredToTheMeshBehind) {
+  const std::string fixed = "[contact]\nfixed_part = \"layer\"\n[contact.fixed]\n" + std::string(layer);
+  const ElasticContactOptions options = options_of(joint(fixed + "behind = \"bone.ply\"\n"));
+  ASSERT_TRUE(options.fixed);
+  EXPECT_FALSE(options.mobile) << "rigid";
+  EXPECT_EQ(options.fixed->youngs_modulus_mpa, 10);
+  const auto& all = std::get<std::vector<double>>(options.fixed->thickness_mm);
+  ASSERT_EQ(all.size(), 4u);
+  for (const double thickness : all) EXPECT_NEAR(thickness, 2, 1e-12);
+
+  const ElasticContactOptions with_half =
+      options_of(joint(fixed + "behind = \"small.ply\"\nthickness = 4\n"));
+  const auto& half = std::get<std::vector<double>>(with_half.fixed->thickness_mm);
+  for (const std::size_t v : {0, 1}) EXPECT_NEAR(half[v], 2, 1e-12);
+  for (const std::size_t v : {2, 3}) EXPECT_EQ(half[v], 4) << "nothing lies behind";
+
+  const LoadedJoint without = joint(fixed + "behind = \"small.ply\"\n");
+  try {
+    options_of(without);
+    FAIL();
+  } catch (const MeshError& error) {
+    EXPECT_TRUE(
+        std::string(error.what()).starts_with("layer: 2 of 4 vertices, vertex 2 the first, have nothing of "))
+        << error.what();
+  }
+  EXPECT_THROW(options_of(joint(fixed + "behind = \"none.ply\"\n")), FileError);
+}
+
+TEST_F(ContactSurfacesOfAJoint, AnErrorInTheTableNamesTheJointFile) {
+  try {
+    joint("[contact]\ncasting = \"ball\"\n");
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("joint.toml: line 18: contact.casting: must be "),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace condyle
