@@ -336,7 +336,7 @@ TEST_F(SampleJointCommand, ACentreOnTheSurfaceIsRefused) {
 TEST_F(SampleJointCommand, WrongUsageEndsWithTwo) {
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=90 twist=3\"", "unknown angle 'twist'");
   expect_refused(2, "depth sample/hip.toml --pose \"flexion=ninety\"", "flexion='ninety' is not a number");
-  expect_refused(2, "depth sample/hip.toml --method normal", "--method");
+  expect_refused(2, "depth sample/hip.toml --method shortest", "--method");
   expect_refused(2, "depth sample/hip.toml --method tangential --about twist", "unknown angle 'twist'");
   expect_refused(2, "depth sample/hip.toml --about flexion", "--about: is for --method tangential");
   expect_refused(2, "depth sample/hip.toml --method radial --about adduction", "--about");
