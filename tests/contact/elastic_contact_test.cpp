@@ -12,16 +12,8 @@
 namespace condyle {
 namespace {
 
-Pose translated(const Vec3& by) {
-  Pose X = Pose::Identity();
-  X.translation() = by;
-  return X;
-}
-
-/// A layer with M / h = K.
-ElasticLayer layer_of_stiffness(double K) {
-  return {K, 0.0, 1.0};
-}
+using test::layer_of_stiffness;
+using test::translated;
 
 /// A flat square of side 2 half, normal +y, in n x n squares cut in two.
 TriMesh plane(double half, int n) {
@@ -43,11 +35,8 @@ struct CupAnswer {
   double force, area, peak;
 };
 CupAnswer cup_answer(const test::BallInCup& known, int levels) {
-  // Turned, so that the vertices of one are nowhere in line with those of the other.
-  Pose turned = Pose::Identity();
-  turned.linear() = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   const ElasticContact contact(test::cup(known.R, levels),
-                               posed(turned, test::sphere(Vec3::Zero(), known.r, levels)),
+                               posed(test::generic_turn(), test::sphere(Vec3::Zero(), known.r, levels)),
                                {.casting = Casting::fixed, .fixed = layer_of_stiffness(known.K)});
   const auto results = contact.at(translated({0, -known.d, 0}));
   const ContactTotals& totals = results.fixed->totals;

@@ -11,21 +11,9 @@
 namespace condyle {
 namespace {
 
-Pose translated(const Vec3& by) {
-  Pose X = Pose::Identity();
-  X.translation() = by;
-  return X;
-}
-/// A layer with M / h = K.
-ElasticLayer layer_of_stiffness(double K) {
-  return {K, 0.0, 1.0};
-}
-
-Pose generic_turn() {
-  Pose X = Pose::Identity();
-  X.linear() = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
-  return X;
-}
+using test::generic_turn;
+using test::layer_of_stiffness;
+using test::translated;
 
 ElasticContact cup_and_ball(const test::BallInCup& known, int levels) {
   return {test::cup(known.R, levels),
@@ -86,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, BalancedCup,
 
 const test::BallInCup small{25, 24.8, 0, 6.321839};
 
-TEST(LoadBalance, OfAObliqueLoadLiesAlongIt) {
+TEST(LoadBalance, OfAnObliqueLoadLiesAlongIt) {
   // A whole ball in a whole hollow ball answers alike in every direction.
   const ElasticContact contact(test::flipped(test::sphere(Vec3::Zero(), 25, 6)),
                                posed(generic_turn(), test::sphere(Vec3::Zero(), 24.8, 6)),
@@ -98,7 +86,7 @@ TEST(LoadBalance, OfAObliqueLoadLiesAlongIt) {
   EXPECT_LT((pose.contact.on_mobile.force_n + force).norm(), 1e-6);
 }
 
-TEST(LoadBalance, OfALoadInTheFrameOfMGoesAlongWithIt) {
+TEST(LoadBalance, OfALoadInTheFrameOfMGoesAlong) {
   const ElasticContact contact = cup_and_ball(small, 5);
   Pose start = generic_turn();
   const Vec3 down_in_F(100, -1500, 50);

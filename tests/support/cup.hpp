@@ -2,11 +2,30 @@
 
 #include <numbers>
 
+#include "condyle/pressure.hpp"
 #include "support/test_meshes.hpp"
 
 /// A ball in a hemispherical cup, whose contact has a closed form.
 
 namespace condyle::test {
+
+inline Pose translated(const Vec3& by) {
+  Pose X = Pose::Identity();
+  X.translation() = by;
+  return X;
+}
+
+/// A layer with M / h = K, MPa per mm.
+inline ElasticLayer layer_of_stiffness(double K) {
+  return {K, 0.0, 1.0};
+}
+
+/// So that the vertices of one sphere are nowhere in line with those of another.
+inline Pose generic_turn() {
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::AngleAxisd(0.8, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  return X;
+}
 
 /// The lower half (y < 0) of sphere(0, radius, levels), seen from inside: an open sheet, normals towards the centre.
 inline TriMesh cup(double radius, int levels) {
