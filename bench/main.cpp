@@ -51,6 +51,18 @@ const std::array<JointQuestion, 5> joint_questions = {{
     {"ring_table", ask_ring_table, {"libhip_1", "libhip_2", "libhip_3", "libhip_4"}, {"sample_1"}},
 }};
 
+/// What is asked of a joint in its recorded motion.
+struct MotionQuestion {
+  std::string_view name;  ///< question/joint
+  bool (*ask)(Effort, Report&);
+};
+
+constexpr std::array<MotionQuestion, 3> motion_questions = {{
+    {"knee_pressure/knee_lenhart2015_right", ask_knee_pressure},
+    {"hip_balance/hip_libhip_m1_left", ask_hip_balance},
+    {"walking_bones/hip_vhf_right", ask_walking_bones},
+}};
+
 /// Small ones of every group.
 constexpr std::array<std::string_view, 3> quick_scenes = {"sample_1", "libhip_cartilage_nogap",
                                                           "ball_0.1mm_1"};
@@ -155,9 +167,19 @@ ExperimentResult run(const Options& options, Report& report) {
       });
     write_unfinished(report, experiment, options);
   }
+  for (const MotionQuestion& question : motion_questions) {
+    if (question.name.find(options.filter) == std::string_view::npos) continue;
+    const Stopwatch watch;
+    if (question.ask(options.effort, report))
+      fmt::print(stderr, "{}: {:.1f} s\n", question.name, watch.wall_seconds());
+    else
+      report.skipped.push_back(fmt::format("{}: its meshes or its motion are not there", question.name));
+    write_unfinished(report, experiment, options);
+  }
   finish(experiment, report);
   return experiment;
 }
+
 /// How many ratios got worse.
 std::size_t print_comparison(const ExperimentResult& experiment, const Options& options) {
   if (options.compare.empty()) return 0;

@@ -28,4 +28,15 @@ void ask_inside_limits(const Scene& scene, Effort effort, Report& report);
 /// What the ring table costs: building it, a pose, and all angles at once.
 void ask_ring_table(const Scene& scene, Effort effort, Report& report);
 
+// With a joint and a motion of their own; false where these are not there.
+
+/// Pressure in both contacts of a knee over a recorded flexion.
+bool ask_knee_pressure(Effort effort, Report& report);
+
+/// The position in which a hip's cartilages carry a load: one pose, and a walk.
+bool ask_hip_balance(Effort effort, Report& report);
+
+/// Pairs, gap and depth of two bones in each frame of a walk.
+bool ask_walking_bones(Effort effort, Report& report);
+
 }  // namespace bench

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
 #include "mesh/subdivide.hpp"
+#include "real_data.hpp"
 #include "scene_poses.hpp"
 #include "support/test_meshes.hpp"
 
@@ -52,11 +52,6 @@ constexpr std::array<SceneName, 24> names = {{
 /// Where a hip's socket is deepest: up, and inwards.
 Vec3 into_hip_socket(Side side) {
   return Vec3(0, 1, side == Side::right ? -1 : 1).normalized();
-}
-
-fs::path data_folder() {
-  const char* named = std::getenv("CONDYLE_DATA");
-  return named ? fs::path(named) : fs::path(CONDYLE_SOURCE_DIR).parent_path() / "shared" / "data";
 }
 
 condyle::Joint joint(std::string_view name, Side side, condyle::Body fixed, condyle::Body mobile) {

@@ -110,7 +110,7 @@ void add_load(const ElasticCast& cast, const ElasticCast::Answer& answer, const 
 }  // namespace contact
 
 ElasticContact::ElasticContact(Mesh fixed, Mesh mobile, ElasticContactOptions options)
-    : parts_(new Parts{std::move(fixed), std::move(mobile), std::move(options), {}, {}}) {
+    : parts_(new Parts{std::move(fixed), std::move(mobile), std::move(options), {}, {}, {}}) {
   Parts& p = *parts_;
   const auto& o = p.options;
   contact::check_layer(o.fixed, p.fixed, "fixed");
@@ -135,35 +135,48 @@ const ElasticContactOptions& ElasticContact::options() const noexcept {
 }
 
 ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
-  ElasticContactResults out;
+  auto answers = parts_->spare.take();
+  parts_->answer(X_FM, *answers);
+  ElasticContactResults results = parts_->results_of(*answers, X_FM);
+  parts_->spare.put_back(std::move(answers));
+  return results;
+}
+
+void ElasticContact::Parts::answer(const Pose& X_FM, Answers& out) const {
+  if (from_fixed) from_fixed->answer(X_FM, out.of_fixed);
+  if (from_mobile) from_mobile->answer(X_FM.inverse(), out.of_mobile);
+}
+
+contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const Pose& X_FM,
+                                                   bool with_change) const {
   contact::MobileLoad load;
-  const double share = options().casting == Casting::both ? 0.5 : 1;
-  const auto ask = [&](const contact::ElasticCast& cast, const Pose& X_CT, const Pose& X_FC, double sense,
-                       SurfaceContact& surface) {
-    auto answer = cast.spare().take();
-    cast.answer(X_CT, *answer);
-    contact::add_up(cast.sampler(), answer->found, answer->pressures, surface);
-    contact::add_load(cast, *answer, X_FC, X_FM.translation(), sense, share, false, load);
-    cast.spare().put_back(std::move(answer));
+  const double share = options.casting == Casting::both ? 0.5 : 1;
+  const Vec3 origin_M = X_FM.translation();
+  if (from_fixed)
+    contact::add_load(*from_fixed, answers.of_fixed, Pose::Identity(), origin_M, 1, share, with_change, load);
+  if (from_mobile) contact::add_load(*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share, with_change, load);
+  return load;
+}
+
+ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, const Pose& X_FM) const {
+  ElasticContactResults out;
+  const auto add = [](const contact::ElasticCast& cast, const contact::ElasticCast::Answer& answer,
+                      SurfaceContact& surface) {
+    contact::add_up(cast.sampler(), answer.found, answer.pressures, surface);
   };
-  if (parts_->from_fixed) ask(*parts_->from_fixed, X_FM, Pose::Identity(), 1, out.fixed.emplace());
-  if (parts_->from_mobile) ask(*parts_->from_mobile, X_FM.inverse(), X_FM, -1, out.mobile.emplace());
+  if (from_fixed) add(*from_fixed, answers.of_fixed, out.fixed.emplace());
+  if (from_mobile) add(*from_mobile, answers.of_mobile, out.mobile.emplace());
+  const contact::MobileLoad load = load_of(answers, X_FM, false);
   out.on_mobile = {load.wrench.head<3>(), load.wrench.tail<3>()};
   out.energy_nmm = load.energy;
   return out;
 }
 
 contact::MobileLoad ElasticContact::Parts::load_at(const Pose& X_FM, bool with_change) const {
-  contact::MobileLoad load;
-  const double share = options.casting == Casting::both ? 0.5 : 1;
-  const auto ask = [&](const contact::ElasticCast& cast, const Pose& X_CT, const Pose& X_FC, double sense) {
-    auto answer = cast.spare().take();
-    cast.answer(X_CT, *answer);
-    contact::add_load(cast, *answer, X_FC, X_FM.translation(), sense, share, with_change, load);
-    cast.spare().put_back(std::move(answer));
-  };
-  if (from_fixed) ask(*from_fixed, X_FM, Pose::Identity(), 1);
-  if (from_mobile) ask(*from_mobile, X_FM.inverse(), X_FM, -1);
+  auto answers = spare.take();
+  answer(X_FM, *answers);
+  const contact::MobileLoad load = load_of(*answers, X_FM, with_change);
+  spare.put_back(std::move(answers));
   return load;
 }
 

@@ -25,14 +25,12 @@ class ElasticCast {
   void answer(const Pose& X_CT, Answer& out) const;
 
   const OverlapSampler& sampler() const noexcept { return sampler_; }
-  core::Spare<Answer>& spare() const noexcept { return spare_; }
 
  private:
   OverlapSampler sampler_;
   PressureLaw law_;
   LayerHere casting_layer_{0, 0}, target_layer_{0, 0};  ///< thickness 1 where it varies
   std::vector<double> casting_thickness_, target_thickness_;
-  mutable core::Spare<Answer> spare_;
 };
 
 /// The load that one pose puts on the mobile body, and how it changes when the mobile body moves a little. In F; moments
@@ -52,8 +50,18 @@ struct ElasticContact::Parts {
   ElasticContactOptions options;
   std::optional<contact::ElasticCast> from_fixed, from_mobile;
 
+  /// What the surfaces that are cast answer at a pose.
+  struct Answers {
+    contact::ElasticCast::Answer of_fixed, of_mobile;
+  };
+  void answer(const Pose& X_FM, Answers& out) const;
   /// With its change only where asked for.
+  contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM, bool with_change) const;
+  ElasticContactResults results_of(const Answers& answers, const Pose& X_FM) const;
+
   contact::MobileLoad load_at(const Pose& X_FM, bool with_change) const;
+
+  mutable core::Spare<Answers> spare;
 };
 
 }  // namespace condyle

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "contact/elastic_parts.hpp"
@@ -21,7 +23,9 @@ constexpr double least_stiffness = 1e-9;
 constexpr double longest_step = 1;
 /// Steps of the search along the load, mm: much less than cartilage is thick.
 constexpr double search_step = 0.1;
-constexpr int most_halvings = 30;
+/// The same where the contact already tells how far it is.
+constexpr double longest_search_step = 0.3;
+constexpr int most_halvings = 10;
 
 /// Which small motions of M are free: columns are translations and rotations about the origin of M, in F.
 Eigen::Matrix<double, 6, Eigen::Dynamic> free_motions(const BalanceOptions& options) {
@@ -62,8 +66,10 @@ class Search {
   }
 
   BalancedPose run() {
+    answers_ = contact_.parts().spare.take(), tried_ = contact_.parts().spare.take();
     out_.outcome = find();
-    out_.contact = contact_.at(out_.X_FM);
+    out_.contact = contact_.parts().results_of(*answers_, out_.X_FM);
+    contact_.parts().spare.put_back(std::move(answers_));
     out_.residual = {residual_.head<3>(), residual_.tail<3>()};
     return std::move(out_);
   }
@@ -93,44 +99,48 @@ class Search {
     return (X.translation() - start_.translation()).norm() <= options_.farthest_mm;
   }
 
-  /// Along the load to where the contact carries that part of it, or until it is met nowhere.
+  /// The load at a pose that is tried, its answers kept until the next.
+  MobileLoad tried(const Pose& X) {
+    contact_.parts().answer(X, *tried_);
+    return contact_.parts().load_of(*tried_, X, true);
+  }
+  /// The pose tried last is the one to go on from.
+  void take(const Pose& X, MobileLoad load) {
+    out_.X_FM = X;
+    now_ = std::move(load);
+    residual_ = left(X, now_);
+    std::swap(answers_, tried_);
+  }
+
+  /// Along the load to where the contact carries that part of it, or a little more, or until it is met nowhere. From there
+  /// Newton's steps lead back out: a contact grows stiffer as it deepens.
   bool approach() {
     const Vec3 force = (free_ * (free_.transpose() * load_at(start_))).head<3>();
     if (force.isZero()) return false;
     const Vec3 along = force.normalized();
-    const auto carried = [&](double s) {
+    for (double way = search_step; way <= options_.farthest_mm;) {
       Vector6 by = Vector6::Zero();
-      by.head<3>() = s * along;
+      by.head<3>() = way * along;
       const Pose X = moved(start_, by);
-      return -contact_.parts().load_at(X, false).wrench.head<3>().dot(along);
-    };
-    double low = 0, high = search_step;
-    while (carried(high) < force.norm()) {
-      low = high, high += search_step;
-      if (high > options_.farthest_mm) return false;
+      MobileLoad load = tried(X);
+      const double missing = force.norm() + load.wrench.head<3>().dot(along);
+      if (!(missing > 0)) {
+        take(X, std::move(load));
+        return true;
+      }
+      const double stiffness = -along.dot(load.change.topLeftCorner<3, 3>() * along);
+      way += stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
     }
-    for (int step = 0; step < 20; ++step) {
-      const double middle = (low + high) / 2;
-      (carried(middle) < force.norm() ? low : high) = middle;
-    }
-    Vector6 by = Vector6::Zero();
-    by.head<3>() = high * along;
-    out_.X_FM = moved(start_, by);
-    return true;
+    return false;
   }
 
   BalanceOutcome find() {
-    MobileLoad now = contact_.parts().load_at(out_.X_FM, true);
-    residual_ = left(out_.X_FM, now);
-    if (now.samples == 0) {
-      if (!approach()) return BalanceOutcome::pulled_apart;
-      now = contact_.parts().load_at(out_.X_FM, true);
-      residual_ = left(out_.X_FM, now);
-    }
+    take(start_, tried(start_));
+    if (now_.samples == 0 && !approach()) return BalanceOutcome::pulled_apart;
     while (true) {
-      resisted_ = resisted_ || now.wrench.dot(load_at(out_.X_FM)) < 0;
+      resisted_ = resisted_ || now_.wrench.dot(load_at(out_.X_FM)) < 0;
       // How the contact pushes back against small motions along what is free.
-      const Eigen::MatrixXd stiffness = -free_.transpose() * now.change * free_;
+      const Eigen::MatrixXd stiffness = -free_.transpose() * now_.change * free_;
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
       const auto& sizes = svd.singularValues();
       const Eigen::Index last = sizes.size() - 1;
@@ -149,7 +159,7 @@ class Search {
       if (out_.steps >= options_.most_steps) return given_up();
       Vector6 step = free_ * svd.solve(free_.transpose() * residual_);
       if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
-      if (!try_step(step, now) || !is_near(out_.X_FM)) return given_up();
+      if (!try_step(step) || !is_near(out_.X_FM)) return given_up();
       ++out_.steps;
     }
   }
@@ -161,22 +171,19 @@ class Search {
 
   /// The step, or as many halves of it as leave less of the load without climbing: what is stored beyond what the load
   /// gives grows at a saddle, where the load still falls.
-  bool try_step(Vector6 step, MobileLoad& now) {
+  bool try_step(Vector6 step) {
     for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
       const Pose X = moved(out_.X_FM, step);
-      MobileLoad next = contact_.parts().load_at(X, true);
+      MobileLoad next = tried(X);
       if (next.samples == 0) continue;
-      const Vector6 residual = left(X, next);
       const Vector6 given = load_at(out_.X_FM);
       // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
-      const bool climbs = next.energy - now.energy - given.dot(step) >
+      const bool climbs = next.energy - now_.energy - given.dot(step) >
                           0.1 * (given.head<3>().norm() * step.head<3>().norm() +
                                  given.tail<3>().norm() * step.tail<3>().norm()) +
-                              1e-9 * now.energy;
-      if (climbs || !(size_of(residual) < size_of(residual_))) continue;
-      out_.X_FM = X;
-      now = std::move(next);
-      residual_ = residual;
+                              1e-9 * now_.energy;
+      if (climbs || !(size_of(left(X, next)) < size_of(residual_))) continue;
+      take(X, std::move(next));
       return true;
     }
     return false;
@@ -187,6 +194,8 @@ class Search {
   const Load& load_;
   const Pose& start_;
   const Eigen::Matrix<double, 6, Eigen::Dynamic> free_;
+  std::unique_ptr<ElasticContact::Parts::Answers> answers_, tried_;  ///< at out_.X_FM, and at the pose tried last
+  MobileLoad now_;                                                   ///< at out_.X_FM
   Vector6 residual_ = Vector6::Zero();
   bool resisted_ = false;
   BalancedPose out_{};

@@ -103,6 +103,14 @@ Vec3 corner_normal(const TriMesh& mesh, std::span<const Vec3> face_normals, cons
   return unit(sum);
 }
 
+/// The face of a cube that a normal points to. Rays of one side after those of another: the two sides of a thin layer lie
+/// so near each other that rays in the order of places alone would run both ways in one bundle.
+int side_of(const Vec3& normal) {
+  Eigen::Index axis;
+  normal.cwiseAbs().maxCoeff(&axis);
+  return 2 * static_cast<int>(axis) + (normal[axis] < 0 ? 1 : 0);
+}
+
 std::vector<Vec3> unit_normals(const TriMesh& mesh) {
   std::vector<Vec3> normals;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) normals.push_back(unit(area_vector(mesh, f)));
@@ -116,7 +124,7 @@ OverlapSampler::OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions opt
       target_(std::move(target)),
       options_(options),
       target_is_closed_(target_.is_closed()),
-      target_tree_(target_) {
+      ray_target_(target_) {
   if (!(options.reach_mm > 0)) throw UsageError("the reach of rays must be above 0 mm");
   target_normal_ = unit_normals(target_);
   face_normal_ = unit_normals(casting_);
@@ -131,37 +139,55 @@ OverlapSampler::OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions opt
   else
     make_corner_rays(order);
   inward_.close();
+  if (!target_is_closed_ || ray_target_.tree().empty()) return;
+  Points origins;
+  for (std::size_t ray = 0; ray < inward_.size(); ++ray) origins.push_back(inward_.origin(ray));
+  origins_inside_.emplace(target_, double{ray_target_.tree().nodes()[0].nearest}, std::move(origins));
 }
 
 void OverlapSampler::make_centre_rays(const mesh::TriangleTree& order) {
-  for (const Index face : order.mesh_triangles()) {
-    if (face_area_[face] == 0) continue;
-    ray_owner_.push_back(face);
+  for (const Index face : order.mesh_triangles())
+    if (face_area_[face] > 0) ray_owner_.push_back(face);
+  std::stable_sort(ray_owner_.begin(), ray_owner_.end(),
+                   [&](Index a, Index b) { return side_of(face_normal_[a]) < side_of(face_normal_[b]); });
+  centre_ray_.assign(casting_.triangles().size(), no_index);
+  for (const Index face : ray_owner_) {
+    centre_ray_[face] = static_cast<Index>(inward_.size());
     inward_.push_back((casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3,
                       -face_normal_[face]);
   }
 }
 
 void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
+  struct Ray {
+    Index vertex;
+    Vec3 normal;
+    std::vector<Index> corners;  ///< three times the face, and which
+  };
   const Fans fans(casting_);
-  corner_ray_.resize(casting_.triangles().size());
+  std::vector<Ray> rays;
   for (const Index vertex : order.mesh_vertices()) {
-    const std::size_t first = ray_owner_.size();
+    const std::size_t first = rays.size();
     for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i) {
       const Index face = fans.face[i];
       if (face_area_[face] == 0) continue;
       const Vec3 normal = corner_normal(casting_, face_normal_, fans, vertex, face);
       // Corners on one side of a crease have the same sums, to the bit.
       std::size_t ray = first;
-      while (ray < ray_owner_.size() && ray_normal_[ray] != normal) ++ray;
-      if (ray == ray_owner_.size()) {
-        ray_owner_.push_back(vertex);
-        ray_normal_.push_back(normal);
-        inward_.push_back(casting_.vertices()[vertex], -normal);
-      }
-      for (std::size_t k = 0; k < 3; ++k)
-        if (casting_.triangles()[face][k] == vertex) corner_ray_[face][k] = static_cast<Index>(ray);
+      while (ray < rays.size() && rays[ray].normal != normal) ++ray;
+      if (ray == rays.size()) rays.push_back({vertex, normal, {}});
+      for (Index k = 0; k < 3; ++k)
+        if (casting_.triangles()[face][k] == vertex) rays[ray].corners.push_back(3 * face + k);
     }
+  }
+  std::stable_sort(rays.begin(), rays.end(),
+                   [](const Ray& a, const Ray& b) { return side_of(a.normal) < side_of(b.normal); });
+  corner_ray_.resize(casting_.triangles().size());
+  for (const Ray& ray : rays) {
+    for (const Index corner : ray.corners) corner_ray_[corner / 3][corner % 3] = Index(ray_owner_.size());
+    ray_owner_.push_back(ray.vertex);
+    ray_normal_.push_back(ray.normal);
+    inward_.push_back(casting_.vertices()[ray.vertex], -ray.normal);
   }
 }
 
@@ -204,7 +230,7 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
   out.samples.clear();
   out.met_from_front = out.rim_faces = 0;
   auto scratch = scratch_.take();
-  mesh::nearest_hits(target_tree_, X_CT.inverse(), inward_, options_.reach_mm, scratch->hits);
+  cast_inwards(X_CT, *scratch, out);
   if (options_.rule == FaceRule::face_centre)
     sample_centres(X_CT, thicknesses, *scratch, out);
   else
@@ -212,13 +238,37 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
   scratch_.put_back(std::move(scratch));
 }
 
+void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
+  const Pose X_TC = X_CT.inverse();
+  const std::size_t count = inward_.size();
+  scratch.ends.assign(count, {});
+  const auto end_of = [&](std::size_t ray, std::size_t hit) {
+    scratch.ends[ray] = overlap_of(inward_.direction(ray), scratch.hits, hit, X_CT, out.met_from_front);
+  };
+  if (!origins_inside_ || !origins_inside_->find(X_TC, scratch.inside)) {
+    mesh::nearest_hits(ray_target_, X_TC, inward_, options_.reach_mm, scratch.hits);
+    out.rays = count;
+    for (std::size_t ray = 0; ray < count; ++ray) end_of(ray, ray);
+    return;
+  }
+  const auto& inside = scratch.inside;
+  scratch.rays.clear();
+  for (const Index ray : inside.point) scratch.rays.push_back(inward_.origin(ray), inward_.direction(ray));
+  scratch.rays.close();
+  // The way out through the centre ends near where the ray does.
+  mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits, inside.triangle);
+  out.rays = inside.size();
+  for (std::size_t i = 0; i < inside.size(); ++i) end_of(inside.point[i], i);
+}
+
 void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
                                     Found& out) const {
   const Pose X_TC = X_CT.inverse();
-  for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
-    const Index face = ray_owner_[ray];
+  // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
+  for (Index face = 0; face < centre_ray_.size(); ++face) {
+    if (centre_ray_[face] == no_index) continue;
     const Vec3 direction = -face_normal_[face];
-    const RayEnd end = overlap_of(direction, scratch.hits, ray, X_CT, out.met_from_front);
+    const RayEnd& end = scratch.ends[centre_ray_[face]];
     if (!end.is_known() || !(end.depth > 0)) continue;
     const Vec3 centre = (casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3;
     OverlapSample sample{face, face_area_[face], end.depth, centre, gradient_of(end, direction, X_CT), 0, 0};
@@ -231,38 +281,32 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
       sample.target_thickness = target_thickness(end, centre, direction, X_TC, thicknesses.target);
     out.samples.push_back(sample);
   }
-  // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
-  std::sort(out.samples.begin(), out.samples.end(),
-            [](const auto& a, const auto& b) { return a.face < b.face; });
 }
 
 void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
                                   const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
   const Pose X_TC = X_CT.inverse();
   auto& ends = scratch.ends;
-  ends.assign(ray_owner_.size(), {});
-  for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray)
-    if (scratch.hits.is_hit(ray))
-      ends[ray] = overlap_of(-ray_normal_[ray], scratch.hits, ray, X_CT, out.met_from_front);
 
   // Corners outside the target next to one inside it: how far outside.
   scratch.active.clear();
   scratch.rays.clear();
   scratch.owner.clear();
-  scratch.asked_outwards.assign(ends.size(), 0);
+  scratch.outwards.assign(ends.size(), 0);
   for (Index face = 0; face < corner_ray_.size(); ++face) {
     const auto& [a, b, c] = corner_ray_[face];
     if (face_area_[face] == 0 || !(ends[a].is_known() || ends[b].is_known() || ends[c].is_known())) continue;
     scratch.active.push_back(face);
-    for (const Index ray : corner_ray_[face]) {
-      if (ends[ray].is_known() || scratch.asked_outwards[ray]) continue;
-      scratch.asked_outwards[ray] = 1;
-      scratch.owner.push_back(ray);
-      scratch.rays.push_back(casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]);
-    }
+    for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends[ray].is_known();
+  }
+  for (Index ray = 0; ray < ends.size(); ++ray) {
+    if (!scratch.outwards[ray]) continue;
+    scratch.owner.push_back(ray);
+    scratch.rays.push_back(casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]);
   }
   scratch.rays.close();
-  mesh::nearest_hits(target_tree_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  out.rays += scratch.rays.size();
   for (std::size_t i = 0; i < scratch.owner.size(); ++i)
     if (scratch.hits.is_hit(i))
       ends[scratch.owner[i]] = {-scratch.hits.distance[i], scratch.hits.triangle[i]};
@@ -335,9 +379,10 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
   }
   out.rim_faces = scratch.rim.size();
   if (scratch.rim.empty()) return;
+  const auto parts = static_cast<std::ptrdiff_t>(out.samples.size());
   sample_rim(X_CT, thicknesses, scratch, out);
-  std::stable_sort(out.samples.begin(), out.samples.end(),
-                   [](const auto& a, const auto& b) { return a.face < b.face; });
+  std::inplace_merge(out.samples.begin(), out.samples.begin() + parts, out.samples.end(),
+                     [](const auto& a, const auto& b) { return a.face < b.face; });
 }
 
 void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
@@ -358,7 +403,8 @@ void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thickn
   for (const Index face : scratch.rim)
     for (const auto& w : centres) scratch.rays.push_back(at(face, w, vertex), direction_at(face, w));
   scratch.rays.close();
-  mesh::nearest_hits(target_tree_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  out.rays += scratch.rays.size();
   std::size_t ray = 0, from_front_again = 0;
   for (const Index face : scratch.rim) {
     for (const auto& w : centres) {
@@ -379,7 +425,7 @@ void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thickn
 
 std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
   mesh::RayHits hits;
-  mesh::nearest_hits(target_tree_, X_CT.inverse(), inward_, 2 * options_.reach_mm, hits);
+  mesh::nearest_hits(ray_target_, X_CT.inverse(), inward_, 2 * options_.reach_mm, hits);
   std::size_t count = 0;
   for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
     if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
@@ -434,7 +480,7 @@ std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, do
   }
   rays.close();
   mesh::RayHits hits;
-  mesh::nearest_hits(mesh::TriangleTree(to), Pose::Identity(), rays, reach, hits);
+  mesh::nearest_hits(mesh::RayTarget(to), Pose::Identity(), rays, reach, hits);
   std::vector<double> distances(from.vertices().size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t ray = 0; ray < owner.size(); ++ray)
     if (hits.is_hit(ray)) distances[owner[ray]] = hits.distance[ray];

@@ -2,10 +2,12 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "condyle/normal_depth.hpp"
+#include "contact/points_inside.hpp"
 #include "core/spare.hpp"
 #include "mesh/ray_hits.hpp"
 
@@ -39,6 +41,7 @@ class OverlapSampler {
   struct Found {
     std::vector<OverlapSample> samples;
     std::size_t met_from_front = 0, rim_faces = 0;
+    std::size_t rays = 0;  ///< cast
   };
   void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses, Found& out) const;
   std::size_t cut_off_by_reach(const Pose& X_CT) const;
@@ -65,13 +68,16 @@ class OverlapSampler {
   };
   struct Scratch {
     mesh::RayHits hits;
-    std::vector<RayEnd> ends;  ///< per corner ray
-    std::vector<char> asked_outwards;
+    std::vector<RayEnd> ends;      ///< per ray inwards
+    Penetrations inside;           ///< the origins in the target
+    std::vector<char> outwards;    ///< per ray inwards: whether its other direction is cast too
     mesh::RayBundles rays;
     std::vector<Index> owner;
     std::vector<Index> active, rim;  ///< faces
   };
 
+  /// Every ray inwards that can be in contact: its end.
+  void cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
   RayEnd overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray, const Pose& X_CT,
                     std::size_t& met_from_front) const;
   Vec3 gradient_of(const RayEnd& end, const Vec3& direction_C, const Pose& X_CT) const;
@@ -87,14 +93,16 @@ class OverlapSampler {
   Mesh casting_, target_;
   NormalDepthOptions options_;
   bool target_is_closed_;
-  mesh::TriangleTree target_tree_;
+  mesh::RayTarget ray_target_;
   std::vector<Vec3> target_normal_;  ///< per triangle, length 1
   std::vector<double> face_area_;
   std::vector<Vec3> face_normal_;
   std::vector<double> longest_edge_;
   mesh::RayBundles inward_;  ///< along negative normals
+  std::optional<PointsInside> origins_inside_;
   /// The face, or the vertex, that each ray starts from; neighbours follow each other.
   std::vector<Index> ray_owner_;
+  std::vector<Index> centre_ray_;  ///< with face centres: the ray of each face, or no_index
   /// With cut faces: the normal of each ray, and the rays of each face's corners. A vertex has one ray where the surface is
   /// smooth about it, and one for each side of a crease.
   std::vector<Vec3> ray_normal_;

@@ -55,15 +55,23 @@ HWY_INLINE Lanes doubled_area(const Seen& a, const Seen& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
+using F = hn::CappedTag<float, RayBundles::width>;
+constexpr F f;
+using Floats = hn::Vec<F>;
+
 /// A bundle in the tree's frame, and the nearest hits so far. Numbers of triangles are exact as doubles.
 struct alignas(64) Placed {
   double origin[3][RayBundles::width], direction[3][RayBundles::width];
   double across[2][3][RayBundles::width];  ///< two directions at right angles to the ray
   double distance[RayBundles::width], triangle[RayBundles::width];
+  /// In single precision, and how far each ray still looks for hits.
+  float rough_origin[3][RayBundles::width], rough_direction[3][RayBundles::width],
+      rough_end[RayBundles::width];
+  float slack;  ///< more than rounding moves rays and distances by, mm
   Vec3 axis;
 };
 
-void place(const Pose& X, const RayBundles::Bundle& from, Placed& to) {
+void place(const Pose& X, const RayBundles::Bundle& from, double reach, Placed& to) {
   const auto& m = X.matrix();
   for (int r = 0; r < 3; ++r) {
     for (std::size_t i = 0; i < RayBundles::width; ++i) {
@@ -82,68 +90,120 @@ void place(const Pose& X, const RayBundles::Bundle& from, Placed& to) {
   std::fill_n(to.distance, RayBundles::width, none);
   std::fill_n(to.triangle, RayBundles::width, static_cast<double>(no_index));
   to.axis = (X.linear() * from.axis).normalized();
+  double size = reach;
+  for (int r = 0; r < 3; ++r) {
+    for (std::size_t i = 0; i < RayBundles::width; ++i) {
+      to.rough_origin[r][i] = static_cast<float>(to.origin[r][i]);
+      to.rough_direction[r][i] = static_cast<float>(to.direction[r][i]);
+      size = std::max(size, std::abs(to.origin[r][i]));
+    }
+  }
+  // Coordinates and products round by 2^-22 of the size and less; distances to triangles seen at the least angle by 2^-19.
+  to.slack = static_cast<float>(0x1p-17 * size);
+  std::fill_n(to.rough_end, RayBundles::width, static_cast<float>(reach));
 }
 
-using Float4 = Eigen::Array4f;
-
-/// The part of a bundle that hits nearer than those found may lie in, as two boxes: along the axes of the tree, and along the
-/// bundle's own. A node that either leaves out is met by no ray. Single precision, widened by more than it rounds.
-class Reached {
+/// The part of a bundle in which nearer hits than those found may lie, between pairs of parallel planes: along the axes of the
+/// tree, along the bundle and across it. A node beyond one of them is met by no ray.
+class alignas(64) Reached {
  public:
-  Reached(const Placed& rays, double length) {
-    // Two axes at right angles to the bundle's.
+  /// Of the target, `size` is the largest coordinate.
+  Reached(const Placed& rays, float size) : slack_(rays.slack + 0x1p-20f * size) {
     const Vec3 u = rays.axis, v = u.unitOrthogonal(), w = u.cross(v);
-    for (int k = 0; k < 3; ++k) {
-      column_[k] = Float4(float(u[k]), float(v[k]), float(w[k]), 0);
-      size_[k] = column_[k].abs() + 1e-6f;
-    }
-    Vec3 low = Vec3::Constant(none), high = -low, own_low = low, own_high = high;
-    for (std::size_t i = 0; i < RayBundles::width; ++i) {
-      const Vec3 from(rays.origin[0][i], rays.origin[1][i], rays.origin[2][i]);
-      const Vec3 to = from + length * Vec3(rays.direction[0][i], rays.direction[1][i], rays.direction[2][i]);
-      for (const Vec3& end : {from, to}) {
-        low = low.cwiseMin(end), high = high.cwiseMax(end);
-        const Vec3 own(u.dot(end), v.dot(end), w.dot(end));
-        own_low = own_low.cwiseMin(own), own_high = own_high.cwiseMax(own);
+    const Vec3 directions[width] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),   u, v, w,
+                                    (v + w) * std::sqrt(0.5), (v - w) * std::sqrt(0.5)};
+    for (std::size_t i = 0; i < width; ++i) {
+      for (int k = 0; k < 3; ++k) {
+        axis_[k][i] = static_cast<float>(directions[i][k]);
+        size_[k][i] = std::abs(axis_[k][i]) + 1e-6f;
       }
     }
-    // Coordinates round to singles, each sum of three products to some more: 2^-21 of the largest one covers them.
-    const double slack = 0x1p-21 * (low.cwiseAbs().maxCoeff() + high.cwiseAbs().maxCoeff());
-    const auto array = [](const Vec3& a) { return Float4(float(a.x()), float(a.y()), float(a.z()), 0); };
-    const auto widened = [&](const Vec3& a) { return Float4(array(a) + float(slack)); };
-    centre_ = array((low + high) / 2), half_ = widened((high - low) / 2);
-    own_centre_ = array((own_low + own_high) / 2), own_half_ = widened((own_high - own_low) / 2);
-    node_slack_ = 0x1p-21f;
+    shorten(rays);
+  }
+
+  /// To the rays' ends as they are now.
+  void shorten(const Placed& rays) {
+    for (std::size_t i = 0; i < width; i += hn::Lanes(f)) {
+      auto low = hn::Set(f, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+      for (std::size_t ray = 0; ray < RayBundles::width; ++ray) {
+        const auto from = along(i, rays.rough_origin[0][ray], rays.rough_origin[1][ray],
+                                rays.rough_origin[2][ray]);
+        const auto way = along(i, rays.rough_direction[0][ray], rays.rough_direction[1][ray],
+                               rays.rough_direction[2][ray]);
+        const auto to = hn::Add(from, hn::Mul(way, hn::Set(f, rays.rough_end[ray])));
+        low = hn::Min(low, hn::Min(from, to)), high = hn::Max(high, hn::Max(from, to));
+      }
+      const auto half = hn::Set(f, 0.5f);
+      hn::Store(hn::Mul(hn::Add(low, high), half), f, centre_ + i);
+      hn::Store(hn::Add(hn::Mul(hn::Sub(high, low), half), hn::Set(f, slack_)), f, half_ + i);
+    }
   }
 
   /// Where a node begins to be met, about.
-  float along(const TriangleTree::Node& node) const noexcept {
-    return column_[0][0] * node.centre[0] + column_[1][0] * node.centre[1] + column_[2][0] * node.centre[2];
+  float along_bundle(const TriangleTree::Node& node) const noexcept {
+    return axis_[0][3] * node.centre[0] + axis_[1][3] * node.centre[1] + axis_[2][3] * node.centre[2];
   }
 
-  bool may_meet(const TriangleTree::Node& node) const noexcept {
-    const auto c = Eigen::Map<const Float4, Eigen::Aligned16>(node.centre.data());
-    const auto h = Eigen::Map<const Float4, Eigen::Aligned16>(node.half.data());
-    const Float4 apart = (c - centre_).abs() - (half_ + h);
-    const Float4 own = column_[0] * c[0] + column_[1] * c[1] + column_[2] * c[2];
-    const Float4 own_h = size_[0] * h[0] + size_[1] * h[1] + size_[2] * h[2];
-    const float slack = node_slack_ * (std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]));
-    const Float4 own_apart = (own - own_centre_).abs() - (own_half_ + own_h + slack);
-    return !(apart.max(own_apart).maxCoeff() > 0);  // what is not a number may be met
+  HWY_INLINE bool may_meet(const TriangleTree::Node& node) const noexcept {
+    for (std::size_t i = 0; i < width; i += hn::Lanes(f)) {
+      const auto at = along(i, node.centre[0], node.centre[1], node.centre[2]);
+      const auto node_half =
+          hn::Add(hn::Add(hn::Mul(hn::Load(f, size_[0] + i), hn::Set(f, node.half[0])),
+                          hn::Mul(hn::Load(f, size_[1] + i), hn::Set(f, node.half[1]))),
+                  hn::Mul(hn::Load(f, size_[2] + i), hn::Set(f, node.half[2])));
+      const auto apart = hn::Abs(hn::Sub(at, hn::Load(f, centre_ + i)));
+      // What is not a number may be met.
+      if (!hn::AllFalse(f, hn::Gt(apart, hn::Add(node_half, hn::Load(f, half_ + i))))) return false;
+    }
+    return true;
   }
 
  private:
-  std::array<Float4, 3> column_, size_;
-  Float4 centre_, half_, own_centre_, own_half_;
-  float node_slack_;
+  static constexpr std::size_t width = 8;
+
+  HWY_INLINE Floats along(std::size_t i, float x, float y, float z) const noexcept {
+    return hn::Add(hn::Add(hn::Mul(hn::Load(f, axis_[0] + i), hn::Set(f, x)),
+                           hn::Mul(hn::Load(f, axis_[1] + i), hn::Set(f, y))),
+                   hn::Mul(hn::Load(f, axis_[2] + i), hn::Set(f, z)));
+  }
+
+  float axis_[3][width], size_[3][width];
+  float centre_[width], half_[width];
+  float slack_;
 };
 
-HWY_INLINE void test_triangle(const TriangleTree& tree, Index place_of_triangle, double reach, Placed& rays) {
+/// Whether any ray passes the ball of a triangle before its end: else no ray meets the triangle.
+HWY_INLINE bool may_meet(const RayTarget::Ball& ball, const Placed& rays) {
+  const auto radius = hn::Set(f, ball.radius + rays.slack);
+  for (std::size_t i = 0; i < RayBundles::width; i += hn::Lanes(f)) {
+    const auto from = [&](int k) {
+      return hn::Sub(hn::Set(f, ball.centre[k]), hn::Load(f, rays.rough_origin[k] + i));
+    };
+    const Floats x = from(0), y = from(1), z = from(2);
+    const Floats ux = hn::Load(f, rays.rough_direction[0] + i), uy = hn::Load(f, rays.rough_direction[1] + i),
+                 uz = hn::Load(f, rays.rough_direction[2] + i);
+    const auto along = hn::Add(hn::Add(hn::Mul(x, ux), hn::Mul(y, uy)), hn::Mul(z, uz));
+    const auto a = hn::Sub(hn::Mul(y, uz), hn::Mul(z, uy)), b = hn::Sub(hn::Mul(z, ux), hn::Mul(x, uz)),
+               c = hn::Sub(hn::Mul(x, uy), hn::Mul(y, ux));
+    const auto squared = hn::Add(hn::Add(hn::Mul(a, a), hn::Mul(b, b)), hn::Mul(c, c));
+    const auto end = hn::Load(f, rays.rough_end + i);
+    // What is not a number may be met.
+    const auto missed = hn::Or(hn::Gt(squared, hn::Mul(radius, radius)),
+                               hn::Or(hn::Lt(along, hn::Neg(radius)), hn::Gt(along, hn::Add(end, radius))));
+    if (!hn::AllTrue(f, missed)) return true;
+  }
+  return false;
+}
+
+/// Whether any ray meets it nearer than what it met before.
+HWY_INLINE bool test_triangle(const RayTarget& target, Index place_of_triangle, double reach, Placed& rays) {
+  const TriangleTree& tree = target.tree();
   const auto [a, b, c] = tree.corners(place_of_triangle);
-  const Vec3 normal = (b - a).cross(c - a);
-  const auto flat = hn::Set(d, least_cosine * normal.norm());
+  const Vec3& normal = target.normals()[place_of_triangle];
+  const auto flat = hn::Set(d, least_cosine * target.normal_lengths()[place_of_triangle]);
   const auto number = hn::Set(d, static_cast<double>(tree.mesh_triangles()[place_of_triangle]));
   const auto zero = hn::Zero(d);
+  bool any_met = false;
   for (std::size_t i = 0; i < RayBundles::width; i += hn::Lanes(d)) {
     const Lanes3 o{hn::Load(d, rays.origin[0] + i), hn::Load(d, rays.origin[1] + i),
                    hn::Load(d, rays.origin[2] + i)};
@@ -167,17 +227,33 @@ HWY_INLINE void test_triangle(const TriangleTree& tree, Index place_of_triangle,
         hn::Or(hn::Lt(distance, best), hn::And(hn::Eq(distance, best), hn::Lt(number, best_number)));
     passes = hn::And(hn::And(passes, nearer),
                      hn::And(hn::Ge(distance, zero), hn::Le(distance, hn::Set(d, reach))));
+    if (hn::AllFalse(d, passes)) continue;
+    any_met = true;
     hn::Store(hn::IfThenElse(passes, distance, best), d, rays.distance + i);
     hn::Store(hn::IfThenElse(passes, number, best_number), d, rays.triangle + i);
   }
+  return any_met;
 }
 
-void trace(const TriangleTree& tree, double reach, Placed& rays) {
+void take_ends(double reach, Placed& rays) {
+  for (std::size_t i = 0; i < RayBundles::width; ++i)
+    rays.rough_end[i] = static_cast<float>(std::min(rays.distance[i], reach));
+}
+
+/// The triangle `first` of each ray, by places, is tried before all others where there is one.
+void trace(const RayTarget& target, double reach, const Index* first, Placed& rays) {
+  const TriangleTree& tree = target.tree();
   const auto& nodes = tree.nodes();
+  if (first) {
+    bool any_met = false;
+    for (std::size_t i = 0; i < RayBundles::width; ++i)
+      if (first[i] != no_index && (i == 0 || first[i] != first[i - 1]))
+        any_met |= test_triangle(target, first[i], reach, rays);
+    if (any_met) take_ends(reach, rays);
+  }
   std::array<Index, deepest> open;
   std::size_t count = 0;
-  double length = reach;
-  Reached reached(rays, length);
+  Reached reached(rays, target.size());
   if (reached.may_meet(nodes[0])) open[count++] = 0;
   bool shorter = false;
   while (count > 0) {
@@ -185,24 +261,29 @@ void trace(const TriangleTree& tree, double reach, Placed& rays) {
     // Looked at again only where hits have shortened the rays since the node was put aside.
     if (shorter && !reached.may_meet(node)) continue;
     if (node.is_leaf()) {
-      for (Index t = node.first; t < node.last; ++t) test_triangle(tree, t, reach, rays);
-      const double farthest = *std::max_element(rays.distance, rays.distance + RayBundles::width);
-      if (farthest < length) length = farthest, reached = Reached(rays, length), shorter = true;
+      bool any_met = false;
+      for (Index t = node.first; t < node.last; ++t)
+        if (may_meet(target.balls()[t], rays)) any_met |= test_triangle(target, t, reach, rays);
+      if (!any_met) continue;
+      take_ends(reach, rays);
+      reached.shorten(rays), shorter = true;
       continue;
     }
-    const bool second_is_nearer = reached.along(nodes[node.child + 1]) < reached.along(nodes[node.child]);
+    const bool second_is_nearer =
+        reached.along_bundle(nodes[node.child + 1]) < reached.along_bundle(nodes[node.child]);
     const Index far = node.child + (second_is_nearer ? 0 : 1), near = node.child + (second_is_nearer ? 1 : 0);
     if (reached.may_meet(nodes[far])) open[count++] = far;
     if (reached.may_meet(nodes[near])) open[count++] = near;
   }
 }
 
-void nearest_hits_any(const TriangleTree& tree, const Pose& X_TR,
-                      const std::vector<RayBundles::Bundle>& bundles, double reach, RayHits& out) {
+void nearest_hits_any(const RayTarget& target, const Pose& X_TR,
+                      const std::vector<RayBundles::Bundle>& bundles, double reach, const Index* first,
+                      RayHits& out) {
   Placed rays;
   for (std::size_t b = 0; b < bundles.size(); ++b) {
-    place(X_TR, bundles[b], rays);
-    trace(tree, reach, rays);
+    place(X_TR, bundles[b], reach, rays);
+    trace(target, reach, first ? first + b * RayBundles::width : nullptr, rays);
     for (std::size_t i = 0; i < RayBundles::width; ++i) {
       out.distance[b * RayBundles::width + i] = rays.distance[i];
       out.triangle[b * RayBundles::width + i] = static_cast<Index>(rays.triangle[i]);
@@ -219,41 +300,63 @@ namespace condyle::mesh {
 
 HWY_EXPORT(nearest_hits_any);
 
-void nearest_hits(const TriangleTree& tree, const Pose& X_TR, const RayBundles& rays, double reach,
-                  RayHits& out) {
+RayTarget::RayTarget(const TriMesh& mesh) : tree_(mesh) {
+  place_of_.resize(tree_.triangles().size());
+  balls_.reserve(tree_.triangles().size());
+  for (Index t = 0; t < tree_.triangles().size(); ++t) {
+    const auto [a, b, c] = tree_.corners(t);
+    const Vec3 centre = (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c)) / 2;
+    const double radius = std::sqrt(std::max(
+        {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
+    const double rounding = 0x1p-22 * (centre.cwiseAbs().maxCoeff() + radius);
+    balls_.push_back({{static_cast<float>(centre.x()), static_cast<float>(centre.y()),
+                       static_cast<float>(centre.z())},
+                      static_cast<float>(radius + rounding)});
+    normals_.push_back((b - a).cross(c - a));
+    normal_lengths_.push_back(normals_.back().norm());
+    place_of_[tree_.mesh_triangles()[t]] = t;
+    for (const Vec3& corner : {a, b, c}) size_ = std::max(size_, static_cast<float>(corner.cwiseAbs().maxCoeff()));
+  }
+}
+
+void nearest_hits(const RayTarget& target, const Pose& X_TR, const RayBundles& rays, double reach,
+                  RayHits& out, std::span<const Index> first) {
   const std::size_t padded = rays.bundles().size() * RayBundles::width;
   out.distance.resize(padded);
   out.triangle.resize(padded);
-  if (tree.empty()) {
+  if (target.tree().empty()) {
     std::fill(out.distance.begin(), out.distance.end(), std::numeric_limits<double>::infinity());
     std::fill(out.triangle.begin(), out.triangle.end(), no_index);
     return;
   }
-  HWY_DYNAMIC_DISPATCH(nearest_hits_any)(tree, X_TR, rays.bundles(), reach, out);
+  std::vector<Index> places;
+  if (!first.empty()) {
+    places.resize(padded, no_index);
+    for (std::size_t ray = 0; ray < first.size(); ++ray) places[ray] = target.place_of(first[ray]);
+  }
+  HWY_DYNAMIC_DISPATCH(nearest_hits_any)(target, X_TR, rays.bundles(), reach, places.empty() ? nullptr : places.data(),
+                                         out);
 }
 
 void RayBundles::push_back(const Vec3& origin, const Vec3& direction) {
-  const std::size_t lane = size_++ % width;
-  if (lane == 0) bundles_.emplace_back();
+  const std::size_t at = size_++ % width;
+  if (at == 0) bundles_.emplace_back();
   for (int axis = 0; axis < 3; ++axis) {
-    bundles_.back().origin[axis][lane] = origin[axis];
-    bundles_.back().direction[axis][lane] = direction[axis];
+    bundles_.back().origin[axis][at] = origin[axis];
+    bundles_.back().direction[axis][at] = direction[axis];
   }
 }
 
 void RayBundles::close() {
-  for (std::size_t lane = size_ % width; lane != 0 && lane < width; ++lane) {
+  for (std::size_t at = size_ % width; at != 0 && at < width; ++at) {
     for (auto* of : {&bundles_.back().origin, &bundles_.back().direction})
-      for (auto& values : *of) values[lane] = values[lane - 1];
+      for (auto& values : *of) values[at] = values[at - 1];
   }
   for (Bundle& bundle : bundles_) {
-    const auto at = [](const auto& of, std::size_t lane) {
-      return Vec3(of[0][lane], of[1][lane], of[2][lane]);
-    };
     bundle.axis = Vec3::Zero();
-    for (std::size_t lane = 0; lane < width; ++lane) bundle.axis += at(bundle.direction, lane);
+    for (std::size_t at = 0; at < width; ++at) bundle.axis += lane(bundle.direction, at);
     // Directions that cancel have no mean: then any axis serves.
-    bundle.axis = bundle.axis.norm() > 1e-3 ? Vec3(bundle.axis.normalized()) : at(bundle.direction, 0);
+    bundle.axis = bundle.axis.norm() > 1e-3 ? Vec3(bundle.axis.normalized()) : lane(bundle.direction, 0);
   }
 }
 

@@ -24,7 +24,7 @@ RayHits hits_of(const TriMesh& mesh, const std::vector<Ray>& rays, double reach,
   for (const Ray& ray : rays) bundles.push_back(ray.origin, ray.direction);
   bundles.close();
   RayHits hits;
-  nearest_hits(TriangleTree(mesh), X_TR, bundles, reach, hits);
+  nearest_hits(RayTarget(mesh), X_TR, bundles, reach, hits);
   return hits;
 }
 

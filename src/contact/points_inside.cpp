@@ -1,0 +1,37 @@
+#include "contact/points_inside.hpp"
+
+#include <utility>
+
+#include "condyle/inspect.hpp"
+
+namespace condyle::contact {
+namespace {
+
+/// RadialTable::penetrations() is fast up to here: translations, in distances of the surface from the origin.
+constexpr double farthest_translation = 4;
+
+/// Whether no point outside can be followed, along a ray, by a surface seen from behind. Then winding numbers are nowhere below
+/// 0, and what is outside has 0.
+bool is_plain_solid(const Mesh& mesh) {
+  if (!mesh.is_closed()) return false;
+  const MeshReport report = inspect(mesh);
+  return report.self_crossings.count == 0 && report.inverted_components.count == 0;
+}
+
+}  // namespace
+
+PointsInside::PointsInside(Mesh surface, double nearest_mm, Points points)
+    : surface_(std::move(surface)), nearest_(nearest_mm), points_(std::move(points)) {}
+
+bool PointsInside::find(const Pose& X_of_points, Penetrations& out) const {
+  if (!surface_.is_closed() || !(nearest_ > 0) ||
+      !(X_of_points.translation().norm() <= farthest_translation * nearest_))
+    return false;
+  const auto& prepared = prepared_.get([&](std::optional<Prepared>& made) {
+    if (is_plain_solid(surface_)) made.emplace(Prepared{RadialTable(surface_), SortedPoints(points_)});
+  });
+  if (prepared) prepared->table.penetrations(prepared->points, X_of_points, out);
+  return prepared.has_value();
+}
+
+}  // namespace condyle::contact
