@@ -26,16 +26,52 @@ double distance_between(const Ball& a, const Ball& b) noexcept {
   return (a.centre - b.centre).norm() - a.radius - b.radius;
 }
 
-/// A triangle as placed, and a ball that holds it.
+/// A triangle as placed, a ball that holds it, and a flat box that does.
 struct PlacedTriangle {
   TriangleCorners corners;
   Ball ball;
+  Eigen::Matrix3d axes;  ///< rows: of the box, the last at a right angle to the triangle
+  Vec3 low, high;        ///< of the box, along them
+  bool has_box = false;
 
-  explicit PlacedTriangle(const TriangleCorners& placed) : corners(placed) {
+  void place(const TriangleCorners& placed) noexcept {
+    corners = placed;
+    has_box = false;
     ball.centre = (placed[0] + placed[1] + placed[2]) / 3;
     double squared = 0;
     for (const Vec3& corner : placed) squared = std::max(squared, (corner - ball.centre).squaredNorm());
     ball.radius = std::sqrt(squared) * (1 + rounding) + rounding * ball.centre.norm();
+  }
+
+  /// Most triangles never need it.
+  void make_box() noexcept {
+    if (has_box) return;
+    has_box = true;
+    // Any axes at right angles hold, so one without area needs no other way.
+    const Vec3 edge = corners[1] - corners[0], normal = edge.cross(corners[2] - corners[0]);
+    if (normal.squaredNorm() > 0) {
+      axes.row(0) = edge.normalized();
+      // At right angles to rounding, however thin the triangle.
+      axes.row(1) = normal.cross(edge).normalized();
+      axes.row(2) = axes.row(0).cross(axes.row(1));
+    } else {
+      axes.setIdentity();
+    }
+    extent_along(axes, corners, low, high);
+  }
+
+  static void extent_along(const Eigen::Matrix3d& axes, const TriangleCorners& of, Vec3& low, Vec3& high) {
+    const Vec3 a = axes * of[0], b = axes * of[1], c = axes * of[2];
+    low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  }
+
+  /// No point of the other triangle is nearer to the box. Of two that face each other a little apart balls tell nothing.
+  double distance_to(const TriangleCorners& other) noexcept {
+    make_box();
+    Vec3 other_low, other_high;
+    extent_along(axes, other, other_low, other_high);
+    const Vec3 between = (other_low - high).cwiseMax(low - other_high).cwiseMax(0.0);
+    return between.norm() * (1 - rounding) - rounding * (ball.centre.norm() + other_high.norm());
   }
 };
 
@@ -54,7 +90,7 @@ class Search {
       if (pair.apart >= best_mm_) continue;
       const Node &na = a_.nodes()[pair.a], &nb = b_.nodes()[pair.b];
       if (na.is_leaf() && nb.is_leaf()) {
-        compare_leaves(na, nb);
+        compare_leaves(pair.a, pair.b);
         continue;
       }
       const std::size_t before = open_.size();
@@ -94,15 +130,25 @@ class Search {
     if (distance < best_mm_) open_.push_back({a, b, distance});
   }
 
-  void compare_leaves(const Node& na, const Node& nb) {
+  void compare_leaves(Index leaf_a, Index leaf_b) {
+    const Node &na = a_.nodes()[leaf_a], &nb = b_.nodes()[leaf_b];
+    if (leaf_a != leaf_a_) {
+      leaf_a_ = leaf_a;
+      for (Index t = na.first; t < na.last; ++t) of_a_[t - na.first].place(a_.corners(t));
+    }
     for (Index s = nb.first; s < nb.last; ++s) {
       TriangleCorners corners = b_.corners(s);
       for (Vec3& corner : corners) corner = posed(X_AB_, corner);
-      const PlacedTriangle of_b(corners);
+      PlacedTriangle of_b;
+      of_b.place(corners);
+      const Vec3 to_leaf = ((of_b.ball.centre - vec3(na.centre)).cwiseAbs() - vec3(na.half)).cwiseMax(0.0);
+      if (to_leaf.norm() * (1 - rounding) - of_b.ball.radius >= best_mm_) continue;
       for (Index t = na.first; t < na.last; ++t) {
-        const PlacedTriangle of_a(a_.corners(t));
+        PlacedTriangle& of_a = of_a_[t - na.first];
         const double least = distance_between(of_a.ball, of_b.ball);
-        if (least >= best_mm_) continue;
+        if (least >= best_mm_ || of_a.distance_to(of_b.corners) >= best_mm_ ||
+            of_b.distance_to(of_a.corners) >= best_mm_)
+          continue;
         if (least <= 0 && triangles_intersect(of_a.corners, of_b.corners)) {
           best_mm_ = 0;
           found_ = {0, a_.mesh_triangles()[t], b_.mesh_triangles()[s], of_a.ball.centre, of_b.ball.centre};
@@ -121,6 +167,8 @@ class Search {
   const Pose& X_AB_;
   Eigen::Matrix3d to_a_size_;
   std::vector<Pair> open_;
+  Index leaf_a_ = no_index;
+  std::array<PlacedTriangle, TriangleTree::leaf_triangles> of_a_;  ///< of that leaf
   double best_mm_ = std::numeric_limits<double>::infinity();
   std::optional<ClosestPoints> found_;
 };
