@@ -81,9 +81,10 @@ bool ask_hip_balance(Effort effort, Report& report) {
   const condyle::Mesh head(condyle::read_mesh(folder / "femur_cartilage_gap.ply").mesh);
   std::vector<ElasticContact> contacts;
   for (const Way& way : all_ways)
-    contacts.push_back({socket,
-                        head,
-                        {.casting = way.casting, .rays = {.rule = way.rule}, .fixed = cartilage, .mobile = cartilage}});
+    contacts.push_back(
+        {socket,
+         head,
+         {.casting = way.casting, .rays = {.rule = way.rule}, .fixed = cartilage, .mobile = cartilage}});
   auto walk = walking_hip(condyle::Side::left, walk_frames);
   if (effort == Effort::quick) walk.resize(quick_frames);
 

@@ -101,8 +101,8 @@ bool ask_knee_pressure(Effort effort, Report& report) {
                 seconds * 1e9 / double(rays)});
     }
     if (effort == Effort::full)
-      add_goal({fmt::format("rays and pressure, both contacts at a pose, {}", rule_name), "knee_lenhart2015_right",
-                Bound::at_most, 3, "ms"},
+      add_goal({fmt::format("rays and pressure, both contacts at a pose, {}", rule_name),
+                "knee_lenhart2015_right", Bound::at_most, 3, "ms"},
                both * 1e3, report);
   }
   return true;

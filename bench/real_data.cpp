@@ -23,8 +23,9 @@ std::vector<std::optional<condyle::Pose>> walking_hip(condyle::Side side, std::o
   for (const char* angle : {"flexion", "adduction", "rotation"})
     columns.push_back({.coordinate = angle, .column = "hip_" + std::string(angle) + ending});
   const condyle::NamedCoordinates recorded = condyle::recorded_coordinates(table, columns);
-  condyle::Curves curves{
-      .at = recorded.times.values, .names = recorded.names, .values = {columns.size(), std::vector<double>{}}};
+  condyle::Curves curves{.at = recorded.times.values,
+                         .names = recorded.names,
+                         .values = {columns.size(), std::vector<double>{}}};
   for (const auto& frame : recorded.frames)
     for (std::size_t c = 0; c < columns.size(); ++c) curves.values[c].push_back(frame.value()[c]);
   if (points) curves = condyle::cycle_of(curves, curves.at.front(), curves.at.back(), *points);

@@ -16,7 +16,8 @@ std::filesystem::path data_folder();
 
 /// The rotations of a hip in a recorded walk (motion_gait2354_walk), no translation: its 73 frames, or `points` at equal
 /// steps of the whole recording.
-std::vector<std::optional<condyle::Pose>> walking_hip(condyle::Side side, std::optional<std::size_t> points = {});
+std::vector<std::optional<condyle::Pose>> walking_hip(condyle::Side side,
+                                                      std::optional<std::size_t> points = {});
 
 /// What of a walk is asked in a quick run: a few frames of the beginning.
 inline constexpr std::size_t quick_frames = 3;

@@ -49,7 +49,8 @@ bool ask_walking_bones(Effort effort, Report& report) {
     const Stopwatch watch;
     const auto frames = contact_along(bones, &depth, walk).value();
     if (round > 0) wall.push_back(watch.wall_seconds());
-    in_contact = std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame->in_contact; });
+    in_contact =
+        std::count_if(frames.begin(), frames.end(), [](const auto& frame) { return frame->in_contact; });
   }
   const auto parts = interleaved(rounds, {[&] {
                                             for (const auto& X : walk) bones.pairs(*X);

@@ -154,7 +154,8 @@ contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const
   const Vec3 origin_M = X_FM.translation();
   if (from_fixed)
     contact::add_load(*from_fixed, answers.of_fixed, Pose::Identity(), origin_M, 1, share, with_change, load);
-  if (from_mobile) contact::add_load(*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share, with_change, load);
+  if (from_mobile)
+    contact::add_load(*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share, with_change, load);
   return load;
 }
 

@@ -61,7 +61,8 @@ class Search {
       : contact_(contact), options_(options), load_(load), start_(start), free_(free_motions(options)) {
     if (!load.on_mobile.force_n.allFinite() || !load.on_mobile.moment_nmm.allFinite())
       throw UsageError("the load is not finite");
-    if ((free_.transpose() * load_at(start)).norm() == 0) throw UsageError("the load is zero along what is free");
+    if ((free_.transpose() * load_at(start)).norm() == 0)
+      throw UsageError("the load is zero along what is free");
     out_.X_FM = start;
   }
 
@@ -194,8 +195,9 @@ class Search {
   const Load& load_;
   const Pose& start_;
   const Eigen::Matrix<double, 6, Eigen::Dynamic> free_;
-  std::unique_ptr<ElasticContact::Parts::Answers> answers_, tried_;  ///< at out_.X_FM, and at the pose tried last
-  MobileLoad now_;                                                   ///< at out_.X_FM
+  std::unique_ptr<ElasticContact::Parts::Answers> answers_,
+      tried_;       ///< at out_.X_FM, and at the pose tried last
+  MobileLoad now_;  ///< at out_.X_FM
   Vector6 residual_ = Vector6::Zero();
   bool resisted_ = false;
   BalancedPose out_{};

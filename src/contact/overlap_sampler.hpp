@@ -68,9 +68,9 @@ class OverlapSampler {
   };
   struct Scratch {
     mesh::RayHits hits;
-    std::vector<RayEnd> ends;      ///< per ray inwards
-    Penetrations inside;           ///< the origins in the target
-    std::vector<char> outwards;    ///< per ray inwards: whether its other direction is cast too
+    std::vector<RayEnd> ends;    ///< per ray inwards
+    Penetrations inside;         ///< the origins in the target
+    std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
     mesh::RayBundles rays;
     std::vector<Index> owner;
     std::vector<Index> active, rim;  ///< faces

@@ -110,8 +110,9 @@ class alignas(64) Reached {
   /// Of the target, `size` is the largest coordinate.
   Reached(const Placed& rays, float size) : slack_(rays.slack + 0x1p-20f * size) {
     const Vec3 u = rays.axis, v = u.unitOrthogonal(), w = u.cross(v);
-    const Vec3 directions[width] = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ(),   u, v, w,
-                                    (v + w) * std::sqrt(0.5), (v - w) * std::sqrt(0.5)};
+    const Vec3 directions[width] = {
+        Vec3::UnitX(),           Vec3::UnitY(), Vec3::UnitZ(), u, v, w, (v + w) * std::sqrt(0.5),
+        (v - w) * std::sqrt(0.5)};
     for (std::size_t i = 0; i < width; ++i) {
       for (int k = 0; k < 3; ++k) {
         axis_[k][i] = static_cast<float>(directions[i][k]);
@@ -126,8 +127,8 @@ class alignas(64) Reached {
     for (std::size_t i = 0; i < width; i += hn::Lanes(f)) {
       auto low = hn::Set(f, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
       for (std::size_t ray = 0; ray < RayBundles::width; ++ray) {
-        const auto from = along(i, rays.rough_origin[0][ray], rays.rough_origin[1][ray],
-                                rays.rough_origin[2][ray]);
+        const auto from =
+            along(i, rays.rough_origin[0][ray], rays.rough_origin[1][ray], rays.rough_origin[2][ray]);
         const auto way = along(i, rays.rough_direction[0][ray], rays.rough_direction[1][ray],
                                rays.rough_direction[2][ray]);
         const auto to = hn::Add(from, hn::Mul(way, hn::Set(f, rays.rough_end[ray])));
@@ -147,10 +148,9 @@ class alignas(64) Reached {
   HWY_INLINE bool may_meet(const TriangleTree::Node& node) const noexcept {
     for (std::size_t i = 0; i < width; i += hn::Lanes(f)) {
       const auto at = along(i, node.centre[0], node.centre[1], node.centre[2]);
-      const auto node_half =
-          hn::Add(hn::Add(hn::Mul(hn::Load(f, size_[0] + i), hn::Set(f, node.half[0])),
-                          hn::Mul(hn::Load(f, size_[1] + i), hn::Set(f, node.half[1]))),
-                  hn::Mul(hn::Load(f, size_[2] + i), hn::Set(f, node.half[2])));
+      const auto node_half = hn::Add(hn::Add(hn::Mul(hn::Load(f, size_[0] + i), hn::Set(f, node.half[0])),
+                                             hn::Mul(hn::Load(f, size_[1] + i), hn::Set(f, node.half[1]))),
+                                     hn::Mul(hn::Load(f, size_[2] + i), hn::Set(f, node.half[2])));
       const auto apart = hn::Abs(hn::Sub(at, hn::Load(f, centre_ + i)));
       // What is not a number may be met.
       if (!hn::AllFalse(f, hn::Gt(apart, hn::Add(node_half, hn::Load(f, half_ + i))))) return false;
@@ -306,16 +306,17 @@ RayTarget::RayTarget(const TriMesh& mesh) : tree_(mesh) {
   for (Index t = 0; t < tree_.triangles().size(); ++t) {
     const auto [a, b, c] = tree_.corners(t);
     const Vec3 centre = (a.cwiseMin(b).cwiseMin(c) + a.cwiseMax(b).cwiseMax(c)) / 2;
-    const double radius = std::sqrt(std::max(
-        {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
+    const double radius = std::sqrt(
+        std::max({(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
     const double rounding = 0x1p-22 * (centre.cwiseAbs().maxCoeff() + radius);
-    balls_.push_back({{static_cast<float>(centre.x()), static_cast<float>(centre.y()),
-                       static_cast<float>(centre.z())},
-                      static_cast<float>(radius + rounding)});
+    balls_.push_back(
+        {{static_cast<float>(centre.x()), static_cast<float>(centre.y()), static_cast<float>(centre.z())},
+         static_cast<float>(radius + rounding)});
     normals_.push_back((b - a).cross(c - a));
     normal_lengths_.push_back(normals_.back().norm());
     place_of_[tree_.mesh_triangles()[t]] = t;
-    for (const Vec3& corner : {a, b, c}) size_ = std::max(size_, static_cast<float>(corner.cwiseAbs().maxCoeff()));
+    for (const Vec3& corner : {a, b, c})
+      size_ = std::max(size_, static_cast<float>(corner.cwiseAbs().maxCoeff()));
   }
 }
 
@@ -334,8 +335,8 @@ void nearest_hits(const RayTarget& target, const Pose& X_TR, const RayBundles& r
     places.resize(padded, no_index);
     for (std::size_t ray = 0; ray < first.size(); ++ray) places[ray] = target.place_of(first[ray]);
   }
-  HWY_DYNAMIC_DISPATCH(nearest_hits_any)(target, X_TR, rays.bundles(), reach, places.empty() ? nullptr : places.data(),
-                                         out);
+  HWY_DYNAMIC_DISPATCH(nearest_hits_any)
+  (target, X_TR, rays.bundles(), reach, places.empty() ? nullptr : places.data(), out);
 }
 
 void RayBundles::push_back(const Vec3& origin, const Vec3& direction) {
