@@ -135,6 +135,31 @@ TEST(RayHits, OfTrianglesMetAtOneDistanceTheLowestNumberCounts) {
   EXPECT_LT(hits.triangle[0], once.triangles.size());
 }
 
+TEST(RayHits, AreTheSameWhateverTriangleIsTriedFirst) {
+  std::mt19937_64 random(13);
+  std::normal_distribution<double> normal;
+  const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
+  const TriMesh mesh = test::torus(14, 3, 40, 20);
+  RayBundles rays;
+  for (int i = 0; i < 500; ++i) rays.push_back(8 * vector(), vector().normalized());
+  rays.close();
+  const RayTarget target(mesh);
+  RayHits hits;
+  nearest_hits(target, Pose::Identity(), rays, 40, hits);
+  std::uniform_int_distribution<Index> any(0, static_cast<Index>(mesh.triangles.size() - 1));
+  std::vector<Index> guessed, right;
+  for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+    guessed.push_back(any(random));
+    right.push_back(hits.is_hit(ray) ? hits.triangle[ray] : guessed.back());
+  }
+  for (const auto& first : {guessed, right}) {
+    RayHits again;
+    nearest_hits(target, Pose::Identity(), rays, 40, again, first);
+    EXPECT_EQ(again.distance, hits.distance);
+    EXPECT_EQ(again.triangle, hits.triangle);
+  }
+}
+
 TEST(RayHits, SameBitsOnEveryInstructionSet) {
   std::mt19937_64 random(11);
   std::normal_distribution<double> normal;
