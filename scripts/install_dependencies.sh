@@ -13,6 +13,9 @@ packages=(
   libvtk9-dev libhdf5-dev libfmt-dev nlohmann-json3-dev   # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
   libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there, and a peer
+  pybind11-dev python3-dev python3-numpy             # the Python module
+  python3-pytest python3-hypothesis mypy             # its tests
+  python3-matplotlib python3-pandas python3-xarray   # its figures; tables and arrays that it gives where these are there
 )
 
 for group in "$@"; do

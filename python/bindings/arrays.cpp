@@ -1,0 +1,199 @@
+#include "arrays.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/error.hpp"
+
+namespace condyle::python {
+namespace {
+
+std::string shape_of(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) text += fmt::format("{}{}", i ? ", " : "", array.shape(i));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+bool is_number(const py::array& array) {
+  const char kind = array.dtype().kind();
+  return kind == 'f' || kind == 'i' || kind == 'u';
+}
+
+std::string name_of_type(const py::array& array) {
+  return py::str(array.dtype()).cast<std::string>();
+}
+
+/// As doubles, rounded where they were longer; strides are kept.
+py::array as_doubles(const py::array& array, std::string_view name) {
+  if (!is_number(array))
+    throw UsageError(fmt::format("{}: real numbers are needed, not {}", name, name_of_type(array)));
+  py::array doubles = py::array_t<double, py::array::forcecast>::ensure(array);
+  if (!doubles) {
+    PyErr_Clear();
+    throw UsageError(fmt::format("{}: {} cannot be read as doubles", name, name_of_type(array)));
+  }
+  return doubles;
+}
+
+/// A copy with aligned elements, where a structured or memory-mapped array has them otherwise.
+py::array aligned(py::array array) {
+  const auto misaligned = [](py::ssize_t of) { return of % static_cast<py::ssize_t>(alignof(double)) != 0; };
+  bool is_off = misaligned(static_cast<py::ssize_t>(reinterpret_cast<std::uintptr_t>(array.data())));
+  for (py::ssize_t i = 0; i < array.ndim(); ++i) is_off |= misaligned(array.strides(i));
+  return is_off ? py::array(array.attr("copy")()) : array;
+}
+
+double at(const py::array& array, py::ssize_t i, py::ssize_t j) {
+  return *static_cast<const double*>(array.data(i, j));
+}
+
+/// Rotations written with six decimals pass, as they do in joint files.
+constexpr double rotation_tolerance = 1e-6;
+
+void check_rigid(const Pose& pose, const std::string& name) {
+  if (!pose.matrix().allFinite()) throw UsageError(fmt::format("{}: finite numbers are needed", name));
+  if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1))
+    throw UsageError(fmt::format("{}: the last row of a pose is 0 0 0 1", name));
+  const Eigen::Matrix3d rotation = pose.linear();
+  const double off = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (off > rotation_tolerance)
+    throw UsageError(fmt::format("{}: the rotation is not orthonormal, but off by {:.3g}", name, off));
+  if (rotation.determinant() < 0) throw UsageError(fmt::format("{}: a reflection is no pose", name));
+}
+
+}  // namespace
+
+py::array degrees_of(const std::vector<Angle>& angles) {
+  std::vector<double> degrees(angles.size());
+  std::transform(angles.begin(), angles.end(), degrees.begin(), [](Angle angle) { return angle.degrees(); });
+  return array_of(std::move(degrees));
+}
+
+py::array array_of(const Points& points) {
+  auto kept = std::make_unique<std::vector<double>>();
+  kept->reserve(3 * points.size());
+  for (const auto* column : {&points.x, &points.y, &points.z})
+    kept->insert(kept->end(), column->begin(), column->end());
+  const double* data = kept->data();
+  const auto count = static_cast<py::ssize_t>(points.size());
+  const py::capsule owner(kept.release(),
+                          [](void* vector) { delete static_cast<std::vector<double>*>(vector); });
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+  return view_of(data, {count, 3}, {size, size * count}, owner);
+}
+
+py::array array_of(const Vec3& vector) {
+  return array_of(std::vector<double>{vector.x(), vector.y(), vector.z()});
+}
+
+py::array array_of(const Pose& pose) {
+  py::array_t<double> array({4, 4});
+  auto values = array.mutable_unchecked<2>();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) values(i, j) = pose.matrix()(i, j);
+  return array;
+}
+
+py::array array_in(const py::object& given, std::string_view name, std::string_view wanted) {
+  py::array array = py::array::ensure(given);  // clears the error where there is one
+  if (!array || array.dtype().kind() == 'O')
+    throw UsageError(fmt::format("{}: an array of shape {} is needed, not {}", name, wanted,
+                                 py::str(py::type::of(given).attr("__name__")).cast<std::string>()));
+  return array;
+}
+
+py::array array_in(const py::object& given, std::string_view name, std::vector<py::ssize_t> shape,
+                   std::string_view wanted) {
+  py::array array = array_in(given, name, wanted);
+  bool fits = array.ndim() == static_cast<py::ssize_t>(shape.size());
+  for (std::size_t i = 0; fits && i < shape.size(); ++i)
+    fits = shape[i] == -1 || shape[i] == array.shape(static_cast<py::ssize_t>(i));
+  if (!fits)
+    throw UsageError(
+        fmt::format("{}: an array of shape {} is needed, not {}", name, wanted, shape_of(array)));
+  return array;
+}
+
+PointsIn::PointsIn(const py::object& given, std::string_view name, NotFinite not_finite)
+    : kept_(aligned(as_doubles(array_in(given, name, {-1, 3}, "(N, 3)"), name))) {
+  const py::ssize_t count = kept_.shape(0);
+  if (kept_.strides(0) == static_cast<py::ssize_t>(sizeof(double)) || count == 0) {
+    const auto column = [&](py::ssize_t j) {
+      return count == 0
+                 ? std::span<const double>()
+                 : std::span(static_cast<const double*>(kept_.data(0, j)), static_cast<std::size_t>(count));
+    };
+    view_ = {column(0), column(1), column(2)};
+  } else {
+    copied_ = Points(static_cast<std::size_t>(count));
+    for (py::ssize_t i = 0; i < count; ++i)
+      copied_.set(static_cast<std::size_t>(i), {at(kept_, i, 0), at(kept_, i, 1), at(kept_, i, 2)});
+    view_ = copied_.view();
+  }
+  for (std::size_t i = 0; not_finite == NotFinite::refuse && i < view_.size(); ++i)
+    if (!view_[i].allFinite())
+      throw UsageError(fmt::format("{}: row {} is ({}, {}, {}): finite numbers are needed", name, i,
+                                   view_.x[i], view_.y[i], view_.z[i]));
+}
+
+std::vector<double> doubles_in(const py::object& given, std::string_view name) {
+  const py::array array = aligned(as_doubles(array_in(given, name, {-1}, "(N,)"), name));
+  std::vector<double> values(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = *static_cast<const double*>(array.data(static_cast<py::ssize_t>(i)));
+  return values;
+}
+
+Vec3 vector_in(const py::object& given, std::string_view name) {
+  const py::array array = aligned(as_doubles(array_in(given, name, {3}, "(3,)"), name));
+  Vec3 vector;
+  for (int i = 0; i < 3; ++i) vector[i] = *static_cast<const double*>(array.data(i));
+  if (!vector.allFinite()) throw UsageError(fmt::format("{}: finite numbers are needed", name));
+  return vector;
+}
+
+PosesIn poses_in(const py::object& given, std::string_view name) {
+  constexpr std::string_view wanted = "(4, 4) or (N, 4, 4)";
+  py::array array = array_in(given, name, wanted);
+  PosesIn in{{}, array.ndim() == 2};
+  if ((array.ndim() != 2 && array.ndim() != 3) || array.shape(array.ndim() - 1) != 4 ||
+      array.shape(array.ndim() - 2) != 4)
+    throw UsageError(
+        fmt::format("{}: an array of shape {} is needed, not {}", name, wanted, shape_of(array)));
+  array = aligned(as_doubles(in.is_one ? py::array(array.attr("reshape")(1, 4, 4)) : array, name));
+  in.poses.resize(static_cast<std::size_t>(array.shape(0)));
+  for (std::size_t n = 0; n < in.poses.size(); ++n) {
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        in.poses[n].matrix()(i, j) =
+            *static_cast<const double*>(array.data(static_cast<py::ssize_t>(n), i, j));
+    check_rigid(in.poses[n], in.is_one ? std::string(name) : fmt::format("{}: pose {}", name, n));
+  }
+  return in;
+}
+
+std::vector<Triangle> triangles_in(const py::object& given, std::size_t vertices) {
+  const py::array array = array_in(given, "triangles", {-1, 3}, "(T, 3)");
+  if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')
+    throw UsageError(fmt::format("triangles: integers are needed, not {}", name_of_type(array)));
+  if (array.dtype().kind() == 'u' && array.itemsize() == 8) {
+    // Numbers beyond the signed ones are no vertices either; they must not become some by wrapping.
+    if (array.size() > 0 && py::bool_(array.attr("max")().attr("__gt__")(py::int_(INT64_MAX))))
+      throw MeshError(fmt::format("triangles: a vertex number beyond {}", INT64_MAX));
+  }
+  const py::array_t<std::int64_t, py::array::forcecast> numbers(array);
+  const auto numbers_at = numbers.unchecked<2>();
+  std::vector<Triangle> triangles(static_cast<std::size_t>(numbers.shape(0)));
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::int64_t vertex = numbers_at(static_cast<py::ssize_t>(t), k);
+      if (vertex < 0 || vertex >= static_cast<std::int64_t>(vertices))
+        throw MeshError(fmt::format("triangle {} uses vertex {} of {}", t, vertex, vertices));
+      triangles[t][static_cast<std::size_t>(k)] = static_cast<Index>(vertex);
+    }
+  return triangles;
+}
+
+}  // namespace condyle::python

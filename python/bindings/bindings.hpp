@@ -1,0 +1,20 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+/// Each adds its part to the module condyle._native, which the Python files of condyle/ give their names, units and words.
+
+namespace condyle::python {
+
+namespace py = pybind11;
+
+void bind_mesh(py::module_& module);
+void bind_inspect(py::module_& module);
+void bind_fit(py::module_& module);
+void bind_joint(py::module_& module);
+void bind_penetration(py::module_& module);
+void bind_gaps(py::module_& module);
+void bind_tables(py::module_& module);
+void bind_sample(py::module_& module);
+
+}  // namespace condyle::python

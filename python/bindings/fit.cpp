@@ -1,0 +1,58 @@
+#include "condyle/fit.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+
+namespace condyle::python {
+namespace {
+
+py::dict dict_of(SphereFit fit) {
+  py::dict dict;
+  dict["centre"] = array_of(fit.sphere.centre);
+  dict["radius"] = fit.sphere.radius;
+  dict["rms_residual"] = fit.rms_residual;
+  dict["largest_residual"] = fit.largest_residual;
+  dict["vertices"] = array_of(std::move(fit.vertices));
+  return dict;
+}
+
+py::dict fit_points(const py::object& given) {
+  const PointsIn points(given, "points");
+  return dict_of(fit_sphere(points.view()));
+}
+
+std::optional<Sphere> ball(const py::object& centre, double radius_mm) {
+  if (centre.is_none()) return std::nullopt;
+  return Sphere{vector_in(centre, "within"), radius_mm};
+}
+
+py::dict find_in(const Mesh& mesh, bool is_head, double smallest_radius, double largest_radius,
+                 const py::object& within_centre, double within_radius, std::size_t resamples) {
+  const SphereSearch search{.part = is_head ? SphericalPart::head : SphericalPart::socket,
+                            .smallest_radius = smallest_radius,
+                            .largest_radius = largest_radius,
+                            .within = ball(within_centre, within_radius),
+                            .resamples = resamples};
+  SphericalPatch patch = [&] {
+    const py::gil_scoped_release released;
+    return find_sphere(mesh, search);
+  }();
+  const double coverage = patch.coverage;
+  py::dict dict = dict_of(std::move(patch.fit));
+  dict["coverage"] = coverage;
+  dict["centre_bound"] = patch.centre_bound_mm;
+  return dict;
+}
+
+}  // namespace
+
+void bind_fit(py::module_& module) {
+  module.def("fit_sphere", &fit_points);
+  module.def("find_sphere", &find_in);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,137 @@
+#include "joint.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/joint_checks.hpp"
+#include "joint_description.hpp"
+
+namespace condyle::python {
+namespace {
+
+std::unique_ptr<JointHandle> read(const std::filesystem::path& path) {
+  const py::gil_scoped_release released;
+  return std::make_unique<JointHandle>(read_joint(path));
+}
+
+std::unique_ptr<JointHandle> made(const py::dict& description, const std::string& fixed_name,
+                                  const Mesh& fixed, const std::string& mobile_name, const Mesh& mobile) {
+  JointReport report;
+  report.file.joint = description_in(description);
+  const py::gil_scoped_release released;
+  auto [joint, placement] = make_joint(report.file.joint, {fixed_name, fixed}, {mobile_name, mobile});
+  report.notes = placement.notes;
+  report.placement = std::move(placement);
+  return std::make_unique<JointHandle>(LoadedJoint{std::move(joint), std::move(report)});
+}
+
+/// Rows of degrees and of mm to an array (N, 4, 4).
+py::array poses_at(const JointHandle& handle, const py::object& angles_deg,
+                   const py::object& translation_mm) {
+  const PointsIn angles(angles_deg, "pose"), translations(translation_mm, "pose");
+  const auto count = static_cast<py::ssize_t>(angles.size());
+  py::array_t<double> array({count, py::ssize_t{4}, py::ssize_t{4}});
+  auto values = array.mutable_unchecked<3>();
+  const Joint& joint = handle.joint();
+  for (py::ssize_t n = 0; n < count; ++n) {
+    const Vec3 degrees = angles.view()[static_cast<std::size_t>(n)];
+    const PoseDegrees pose{degrees[0], degrees[1], degrees[2],
+                           translations.view()[static_cast<std::size_t>(n)]};
+    const Pose X_FM = pose_at(joint.coordinates(), pose.coordinates(), joint.translation_frame);
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) values(n, i, j) = X_FM.matrix()(i, j);
+  }
+  return array;
+}
+
+/// Poses to (N, 3) degrees and (N, 3) mm.
+py::tuple coordinates_of(const JointHandle& handle, const py::object& given) {
+  const PosesIn in = poses_in(given, "pose");
+  Points degrees(in.poses.size()), mm(in.poses.size());
+  for (std::size_t n = 0; n < in.poses.size(); ++n) {
+    const auto [angles, translation] =
+        coordinates_at(handle.joint().coordinates(), in.poses[n], handle.joint().translation_frame);
+    degrees.set(n,
+                {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees()});
+    mm.set(n, translation);
+  }
+  return py::make_tuple(array_of(degrees), array_of(mm));
+}
+
+py::list checks_of(const JointHandle& handle) {
+  const std::vector<JointNote> notes = [&] {
+    const py::gil_scoped_release released;
+    return check_joint(handle.joint(), handle.loaded.report.placement);
+  }();
+  py::list list;
+  for (const JointNote& note : notes) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  return list;
+}
+
+using AngleNamesList = std::vector<std::pair<std::string, std::string>>;
+
+AngleNamesList angle_names(Anatomy joint) {
+  AngleNamesList names;
+  for (const auto& [positive, negative] : coordinate_names(joint)) names.emplace_back(positive, negative);
+  return names;
+}
+
+AngleNamesList angle_names_of(const std::string& word) {
+  for (const Anatomy joint : all_anatomies)
+    if (word == name_of(joint)) return angle_names(joint);
+  throw UsageError("joint: unknown " + word);
+}
+
+py::list parts_of(const Body& body) {
+  py::list parts;
+  for (const BodyPart& part : body.parts)
+    parts.append(
+        py::make_tuple(part.name, part.first_vertex, part.vertices, part.first_triangle, part.triangles));
+  return parts;
+}
+
+}  // namespace
+
+void bind_joint(py::module_& module) {
+  py::class_<JointHandle>(module, "Joint")
+      .def_property_readonly("name", [](const JointHandle& h) { return h.joint().name; })
+      .def_property_readonly("kind", [](const JointHandle& h) { return name_of(h.joint().kind); })
+      .def_property_readonly("side", [](const JointHandle& h) { return name_of(h.joint().side); })
+      .def_property_readonly("anatomy", [](const JointHandle& h) { return name_of(h.joint().anatomy); })
+      .def_property_readonly("translation_frame",
+                             [](const JointHandle& h) { return name_of(h.joint().translation_frame); })
+      .def_property_readonly("fixed", [](const JointHandle& h) { return h.joint().fixed.mesh; })
+      .def_property_readonly("mobile", [](const JointHandle& h) { return h.joint().mobile.mesh; })
+      .def_property_readonly("fixed_name", [](const JointHandle& h) { return h.joint().fixed.name; })
+      .def_property_readonly("mobile_name", [](const JointHandle& h) { return h.joint().mobile.name; })
+      .def_property_readonly("fixed_parts", [](const JointHandle& h) { return parts_of(h.joint().fixed); })
+      .def_property_readonly("mobile_parts", [](const JointHandle& h) { return parts_of(h.joint().mobile); })
+      .def_property_readonly("angle_names",
+                             [](const JointHandle& h) { return angle_names(h.joint().anatomy); })
+      .def_property_readonly("notes", [](const JointHandle& h) { return h.loaded.report.notes; })
+      .def_property_readonly("X_WF",
+                             [](const JointHandle& h) { return array_of(h.loaded.report.placement.X_WF); })
+      .def_property_readonly("reference_pose",
+                             [](const JointHandle& h) {
+                               const auto& [angles, translation] = h.loaded.report.placement.reference_pose;
+                               return std::array{angles.flexion.degrees(),
+                                                 angles.adduction.degrees(),
+                                                 angles.internal_rotation.degrees(),
+                                                 translation.x(),
+                                                 translation.y(),
+                                                 translation.z()};
+                             })
+      .def("poses_at", &poses_at)
+      .def("coordinates_of", &coordinates_of)
+      .def("checks", &checks_of);
+  module.def("angle_names_of", &angle_names_of);
+  module.def("read_joint", &read);
+  module.def("make_joint", &made);
+}
+
+}  // namespace condyle::python

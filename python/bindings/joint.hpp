@@ -1,0 +1,20 @@
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "condyle/contact.hpp"
+#include "condyle/io/joint_file.hpp"
+
+namespace condyle::python {
+
+/// A joint as Python holds it: what its file or its description said, and what is asked of it.
+struct JointHandle {
+  LoadedJoint loaded;
+  JointContact contact;
+
+  explicit JointHandle(LoadedJoint from) : loaded(std::move(from)), contact(loaded.joint) {}
+  const Joint& joint() const noexcept { return loaded.joint; }
+};
+
+}  // namespace condyle::python

@@ -1,0 +1,17 @@
+#include "bindings.hpp"
+#include "condyle/version.hpp"
+#include "errors.hpp"
+
+PYBIND11_MODULE(_native, module) {
+  using namespace condyle::python;
+  module.attr("version") = std::string(condyle::version);
+  bind_errors(module);
+  bind_mesh(module);
+  bind_inspect(module);
+  bind_fit(module);
+  bind_joint(module);
+  bind_penetration(module);
+  bind_gaps(module);
+  bind_tables(module);
+  bind_sample(module);
+}

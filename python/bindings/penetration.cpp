@@ -1,0 +1,193 @@
+#include <tbb/task_arena.h>
+
+#include <fmt/format.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "core/parallel.hpp"
+#include "interrupts.hpp"
+#include "joint.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// Poses computed at once, between two looks for Ctrl-C: some tens of milliseconds on large bones.
+constexpr std::size_t poses_at_once = 64;
+
+/// The vertices that are not outside, of one pose after the other: pose n owns [offset[n], offset[n + 1]).
+struct VertexLists {
+  std::vector<std::int64_t> offset{0};
+  std::vector<Index> vertex, triangle;
+  std::vector<std::int8_t> state, direction;
+  std::vector<std::int32_t> winding;
+  std::vector<double> depth_mm, depth_deg;
+
+  void end_pose() { offset.push_back(static_cast<std::int64_t>(vertex.size())); }
+
+  void append(const Penetrations& from) {
+    const auto add = [](auto& to, const auto& values) { to.insert(to.end(), values.begin(), values.end()); };
+    add(vertex, from.point);
+    add(triangle, from.triangle);
+    add(winding, from.winding);
+    add(depth_mm, from.depth_mm);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+      state.push_back(static_cast<std::int8_t>(from.state[i]));
+      direction.push_back(from.direction[i] == RayDirection::away_from_centre ? 1 : -1);
+    }
+    end_pose();
+  }
+
+  void append(const TangentialResults& from) {
+    for (std::size_t v = 0; v < from.size(); ++v) {
+      if (from.state[v] == PointState::outside) continue;
+      vertex.push_back(static_cast<Index>(v));
+      triangle.push_back(from.triangle[v]);
+      state.push_back(static_cast<std::int8_t>(from.state[v]));
+      direction.push_back(static_cast<std::int8_t>(from.rotation_sense[v]));
+      winding.push_back(from.winding[v]);
+      // 0 of -0, which a point on the surface would have.
+      depth_mm.push_back(0.0 - from.arc_gap_mm[v]);
+      depth_deg.push_back(0.0 - from.angular_gap[v].degrees());
+    }
+    end_pose();
+  }
+
+  py::dict dict() && {
+    py::dict dict;
+    dict["offset"] = array_of(std::move(offset));
+    dict["vertex"] = array_of(std::move(vertex));
+    dict["state"] = array_of(std::move(state));
+    dict["winding"] = array_of(std::move(winding));
+    dict["triangle"] = array_of(std::move(triangle));
+    dict["depth_mm"] = array_of(std::move(depth_mm));
+    dict["direction"] = array_of(std::move(direction));
+    return dict;
+  }
+};
+
+py::object dict_of(bool is_asked, VertexLists&& lists, bool with_angles) {
+  if (!is_asked) return py::none();
+  std::vector<double> degrees = std::move(lists.depth_deg);
+  py::dict dict = std::move(lists).dict();
+  if (with_angles) dict["depth_deg"] = array_of(std::move(degrees));
+  return dict;
+}
+
+py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mobile, bool of_fixed,
+                 const py::object& progress) {
+  const PosesIn in = poses_in(given, "pose");
+  const JointContact& contact = handle.contact;
+  of_mobile = of_mobile && contact.fixed().is_closed();
+  of_fixed = of_fixed && contact.mobile().is_closed();
+  VertexLists mobile, fixed;
+  Follower follower(progress, in.poses.size());
+  {
+    const py::gil_scoped_release released;
+    std::vector<Penetrations> mobile_now(std::min(in.poses.size(), poses_at_once)),
+        fixed_now(mobile_now.size());
+    for (std::size_t first = 0; first < in.poses.size(); first += poses_at_once) {
+      const std::size_t count = std::min(poses_at_once, in.poses.size() - first);
+      const auto ask = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (of_mobile) contact.mobile_in_fixed(in.poses[first + i], mobile_now[i]);
+          if (of_fixed) contact.fixed_in_mobile(in.poses[first + i], fixed_now[i]);
+        }
+      };
+      if (count == 1)
+        ask(0, 1);
+      else
+        core::parallel_chunks(count, 1, ask);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (of_mobile) mobile.append(mobile_now[i]);
+        if (of_fixed) fixed.append(fixed_now[i]);
+      }
+      if (in.poses.size() > 1) follower.look(first + count);
+    }
+  }
+  return py::make_tuple(in.is_one, dict_of(of_mobile, std::move(mobile), false),
+                        dict_of(of_fixed, std::move(fixed), false));
+}
+
+JointAngle angle_numbered(int number) {
+  return all_joint_angles.at(static_cast<std::size_t>(number));
+}
+
+py::tuple tangential(const JointHandle& handle, const py::object& given, int about,
+                     const py::object& progress) {
+  const PosesIn in = poses_in(given, "pose");
+  const CoordinateSystem system = handle.joint().coordinates();
+  VertexLists mobile, fixed;
+  const bool of_mobile = handle.contact.fixed().is_closed(), of_fixed = handle.contact.mobile().is_closed();
+  Follower follower(progress, in.poses.size());
+  {
+    const py::gil_scoped_release released;
+    for (std::size_t n = 0; n < in.poses.size(); ++n) {
+      const Pose& X_FM = in.poses[n];
+      if (const double moved = X_FM.translation().norm(); moved > 0)
+        throw UsageError(
+            fmt::format("method tangential: turns about the joint centre, and the pose is translated from it "
+                        "by {:.3f} mm; "
+                        "method radial answers there",
+                        moved));
+      const TangentialContact contact =
+          handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
+      if (of_mobile) mobile.append(*contact.mobile_in_fixed);
+      if (of_fixed) fixed.append(*contact.fixed_in_mobile);
+      follower.look(n + 1);
+    }
+  }
+  return py::make_tuple(in.is_one, dict_of(of_mobile, std::move(mobile), true),
+                        dict_of(of_fixed, std::move(fixed), true));
+}
+
+/// (K, 2) pairs of all poses, pose n owning [offset[n], offset[n + 1]).
+py::tuple pairs(const JointHandle& handle, const py::object& given, const py::object& progress) {
+  const PosesIn in = poses_in(given, "pose");
+  std::vector<TrianglePair> all;
+  std::vector<std::int64_t> offset{0};
+  Follower follower(progress, in.poses.size());
+  {
+    const py::gil_scoped_release released;
+    for (std::size_t n = 0; n < in.poses.size(); ++n) {
+      const std::vector<TrianglePair> found = handle.contact.pairs(in.poses[n]);
+      all.insert(all.end(), found.begin(), found.end());
+      offset.push_back(static_cast<std::int64_t>(all.size()));
+      follower.look(n + 1);
+    }
+  }
+  static_assert(sizeof(TrianglePair) == 2 * sizeof(Index));
+  auto kept = std::make_unique<std::vector<TrianglePair>>(std::move(all));
+  const auto count = static_cast<py::ssize_t>(kept->size());
+  const Index* data = kept->empty() ? nullptr : &kept->front().fixed;
+  const py::capsule owner(kept.release(), [](void* p) { delete static_cast<std::vector<TrianglePair>*>(p); });
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(Index));
+  return py::make_tuple(in.is_one, view_of(data, {count, 2}, {2 * size, size}, owner),
+                        array_of(std::move(offset)));
+}
+
+py::tuple in_contact(const JointHandle& handle, const py::object& given, const py::object& progress) {
+  const PosesIn in = poses_in(given, "pose");
+  py::array_t<bool> answers(static_cast<py::ssize_t>(in.poses.size()));
+  bool* answer = answers.mutable_data();
+  Follower follower(progress, in.poses.size());
+  {
+    const py::gil_scoped_release released;
+    for (std::size_t n = 0; n < in.poses.size(); ++n) {
+      answer[n] = handle.contact.in_contact(in.poses[n]);
+      follower.look(n + 1);
+    }
+  }
+  return py::make_tuple(in.is_one, answers);
+}
+
+}  // namespace
+
+void bind_penetration(py::module_& module) {
+  module.def("penetration_radial", &radial);
+  module.def("penetration_tangential", &tangential);
+  module.def("pairs", &pairs);
+  module.def("in_contact", &in_contact);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,75 @@
+#include <pybind11/stl.h>
+
+#include <map>
+#include <string>
+
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "condyle/mesh.hpp"
+#include "condyle/sample/cartilages.hpp"
+#include "condyle/sample/hip.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// By the names that sample_hip() of Python has checked; angles in degrees.
+HipParameters hip_parameters(const std::map<std::string, double>& given) {
+  HipParameters hip;
+  for (const auto& [name, value] : given) {
+    if (name == "head_radius_mm") hip.head_radius_mm = value;
+    if (name == "joint_space_mm") hip.joint_space_mm = value;
+    if (name == "neck_shaft_angle_deg") hip.neck_shaft_angle = Angle::degrees(value);
+    if (name == "femoral_anteversion_deg") hip.femoral_anteversion = Angle::degrees(value);
+    if (name == "neck_radius_mm") hip.neck_radius_mm = value;
+    if (name == "neck_length_mm") hip.neck_length_mm = value;
+    if (name == "shaft_length_mm") hip.shaft_length_mm = value;
+    if (name == "alpha_angle_deg") hip.alpha_angle = Angle::degrees(value);
+    if (name == "acetabular_inclination_deg") hip.acetabular_inclination = Angle::degrees(value);
+    if (name == "acetabular_version_deg") hip.acetabular_version = Angle::degrees(value);
+    if (name == "lateral_centre_edge_angle_deg") hip.lateral_centre_edge_angle = Angle::degrees(value);
+  }
+  return hip;
+}
+
+/// A scenario, or numbers of triangles of the fixed and the mobile body, or an edge length; the others are none.
+using Counts = std::optional<std::pair<std::size_t, std::size_t>>;
+
+py::tuple hip(const std::map<std::string, double>& parameters, std::optional<int> scenario,
+              const Counts& triangles, std::optional<double> edge_mm, bool is_left) {
+  const HipParameters measures = hip_parameters(parameters);
+  Resolution resolution = static_cast<Scenario>(scenario.value_or(2));
+  if (triangles) resolution = TriangleCounts{triangles->first, triangles->second};
+  if (edge_mm) resolution = EdgeLength{*edge_mm};
+  auto [bone, femur] = [&] {
+    const py::gil_scoped_release released;
+    SampleHip made = sample_hip(measures, resolution);
+    if (is_left) made = mirrored(made);
+    return std::pair(Mesh(std::move(made.hip_bone)), Mesh(std::move(made.femur)));
+  }();
+  return py::make_tuple(std::move(bone), std::move(femur));
+}
+
+py::tuple cartilages(const std::map<std::string, double>& parameters, double clearance_mm,
+                     double thickness_mm, std::optional<int> scenario, const Counts& triangles,
+                     std::optional<double> edge_mm, bool is_left) {
+  const HipParameters measures = hip_parameters(parameters);
+  CartilageResolution resolution = static_cast<CartilageScenario>(scenario.value_or(5));
+  if (triangles) resolution = CartilageCounts{triangles->first, triangles->second};
+  if (edge_mm) resolution = EdgeLength{*edge_mm};
+  auto [acetabular, femoral] = [&] {
+    const py::gil_scoped_release released;
+    SampleCartilages made = sample_cartilages(measures, {clearance_mm, thickness_mm}, resolution);
+    if (is_left) made = mirrored(made);
+    return std::pair(Mesh(std::move(made.acetabular)), Mesh(std::move(made.femoral)));
+  }();
+  return py::make_tuple(std::move(acetabular), std::move(femoral));
+}
+
+}  // namespace
+
+void bind_sample(py::module_& module) {
+  module.def("sample_hip", &hip);
+  module.def("sample_cartilages", &cartilages);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,163 @@
+#include <pybind11/stl.h>
+
+#include <mutex>
+#include <shared_mutex>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "condyle/radial.hpp"
+#include "condyle/tangential.hpp"
+
+/// The tables themselves, for those who build on the core.
+
+namespace condyle::python {
+namespace {
+
+/// A table that any thread may ask and any thread update: an update waits for the questions before it.
+class SharedRadialTable {
+ public:
+  explicit SharedRadialTable(const Mesh& mesh, RadialOptions options) : table_(mesh, options) {}
+
+  py::dict query(const py::object& given) const {
+    const PointsIn points(given, "points");
+    RadialResults results = [&] {
+      const py::gil_scoped_release released;
+      const std::shared_lock lock(mutex_);
+      return table_.query(points.view());
+    }();
+    py::dict dict;
+    dict["state"] = bytes_of(results.state);
+    dict["winding"] = array_of(std::move(results.winding));
+    dict["gap_mm"] = array_of(std::move(results.radial_gap_mm));
+    dict["triangle"] = array_of(std::move(results.triangle));
+    dict["ray_to_normal_deg"] = degrees_of(results.ray_to_normal);
+    return dict;
+  }
+
+  void update(const py::object& given) {
+    const PointsIn vertices(given, "vertices");
+    const py::gil_scoped_release released;
+    const std::unique_lock lock(mutex_);
+    table_.update(vertices.view());
+  }
+
+  void update_some(const py::object& moved, const py::object& given) {
+    const PointsIn positions(given, "vertices");
+    const py::array_t<std::int64_t, py::array::forcecast> numbers(array_in(moved, "moved", {-1}, "(K,)"));
+    std::vector<Index> vertices;
+    for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
+      const std::int64_t vertex = numbers.at(i);
+      if (vertex < 0 || vertex >= static_cast<std::int64_t>(no_index))
+        throw UsageError("moved: vertex " + std::to_string(vertex) + " is none of the table's");
+      vertices.push_back(static_cast<Index>(vertex));
+    }
+    if (vertices.size() != positions.size())
+      throw UsageError("moved: " + std::to_string(vertices.size()) + " numbers for " +
+                       std::to_string(positions.size()) + " positions");
+    const py::gil_scoped_release released;
+    const std::unique_lock lock(mutex_);
+    table_.update(vertices, positions.view());
+  }
+
+  Mesh mesh() const {
+    const std::shared_lock lock(mutex_);
+    return Mesh(table_.mesh());
+  }
+
+  py::dict size() const {
+    const std::shared_lock lock(mutex_);
+    const RadialTableSize size = table_.table_size();
+    py::dict dict;
+    dict["cells"] = size.cells;
+    dict["entries"] = size.entries;
+    dict["bytes"] = size.bytes;
+    dict["longest_list"] = size.longest_list;
+    return dict;
+  }
+
+  std::optional<int> winding_at_centre() const { return table_.winding_at_centre(); }
+  bool is_closed() const { return table_.is_closed(); }
+
+ private:
+  mutable std::shared_mutex mutex_;
+  RadialTable table_;
+};
+
+std::unique_ptr<SharedRadialTable> radial_table(const Mesh& mesh, bool is_cube, std::optional<int> cells) {
+  const RadialOptions options{is_cube ? DirectionMapKind::cube : DirectionMapKind::cartesian, cells};
+  const py::gil_scoped_release released;
+  return std::make_unique<SharedRadialTable>(mesh, options);
+}
+
+RingTable ring_table(const Mesh& mesh, const py::object& point, const py::object& direction,
+                     double cells_per_triangle) {
+  const AxisFrame frame(vector_in(point, "point"), vector_in(direction, "direction"));
+  const py::gil_scoped_release released;
+  return RingTable(mesh, frame, RingTableOptions{cells_per_triangle});
+}
+
+py::dict query_rings(const RingTable& table, const py::object& given, bool is_nearest_arc) {
+  const PointsIn points(given, "points");
+  TangentialResults results = [&] {
+    const py::gil_scoped_release released;
+    return table.query(points.view(),
+                       is_nearest_arc ? TangentialRule::nearest_arc : TangentialRule::alternating);
+  }();
+  py::dict dict;
+  dict["state"] = bytes_of(results.state);
+  dict["winding"] = array_of(std::move(results.winding));
+  dict["gap_mm"] = array_of(std::move(results.arc_gap_mm));
+  dict["gap_deg"] = degrees_of(results.angular_gap);
+  dict["triangle"] = array_of(std::move(results.triangle));
+  dict["rotation_sense"] = bytes_of(results.rotation_sense);
+  return dict;
+}
+
+/// Of all points, point i owning [offset[i], offset[i + 1]).
+py::dict occupied_arcs(const RingTable& table, const py::object& given) {
+  const PointsIn points(given, "points");
+  std::vector<std::int64_t> offset{0};
+  std::vector<double> begin_deg, end_deg;
+  std::vector<Index> enters, leaves;
+  {
+    const py::gil_scoped_release released;
+    const OccupiedArcs arcs = table.occupied_arcs(points.view());
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+      for (const OccupiedArc& arc : arcs.of(i)) {
+        begin_deg.push_back(arc.begin.degrees());
+        end_deg.push_back(arc.end.degrees());
+        enters.push_back(arc.enters);
+        leaves.push_back(arc.leaves);
+      }
+      offset.push_back(static_cast<std::int64_t>(begin_deg.size()));
+    }
+  }
+  py::dict dict;
+  dict["offset"] = array_of(std::move(offset));
+  dict["begin_deg"] = array_of(std::move(begin_deg));
+  dict["end_deg"] = array_of(std::move(end_deg));
+  dict["enters"] = array_of(std::move(enters));
+  dict["leaves"] = array_of(std::move(leaves));
+  return dict;
+}
+
+}  // namespace
+
+void bind_tables(py::module_& module) {
+  py::class_<SharedRadialTable>(module, "RadialTable")
+      .def(py::init(&radial_table))
+      .def("query", &SharedRadialTable::query)
+      .def("update", &SharedRadialTable::update)
+      .def("update_some", &SharedRadialTable::update_some)
+      .def_property_readonly("mesh", &SharedRadialTable::mesh)
+      .def_property_readonly("size", &SharedRadialTable::size)
+      .def_property_readonly("winding_at_centre", &SharedRadialTable::winding_at_centre)
+      .def_property_readonly("is_closed", &SharedRadialTable::is_closed);
+  py::class_<RingTable>(module, "RingTable")
+      .def(py::init(&ring_table))
+      .def("query", &query_rings)
+      .def("occupied_arcs", &occupied_arcs);
+}
+
+}  // namespace condyle::python

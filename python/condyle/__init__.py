@@ -1,0 +1,26 @@
+"""Where the bones of a joint run into each other: exact contact, depth and range of motion.
+
+Arrays are numpy's, lengths are millimetres, angles degrees; names say so where they have a unit. Frames: F is that of
+the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_F = X_FM p_M. Errors are
+:class:`FileError`, :class:`MeshError` and :class:`UsageError`, each with one line.
+"""
+
+from ._errors import FileError, MeshError, ReferenceContactError, UsageError
+from ._fit import SphereFit, find_sphere, fit_sphere
+from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
+from ._inspect import Finding, MeshComponent, MeshReport, inspect
+from ._joint import Joint, JointNote, read_joint
+from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
+from ._native import version as __version__
+from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
+from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
+from ._tables import OccupiedArcs, RadialTable, RingTable
+
+__all__ = [
+    "ContactMeasures", "ContactPatch", "Depths", "FileError", "Finding", "Gaps", "HIP_PARAMETERS", "INSIDE",
+    "Joint", "JointNote", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "NO_INDEX", "ON_SURFACE",
+    "OUTSIDE", "OccupiedArcs", "Penetration", "Penetrations", "RadialTable", "ReferenceContactError", "RingTable",
+    "SampleCartilages", "SampleHip", "SphereFit", "TriMesh", "UsageError", "VertexDepths", "VertexGaps",
+    "VerticesInside", "WAYS", "__version__", "find_sphere", "fit_sphere", "inspect", "read_joint", "read_mesh",
+    "sample_cartilages", "sample_hip", "write_mesh",
+]

@@ -1,0 +1,49 @@
+"""What answers have in common: tables, arrays with names, and how they show themselves in notebooks."""
+
+from __future__ import annotations
+
+import html
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+
+class Columns:
+    """A frozen dataclass whose arrays of one length are the columns of a table."""
+
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        named = {field.name: getattr(self, field.name) for field in fields(self)}
+        return {name: value for name, value in named.items()
+                if isinstance(value, np.ndarray) and value.ndim == 1 and name != "offset"}
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A table with a column per array. Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(self._columns())
+
+    def to_xarray(self) -> xarray.Dataset:
+        """A dataset with a variable per array, along one dimension. Needs xarray."""
+        import xarray
+
+        return xarray.Dataset({name: (self._dimension, values) for name, values in self._columns().items()})
+
+    _dimension = "entry"
+
+
+def html_of(title: str, rows: list[tuple[str, str]]) -> str:
+    """A small table for notebooks."""
+    body = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>" for name, value in rows)
+    return f"<table><caption>{html.escape(title)}</caption>{body}</table>"
+
+
+def slices_of(offset: NDArray[np.int64]) -> Iterator[slice]:
+    """The elements of each pose: offset[n] to offset[n + 1]."""
+    for first, last in zip(offset[:-1].tolist(), offset[1:].tolist()):
+        yield slice(first, last)

@@ -1,0 +1,210 @@
+"""Every vertex at one pose: gaps, depths to read, and measures of contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._answer import Columns, html_of
+from ._mesh import TriMesh
+
+#: Values of `VertexDepths.way`, by number.
+WAYS = ("none", "radial", "flexion", "adduction", "internal_rotation", "nearest")
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class VertexGaps(Columns):
+    """Every vertex of one body against the other one.
+
+    Attributes
+    ----------
+    state : (V,) int8
+        0 outside, 1 on the surface, 2 inside.
+    winding : (V,) int32
+    gap_mm : (V,) float64
+        > 0 apart, < 0 inside, 0 on the surface; along the ray from the joint centre, or along the arc about the axis.
+        +inf where nothing is met, -inf where the whole circle is solid.
+    triangle : (V,) uint32
+        Of the other mesh, that the gap is measured to; NO_INDEX where there is none.
+    ray_to_normal_deg : (V,) float64 or None
+        Of rays: between the ray and that triangle's normal, 0 to 90. Above 60 a depth along the ray is none.
+    gap_deg : (V,) float64 or None
+        Of arcs: the gap as an angle.
+    rotation_sense : (V,) int8 or None
+        Of arcs: which way to rotate to reach that triangle, 1 or -1.
+    """
+
+    state: NDArray[np.int8]
+    winding: NDArray[np.int32]
+    gap_mm: NDArray[np.float64]
+    triangle: NDArray[np.uint32]
+    ray_to_normal_deg: Optional[NDArray[np.float64]] = None
+    gap_deg: Optional[NDArray[np.float64]] = None
+    rotation_sense: Optional[NDArray[np.int8]] = None
+
+    def __len__(self) -> int:
+        return len(self.state)
+
+    @property
+    def depth_mm(self) -> NDArray[np.float64]:
+        """(V,) how deep each vertex is inside, 0 for the others."""
+        return np.where(self.state == 2, -self.gap_mm, 0.0)
+
+    def __repr__(self) -> str:
+        inside = int((self.state == 2).sum())
+        outside = self.gap_mm[self.state == 0]
+        gap = f", smallest gap {outside.min():.6g} mm" if len(outside) else ""
+        return f"VertexGaps({len(self)} vertices, {inside} inside{gap})"
+
+    _dimension = "vertex"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class VertexDepths(Columns):
+    """The depth to read of every vertex of one body: of several ways out the one that means a depth there.
+
+    Attributes
+    ----------
+    depth_mm : (V,) float64
+        Finite, at least 0; 0 for vertices that are not inside.
+    way : (V,) int8
+        Along which way, a position in :data:`WAYS`: the ray where it faces the surface, else the shortest arc about one
+        of the joint's axes, else to the nearest point.
+    without : int
+        Vertices inside of which neither ray nor arc is a depth.
+    deepest : int or None
+        The deepest vertex with a way other than nearest.
+    """
+
+    depth_mm: NDArray[np.float64]
+    way: NDArray[np.int8]
+    without: int
+    deepest: Optional[int]
+
+    def __len__(self) -> int:
+        return len(self.depth_mm)
+
+    def __repr__(self) -> str:
+        inside = int((self.way != 0).sum())
+        deepest = "" if self.deepest is None else f", up to {self.depth_mm[self.deepest]:.6g} mm"
+        return f"VertexDepths({len(self)} vertices, {inside} inside{deepest})"
+
+    _dimension = "vertex"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BothBodies:
+    """One answer for each body; None where the other mesh is open and has no inside."""
+
+    mobile: Any
+    fixed: Any
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}(mobile={self.mobile!r}, fixed={self.fixed!r})"
+
+    def _repr_html_(self) -> str:
+        return html_of(type(self).__name__, [("mobile", repr(self.mobile)), ("fixed", repr(self.fixed))])
+
+
+class Gaps(BothBodies):
+    """Gaps of every vertex: `mobile` and `fixed` are :class:`VertexGaps`."""
+
+    mobile: Optional[VertexGaps]
+    fixed: Optional[VertexGaps]
+
+
+class Depths(BothBodies):
+    """The depths to read of every vertex: `mobile` and `fixed` are :class:`VertexDepths`."""
+
+    mobile: Optional[VertexDepths]
+    fixed: Optional[VertexDepths]
+
+
+@dataclass(frozen=True)
+class ContactPatch:
+    """Of a body's surface the part inside the other body.
+
+    `area_mm2`; `mean_depth_mm`, the mean distance to the other surface, None where there is no patch; `centroid` (3,)
+    in F.
+    """
+
+    area_mm2: float
+    mean_depth_mm: Optional[float]
+    centroid: Optional[NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactMeasures:
+    """What two bodies have in common at one pose, and how far they are apart.
+
+    Attributes
+    ----------
+    in_contact : bool
+        The bodies share a point: surfaces that meet, or one body inside the other.
+    intersecting_pairs : int
+        Pairs of triangles that meet.
+    smallest_gap_mm : float
+        Between the surfaces; 0 where they meet.
+    nearest_on_fixed, nearest_on_mobile : (3,) float64
+        Where they are nearest, in F.
+    mobile_distance_mm, fixed_distance_mm : (V,) float64
+        From every vertex to the nearest point of the other surface, at least 0 inside and outside.
+    mobile, fixed : ContactPatch or None
+        None where the other mesh is open.
+    volume_mm3 : float or None
+        Of the space inside both; None where either mesh is open.
+    centroid : (3,) float64 or None
+        Of the patches of both, in F.
+    """
+
+    in_contact: bool
+    intersecting_pairs: int
+    smallest_gap_mm: float
+    nearest_on_fixed: NDArray[np.float64]
+    nearest_on_mobile: NDArray[np.float64]
+    mobile_distance_mm: NDArray[np.float64]
+    fixed_distance_mm: NDArray[np.float64]
+    mobile: Optional[ContactPatch]
+    fixed: Optional[ContactPatch]
+    volume_mm3: Optional[float]
+    centroid: Optional[NDArray[np.float64]]
+
+    def _rows(self) -> list[tuple[str, str]]:
+        rows = [("in contact", "yes" if self.in_contact else "no"), ("triangle pairs", str(self.intersecting_pairs)),
+                ("smallest gap", f"{self.smallest_gap_mm:.6g} mm")]
+        for name, patch in (("mobile", self.mobile), ("fixed", self.fixed)):
+            if patch is not None and patch.mean_depth_mm is not None:
+                rows.append((f"{name} patch", f"{patch.area_mm2:.6g} mm2, mean depth {patch.mean_depth_mm:.6g} mm"))
+        if self.volume_mm3 is not None:
+            rows.append(("overlap", f"{self.volume_mm3:.6g} mm3"))
+        return rows
+
+    def __repr__(self) -> str:
+        return f"ContactMeasures({'; '.join(f'{name}: {value}' for name, value in self._rows())})"
+
+    def _repr_html_(self) -> str:
+        return html_of("contact", self._rows())
+
+
+def of_vertices(kind: Any, found: Optional[dict[str, Any]], of: TriMesh) -> Any:
+    """The compiled part's answer with one value for each vertex of the mesh as it was given."""
+    if found is None:
+        return None
+    for name, values in found.items():
+        if isinstance(values, np.ndarray):
+            found[name] = of._all(values)
+            found[name].flags.writeable = False
+    if found.get("deepest") is not None:
+        found["deepest"] = of._as_given(found["deepest"])
+    return kind(**found)
+
+
+def measures_of(found: dict[str, Any], fixed: TriMesh, mobile: TriMesh) -> ContactMeasures:
+    for name, of in (("fixed", fixed), ("mobile", mobile)):
+        found[f"{name}_distance_mm"] = of._all(found[f"{name}_distance_mm"])
+        if found[name] is not None:
+            found[name] = ContactPatch(**found[name])
+    return ContactMeasures(**found)

@@ -1,0 +1,447 @@
+"""Two bodies and how one moves in the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._answer import html_of
+from ._errors import UsageError
+from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
+from ._mesh import MeshLike, TriMesh
+from ._native import Joint as NativeJoint
+from ._penetration import Penetration, Penetrations, vertices_inside
+from ._words import Path, number, path_of, word
+
+Progress = Optional[Callable[[int, int], Any]]
+PoseLike = Union[ArrayLike, Mapping[str, float]]
+
+_axes = {"LPS": ((0, -1, 0), (0, 0, 1)), "RAS": ((0, 1, 0), (0, 0, 1))}
+
+
+@dataclass(frozen=True)
+class JointNote:
+    """What looks wrong with a joint: `code` as in files ("wrong_side"), `text` one sentence."""
+
+    code: str
+    text: str
+
+
+class Joint:
+    """A fixed and a mobile body in the joint frame, ready to be asked at any pose.
+
+    The frame F: millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile
+    body's own frame M coincides with F at zero angles. :func:`read_joint` makes one of a joint file; the arguments here
+    are the keys of docs/joint-file.md.
+
+    Parameters
+    ----------
+    fixed, mobile : mesh
+        Each a :class:`TriMesh` or what :meth:`TriMesh.of` takes.
+    kind : "ball", "hinge" or "free"
+    joint : "hip", "knee", "ankle", "elbow" or "shoulder"
+    side : "right" or "left"
+    units : "mm" or "m"
+        Of the meshes and of every length given here.
+    centre : (3,) numbers, "fit", or None
+        "fit": of the head of the mobile body, or with `fit_body="fixed"` of the socket. None: the origin, or what the
+        landmarks say.
+    fit_within : (centre, radius), optional
+        Only vertices in that ball are fitted to.
+    axes : "RAS" or "LPS", optional
+        Or `anterior` and `superior`, unit vectors; or `landmarks`, points by their names. None of them: X and Y.
+    reference_pose : mapping, optional
+        In which the mobile mesh is given: angles in degrees by their names, x, y and z in `units`.
+    fixed_in_W, mobile_in_W : (4, 4) numbers, optional
+        Where the frame of each mesh lies in the frame of the lengths given here, translation in `units`.
+
+    Raises
+    ------
+    UsageError
+        Where the description cannot be followed. MeshError where a fit finds nothing.
+
+    Any number of threads may ask; tables are built when the first question needs them, and kept.
+
+    C++: `condyle::make_joint` in condyle/make_joint.hpp, `condyle::JointContact` in condyle/contact.hpp.
+
+    >>> import condyle
+    >>> bones = condyle.sample_hip()
+    >>> joint = condyle.Joint(bones.hip_bone, bones.femur, name="right hip")
+    >>> joint
+    Joint('right hip': ball hip, right; fixed 4884 vertices, mobile 3086 vertices)
+    >>> joint.penetration(joint.pose(flexion_deg=0)).max_depth_mm
+    0.0
+    """
+
+    __slots__ = ("_native", "_fixed", "_mobile", "__weakref__")
+    _native: NativeJoint
+    _fixed: TriMesh
+    _mobile: TriMesh
+
+    def __init__(self, fixed: MeshLike, mobile: MeshLike, *, name: str = "joint", kind: str = "ball",
+                 joint: str = "hip", side: str = "right", units: str = "mm", translation_frame: str = "fixed",
+                 centre: Union[ArrayLike, Literal["fit"], None] = None, fit_body: str = "mobile",
+                 fit_within: Optional[tuple[ArrayLike, float]] = None, axes: Optional[str] = None,
+                 anterior: Optional[ArrayLike] = None, superior: Optional[ArrayLike] = None,
+                 landmarks: Optional[Mapping[str, ArrayLike]] = None,
+                 reference_pose: Optional[Mapping[str, float]] = None, fixed_in_W: Optional[ArrayLike] = None,
+                 mobile_in_W: Optional[ArrayLike] = None, fixed_name: str = "fixed",
+                 mobile_name: str = "mobile") -> None:
+        fixed, mobile = TriMesh.of(fixed), TriMesh.of(mobile)
+        for text, what in ((name, "name"), (fixed_name, "fixed_name"), (mobile_name, "mobile_name")):
+            if not isinstance(text, str):
+                raise UsageError(f"{what}: a text is needed, not {type(text).__name__}")
+        anatomy = word(joint, "joint", ("hip", "knee", "ankle", "elbow", "shoulder"))
+        to_mm = 1000.0 if word(units, "units", ("mm", "m")) == "m" else 1.0
+        given = [what for what, value in (("axes", axes), ("anterior", anterior), ("landmarks", landmarks))
+                 if value is not None]
+        if len(given) > 1:
+            raise UsageError(f"{given[1]}: given beside {given[0]}")
+        if (anterior is None) != (superior is None):
+            raise UsageError("superior: anterior and superior are given together")
+        if axes is not None:
+            anterior, superior = _axes[word(axes, "axes", ("LPS", "RAS"))]
+        is_fit = isinstance(centre, str)
+        if is_fit:
+            word(centre, "centre", ("fit", "three numbers"))
+        if fit_within is not None and not is_fit:
+            raise UsageError('fit_within: is for centre="fit"')
+        if landmarks is not None and not isinstance(landmarks, Mapping):
+            raise UsageError(f"landmarks: points by their names are needed, not {type(landmarks).__name__}")
+        names = _native.angle_names_of(anatomy)
+        angles, translation = _coordinates(reference_pose or {}, names, "reference_pose", suffix="",
+                                           is_free=kind == "free")
+        description = {
+            "name": name, "kind": word(kind, "kind", ("ball", "hinge", "free")), "anatomy": anatomy,
+            "side": word(side, "side", ("right", "left")), "units": units,
+            "translation_frame": word(translation_frame, "translation_frame", ("fixed", "joint_axes")),
+            "centre": None if centre is None or is_fit else _in_mm(centre, to_mm, "centre"),
+            "fit": word(fit_body, "fit_body", ("mobile", "fixed")) if is_fit else None,
+            "fit_within": None if fit_within is None else _ball_in_mm(fit_within, to_mm),
+            "anterior": (1, 0, 0) if anterior is None else anterior,
+            "superior": (0, 1, 0) if superior is None else superior,
+            "landmarks": None if landmarks is None else {
+                str(point): _in_mm(place, to_mm, f"landmarks: {point}") for point, place in landmarks.items()},
+            "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm), "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm),
+            "reference_angles_deg": angles[0],
+            "reference_translation_mm": translation[0] * to_mm,
+        }
+        self._native = _native.make_joint(description, fixed_name, fixed._native, mobile_name, mobile._native)
+        self._fixed = TriMesh._moved(self._native.fixed, fixed)
+        self._mobile = TriMesh._moved(self._native.mobile, mobile)
+
+    @classmethod
+    def _of_native(cls, native: NativeJoint) -> Joint:
+        joint = cls.__new__(cls)
+        joint._native = native
+        joint._fixed, joint._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
+        return joint
+
+    @classmethod
+    def from_file(cls, path: Path) -> Joint:
+        """The same as :func:`read_joint`."""
+        return cls._of_native(_native.read_joint(path_of(path)))
+
+    # What it is.
+
+    @property
+    def name(self) -> str:
+        return self._native.name
+
+    @property
+    def kind(self) -> str:
+        """"ball", "hinge" or "free"."""
+        return self._native.kind
+
+    @property
+    def joint(self) -> str:
+        """"hip", "knee", "ankle", "elbow" or "shoulder": order, signs and names of the angles."""
+        return self._native.anatomy
+
+    @property
+    def side(self) -> str:
+        """"right" or "left"."""
+        return self._native.side
+
+    @property
+    def fixed(self) -> TriMesh:
+        """The fixed body's mesh in F, mm; vertices as they were numbered when given."""
+        return self._fixed
+
+    @property
+    def mobile(self) -> TriMesh:
+        """The mobile body's mesh in M, mm."""
+        return self._mobile
+
+    @property
+    def fixed_name(self) -> str:
+        return self._native.fixed_name
+
+    @property
+    def mobile_name(self) -> str:
+        return self._native.mobile_name
+
+    @property
+    def X_WF(self) -> NDArray[np.float64]:
+        """(4, 4) the joint frame in the frame in which the meshes were given, mm."""
+        return self._native.X_WF
+
+    @property
+    def angle_names(self) -> tuple[tuple[str, str], ...]:
+        """Of each of the three angles the name where it is above zero, and where below."""
+        return tuple(self._native.angle_names)
+
+    @property
+    def reference_pose(self) -> NDArray[np.float64]:
+        """(4, 4) X_FM in which the mobile mesh was given."""
+        six = self._native.reference_pose
+        pose: NDArray[np.float64] = self._native.poses_at(np.array([six[:3]]), np.array([six[3:]]))[0]
+        return pose
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was converted, repaired or fitted, one line each."""
+        return tuple(self._native.notes)
+
+    def checks(self) -> tuple[JointNote, ...]:
+        """What looks wrong with the joint; nothing is changed. Half a second for 50,000 triangles.
+
+        C++: `condyle::check_joint` in condyle/joint_checks.hpp.
+        """
+        return tuple(JointNote(code, text) for code, text in self._native.checks())
+
+    # Where it is.
+
+    def pose(self, **coordinates: ArrayLike) -> NDArray[np.float64]:
+        """X_FM at these angles, (4, 4); of arrays of N values (N, 4, 4): p_F = X_FM p_M, mm.
+
+        Angles in degrees by their names at this joint and `_deg`: of a hip `flexion_deg`, `adduction_deg`,
+        `internal_rotation_deg`, and with the opposite sign `extension_deg`, `abduction_deg`, `external_rotation_deg`;
+        of a free joint `x_mm`, `y_mm`, `z_mm` too. What is left out is 0. UsageError for other names, for one given
+        under both of its names, and for numbers that are not finite.
+
+        C++: `condyle::pose_at` in condyle/joint_coordinates.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(scenario=1)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.pose(flexion_deg=90)[:3, :3].tolist()
+        [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+        >>> joint.pose(flexion_deg=[0, 30, 60], abduction_deg=10).shape
+        (3, 4, 4)
+        """
+        angles, translations = _coordinates(coordinates, self._native.angle_names, "pose", suffix="_deg",
+                                            is_free=self.kind == "free")
+        if self.kind == "hinge" and (angles[:, 1:] != 0).any():
+            raise UsageError(f"pose: a hinge rotates in {self.angle_names[0][0]} only")
+        poses = self._native.poses_at(angles, translations)
+        one: NDArray[np.float64] = poses[0]
+        return one if all(np.ndim(value) == 0 for value in coordinates.values()) else poses
+
+    def coordinates(self, pose: PoseLike) -> dict[str, Any]:
+        """The angles in degrees and the translation in mm of a pose or of N, by the names that :meth:`pose` takes.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(scenario=1)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.coordinates(joint.pose(flexion_deg=90))
+        {'flexion_deg': 90.0, 'adduction_deg': 0.0, 'internal_rotation_deg': 0.0}
+        """
+        matrices = self._matrices(pose)
+        angles, mm = self._native.coordinates_of(matrices)
+        named = {f"{positive}_deg": angles[:, i] for i, (positive, _) in enumerate(self._native.angle_names)}
+        if self.kind == "free":
+            named.update({f"{axis}_mm": mm[:, i] for i, axis in enumerate("xyz")})
+        return {name: float(values[0]) for name, values in named.items()} if np.ndim(matrices) == 2 else named
+
+    def _matrices(self, pose: PoseLike) -> Any:
+        """Matrices, or a mapping of coordinates as `pose()` takes them."""
+        return self.pose(**pose) if isinstance(pose, Mapping) else pose
+
+    def _angle(self, about: str) -> int:
+        positive = tuple(names[0] for names in self._native.angle_names)
+        return positive.index(word(about, "about", positive))
+
+    # What is asked of it.
+
+    def penetration(self, pose: PoseLike, method: str = "radial", *, about: Optional[str] = None,
+                    bodies: str = "both", progress: Progress = None) -> Any:
+        """Which vertices of each body are inside the other one, and how deep, at one pose or many.
+
+        Parameters
+        ----------
+        pose : (4, 4) or (N, 4, 4) numbers, or a mapping
+            X_FM, translation in mm; or the keyword arguments of :meth:`pose`.
+        method : "radial" or "tangential"
+            Along rays from the joint centre (the fast path), or along arcs about the axis of the angle `about` (flexion
+            if not given) at the pose, only for poses that do not translate.
+        bodies : "both", "mobile" or "fixed"
+            With "radial": vertices of which body are asked for.
+        progress : callable of (done, total), optional
+            Called now and then on this thread.
+
+        Returns
+        -------
+        Penetration for one pose, Penetrations for N: see there.
+
+        Raises UsageError for what is no pose, MeshError where the joint centre lies on a surface. The interpreter's
+        lock is released; Ctrl-C ends it. Coordinates are read as float64; poses are copied.
+
+        C++: `JointContact::mobile_in_fixed`, `fixed_in_mobile`, `tangential` in condyle/contact.hpp; `condyle depth`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.penetration(joint.pose(flexion_deg=140))
+        Penetration(radial; mobile 41 vertices up to 16.474 mm; fixed 26 vertices up to 25.977 mm)
+        >>> many = joint.penetration(joint.pose(flexion_deg=[0, 70, 140]))
+        >>> [len(each.mobile) for each in many]
+        [0, 0, 41]
+        """
+        word(method, "method", ("radial", "tangential"))
+        if about is not None and method != "tangential":
+            raise UsageError("about: is for method tangential")
+        if bodies not in ("both", "mobile", "fixed"):
+            word(bodies, "bodies", ("both", "mobile", "fixed"))
+        matrices = self._matrices(pose)
+        if method == "radial":
+            is_one, mobile, fixed = _native.penetration_radial(
+                self._native, matrices, bodies != "fixed", bodies != "mobile", _callable(progress))
+        else:
+            is_one, mobile, fixed = _native.penetration_tangential(
+                self._native, matrices, 0 if about is None else self._angle(about), _callable(progress))
+        inside = vertices_inside(mobile, self._mobile, is_one), vertices_inside(fixed, self._fixed, is_one)
+        if is_one:
+            return Penetration(*inside, method)
+        return Penetrations(*inside, method, count=len(matrices))
+
+    def pairs(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+        """The exact set of triangle pairs that meet, ascending; touching counts. Open meshes too.
+
+        (K, 2) uint32, fixed and mobile triangle; of N poses a list of N such arrays, views of one.
+
+        C++: `JointContact::pairs` in condyle/contact.hpp.
+        """
+        is_one, found, offset = _native.pairs(self._native, self._matrices(pose), _callable(progress))
+        return found if is_one else [found[first:last] for first, last in zip(offset[:-1], offset[1:])]
+
+    def in_contact(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+        """Whether the bodies share a point: a bool, of N poses (N,) bool.
+
+        C++: `JointContact::in_contact` in condyle/contact.hpp.
+        """
+        is_one, answers = _native.in_contact(self._native, self._matrices(pose), _callable(progress))
+        return bool(answers[0]) if is_one else answers
+
+    def gaps(self, pose: PoseLike, method: str = "radial", *, about: Optional[str] = None) -> Gaps:
+        """The gap of every vertex at one pose: see :class:`VertexGaps`. Methods and errors as of :meth:`penetration`.
+
+        C++: `JointContact::radial` and `tangential` in condyle/contact.hpp.
+        """
+        word(method, "method", ("radial", "tangential"))
+        if method == "radial":
+            if about is not None:
+                raise UsageError("about: is for method tangential")
+            mobile, fixed = _native.radial_gaps(self._native, self._matrices(pose))
+        else:
+            mobile, fixed = _native.tangential_gaps(self._native, self._matrices(pose),
+                                                    0 if about is None else self._angle(about))
+        return Gaps(of_vertices(VertexGaps, mobile, self._mobile), of_vertices(VertexGaps, fixed, self._fixed))
+
+    def depths(self, pose: PoseLike) -> Depths:
+        """The depth to read of every vertex at one pose: see :class:`VertexDepths`. As `condyle depth` answers.
+
+        C++: `condyle::reliable_depths` in condyle/reliable_depth.hpp.
+        """
+        mobile, fixed = _native.reliable_depths(self._native, self._matrices(pose))
+        return Depths(of_vertices(VertexDepths, mobile, self._mobile), of_vertices(VertexDepths, fixed, self._fixed))
+
+    def contact_measures(self, pose: PoseLike) -> ContactMeasures:
+        """Areas, volume, nearest points and distances at one pose: see :class:`ContactMeasures`.
+
+        C++: `condyle::measure_contact` in condyle/contact_measures.hpp.
+        """
+        return measures_of(_native.contact_measures(self._native, self._matrices(pose)), self._fixed, self._mobile)
+
+    def __repr__(self) -> str:
+        return (f"Joint({self.name!r}: {self.kind} {self.joint}, {self.side}; {self.fixed_name} "
+                f"{len(self._fixed.vertices)} vertices, {self.mobile_name} {len(self._mobile.vertices)} vertices)")
+
+    def _repr_html_(self) -> str:
+        return html_of(self.name, [("kind", f"{self.kind}, {self.joint}, {self.side}"),
+                                   (self.fixed_name, repr(self._fixed)), (self.mobile_name, repr(self._mobile))])
+
+
+def read_joint(path: Path) -> Joint:
+    """Reads a joint file (docs/joint-file.md) and its meshes. FileError, and MeshError where a fit finds nothing.
+
+    C++: `condyle::read_joint` in condyle/io/joint_file.hpp.
+    """
+    return Joint.from_file(path)
+
+
+def _callable(progress: Progress) -> Progress:
+    if progress is not None and not callable(progress):
+        raise UsageError(f"progress: a callable of (done, total) is needed, not {type(progress).__name__}")
+    return progress
+
+
+def _in_mm(given: Any, to_mm: float, name: str) -> NDArray[np.float64]:
+    try:
+        return np.asarray(given, float) * to_mm
+    except (TypeError, ValueError):
+        raise UsageError(f"{name}: three numbers are needed, not {type(given).__name__}") from None
+
+
+def _ball_in_mm(given: Any, to_mm: float) -> tuple[NDArray[np.float64], float]:
+    if not isinstance(given, Sequence) or len(given) != 2:
+        raise UsageError("fit_within: a centre and a radius are needed")
+    return _in_mm(given[0], to_mm, "fit_within"), number(given[1], "fit_within", low=0) * to_mm
+
+
+def _pose_in_mm(given: Any, to_mm: float) -> Optional[NDArray[np.float64]]:
+    if given is None:
+        return None
+    pose = np.array(_in_mm(given, 1, "fixed_in_W, mobile_in_W"))
+    if pose.shape == (4, 4):
+        pose[:3, 3] *= to_mm
+    return pose
+
+
+def _coordinates(given: Mapping[str, Any], names: Any, what: str, *, suffix: str,
+                 is_free: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(N, 3) degrees and (N, 3) translations of coordinates by name; scalars stand for all N."""
+    unit = "_mm" if suffix else ""
+    known = {word + suffix: (i, sign) for i, pair in enumerate(names) for word, sign in zip(pair, (1.0, -1.0))}
+    if is_free:
+        known.update({axis + unit: (3 + i, 1.0) for i, axis in enumerate("xyz")})
+    if not isinstance(given, Mapping):
+        raise UsageError(f"{what}: coordinates by their names are needed, not {type(given).__name__}")
+    columns: dict[int, NDArray[np.float64]] = {}
+    for name, value in given.items():
+        if name not in known:
+            raise UsageError(f"{what}: unknown {str(name)[:60]!r}; there are {', '.join(known)}")
+        column, sign = known[name]
+        try:
+            values = np.asarray(value)
+            if values.dtype.kind not in "fiu" or values.ndim > 1:
+                raise TypeError
+        except (TypeError, ValueError):
+            raise UsageError(f"{what}: {name} is a number or an array of shape (N,)") from None
+        if column in columns:
+            raise UsageError(f"{what}: {names[column][0]} is given twice" if column < 3 else f"{what}: twice")
+        if not np.isfinite(values).all():
+            raise UsageError(f"{what}: {name} must be finite")
+        columns[column] = sign * values.astype(float) + 0.0
+    sizes = {column.shape for column in columns.values()} - {()}
+    if len(sizes) > 1:
+        lengths = ", ".join(str(size[0]) for size in sorted(sizes))
+        raise UsageError(f"{what}: coordinates of different lengths: {lengths}")
+    table = np.zeros((6, sizes.pop()[0] if sizes else 1))
+    for i, values in columns.items():
+        table[i] = values
+    return table[:3].T, table[3:].T

@@ -1,0 +1,261 @@
+"""Triangle meshes: taken from arrays, from other packages' objects and from files."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._errors import UsageError
+from ._native import Mesh as NativeMesh
+from ._words import Path, path_of
+
+
+class TriMesh:
+    """A triangle mesh, checked once: every index in range, every coordinate finite. It cannot be changed.
+
+    Parameters
+    ----------
+    vertices : (V, 3) real numbers
+        Points, one per row; millimetres wherever lengths are given back. Any float or integer type, any memory
+        order, read-only arrays and lists. Copied once, into one array per coordinate.
+    triangles : (T, 3) integers
+        Numbers of vertices, counted from 0, counter-clockwise seen from outside. Any integer type. Copied once.
+    merge : bool, optional
+        Whether vertices of exactly the same coordinates (-0 being +0) count as one, as triangle soups need. Not
+        given: where the mesh is not closed without. Vertices keep their numbers in all answers either way.
+
+    Attributes
+    ----------
+    vertices : (V, 3) float64, read-only
+        As given. Column by column in memory, which is what tables read without copying.
+    triangles : (T, 3) uint32, read-only
+        As given. A view where no vertices were merged.
+    vertex_map : (V,) uint32, read-only, or None
+        The number of each vertex among the merged ones; None where none were merged.
+    is_closed : bool
+        Every edge is used as often in one direction as in the other: then the surface has an inside.
+
+    Raises
+    ------
+    MeshError
+        For an index out of range or a coordinate that is not finite, naming the first.
+    UsageError
+        For arrays of another shape or kind.
+
+    C++: `condyle::Mesh` in condyle/mesh.hpp.
+
+    >>> import condyle
+    >>> tetrahedron = condyle.TriMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                               [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    >>> tetrahedron
+    TriMesh(4 vertices, 4 triangles, closed)
+    """
+
+    __slots__ = ("_native", "_map", "_first", "_vertices", "_triangles", "_notes", "__weakref__")
+    _native: NativeMesh
+    _map: Optional[NDArray[np.uint32]]
+    _first: Optional[NDArray[np.uint32]]
+    _vertices: Optional[NDArray[np.float64]]
+    _triangles: Optional[NDArray[np.uint32]]
+    _notes: tuple[str, ...]
+
+    def __init__(self, vertices: Any, triangles: Any, *, merge: Optional[bool] = None) -> None:
+        self._take(_native.Mesh(vertices, triangles), merge)
+
+    def _take(self, given: NativeMesh, merge: Optional[bool]) -> None:
+        self._native, self._map, self._first = given, None, None
+        self._vertices = self._triangles = None
+        self._notes = ()
+        if merge or (merge is None and not given.is_closed):
+            merged, vertex_map = _native.merged(given)
+            if merged.vertex_count < given.vertex_count:
+                self._native, self._map = merged, vertex_map
+                self._vertices, self._triangles = given.vertices, given.triangles
+                first = np.empty(merged.vertex_count, np.uint32)
+                first[vertex_map[::-1]] = np.arange(given.vertex_count - 1, -1, -1, dtype=np.uint32)
+                self._first = first
+
+    @classmethod
+    def _of_native(cls, native: NativeMesh, notes: Iterable[str] = ()) -> TriMesh:
+        mesh = cls.__new__(cls)
+        mesh._take(native, merge=False)
+        mesh._notes = tuple(notes)
+        return mesh
+
+    @classmethod
+    def _moved(cls, native: NativeMesh, like: TriMesh) -> TriMesh:
+        """A mesh whose vertices have moved, numbered like the one it was."""
+        mesh = cls._of_native(native, like._notes)
+        mesh._map, mesh._first = like._map, like._first
+        if like._map is not None:
+            mesh._vertices, mesh._triangles = np.asfortranarray(native.vertices[like._map]), like._triangles
+            mesh._vertices.flags.writeable = False
+        return mesh
+
+    @classmethod
+    def of(cls, mesh: MeshLike, *, merge: Optional[bool] = None) -> TriMesh:
+        """The mesh of another package's object, whose package is not imported for it.
+
+        Taken are a TriMesh itself; a pair (vertices, triangles); trimesh (`.vertices`, `.faces`); PyVista
+        (`.points`, `.faces` flat as 3 i j k); meshio (`.points`, `.cells`); vtkPolyData.
+
+        >>> from types import SimpleNamespace
+        >>> like_pyvista = SimpleNamespace(points=[[0, 0, 0], [1, 0, 0], [0, 1, 0]], faces=[3, 0, 1, 2])
+        >>> TriMesh.of(like_pyvista)
+        TriMesh(3 vertices, 1 triangle, open)
+        """
+        if isinstance(mesh, TriMesh):
+            return mesh if merge is None else cls(mesh.vertices, mesh.triangles, merge=merge)
+        vertices, triangles = _arrays_of(mesh)
+        return cls(vertices, triangles, merge=merge)
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        if self._vertices is None:
+            self._vertices = self._native.vertices
+        return self._vertices
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        if self._triangles is None:
+            self._triangles = self._native.triangles
+        return self._triangles
+
+    @property
+    def vertex_map(self) -> Optional[NDArray[np.uint32]]:
+        return self._map
+
+    @property
+    def is_closed(self) -> bool:
+        return self._native.is_closed
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was done to the mesh of a file in reading it, one line each."""
+        return self._notes
+
+    def repaired(self, *repairs: str) -> TriMesh:
+        """A mesh with the same surface, repaired: "weld", "drop_unreferenced", "flip_inverted", in this order.
+
+        Vertices that go take their numbers along: the result is a mesh of its own. `notes` says what was done.
+        MeshError where a repair cannot be made.
+        """
+        for repair in repairs:
+            if not isinstance(repair, str):
+                raise UsageError(f"repairs: names are needed, not {type(repair).__name__}")
+        mesh, done = _native.repaired(self._native, list(repairs))
+        return TriMesh._of_native(mesh, done)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, TriMesh):
+            return NotImplemented
+        return np.array_equal(self.vertices, other.vertices) and np.array_equal(self.triangles, other.triangles)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _remade, (np.array(self.vertices), np.array(self.triangles), self._map is not None)
+
+    def __repr__(self) -> str:
+        count, triangles = len(self.vertices), self._native.triangle_count
+        merged = "" if self._map is None else f", merged into {self._native.vertex_count}"
+        return (f"TriMesh({count} {'vertex' if count == 1 else 'vertices'}{merged}, "
+                f"{triangles} triangle{'' if triangles == 1 else 's'}, {'closed' if self.is_closed else 'open'})")
+
+    # What the numbers of the merged mesh are in the mesh as given.
+
+    def _all(self, values: NDArray[Any]) -> NDArray[Any]:
+        """One value for each vertex as given."""
+        return values if self._map is None else values[self._map]
+
+    def _as_given(self, vertex: int) -> int:
+        return vertex if self._first is None else int(self._first[vertex])
+
+
+def _remade(vertices: Any, triangles: Any, merge: bool) -> TriMesh:
+    return TriMesh(vertices, triangles, merge=merge)
+
+
+MeshLike = Union[TriMesh, "tuple[Any, Any]", Any]
+
+
+def _triangles_of_flat(faces: Any, what: str) -> NDArray[Any]:
+    """3 i j k 3 l m n ..., as VTK and PyVista store triangles."""
+    flat = np.asarray(faces)
+    if flat.ndim != 1:
+        return flat
+    if flat.size % 4 or (flat.size and (flat[::4] != 3).any()):
+        raise UsageError(f"{what}: only triangles are taken: 3 i j k for each")
+    return flat.reshape(-1, 4)[:, 1:]
+
+
+def _triangles_of_cells(cells: Any) -> NDArray[Any]:
+    """The triangles of meshio's blocks; vertices and lines beside them are passed over."""
+    pairs = cells.items() if isinstance(cells, dict) else [
+        (block.type, block.data) if hasattr(block, "type") else tuple(block) for block in cells]
+    triangles = []
+    for kind, data in pairs:
+        if kind == "triangle":
+            triangles.append(np.asarray(data))
+        elif kind not in ("vertex", "line"):
+            raise UsageError(f"cells: only triangles are taken, not {kind}")
+    return np.concatenate(triangles) if triangles else np.empty((0, 3), np.int64)
+
+
+def _arrays_of_vtk(mesh: Any) -> tuple[NDArray[Any], NDArray[Any]]:
+    vertices = np.asarray(mesh.GetPoints().GetData()).reshape(-1, 3)
+    cells = mesh.GetPolys()
+    if hasattr(cells, "GetOffsetsArray"):
+        offsets = np.asarray(cells.GetOffsetsArray()).reshape(-1)
+        if (np.diff(offsets) != 3).any():
+            raise UsageError("polys: only triangles are taken")
+        return vertices, np.asarray(cells.GetConnectivityArray()).reshape(-1, 3)
+    return vertices, _triangles_of_flat(np.asarray(cells.GetData()).reshape(-1), "polys")
+
+
+def _arrays_of(mesh: Any) -> tuple[Any, Any]:
+    try:
+        if isinstance(mesh, (tuple, list)) and len(mesh) == 2:
+            return mesh[0], mesh[1]
+        if hasattr(mesh, "vertices") and hasattr(mesh, "faces"):
+            return mesh.vertices, _triangles_of_flat(mesh.faces, "faces")
+        if hasattr(mesh, "points") and hasattr(mesh, "cells") and not hasattr(mesh, "faces"):
+            return mesh.points, _triangles_of_cells(mesh.cells)
+        if hasattr(mesh, "points") and hasattr(mesh, "faces"):
+            return mesh.points, _triangles_of_flat(mesh.faces, "faces")
+        if hasattr(mesh, "GetPoints") and hasattr(mesh, "GetPolys"):
+            return _arrays_of_vtk(mesh)
+    except UsageError:
+        raise
+    except Exception as error:  # an object that is no mesh after all may raise anything
+        raise UsageError(f"mesh: {type(mesh).__name__} cannot be read as a mesh: "
+                         f"{str(error).splitlines()[0] if str(error) else type(error).__name__}") from error
+    raise UsageError(f"mesh: {type(mesh).__name__} is none: a TriMesh, a pair (vertices, triangles), or an object of "
+                     "trimesh, PyVista, meshio or VTK is needed")
+
+
+def read_mesh(path: Path) -> TriMesh:
+    """Reads .stl, .obj, .ply, .vtp or .vtk (legacy PolyData), in the file's own unit.
+
+    Vertices keep the file's order and every bit. STL has corners and no vertices: those of the same coordinates are
+    one, numbered by their first, and corner k of triangle t is vertex `triangles[t, k]`. Raises FileError.
+
+    C++: `condyle::read_mesh` in condyle/io/mesh_file.hpp.
+
+    >>> read_mesh("nowhere.stl")
+    Traceback (most recent call last):
+        ...
+    condyle.FileError: nowhere.stl: no such file
+    """
+    mesh, merged = _native.read_mesh(path_of(path))
+    return TriMesh._of_native(mesh, [f"merged {merged} corners of the same coordinates"] if merged else [])
+
+
+def write_mesh(path: Path, mesh: MeshLike) -> None:
+    """Writes .vtp or .ply, binary, so that reading gives the same bits. The whole file or nothing; FileError."""
+    mesh = TriMesh.of(mesh)
+    whole = mesh if mesh.vertex_map is None else TriMesh(mesh.vertices, mesh.triangles, merge=False)
+    _native.write_mesh(path_of(path), whole._native)

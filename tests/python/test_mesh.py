@@ -1,0 +1,165 @@
+"""Meshes come in as other packages have them, and vertices keep their numbers."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import condyle
+
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+
+
+def soup(vertices, triangles):
+    """Each triangle with corners of its own, as STL files have them."""
+    return vertices[triangles].reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3)
+
+
+class VtkArray:
+    """A vtkDataArray as numpy sees it: something with the buffer protocol."""
+
+    def __init__(self, values):
+        self.values = values
+
+    def __array__(self, dtype=None):
+        return np.asarray(self.values, dtype)
+
+
+def vtk_like(vertices, triangles, with_offsets):
+    cells = {"GetOffsetsArray": lambda: VtkArray(3 * np.arange(len(triangles) + 1)),
+             "GetConnectivityArray": lambda: VtkArray(triangles.ravel())} if with_offsets else {
+                 "GetData": lambda: VtkArray(np.column_stack([np.full(len(triangles), 3), triangles]).ravel())}
+    return SimpleNamespace(GetPoints=lambda: SimpleNamespace(GetData=lambda: VtkArray(vertices)),
+                           GetPolys=lambda: SimpleNamespace(**cells))
+
+
+@pytest.mark.parametrize("like", [
+    lambda v, t: (v, t),
+    lambda v, t: SimpleNamespace(vertices=v, faces=t),
+    lambda v, t: SimpleNamespace(points=v, faces=np.column_stack([np.full(len(t), 3), t]).ravel()),
+    lambda v, t: SimpleNamespace(points=v, cells=[SimpleNamespace(type="vertex", data=np.array([[0]])),
+                                                  SimpleNamespace(type="triangle", data=t[:1]),
+                                                  SimpleNamespace(type="triangle", data=t[1:])]),
+    lambda v, t: SimpleNamespace(points=v, cells=[("triangle", t)]),
+    lambda v, t: SimpleNamespace(points=v, cells={"triangle": t}),
+    lambda v, t: vtk_like(v, t, True),
+    lambda v, t: vtk_like(v, t, False),
+], ids=["pair", "trimesh", "PyVista", "meshio", "old meshio", "meshio's dictionary", "VTK 9", "VTK 8"])
+def test_meshes_of_other_packages_are_taken_with_their_numbers(like):
+    mesh = condyle.TriMesh.of(like(CORNERS, FACES))
+    np.testing.assert_array_equal(mesh.vertices, CORNERS)
+    np.testing.assert_array_equal(mesh.triangles, FACES)
+    assert mesh.is_closed and mesh.vertex_map is None
+
+
+@pytest.mark.parametrize("vertices", [
+    CORNERS, CORNERS.astype(np.float32), CORNERS.astype(np.int32), np.asfortranarray(CORNERS), CORNERS.tolist(),
+    np.repeat(CORNERS, 2, axis=0)[::2], np.ascontiguousarray(CORNERS[::-1])[::-1], CORNERS.astype(">f8"),
+    np.lib.stride_tricks.as_strided(CORNERS, writeable=False),
+], ids=["C", "float32", "int32", "Fortran", "list", "every second row", "backwards", "big-endian", "read-only"])
+@pytest.mark.parametrize("kind", [np.int32, np.int64, np.uint32, np.uint64, np.uint8])
+def test_any_layout_and_type_gives_the_same_mesh(vertices, kind):
+    mesh = condyle.TriMesh(vertices, np.asfortranarray(FACES.astype(kind)))
+    np.testing.assert_array_equal(mesh.vertices, CORNERS)
+    np.testing.assert_array_equal(mesh.triangles, FACES)
+
+
+def test_a_soup_is_merged_and_vertex_k_stays_vertex_k():
+    mesh = condyle.TriMesh(*soup(CORNERS, FACES))
+    assert mesh.is_closed
+    np.testing.assert_array_equal(mesh.vertices, CORNERS[FACES].reshape(-1, 3))
+    np.testing.assert_array_equal(mesh.triangles, np.arange(12).reshape(4, 3))
+    merged = np.unique(mesh.vertex_map)
+    assert len(merged) == 4
+    for k in range(12):  # the same number exactly where the coordinates are the same
+        same = (mesh.vertices == mesh.vertices[k]).all(axis=1)
+        np.testing.assert_array_equal(mesh.vertex_map == mesh.vertex_map[k], same)
+
+
+def test_a_soup_gives_each_of_its_vertices_what_the_joined_mesh_gives():
+    bones = condyle.sample_hip(scenario=1)
+    joined = condyle.Joint(bones.hip_bone, bones.femur)
+    hip_bone = condyle.TriMesh(*soup(bones.hip_bone.vertices, bones.hip_bone.triangles))
+    femur = condyle.TriMesh(*soup(bones.femur.vertices, bones.femur.triangles))
+    souped = condyle.Joint(hip_bone, femur)
+    np.testing.assert_array_equal(souped.mobile.vertices, joined.mobile.vertices[bones.femur.triangles].reshape(-1, 3))
+    corner_of = bones.femur.triangles.ravel()
+    poses = joined.pose(flexion_deg=[0, 100, 130], adduction_deg=20)
+    for method in ("radial", "tangential"):
+        one, other = joined.penetration(poses, method), souped.penetration(poses, method)
+        assert max(len(each.mobile) for each in one) > 0
+        for a, b in zip(one, other):
+            expected = {k: depth for v, depth in zip(a.mobile.vertex, a.mobile.depth_mm)
+                        for k in np.flatnonzero(corner_of == v)}
+            assert dict(zip(b.mobile.vertex.tolist(), b.mobile.depth_mm.tolist())) == expected
+            assert len(b.mobile) == len(expected) == len(b.mobile.triangle)
+    np.testing.assert_array_equal(joined.gaps(poses[2]).mobile.gap_mm[corner_of], souped.gaps(poses[2]).mobile.gap_mm)
+    np.testing.assert_array_equal(joined.depths(poses[2]).mobile.depth_mm[corner_of],
+                                  souped.depths(poses[2]).mobile.depth_mm)
+    np.testing.assert_array_equal(joined.pairs(poses[2]), souped.pairs(poses[2]))
+
+
+def test_a_soup_read_from_stl_is_joined_with_a_map_from_its_corners(tmp_path):
+    path = tmp_path / "tetrahedron.stl"
+    facets = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {x} {y} {z}\n" for x, y, z in CORNERS[face])
+                     + "endloop\nendfacet\n" for face in FACES)
+    path.write_text(f"solid t\n{facets}endsolid t\n")
+    mesh = condyle.read_mesh(path)
+    assert mesh.is_closed and len(mesh.vertices) == 4 and mesh.notes
+    np.testing.assert_array_equal(mesh.vertices[mesh.triangles], CORNERS[FACES])
+
+
+def test_arrays_cannot_be_written_and_outlive_their_mesh():
+    mesh = condyle.TriMesh(CORNERS, FACES)
+    vertices, triangles = mesh.vertices, mesh.triangles
+    del mesh
+    for array in (vertices, triangles):
+        with pytest.raises(ValueError):
+            array[0] = 0
+    np.testing.assert_array_equal(vertices, CORNERS)
+    np.testing.assert_array_equal(triangles, FACES)
+
+
+def test_a_mesh_does_not_follow_the_arrays_it_was_made_of():
+    vertices = CORNERS.copy()
+    mesh = condyle.TriMesh(vertices, FACES)
+    vertices[:] = 7
+    np.testing.assert_array_equal(mesh.vertices, CORNERS)
+
+
+def test_a_written_mesh_is_read_bit_by_bit(tmp_path):
+    mesh = condyle.TriMesh(CORNERS / 3, FACES)
+    condyle.write_mesh(tmp_path / "mesh.vtp", mesh)
+    assert condyle.read_mesh(tmp_path / "mesh.vtp") == mesh
+
+
+def test_inspection_finds_what_is_wrong():
+    report = condyle.inspect((CORNERS, FACES[:3]))
+    assert not report.is_closed and report.signed_volume is None
+    assert report.findings["boundary_edges"].count == 3
+    closed = condyle.inspect((CORNERS, FACES))
+    assert closed.signed_volume == pytest.approx(1 / 6, rel=1e-15) and not closed.defects
+
+
+def test_repairs_are_made_by_name():
+    mesh = condyle.TriMesh(*soup(CORNERS, FACES), merge=False)
+    assert not mesh.is_closed
+    assert mesh.repaired("weld").is_closed
+    with pytest.raises(condyle.UsageError, match="weld"):
+        mesh.repaired("magic")
+
+
+def test_a_sphere_is_fitted_where_the_points_lie():
+    random = np.random.default_rng(1)
+    directions = random.normal(size=(100, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    fit = condyle.fit_sphere([1, 2, 3] + 24 * directions)
+    np.testing.assert_allclose(fit.centre, [1, 2, 3], atol=1e-12)
+    assert fit.radius == pytest.approx(24, abs=1e-12)
+
+
+def test_the_head_of_the_sample_femur_is_found():
+    fit = condyle.find_sphere(condyle.sample_hip(head_radius_mm=22).femur)
+    # A vertex of the mesh lies on the head to rounding, the fit's patch may reach a little past it.
+    assert fit.radius == pytest.approx(22, abs=0.1) and np.linalg.norm(fit.centre) < 0.1
