@@ -13,14 +13,18 @@ from ._joint import Joint, JointNote, read_joint
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
+from ._range_of_motion import KINDS, REASONS, BodyZone, ContactWitness, FreeAngles, ImpingementZone, Limit, LimitBand
+from ._range_of_motion import MapEnds, Motion, MotionLimit, MotionMap, PathLimit, RangeOfMotion
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "ContactMeasures", "ContactPatch", "Depths", "FileError", "Finding", "Gaps", "HIP_PARAMETERS", "INSIDE",
-    "Joint", "JointNote", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "NO_INDEX", "ON_SURFACE",
-    "OUTSIDE", "OccupiedArcs", "Penetration", "Penetrations", "RadialTable", "ReferenceContactError", "RingTable",
-    "SampleCartilages", "SampleHip", "SphereFit", "TriMesh", "UsageError", "VertexDepths", "VertexGaps",
-    "VerticesInside", "WAYS", "__version__", "find_sphere", "fit_sphere", "inspect", "read_joint", "read_mesh",
-    "sample_cartilages", "sample_hip", "write_mesh",
+    "BodyZone", "ContactMeasures", "ContactPatch", "ContactWitness", "Depths", "FileError", "Finding", "FreeAngles",
+    "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointNote", "KINDS", "Limit", "LimitBand",
+    "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap",
+    "NO_INDEX", "ON_SURFACE", "OUTSIDE", "OccupiedArcs", "PathLimit", "Penetration", "Penetrations", "REASONS",
+    "RadialTable", "RangeOfMotion", "ReferenceContactError", "RingTable", "SampleCartilages", "SampleHip",
+    "SphereFit", "TriMesh", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
+    "find_sphere", "fit_sphere", "inspect", "read_joint", "read_mesh", "sample_cartilages", "sample_hip",
+    "write_mesh",
 ]

@@ -15,7 +15,8 @@ from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, meas
 from ._mesh import MeshLike, TriMesh
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
-from ._words import Path, number, path_of, word
+from ._range_of_motion import MotionLike, PathLimit, RangeOfMotion, witness_of
+from ._words import Path, count, number, path_of, word
 
 Progress = Optional[Callable[[int, int], Any]]
 PoseLike = Union[ArrayLike, Mapping[str, float]]
@@ -366,6 +367,67 @@ class Joint:
         C++: `condyle::measure_contact` in condyle/contact_measures.hpp.
         """
         return measures_of(_native.contact_measures(self._native, self._matrices(pose)), self._fixed, self._mobile)
+
+    def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: str = "leave_out",
+                        bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,
+                        exclude_reference_contacts: Union[bool, int] = False,
+                        translation_mm: Optional[ArrayLike] = None) -> RangeOfMotion:
+        """How far the joint turns before bone meets bone: exact limits of these motions, of all known ones if not
+        given.
+
+        Parameters
+        ----------
+        motions : names or Motion objects, optional
+            Built-in ones of the joint and those of its file; [] for none.
+        bearing : "leave_out" or "count"
+            Whether contact of head and socket, where they slide, ends a motion.
+        bearing_margin_mm : float, optional
+            How far outside the head's sphere the bearing surface reaches.
+        accept_reference_contact : bool
+            Answer although the bodies are in contact in the reference pose.
+        exclude_reference_contacts : bool or int
+            Leave out what is in contact in the reference pose, with so many rings of neighbours (True: 2).
+        translation_mm : (3,), optional
+            Of a free joint, what all motions keep; that of the reference pose if not given.
+
+        ReferenceContactError, a MeshError, where the bodies are in contact in the reference pose and nothing was said.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.range_of_motion(["flexion", "internal_rotation_at_90_flexion"])
+        RangeOfMotion(flexion 134.8, internal_rotation_at_90_flexion 52.0)
+        """
+        rings: Optional[int] = None
+        if exclude_reference_contacts is True:
+            rings = 2
+        elif exclude_reference_contacts is not False:
+            rings = count(exclude_reference_contacts, "exclude_reference_contacts", high=1000)
+        options = {
+            "count_bearing": word(bearing, "bearing", ("leave_out", "count")) == "count",
+            "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
+            "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
+        if motions is not None and (isinstance(motions, str) or not isinstance(motions, Sequence)):
+            raise UsageError(f"motions: a list of names is needed, not {type(motions).__name__}")
+        return RangeOfMotion(self, _native.range_of_motion(self._native, translation_mm, options), motions)
+
+    def path_limit(self, waypoints: Sequence[Mapping[str, float]], *, tolerance_deg: float = 1e-3) -> PathLimit:
+        """Where a path of straight segments in the joint's angles ends, several of which may change at once.
+
+        `waypoints` are two or more mappings of angles in degrees by their names. The path is free up to the limit,
+        whatever the surfaces do between two poses; it ends where a rotation by the tolerance might bring them together.
+
+        C++: `condyle::PathFinder` in condyle/path_limit.hpp.
+        """
+        rows = [_coordinates(each, self._native.angle_names, "waypoints", suffix="", is_free=False)[0][0]
+                for each in waypoints]
+        options = {"count_bearing": False, "bearing_margin_mm": None, "accept_reference_contact": False,
+                   "leave_out_rings": None}
+        found = _native.path_limit(self._native, np.array(rows).reshape(-1, 3), number(tolerance_deg, "tolerance_deg"),
+                                   options)
+        found["angles_deg"] = dict(zip((names[0] for names in self.angle_names), found["angles_deg"]))
+        found["contact"] = witness_of(found["contact"], self._fixed, self._mobile)
+        return PathLimit(**found)
 
     def __repr__(self) -> str:
         return (f"Joint({self.name!r}: {self.kind} {self.joint}, {self.side}; {self.fixed_name} "

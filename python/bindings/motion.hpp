@@ -1,0 +1,41 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "condyle/limit_band.hpp"
+#include "condyle/motion_map.hpp"
+#include "condyle/range_of_motion.hpp"
+#include "joint.hpp"
+
+namespace condyle::python {
+
+namespace py = pybind11;
+
+/// A joint made ready for motions, with what that needs to live on.
+struct RangeHandle {
+  Joint joint;  ///< held at its translation
+  RangeOptions options;
+  RangeOfMotion range;
+
+  RangeHandle(Joint held, RangeOptions given)
+      : joint(std::move(held)), options(std::move(given)), range(joint, options) {}
+};
+
+/// (name, vary, sense, start_deg, range_deg) of a motion, vary a position among the joint's angles, and back.
+py::tuple tuple_of(const Motion& motion);
+Motion motion_in(const py::tuple& given);
+std::vector<Motion> motions_in(const py::list& given);
+
+/// Three angles in degrees.
+JointAngles angles_in(const py::object& given, std::string_view name);
+JointAngle angle_numbered(std::size_t number);
+
+py::dict dict_of(const Limit& limit);
+py::dict dict_of(const MotionLimit& limit);
+py::object dict_of(const std::optional<ContactWitness>& contact);
+
+}  // namespace condyle::python

@@ -1,0 +1,146 @@
+#include "condyle/range_of_motion.hpp"
+
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "condyle/held_translation.hpp"
+#include "condyle/path_limit.hpp"
+#include "interrupts.hpp"
+#include "motion.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// The translation that a free joint keeps: the one given, else that of its reference pose.
+Vec3 held_translation(const JointHandle& handle, const py::object& given) {
+  const Joint& joint = handle.joint();
+  if (joint.kind != JointKind::free) {
+    if (!given.is_none()) throw UsageError("translation_mm: only a free joint translates");
+    return Vec3::Zero();
+  }
+  const Vec3 held = given.is_none() ? handle.loaded.report.placement.reference_pose.translation_mm
+                                    : vector_in(given, "translation_mm");
+  if (joint.translation_frame == TranslationFrame::joint_axes && held != Vec3::Zero())
+    throw UsageError(
+        "translation_mm: held along the joint's axes it would turn with them: motions need zero or "
+        "translation_frame = \"fixed\"");
+  return held;
+}
+
+RangeOptions options_in(const JointHandle& handle, const py::dict& given) {
+  RangeOptions options;
+  if (given["count_bearing"].cast<bool>()) options.bearing.rule = BearingRule::count;
+  options.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  options.overlap.reference_pose = handle.loaded.report.placement.reference_pose.angles;
+  if (given["accept_reference_contact"].cast<bool>())
+    options.overlap.reference_contact = ReferenceContact::accept;
+  if (const auto rings = given["leave_out_rings"].cast<std::optional<int>>())
+    options.overlap.leave_out_reference_contacts = LeaveOutReferenceContacts{*rings};
+  return options;
+}
+
+std::unique_ptr<RangeHandle> ready(const JointHandle& handle, const py::object& translation_mm,
+                                   const py::dict& given) {
+  const Vec3 translation = held_translation(handle, translation_mm);
+  RangeOptions options = options_in(handle, given);
+  return followed(py::none(), [&](const auto&, const std::stop_token&) {
+    auto range = std::make_unique<RangeHandle>(held_at(handle.joint(), translation), options);
+    // Found once, for bands too.
+    range->options.bearing.surface = range->range.bearing().surface;
+    return range;
+  });
+}
+
+py::list limits(const RangeHandle& handle, const py::list& given) {
+  const std::vector<Motion> motions = motions_in(given);
+  const std::vector<MotionLimit> found =
+      followed(py::none(), [&](const auto&, const std::stop_token&) { return handle.range.limits(motions); });
+  py::list list;
+  for (const MotionLimit& limit : found) list.append(dict_of(limit));
+  return list;
+}
+
+py::dict free_angles(const RangeHandle& handle, std::size_t vary, const py::object& start,
+                     double negative_deg, double positive_deg) {
+  const JointAngles from = angles_in(start, "start");
+  const RotationRange range{Angle::degrees(negative_deg), Angle::degrees(positive_deg)};
+  const FreeAngles found = [&] {
+    const py::gil_scoped_release released;
+    return handle.range.free_angles(angle_numbered(vary), from, range);
+  }();
+  py::list intervals;
+  for (const FreeInterval& interval : found.intervals)
+    intervals.append(py::make_tuple(interval.low.degrees(), interval.high.degrees(), dict_of(interval.at_low),
+                                    dict_of(interval.at_high)));
+  py::dict dict;
+  dict["negative"] = dict_of(found.from_start.negative);
+  dict["positive"] = dict_of(found.from_start.positive);
+  dict["intervals"] = intervals;
+  return dict;
+}
+
+py::list built_in(const JointHandle& handle) {
+  py::list list;
+  const Joint& joint = handle.joint();
+  for (const Motion& motion :
+       with_own_motions(built_in_motions(joint.kind, joint.anatomy), handle.loaded.report.file.motions))
+    list.append(tuple_of(motion));
+  return list;
+}
+
+py::object bearing_of(const RangeHandle& handle) {
+  const auto& surface = handle.range.bearing().surface;
+  if (!surface) return py::none();
+  py::dict dict;
+  dict["head_centre"] = array_of(surface->head.centre);
+  dict["head_radius_mm"] = surface->head.radius;
+  dict["margin_mm"] = surface->margin_mm;
+  dict["rim_gap_mm"] = surface->rim_gap_mm;
+  dict["triangles"] = array_of(std::vector<std::uint8_t>(surface->triangles));
+  return dict;
+}
+
+py::dict path_limit(const JointHandle& handle, const py::object& given, double tolerance_deg,
+                    const py::dict& options) {
+  const PointsIn degrees(given, "waypoints");
+  std::vector<JointAngles> waypoints;
+  for (std::size_t i = 0; i < degrees.size(); ++i) {
+    const Vec3 at = degrees.view()[i];
+    waypoints.push_back({Angle::degrees(at[0]), Angle::degrees(at[1]), Angle::degrees(at[2])});
+  }
+  const RangeOptions range = options_in(handle, options);
+  const PathLimit limit = followed(py::none(), [&](const auto&, const std::stop_token&) {
+    return PathFinder(handle.joint(), range).limit(waypoints, Angle::degrees(tolerance_deg));
+  });
+  constexpr const char* reasons[] = {"contact", "end_of_range", "contact_at_start"};
+  py::dict dict;
+  dict["segment"] = limit.segment;
+  dict["fraction"] = limit.fraction;
+  dict["angles_deg"] = std::array{limit.at.flexion.degrees(), limit.at.adduction.degrees(),
+                                  limit.at.internal_rotation.degrees()};
+  dict["reason"] = reasons[static_cast<std::size_t>(limit.reason)];
+  dict["contact"] = dict_of(limit.contact);
+  dict["distance_mm"] = limit.distance_mm;
+  return dict;
+}
+
+}  // namespace
+
+void bind_range_of_motion(py::module_& module) {
+  py::class_<RangeHandle>(module, "RangeOfMotion")
+      .def("limits", &limits)
+      .def("free_angles", &free_angles)
+      .def_property_readonly("bearing", &bearing_of)
+      .def_property_readonly("why_no_bearing",
+                             [](const RangeHandle& h) { return h.range.bearing().why_none; })
+      .def_property_readonly("left_out", [](const RangeHandle& h) {
+        return py::make_tuple(h.range.left_out().fixed_triangles, h.range.left_out().mobile_triangles);
+      });
+  module.def("range_of_motion", &ready);
+  module.def("motions", &built_in);
+  module.def("path_limit", &path_limit);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,129 @@
+"""Limits, maps, bands and zones are those of the command line, double by double."""
+
+import csv
+import json
+import subprocess
+
+import numpy as np
+import pytest
+
+import condyle
+
+
+@pytest.fixture(scope="module")
+def rom(hip):
+    return hip.range_of_motion()
+
+
+def test_limits_are_those_of_the_command(rom, command, hip_file):
+    said = json.loads(subprocess.run([command, "rom", hip_file, "--json"], check=True, capture_output=True).stdout)
+    assert len(said["motions"]) == len(rom.limits) == 12
+    for theirs, ours in zip(said["motions"], rom.limits):
+        assert theirs["name"] == ours.motion.name
+        assert theirs["limit_deg"] == ours.turned_deg
+        assert theirs["reason"] == ours.reason
+        assert theirs["error_bound_deg"] == ours.error_bound_deg
+
+
+def test_a_map_is_that_of_the_command(hip, rom, command, hip_file, tmp_path):
+    subprocess.run([command, "rom", hip_file, "--motion", "flexion", "--map", "flexion=0:120:40", "adduction=-20:20:20",
+                    "--out", tmp_path], check=True, capture_output=True)
+    rows = list(csv.DictReader(line for line in (tmp_path / "map.csv").read_text().splitlines()
+                               if not line.startswith("#")))
+    seen = []
+    found = rom.map({"flexion": (0, 120, 40)}, {"adduction": (-20, 20, 20)}, progress=lambda *done: seen.append(done))
+    assert len(rows) == found.lower_deg.size == 12
+    for n, row in enumerate(rows):
+        at = np.unravel_index(n, found.lower_deg.shape)
+        assert float(row["flexion_deg"]) == found.column_deg[at[1]]
+        assert float(row["adduction_deg"]) == found.row_deg[at[0]]
+        assert float(row["internal_rotation_lower_deg"]) == -found.negative.turned_deg[at]
+        assert float(row["internal_rotation_upper_deg"]) == found.positive.turned_deg[at]
+        if found.free_at_start[at]:
+            assert found.lower_deg[at] == -found.negative.turned_deg[at]
+            assert found.upper_deg[at] == found.positive.turned_deg[at]
+    assert seen == sorted(seen) and all(total == 12 for _, total in seen)
+    assert found.to_xarray().lower_deg.shape == (3, 4) and len(found.to_dataframe()) == 12
+
+
+def test_a_free_set_and_its_contact_set_fill_the_range(rom):
+    free = rom.free_angles("internal_rotation", {"flexion": 90})
+    both = np.concatenate([free.intervals_deg, free.contact_set_deg])
+    both = both[np.argsort(both[:, 0])]
+    assert both[0, 0] == -180 and both[-1, 1] == 180
+    np.testing.assert_array_equal(both[1:, 0], both[:-1, 1])
+    assert free.intervals_deg[(free.intervals_deg[:, 0] <= 0) & (free.intervals_deg[:, 1] >= 0)][0, 1] == \
+        rom["internal_rotation_at_90_flexion"].turned_deg
+    np.testing.assert_array_equal(rom.contact_set("internal_rotation", {"flexion": 90}), free.contact_set_deg)
+
+
+def test_a_limit_touches_just_past_it_and_not_before(hip):
+    rom = hip.range_of_motion(["flexion"], bearing="count")
+    at = rom["flexion"].turned_deg
+    assert rom["flexion"].reason == "contact"
+    np.testing.assert_array_equal(hip.in_contact(hip.pose(flexion_deg=[at - 1e-6, at + 1e-6])), [False, True])
+
+
+def test_the_witness_of_a_limit_lies_on_both_bodies(hip, rom):
+    limit = rom["flexion"]
+    X_FM = hip.pose(**{f"{name}_deg": value for name, value in limit.angles_deg.items()})
+    np.testing.assert_allclose((X_FM @ [*limit.contact.mobile_point, 1])[:3], limit.contact.fixed_point, atol=1e-9)
+    kind, *numbers = limit.contact.fixed_feature
+    if kind == "vertex":
+        np.testing.assert_allclose(hip.fixed.vertices[numbers[0]], limit.contact.fixed_point, atol=1e-9)
+
+
+def test_a_motion_of_ones_own_is_the_built_in_one_where_it_says_the_same(rom):
+    own = condyle.Motion("mine", "extension", 90, {})
+    assert rom.limit(own).turned_deg == rom["extension"].turned_deg
+    fadir = condyle.Motion("mine", "internal_rotation", 120, {"flexion": 90, "adduction": 15})
+    assert rom.limit(fadir).turned_deg == rom["fadir"].turned_deg
+
+
+def test_bands_are_those_of_the_command(hip, command, hip_file):
+    said = json.loads(subprocess.run([command, "rom", hip_file, "--motion", "flexion", "--band=20", "--json"],
+                                     check=True, capture_output=True).stdout)
+    band, = hip.range_of_motion(["flexion"]).bands(samples=20)
+    theirs = said["motions"][0]["band"]
+    assert (band.p5_deg, band.median_deg, band.p95_deg) == (theirs["p5_deg"], theirs["median_deg"], theirs["p95_deg"])
+
+
+def test_a_zone_grows_past_its_limit(hip):
+    rom = hip.range_of_motion(["flexion"])
+    near, = rom.zones(past_deg=2)
+    far, = rom.zones(past_deg=6)
+    assert 0 < near.fixed.area_mm2 < far.fixed.area_mm2
+    assert len(near.fixed.radial_depth_mm) == len(hip.fixed.vertices)
+    assert near.limit.turned_deg == rom["flexion"].turned_deg
+
+
+def test_bodies_in_contact_in_the_reference_pose_are_refused_or_accepted(hip):
+    beside = condyle.TriMesh(hip.mobile.vertices + [0, 5, 0], hip.mobile.triangles)  # the joint space is 3.5 mm
+    bones = condyle.Joint(hip.fixed, beside)
+    with pytest.raises(condyle.ReferenceContactError):
+        bones.range_of_motion(["flexion"], bearing="count")
+    limit, = bones.range_of_motion(["flexion"], bearing="count", accept_reference_contact=True)
+    assert limit.reason == "contact_at_start" and limit.turned_deg == 0
+
+
+def test_a_path_along_one_angle_ends_short_of_its_exact_limit(hip):
+    exact = hip.range_of_motion(["flexion"])["flexion"].turned_deg
+    path = hip.path_limit([{}, {"flexion": 170}], tolerance_deg=0.01)
+    assert path.reason == "contact" and path.angles_deg["flexion"] <= exact
+
+
+def test_soups_give_the_limits_and_features_of_the_joined_mesh(hip):
+    def soup(mesh):
+        return condyle.TriMesh(mesh.vertices[mesh.triangles].reshape(-1, 3),
+                               np.arange(3 * len(mesh.triangles)).reshape(-1, 3))
+    souped = condyle.Joint(soup(hip.fixed), soup(hip.mobile))
+    ours = souped.range_of_motion(["flexion"])["flexion"]
+    theirs = hip.range_of_motion(["flexion"])["flexion"]
+    assert ours.turned_deg == theirs.turned_deg
+    for body, mesh, whole in (("fixed", souped.fixed, hip.fixed), ("mobile", souped.mobile, hip.mobile)):
+        kind, *numbers = getattr(ours.contact, f"{body}_feature")
+        _, *expected = getattr(theirs.contact, f"{body}_feature")
+        if kind == "face":
+            assert numbers == expected
+        else:
+            np.testing.assert_array_equal(mesh.vertices[numbers], whole.vertices[expected])
