@@ -15,6 +15,7 @@ struct BodyPart {
   std::string name;
   std::size_t first_vertex, vertices;
   std::size_t first_triangle, triangles;
+  bool is_bearing = false;  ///< it slides on the other body, as cartilage does: find_bearing_surface()
 };
 
 /// One bone (or cartilage) of a joint, by the name its user gave it.

@@ -40,6 +40,54 @@ TEST(BearingSurface, IsTheHeadWithinTheMarginOfItsSphere) {
   EXPECT_EQ(surface->count(), joint.mobile.mesh.triangles().size() - 12);
 }
 
+/// A head and its arm as two meshes of one body, one or both told to be bearing.
+Joint of_two_meshes(const Vec3& offset, bool head_is_bearing, bool arm_is_bearing) {
+  Joint joint = head_and_post_joint(offset);
+  const std::size_t vertices = joint.mobile.mesh.vertices().size();
+  const std::size_t triangles = joint.mobile.mesh.triangles().size();
+  joint.mobile.parts = {{"arm", 0, 8, 0, 12, arm_is_bearing},
+                        {"head", 8, vertices - 8, 12, triangles - 12, head_is_bearing}};
+  return joint;
+}
+
+TEST(BearingSurface, IsTheMeshToldToBe) {
+  const Vec3 offset(0.1, -0.05, 0.15);
+  const Joint joint = of_two_meshes(offset, true, false);
+  const auto surface = find_bearing_surface(joint).surface;
+  ASSERT_TRUE(surface);
+  EXPECT_EQ(surface->parts, std::vector<std::string>{"head"});
+  EXPECT_LT((surface->head.centre - offset).norm(), 1e-9);
+  EXPECT_NEAR(surface->head.radius, head_radius, 1e-9);
+  EXPECT_EQ(surface->count(), joint.mobile.mesh.triangles().size() - 12);
+  EXPECT_EQ(surface->triangles.front(), 0);
+  EXPECT_THROW(find_bearing_surface(joint, {.margin_mm = 1}), UsageError);
+  const BearingFinding arm = find_bearing_surface(of_two_meshes(offset, false, true));
+  EXPECT_FALSE(arm.surface);
+  EXPECT_NE(arm.why_none.find("spherical"), std::string::npos) << arm.why_none;
+}
+
+TEST(BearingSurface, ToldByMeshesLeavesMotionsToTheOthers) {
+  // The head stands half a millimetre in its socket.
+  const Vec3 off(3.5, 0, 0);
+  const Joint joint = of_two_meshes(off, true, false);
+  Joint arm = joint;
+  arm.mobile.mesh = mesh_of_part(joint.mobile, "arm");
+  arm.mobile.parts.clear();
+  const RangeOfMotion range(joint);
+  const RangeOfMotion of_arm(arm, {.bearing = {.rule = BearingRule::count}});
+  std::size_t ended = 0;
+  for (const Motion& motion : hip_motions()) {
+    const MotionLimit limit = range.limit(motion), expected = of_arm.limit(motion);
+    EXPECT_EQ(limit.end.turned, expected.end.turned) << motion.name;
+    EXPECT_EQ(limit.end.reason, expected.end.reason) << motion.name;
+    ended += limit.end.reason == LimitReason::contact;
+  }
+  EXPECT_GT(ended, 0u);
+  RangeOptions all{.bearing = {.rule = BearingRule::count}};
+  all.overlap.reference_contact = ReferenceContact::accept;
+  EXPECT_EQ(RangeOfMotion(joint, all).limit(flexion()).end.reason, LimitReason::contact_at_start);
+}
+
 TEST(BearingSurface, LeavesAReserveWhereTheRimIsNear) {
   // The rim's inner edge is a circle of socket_radius about the centre.
   const Joint joint = head_and_post_joint(Vec3::Zero());

@@ -23,6 +23,7 @@ struct MeshEntry {
   std::string part;            ///< its name among several; empty where it is the only one
   std::filesystem::path mesh;  ///< found from the joint file's folder
   std::vector<Repair> repairs;
+  bool is_bearing = false;  ///< one of several of the mobile body that slides on the fixed one
 };
 
 /// A [fixed] or [mobile] table.

@@ -106,27 +106,32 @@ MeshEntry mesh_entry(io::TomlTable& table) {
   return entry;
 }
 
-std::vector<MeshEntry> mesh_entries(io::TomlTable& body) {
+std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key) {
   if (!body.has("meshes")) return {mesh_entry(body)};
-  for (const auto key : {"mesh", "repair"})
-    if (body.has(key)) body.fail(key, "with meshes each of them has its own");
+  for (const auto of_one : {"mesh", "repair"})
+    if (body.has(of_one)) body.fail(of_one, "with meshes each of them has its own");
   std::vector<MeshEntry> entries;
   for (io::TomlTable& table : body.tables("meshes")) {
     MeshEntry entry = mesh_entry(table);
     entry.part = table.required("name", table.text("name"));
     if (entry.part.empty()) table.fail("name", "must not be empty");
+    entry.is_bearing = table.flag("bearing").value_or(false);
+    if (entry.is_bearing && key == "fixed")
+      table.fail("bearing", "belongs to meshes of the mobile body: what they meet is bearing contact");
     for (const MeshEntry& other : entries)
       if (other.part == entry.part) table.fail("name", fmt::format("\"{}\" is given twice", entry.part));
     table.finish();
     entries.push_back(std::move(entry));
   }
   if (entries.empty()) body.fail("meshes", "must name one mesh or more");
+  if (std::all_of(entries.begin(), entries.end(), [](const MeshEntry& entry) { return entry.is_bearing; }))
+    body.fail("meshes", "all of them are bearing: nothing would be left to end a motion");
   return entries;
 }
 
 /// A body's table is read in two parts: its pose needs what is known of the joint.
 BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
-  return {table.text("name").value_or(std::string(key)), mesh_entries(table)};
+  return {table.text("name").value_or(std::string(key)), mesh_entries(table, key)};
 }
 
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {

@@ -93,6 +93,13 @@ std::optional<long long> TomlTable::integer(std::string_view key) {
   return *node->value<std::int64_t>();
 }
 
+std::optional<bool> TomlTable::flag(std::string_view key) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  if (!node->is_boolean()) fail(key, fmt::format("must be true or false, not {}", kind_of(*node)));
+  return *node->value<bool>();
+}
+
 template <std::size_t N>
 std::optional<std::array<double, N>> TomlTable::numbers(std::string_view key, std::string_view count) {
   const toml::node* node = find(key);

@@ -36,6 +36,7 @@ class TomlTable {
   std::optional<std::string> text(std::string_view key);
   std::optional<double> number(std::string_view key);
   std::optional<long long> integer(std::string_view key);
+  std::optional<bool> flag(std::string_view key);
   std::optional<std::array<double, 2>> pair(std::string_view key);
   std::optional<Vec3> triple(std::string_view key);
   std::optional<std::array<double, 16>> sixteen(std::string_view key);

@@ -228,7 +228,8 @@ Json bearing_json(const RomResult& result) {
   json["socket"] = surface->socket
                        ? sphere_json(frame.fixed_point(surface->socket->centre), surface->socket->radius)
                        : Json(nullptr);
-  json["margin_mm"] = surface->margin_mm;
+  json["parts"] = surface->parts;
+  json["margin_mm"] = surface->parts.empty() ? Json(surface->margin_mm) : Json(nullptr);
   json["rim_gap_mm"] = nullable(surface->rim_gap_mm);
   json["triangles"] = surface->count();
   return json;

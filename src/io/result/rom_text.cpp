@@ -21,11 +21,14 @@ std::string bearing_text(const RomResult& result) {
   if (!surface) return fmt::format("  every contact counts: {}\n", result.bearing.why_none);
   const std::string rim =
       surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm) : std::string();
+  const std::string told =
+      surface->parts.empty() ? fmt::format("within {:.2f} mm of the head's sphere", surface->margin_mm)
+                             : fmt::format("{}, as the joint file says", fmt::join(surface->parts, " and "));
   return fmt::format(
-      "  bearing surface: {} of {} triangles of {}, within {:.2f} mm of the head's sphere\n"
-      "    (radius {:.2f} mm{}); contact on it {}\n",
-      surface->count(), surface->triangles.size(), result.joint.mobile.name, surface->margin_mm,
-      surface->head.radius, rim,
+      "  bearing surface: {} of {} triangles of {}, {}\n"
+      "    ({} {:.2f} mm{}); contact on it {}\n",
+      surface->count(), surface->triangles.size(), result.joint.mobile.name, told,
+      surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim,
       result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
 }
 

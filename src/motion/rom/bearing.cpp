@@ -28,6 +28,24 @@ std::vector<std::uint8_t> triangles_within(const TriMesh& mesh, const Vec3& cent
   return within;
 }
 
+/// The meshes of the mobile body that are told to be bearing: names, and marks of their triangles.
+void mark_bearing_parts(const Body& mobile, BearingSurface& surface) {
+  surface.triangles.assign(mobile.mesh.triangles().size(), 0);
+  for (const BodyPart& part : mobile.parts) {
+    if (!part.is_bearing) continue;
+    surface.parts.push_back(part.name);
+    std::fill_n(surface.triangles.begin() + static_cast<std::ptrdiff_t>(part.first_triangle), part.triangles,
+                std::uint8_t{1});
+  }
+}
+
+TriMesh marked_part(const TriMesh& mesh, const std::vector<std::uint8_t>& marks) {
+  TriMesh part{mesh.vertices, {}};
+  for (std::size_t t = 0; t < marks.size(); ++t)
+    if (marks[t]) part.triangles.push_back(mesh.triangles[t]);
+  return part;
+}
+
 }  // namespace
 
 std::size_t BearingSurface::count() const noexcept {
@@ -65,12 +83,19 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
     return {options.surface, {}};
   }
   BearingSurface surface;
+  mark_bearing_parts(joint.mobile, surface);
+  const bool is_told = !surface.parts.empty();
+  if (is_told && options.margin_mm)
+    throw UsageError("bearing margin: " + joint.mobile.name +
+                     " has meshes told to be bearing, which need none");
   try {
-    const SphericalPatch patch = find_sphere(mobile, {.within = Sphere{Vec3::Zero(), largest_head_reach}});
+    const SphericalPatch patch = find_sphere(is_told ? marked_part(mobile, surface.triangles) : mobile,
+                                             {.within = Sphere{Vec3::Zero(), largest_head_reach}});
     surface.head = patch.fit.sphere;
     surface.head_coverage = patch.coverage;
   } catch (const MeshError&) {
-    return none(joint.mobile.name + ": no head was found around the joint centre");
+    return none(joint.mobile.name + (is_told ? ": nothing of the meshes told to be bearing is spherical"
+                                             : ": no head was found around the joint centre"));
   }
   if (const double off = surface.head.centre.norm(); off > farthest_head_centre_mm)
     return none(
@@ -78,8 +103,11 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
         core::formatted(": the sphere found as its head has its centre %.1f mm from the joint centre, "
                         "more than %g",
                         off, farthest_head_centre_mm));
+  if (const auto socket = kinematics::find_socket(joint.fixed.mesh, surface.head))
+    surface.socket = socket->fit.sphere;
   if (const auto rim = kinematics::socket_rim(joint.fixed.mesh, surface.head))
     surface.rim_gap_mm = rim->gap_mm;
+  if (is_told) return {std::move(surface), {}};
   surface.margin_mm = options.margin_mm.value_or(
       std::min(usual_bearing_margin_mm,
                surface.rim_gap_mm.value_or(usual_bearing_margin_mm + rim_reserve_mm) - rim_reserve_mm));
@@ -89,8 +117,6 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   surface.triangles = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
   if (surface.count() == surface.triangles.size())
     return none(joint.mobile.name + ": all of it would be bearing surface");
-  if (const auto socket = kinematics::find_socket(joint.fixed.mesh, surface.head))
-    surface.socket = socket->fit.sphere;
   return {std::move(surface), {}};
 }
 
