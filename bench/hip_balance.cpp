@@ -33,6 +33,7 @@ const TableHead balance_head{
      {"pose_ms", "a pose from apart, ms"},
      {"frames", "frames"},
      {"balanced", "balanced"},
+     {"carried", "load carried"},
      {"steps", "Newton steps of all"},
      {"walk_ms", "all frames, ms"},
      {"depth_mm", "greatest depth, mm"}}};
@@ -102,12 +103,13 @@ bool ask_hip_balance(Effort effort, Report& report) {
 
   for (std::size_t i = 0; i < count; ++i) {
     const Way& way = all_ways[i];
-    std::int64_t balanced = 0, steps = 0;
+    std::int64_t balanced = 0, carried = 0, steps = 0;
     double depth = 0;
     for (const auto& frame : walks[i]) {
       steps += frame->steps;
-      if (frame->outcome != BalanceOutcome::balanced) continue;
-      ++balanced;
+      if (!frame->carries_load()) continue;
+      ++carried;
+      balanced += frame->outcome == BalanceOutcome::balanced;
       const auto& surface = frame->contact.mobile ? frame->contact.mobile : frame->contact.fixed;
       depth = std::max(depth, surface->totals.max_depth_mm);
     }
@@ -115,7 +117,7 @@ bool ask_hip_balance(Effort effort, Report& report) {
     report.table(balance_head)
         .add({way.casting_name(), way.rule_name(), std::int64_t(rays_of_a_look(contacts[i], poses[i].X_FM)),
               median(samples[2 * count + i]) * 1e3, std::int64_t(poses[i].steps), pose_ms,
-              std::int64_t(walk.size()), balanced, steps, walk_ms, depth});
+              std::int64_t(walk.size()), balanced, carried, steps, walk_ms, depth});
     if (poses[i].outcome != BalanceOutcome::balanced)
       report.disagreements.push_back(
           fmt::format("hip_balance, {}, {}: {}", way.casting_name(), way.rule_name(), reason_of(poses[i])));

@@ -30,9 +30,7 @@ LoadAnswer answer_of(const ElasticContact& surfaces, const LoadQuestion& questio
   LoadAnswer answer{question.X_FM, {}, {}, 0};
   if (question.load) {
     answer.balanced = balance(surfaces, question.X_FM, *question.load, balance_options_of(given));
-    const BalanceOutcome outcome = answer.balanced->outcome;
-    if (outcome != BalanceOutcome::balanced && outcome != BalanceOutcome::unstable)
-      throw UsageError("--force: " + reason_of(*answer.balanced));
+    if (!answer.balanced->carries_load()) throw UsageError("--force: " + reason_of(*answer.balanced));
     answer.X_FM = answer.balanced->X_FM;
     answer.contact = answer.balanced->contact;
   } else {

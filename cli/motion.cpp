@@ -85,10 +85,10 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
       return balance_along(*elastic, X_FM, loads, balance_options_of(*options.balance),
                            {.progress = follow, .stop = stop});
     });
-    // What is not balanced has no contact to tell of.
+    // What does not carry its load has no contact to tell of.
     for (std::size_t i = 0; i < X_FM.size(); ++i) {
       if (!X_FM[i]) continue;
-      if (answer.balanced[i]->outcome == BalanceOutcome::balanced)
+      if (answer.balanced[i]->carries_load())
         X_FM[i] = answer.balanced[i]->X_FM;
       else
         X_FM[i].reset();

@@ -33,12 +33,15 @@ struct BalanceOptions {
   /// How far the mobile body may go from where it starts.
   double farthest_mm = 20;
   int most_steps = 100;
+  /// Of the load, what may be left where the contact's force jumps: BalanceOutcome::at_jump.
+  double most_left_at_jump = 0.02;
 };
 
 enum class BalanceOutcome {
   balanced,
+  at_jump,  ///< all but a little of the load is carried, and next to X_FM the force jumps over what is left
   pulled_apart,  ///< along the load the bodies do not meet, or they part
-  over_the_rim,  ///< in contact, and nowhere near is there a pose in which the contact carries the load
+  over_the_rim,  ///< in contact, and nowhere near was a pose found in which the contact carries the load
   unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
   free_direction,  ///< the contact holds the mobile body in no place along a direction: prescribe it
 };
@@ -50,15 +53,20 @@ struct BalancedPose {
   int steps = 0;    ///< of Newton's method
   Vec3 direction = Vec3::Zero();  ///< the direction of outcomes that have one, of length 1, in F
   ElasticContactResults contact;  ///< at X_FM
+
+  /// The contact carries the load at X_FM: balanced, unstable, or at a jump up to the residual. Else X_FM is only where the
+  /// search ended.
+  bool carries_load() const noexcept;
 };
 
-/// One line that says why there is no balance; empty where there is.
+/// One line that says why there is no balance, or what is wrong with it; empty where nothing is.
 std::string reason_of(const BalancedPose& pose);
 
 /// From a start nearby, with its rotation held unless rotations are free: Newton's method on the load of the contact, steps
 /// halved while they leave more of the load, or store more energy than the load gives. A start without contact is moved along the load to
 /// where the contact carries that part of it. What is called balanced is stable: the contact pushes back whichever way the
-/// body is moved.
+/// body is moved. The contact's force jumps where a ray begins or ceases to meet the other surface, at a rim or a side wall: a
+/// load within such a jump is told with what is left of it.
 ///
 /// UsageError where the load is zero or not finite along what is free, or directions depend on each other. Some ten times
 /// the cost of a pose.

@@ -173,14 +173,6 @@ ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, 
   return out;
 }
 
-contact::MobileLoad ElasticContact::Parts::load_at(const Pose& X_FM, bool with_change) const {
-  auto answers = spare.take();
-  answer(X_FM, *answers);
-  const contact::MobileLoad load = load_of(*answers, X_FM, with_change);
-  spare.put_back(std::move(answers));
-  return load;
-}
-
 std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {
   std::size_t rays = 0;
   if (parts_->from_fixed) rays += parts_->from_fixed->sampler().cut_off_by_reach(X_FM);

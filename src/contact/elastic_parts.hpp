@@ -59,8 +59,6 @@ struct ElasticContact::Parts {
   contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM, bool with_change) const;
   ElasticContactResults results_of(const Answers& answers, const Pose& X_FM) const;
 
-  contact::MobileLoad load_at(const Pose& X_FM, bool with_change) const;
-
   mutable core::Spare<Answers> spare;
 };
 

@@ -14,7 +14,6 @@ namespace condyle {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using contact::MobileLoad;
 
 /// A stiffness below this share of the largest one is rounding: flat and prismatic contacts have none along themselves.
@@ -25,7 +24,12 @@ constexpr double longest_step = 1;
 constexpr double search_step = 0.1;
 /// The same where the contact already tells how far it is.
 constexpr double longest_search_step = 0.3;
-constexpr int most_halvings = 10;
+constexpr int most_halvings = 5;
+/// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
+/// then pass its rim.
+constexpr double measured_way = 0.05;
+/// Rotations that move the surfaces about as far, rad: half a joint across is some 20 mm.
+constexpr double measured_angle = measured_way / 20;
 
 /// Which small motions of M are free: columns are translations and rotations about the origin of M, in F.
 Eigen::Matrix<double, 6, Eigen::Dynamic> free_motions(const BalanceOptions& options) {
@@ -158,21 +162,43 @@ class Search {
         return BalanceOutcome::unstable;
       }
       if (out_.steps >= options_.most_steps) return given_up();
-      Vector6 step = free_ * svd.solve(free_.transpose() * residual_);
-      if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
-      if (!try_step(step) || !is_near(out_.X_FM)) return given_up();
+      if (!try_step(svd.solve(free_.transpose() * residual_)) &&
+          !try_step(measured_stiffness().colPivHouseholderQr().solve(free_.transpose() * residual_)))
+        return left_share() <= options_.most_left_at_jump ? BalanceOutcome::at_jump : given_up();
+      if (!is_near(out_.X_FM)) return given_up();
       ++out_.steps;
     }
   }
 
-  /// A contact that has pushed against the load at all was left over its rim.
+  /// The same by differences of the load: with what rays at a rim add that begin or cease to meet the other surface.
+  Eigen::MatrixXd measured_stiffness() {
+    Eigen::MatrixXd stiffness(free_.cols(), free_.cols());
+    for (Eigen::Index i = 0; i < free_.cols(); ++i) {
+      const double way = free_.col(i).head<3>().isZero() ? measured_angle : measured_way;
+      const auto carried = [&](double by) {
+        return Eigen::VectorXd(free_.transpose() * tried(moved(out_.X_FM, by * free_.col(i))).wrench);
+      };
+      const Eigen::VectorXd ahead = carried(way);
+      stiffness.col(i) = (carried(-way) - ahead) / (2 * way);
+    }
+    return stiffness;
+  }
+
+  /// What is left of the load.
+  double left_share() const {
+    return size_of(residual_) / size_of(free_ * (free_.transpose() * load_at(out_.X_FM)));
+  }
+
+  /// A contact that has pushed against the load at all was left over its rim, or at one.
   BalanceOutcome given_up() const {
     return resisted_ ? BalanceOutcome::over_the_rim : BalanceOutcome::pulled_apart;
   }
 
   /// The step, or as many halves of it as leave less of the load without climbing: what is stored beyond what the load
   /// gives grows at a saddle, where the load still falls.
-  bool try_step(Vector6 step) {
+  bool try_step(const Eigen::VectorXd& along_free) {
+    Vector6 step = free_ * along_free;
+    if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
     for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
       const Pose X = moved(out_.X_FM, step);
       MobileLoad next = tried(X);
@@ -210,16 +236,28 @@ BalancedPose balance(const ElasticContact& contact, const Pose& start, const Loa
   return Search(contact, start, load, options).run();
 }
 
+bool BalancedPose::carries_load() const noexcept {
+  return outcome == BalanceOutcome::balanced || outcome == BalanceOutcome::unstable ||
+         outcome == BalanceOutcome::at_jump;
+}
+
 std::string reason_of(const BalancedPose& pose) {
   const Vec3& d = pose.direction;
   switch (pose.outcome) {
     case BalanceOutcome::balanced:
       return "";
+    case BalanceOutcome::at_jump:
+      return core::formatted(
+          "the contact's force jumps there, as rays begin or cease to meet the other surface: %.3g N are "
+          "left",
+          pose.residual.force_n.norm());
     case BalanceOutcome::pulled_apart:
       return "the load pulls the bodies apart: along it they do not meet";
     case BalanceOutcome::over_the_rim:
       return core::formatted(
-          "no pose nearby in which the contact carries the load: it leads over the rim; %.3g N are left",
+          "no pose nearby in which the contact carries the load: it leads over the rim, or to where the "
+          "contact's "
+          "force jumps; %.3g N are left",
           pose.residual.force_n.norm());
     case BalanceOutcome::unstable:
       return core::formatted(

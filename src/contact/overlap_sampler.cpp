@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "condyle/error.hpp"
+#include "mesh/vertex_triangles.hpp"
 
 namespace condyle::contact {
 namespace {
@@ -73,29 +75,13 @@ double angle_at(const TriMesh& mesh, std::size_t face, int corner) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// The faces around each vertex.
-///   offset     0     2  2        5  ...      one entry per vertex, plus one
-///   face      | a b |  | c d e |    ...      vertex i owns [offset[i], offset[i+1])
-struct Fans {
-  std::vector<Index> offset, face;
-
-  explicit Fans(const TriMesh& mesh) : offset(mesh.vertices.size() + 1, 0), face(3 * mesh.triangles.size()) {
-    for (const Triangle& triangle : mesh.triangles)
-      for (const Index v : triangle) ++offset[v + 1];
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) offset[v + 1] += offset[v];
-    std::vector<Index> next(offset.begin(), offset.end() - 1);
-    for (Index f = 0; f < mesh.triangles.size(); ++f)
-      for (const Index v : mesh.triangles[f]) face[next[v]++] = f;
-  }
-};
-
-/// The mean of the normals around a vertex on one face's side of any crease, weighted by angles: of length 1.
-Vec3 corner_normal(const TriMesh& mesh, std::span<const Vec3> face_normals, const Fans& fans, Index vertex,
-                   Index side) {
+/// The mean of the normals around a vertex, weighted by angles, of length 1: of all faces, or of those on one face's side of
+/// any crease.
+Vec3 corner_normal(const TriMesh& mesh, std::span<const Vec3> face_normals,
+                   const mesh::VertexTriangles& around, Index vertex, std::optional<Index> side = {}) {
   Vec3 sum = Vec3::Zero();
-  for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i) {
-    const Index f = fans.face[i];
-    if (face_normals[f].dot(face_normals[side]) < crease_cosine) continue;
+  for (const Index f : around.of(vertex)) {
+    if (side && face_normals[f].dot(face_normals[*side]) < crease_cosine) continue;
     for (int k = 0; k < 3; ++k)
       if (mesh.triangles[f][static_cast<std::size_t>(k)] == vertex)
         sum += angle_at(mesh, f, k) * face_normals[f];
@@ -164,14 +150,13 @@ void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
     Vec3 normal;
     std::vector<Index> corners;  ///< three times the face, and which
   };
-  const Fans fans(casting_);
+  const mesh::VertexTriangles around(casting_);
   std::vector<Ray> rays;
   for (const Index vertex : order.mesh_vertices()) {
     const std::size_t first = rays.size();
-    for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i) {
-      const Index face = fans.face[i];
+    for (const Index face : around.of(vertex)) {
       if (face_area_[face] == 0) continue;
-      const Vec3 normal = corner_normal(casting_, face_normal_, fans, vertex, face);
+      const Vec3 normal = corner_normal(casting_, face_normal_, around, vertex, face);
       // Corners on one side of a crease have the same sums, to the bit.
       std::size_t ray = first;
       while (ray < rays.size() && rays[ray].normal != normal) ++ray;
@@ -191,17 +176,14 @@ void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
   }
 }
 
-OverlapSampler::RayEnd OverlapSampler::overlap_of(const Vec3& direction_C, const mesh::RayHits& hits,
-                                                  std::size_t ray, const Pose& X_CT,
-                                                  std::size_t& met_from_front) const {
+OverlapSampler::Overlap OverlapSampler::overlap_of(const Vec3& direction_C, const mesh::RayHits& hits,
+                                                   std::size_t ray, const Pose& X_CT) const {
   if (!hits.is_hit(ray)) return {};
   const RayEnd end{hits.distance[ray], hits.triangle[ray]};
   const double along = direction_C.dot(X_CT.linear() * target_normal_[end.triangle]);
-  if (along < 0) {
-    if (target_is_closed_) return {};
-    ++met_from_front;
-  }
-  return end;
+  const bool met_from_front = along < 0;
+  if (met_from_front && target_is_closed_) return {};
+  return {end, met_from_front};
 }
 
 // The ray from o along u meets the plane with normal m through a at d = (a - o).m / (u.m): translated by s, d grows by
@@ -243,7 +225,9 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
   const std::size_t count = inward_.size();
   scratch.ends.assign(count, {});
   const auto end_of = [&](std::size_t ray, std::size_t hit) {
-    scratch.ends[ray] = overlap_of(inward_.direction(ray), scratch.hits, hit, X_CT, out.met_from_front);
+    const Overlap overlap = overlap_of(inward_.direction(ray), scratch.hits, hit, X_CT);
+    scratch.ends[ray] = overlap.end;
+    out.met_from_front += overlap.met_from_front;
   };
   if (!origins_inside_ || !origins_inside_->find(X_TC, scratch.inside)) {
     mesh::nearest_hits(ray_target_, X_TC, inward_, options_.reach_mm, scratch.hits);
@@ -405,11 +389,11 @@ void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thickn
   scratch.rays.close();
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
   out.rays += scratch.rays.size();
-  std::size_t ray = 0, from_front_again = 0;
+  std::size_t ray = 0;
   for (const Index face : scratch.rim) {
     for (const auto& w : centres) {
       const Vec3 direction = direction_at(face, w);
-      const RayEnd end = overlap_of(direction, scratch.hits, ray++, X_CT, from_front_again);
+      const RayEnd end = overlap_of(direction, scratch.hits, ray++, X_CT).end;
       if (!end.is_known() || !(end.depth > 0)) continue;
       const Vec3 point = at(face, w, vertex);
       OverlapSample sample{
@@ -464,19 +448,15 @@ void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
 
 std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach) {
   const auto face_normals = unit_normals(from);
-  const Fans fans(from);
+  const mesh::VertexTriangles around(from);
   const mesh::TriangleTree order(from);
   std::vector<Index> owner;
   mesh::RayBundles rays;
   for (const Index vertex : order.mesh_vertices()) {
-    Vec3 sum = Vec3::Zero();
-    for (Index i = fans.offset[vertex]; i < fans.offset[vertex + 1]; ++i)
-      for (int k = 0; k < 3; ++k)
-        if (from.triangles()[fans.face[i]][static_cast<std::size_t>(k)] == vertex)
-          sum += angle_at(from, fans.face[i], k) * face_normals[fans.face[i]];
-    if (sum.isZero()) continue;
+    const Vec3 normal = corner_normal(from, face_normals, around, vertex);
+    if (normal.isZero()) continue;
     owner.push_back(vertex);
-    rays.push_back(from.vertices()[vertex], -unit(sum));
+    rays.push_back(from.vertices()[vertex], -normal);
   }
   rays.close();
   mesh::RayHits hits;

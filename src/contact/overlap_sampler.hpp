@@ -52,7 +52,6 @@ class OverlapSampler {
   const Mesh& casting() const noexcept { return casting_; }
   const Mesh& target() const noexcept { return target_; }
   const NormalDepthOptions& options() const noexcept { return options_; }
-  std::span<const double> face_areas() const noexcept { return face_area_; }
   /// Outward, of length 1; zero of a face without area.
   std::span<const Vec3> face_normals() const noexcept { return face_normal_; }
 
@@ -78,8 +77,13 @@ class OverlapSampler {
 
   /// Every ray inwards that can be in contact: its end.
   void cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
-  RayEnd overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray, const Pose& X_CT,
-                    std::size_t& met_from_front) const;
+  /// Where a ray inwards ends, and whether it met the target from its front: of an open target that counts.
+  struct Overlap {
+    RayEnd end;
+    bool met_from_front = false;
+  };
+  Overlap overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray,
+                     const Pose& X_CT) const;
   Vec3 gradient_of(const RayEnd& end, const Vec3& direction_C, const Pose& X_CT) const;
   double target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C, const Pose& X_TC,
                           std::span<const double> of_vertices) const;

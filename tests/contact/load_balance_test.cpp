@@ -165,6 +165,25 @@ TEST(LoadBalance, RefusesALoadAlongAFreeDirection) {
   EXPECT_NEAR(held.X_FM.translation().y(), -0.5, 1e-9);
 }
 
+TEST(LoadBalance, StopsWhereTheForceJumps) {
+  // A block on a plane: 100 mm^2 at 6 MPa per mm carry 300 N at the reach of 0.5 mm, and nothing beyond.
+  const ElasticContact contact(
+      test::box({-40, -10, -40}, {40, 0, 40}), test::box({-5, 0, -5}, {5, 5, 5}),
+      {.casting = Casting::mobile, .rays = {.reach_mm = 0.5}, .fixed = layer_of_stiffness(6)});
+  const BalanceOptions along_y{.free_directions = {Vec3::UnitY()}};
+  const auto one_percent_more = balance(contact, translated({0, -0.3, 0}), down(303), along_y);
+  ASSERT_EQ(one_percent_more.outcome, BalanceOutcome::at_jump) << reason_of(one_percent_more);
+  EXPECT_TRUE(one_percent_more.carries_load());
+  EXPECT_GE(one_percent_more.X_FM.translation().y(), -0.5);
+  const double left = one_percent_more.residual.force_n.norm();
+  EXPECT_GE(left, 3);
+  EXPECT_LE(left, 303 * along_y.most_left_at_jump);
+  EXPECT_NE(reason_of(one_percent_more).find("jumps there"), std::string::npos);
+  const auto a_tenth_more = balance(contact, translated({0, -0.3, 0}), down(330), along_y);
+  EXPECT_EQ(a_tenth_more.outcome, BalanceOutcome::over_the_rim) << reason_of(a_tenth_more);
+  EXPECT_FALSE(a_tenth_more.carries_load());
+}
+
 TEST(LoadBalance, TellsABalanceThatTheContactDoesNotKeep) {
   // A ball on top of a ball.
   const ElasticContact contact(test::sphere(Vec3::Zero(), 20, 5),

@@ -77,12 +77,14 @@ TEST_P(PublishedContact, HoldsToPrintedDigitsWithinTheRoundingOfTheCoordinates) 
   const auto knee = test::shared_knee();
   if (!knee) GTEST_SKIP() << "the shared knee is missing";
   const ElasticContact surfaces = joint(*knee);
+  ElasticContact::Parts::Answers answers;
   for (std::size_t frame = 0; frame < 251; ++frame) {
     SCOPED_TRACE(contact + " frame " + std::to_string(frame));
     const auto published = [&](const char* name) { return knee->published(contact, frame, name); };
     const Vec3 force = vector(*knee, frame, "contact_force"), moment = vector(*knee, frame, "contact_moment");
     Pose X = pose(*knee, frame);
-    const auto load = surfaces.parts().load_at(X, true);
+    surfaces.parts().answer(X, answers);
+    const auto load = surfaces.parts().load_of(answers, X, true);
     const Eigen::Matrix3d change = load.change.topLeftCorner<3, 3>();
     constexpr double soft = 20;  // N / mm: of some 1500 across the contact; along it rounded angles decide
     const Vec3 off = (change.transpose() * change + soft * soft * Eigen::Matrix3d::Identity())

@@ -59,17 +59,7 @@ JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
         at.translation_mm[name[0] - 'x'] = value;
         continue;
       }
-      switch (joint_angle_named(name, joint.anatomy)) {
-        case JointAngle::flexion:
-          at.angles.flexion = Angle::degrees(value);
-          break;
-        case JointAngle::adduction:
-          at.angles.adduction = Angle::degrees(value);
-          break;
-        case JointAngle::internal_rotation:
-          at.angles.internal_rotation = Angle::degrees(value);
-          break;
-      }
+      at.angles = turned_by(at.angles, joint_angle_named(name, joint.anatomy), Angle::degrees(value));
     }
     motion.X_FM.emplace_back(pose_at(joint.coordinates(), at, joint.translation_frame));
   }

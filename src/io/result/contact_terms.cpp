@@ -39,6 +39,8 @@ std::string_view name_of(BalanceOutcome outcome) noexcept {
   switch (outcome) {
     case BalanceOutcome::balanced:
       return "balanced";
+    case BalanceOutcome::at_jump:
+      return "at_jump";
     case BalanceOutcome::pulled_apart:
       return "pulled_apart";
     case BalanceOutcome::over_the_rim:

@@ -16,31 +16,26 @@ class Columns {
   Columns(Curves& curves, std::size_t frames) : curves_(curves), frames_(frames) {}
 
   /// value(frame) of each frame that has one.
-  template <class Value>
-  void add(const std::string& name, const std::vector<std::optional<FrameContact>>& frames,
-           const Value& value) {
+  template <class Frame, class Value>
+  void add(const std::string& name, const std::vector<std::optional<Frame>>& frames, const Value& value) {
     curves_.names.push_back(name);
     auto& column = curves_.values.emplace_back(frames_, nothing);
     for (std::size_t i = 0; i < frames_; ++i)
       if (frames[i]) column[i] = value(*frames[i]) + 0.0;  // without the sign of 0
   }
-  template <class Value>
+  template <class Frame, class Value>
   void add_vector(const std::string& name, const std::string& unit,
-                  const std::vector<std::optional<FrameContact>>& frames, const Value& value) {
+                  const std::vector<std::optional<Frame>>& frames, const Value& value) {
     constexpr std::array axes = {"_x", "_y", "_z"};
     for (int axis = 0; axis < 3; ++axis)
       add(name + axes[static_cast<std::size_t>(axis)] + unit, frames,
-          [&](const FrameContact& frame) { return value(frame)[axis]; });
+          [&](const Frame& frame) { return value(frame)[axis]; });
   }
 
  private:
   Curves& curves_;
   std::size_t frames_;
 };
-
-Vec3 or_nothing(const std::optional<Vec3>& point) {
-  return point.value_or(Vec3::Constant(nothing));
-}
 
 /// Of both castings the load is the mean on the mobile body, in its frame; of one, what the casting body carries in its own.
 Wrench load_of(const ContactEntry& contact, const FrameContact& frame) {
@@ -50,26 +45,45 @@ Wrench load_of(const ContactEntry& contact, const FrameContact& frame) {
   return {R_MF * frame.on_mobile.force_n, R_MF * frame.on_mobile.moment_nmm};
 }
 
-/// What totals and a load say, under names that begin with `prefix`.
-template <class Totals, class LoadOf>
+/// A frame's totals, of all faces or of a region's, and the load that goes with them.
+struct FrameTotals {
+  ContactTotals totals;
+  Wrench load;
+};
+
+/// What they say, under names that begin with `prefix`.
 void add_contact(const MotionQuestion& question, Columns& columns, const std::string& prefix,
-                 const std::vector<std::optional<FrameContact>>& frames, const Totals& totals,
-                 const LoadOf& load) {
-  columns.add(prefix + "area_mm2", frames, [&](const auto& f) { return totals(f).area_mm2; });
-  columns.add(prefix + "mean_depth_mm", frames, [&](const auto& f) { return totals(f).mean_depth_mm; });
-  columns.add(prefix + "max_depth_mm", frames, [&](const auto& f) { return totals(f).max_depth_mm; });
-  columns.add_vector(prefix + "centre_of_depth", "_mm", frames,
-                     [&](const auto& f) { return or_nothing(totals(f).centre_of_depth); });
+                 const std::vector<std::optional<FrameTotals>>& frames) {
+  const auto add = [&](const char* name, double ContactTotals::*value) {
+    columns.add(prefix + name, frames, [&](const FrameTotals& f) { return f.totals.*value; });
+  };
+  const auto add_centre = [&](const char* name, std::optional<Vec3> ContactTotals::*centre) {
+    columns.add_vector(prefix + name, "_mm", frames, [&](const FrameTotals& f) {
+      return (f.totals.*centre).value_or(Vec3::Constant(nothing));
+    });
+  };
+  add("area_mm2", &ContactTotals::area_mm2);
+  add("mean_depth_mm", &ContactTotals::mean_depth_mm);
+  add("max_depth_mm", &ContactTotals::max_depth_mm);
+  add_centre("centre_of_depth", &ContactTotals::centre_of_depth);
   if (!question.with_pressure) return;
+  add("mean_pressure_mpa", &ContactTotals::mean_pressure_mpa);
+  add("max_pressure_mpa", &ContactTotals::max_pressure_mpa);
+  add_centre("centre_of_pressure", &ContactTotals::centre_of_pressure);
   const double sign = question.contact.moment_on == MomentOn::casting ? 1 : -1;
-  columns.add(prefix + "mean_pressure_mpa", frames,
-              [&](const auto& f) { return totals(f).mean_pressure_mpa; });
-  columns.add(prefix + "max_pressure_mpa", frames, [&](const auto& f) { return totals(f).max_pressure_mpa; });
-  columns.add_vector(prefix + "centre_of_pressure", "_mm", frames,
-                     [&](const auto& f) { return or_nothing(totals(f).centre_of_pressure); });
-  columns.add_vector(prefix + "force", "_n", frames, [&](const auto& f) { return load(f).force_n; });
+  columns.add_vector(prefix + "force", "_n", frames, [](const FrameTotals& f) { return f.load.force_n; });
   columns.add_vector(prefix + "moment", "_nmm", frames,
-                     [&](const auto& f) { return Vec3(sign * load(f).moment_nmm); });
+                     [&](const FrameTotals& f) { return Vec3(sign * f.load.moment_nmm); });
+}
+
+/// totals_of(frame) of each frame that has an answer.
+template <class TotalsOf>
+std::vector<std::optional<FrameTotals>> totals_of_frames(const MotionAnswer& answer,
+                                                         const TotalsOf& totals_of) {
+  std::vector<std::optional<FrameTotals>> totals(answer.frames.size());
+  for (std::size_t i = 0; i < totals.size(); ++i)
+    if (answer.frames[i]) totals[i] = totals_of(*answer.frames[i]);
+  return totals;
 }
 
 }  // namespace
@@ -83,14 +97,12 @@ Curves region_curves_of(const MotionQuestion& question, const MotionAnswer& answ
   const Mesh& casting =
       contact.casting == Casting::fixed ? question.surfaces.fixed.mesh : question.surfaces.mobile.mesh;
   for (const RegionEntry& region : contact.regions) {
-    const auto totals = [&](const FrameContact& frame) {
-      return totals_of(faces_within(frame.surface.faces, casting, region.half_spaces), casting,
-                       contact.rays.rule);
-    };
-    add_contact(question, columns, region.name + "_", answer.frames, totals, [&](const FrameContact& frame) {
-      const ContactTotals of = totals(frame);
-      return Wrench{of.force_n, of.moment_nmm};
-    });
+    add_contact(
+        question, columns, region.name + "_", totals_of_frames(answer, [&](const FrameContact& frame) {
+          const ContactTotals totals = totals_of(
+              faces_within(frame.surface.faces, casting, region.half_spaces), casting, contact.rays.rule);
+          return FrameTotals{totals, {totals.force_n, totals.moment_nmm}};
+        }));
   }
   return curves;
 }
@@ -101,9 +113,9 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   curves.axis = question.motion.times.in_seconds ? "time_s" : "frame";
   curves.at = question.motion.times.values;
   Columns columns(curves, frames.size());
-  add_contact(
-      question, columns, "", frames, [](const FrameContact& frame) { return frame.surface.totals; },
-      [&](const FrameContact& frame) { return load_of(question.contact, frame); });
+  add_contact(question, columns, "", totals_of_frames(answer, [&](const FrameContact& frame) {
+                return FrameTotals{frame.surface.totals, load_of(question.contact, frame)};
+              }));
   columns.add("in_contact", frames, [](const auto& f) { return f.in_contact ? 1.0 : 0.0; });
   columns.add("intersecting_pairs", frames,
               [](const auto& f) { return static_cast<double>(f.intersecting_pairs); });
@@ -125,10 +137,11 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
                   [&](const auto& f) { return coordinates(f).translation_mm[axis]; });
   }
   if (!answer.balanced.empty()) {
-    curves.names.push_back("balanced");
-    auto& column = curves.values.emplace_back(frames.size(), nothing);
-    for (std::size_t i = 0; i < frames.size(); ++i)
-      if (answer.balanced[i]) column[i] = answer.balanced[i]->outcome == BalanceOutcome::balanced ? 1 : 0;
+    columns.add("balanced", answer.balanced, [](const BalancedPose& pose) {
+      return pose.outcome == BalanceOutcome::balanced ? 1.0 : 0.0;
+    });
+    columns.add("residual_n", answer.balanced,
+                [](const BalancedPose& pose) { return pose.residual.force_n.norm(); });
   }
   return curves;
 }

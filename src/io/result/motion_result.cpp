@@ -19,7 +19,7 @@ using io::Json;
 
 /// What a person wants to know of a motion before looking at its curves.
 struct Summary {
-  std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, from_front = 0;
+  std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0;
   struct Largest {
     double value = 0, at = 0;
   };
@@ -32,9 +32,10 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
   for (std::size_t i = 0; i < answer.frames.size(); ++i) {
     const auto& frame = answer.frames[i];
     if (!question.motion.X_FM[i]) ++summary.gaps;
-    if (!answer.balanced.empty() && answer.balanced[i] &&
-        answer.balanced[i]->outcome == BalanceOutcome::balanced)
-      ++summary.balanced;
+    if (!answer.balanced.empty() && answer.balanced[i]) {
+      if (answer.balanced[i]->outcome == BalanceOutcome::balanced) ++summary.balanced;
+      if (answer.balanced[i]->carries_load()) ++summary.carried;
+    }
     if (!frame) continue;
     if (frame->in_contact) ++summary.in_contact;
     if (frame->surface.met_from_front > 0) ++summary.from_front;
@@ -150,8 +151,11 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   }
   if (answer.between) text += between_text(*answer.between);
   if (!answer.balanced.empty()) {
-    text += fmt::format("  the load is balanced in {} of {} frames\n", summary.balanced,
+    text += fmt::format("  the load is balanced in {} of {} frames", summary.balanced,
                         summary.frames - summary.gaps);
+    text += summary.carried > summary.balanced
+                ? fmt::format(", carried unsteadily in {} more\n", summary.carried - summary.balanced)
+                : "\n";
     for (std::size_t i = 0, said = 0; i < answer.balanced.size() && said < 3; ++i)
       if (answer.balanced[i] && answer.balanced[i]->outcome != BalanceOutcome::balanced)
         text += fmt::format("  {:g}{}: {}\n", times.values[i], unit, reason_of(*answer.balanced[i])), ++said;
@@ -195,11 +199,13 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
   }
   if (!answer.balanced.empty()) {
     json["frames_balanced"] = summary.balanced;
+    json["frames_carrying_load"] = summary.carried;
     Json without = Json::array();
     for (std::size_t i = 0; i < answer.balanced.size(); ++i)
       if (answer.balanced[i] && answer.balanced[i]->outcome != BalanceOutcome::balanced)
         without.push_back({{axis, times.values[i]},
                            {"outcome", io::name_of(answer.balanced[i]->outcome)},
+                           {"carries_load", answer.balanced[i]->carries_load()},
                            {"reason", reason_of(*answer.balanced[i])}});
     json["without_balance"] = without;
   }

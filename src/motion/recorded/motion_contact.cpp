@@ -2,7 +2,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <atomic>
 #include <mutex>
 #include <string>
 
@@ -92,7 +91,7 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
       Pose start = *X_FM[i];
       start.translation() += moved;
       frames[i] = named(i, [&] { return balance(surfaces, start, loads[loads.size() == 1 ? 0 : i], how); });
-      if (frames[i]->outcome == BalanceOutcome::balanced)
+      if (frames[i]->carries_load())
         moved = frames[i]->X_FM.translation() - X_FM[i]->translation();
     }
     followed.one_done();
