@@ -17,4 +17,7 @@ PYBIND11_MODULE(_native, module) {
   bind_range_of_motion(module);
   bind_motion_map(module);
   bind_zones(module);
+  bind_normal_contact(module);
+  bind_pressure(module);
+  bind_recorded_motion(module);
 }

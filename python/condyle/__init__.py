@@ -15,16 +15,22 @@ from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
 from ._range_of_motion import KINDS, REASONS, BodyZone, ContactWitness, FreeAngles, ImpingementZone, Limit, LimitBand
 from ._range_of_motion import MapEnds, Motion, MotionLimit, MotionMap, PathLimit, RangeOfMotion
+from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
+from ._recorded_motion import read_motion_table
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
+from ._surface_contact import BalancedPose, ContactTotals, ElasticContact, ElasticContactResults, ElasticLayer
+from ._surface_contact import NormalContact, SurfaceContact, thickness_to
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BodyZone", "ContactMeasures", "ContactPatch", "ContactWitness", "Depths", "FileError", "Finding", "FreeAngles",
-    "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointNote", "KINDS", "Limit", "LimitBand",
-    "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap",
-    "NO_INDEX", "ON_SURFACE", "OUTSIDE", "OccupiedArcs", "PathLimit", "Penetration", "Penetrations", "REASONS",
-    "RadialTable", "RangeOfMotion", "ReferenceContactError", "RingTable", "SampleCartilages", "SampleHip",
-    "SphereFit", "TriMesh", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
-    "find_sphere", "fit_sphere", "inspect", "read_joint", "read_mesh", "sample_cartilages", "sample_hip",
-    "write_mesh",
+    "BalancedPose", "BodyZone", "ContactEnd", "ContactInterval", "ContactMeasures", "ContactPatch", "ContactTotals",
+    "ContactWitness", "Depths", "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding",
+    "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
+    "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion",
+    "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
+    "PathLimit", "Penetration", "Penetrations", "REASONS", "RadialTable", "RangeOfMotion", "RecordedContact",
+    "ReferenceContactError", "RingTable", "SampleCartilages", "SampleHip", "SphereFit", "SurfaceContact", "TriMesh",
+    "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__", "find_sphere",
+    "fit_sphere", "inspect", "read_joint", "read_mesh", "read_motion_table", "sample_cartilages", "sample_hip",
+    "thickness_to", "write_mesh",
 ]

@@ -16,6 +16,8 @@ from ._mesh import MeshLike, TriMesh
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
 from ._range_of_motion import MotionLike, PathLimit, RangeOfMotion, witness_of
+from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, RecordedContact
+from ._surface_contact import normal_contact
 from ._words import Path, count, number, path_of, word
 
 Progress = Optional[Callable[[int, int], Any]]
@@ -277,9 +279,10 @@ class Joint:
         ----------
         pose : (4, 4) or (N, 4, 4) numbers, or a mapping
             X_FM, translation in mm; or the keyword arguments of :meth:`pose`.
-        method : "radial" or "tangential"
-            Along rays from the joint centre (the fast path), or along arcs about the axis of the angle `about` (flexion
-            if not given) at the pose, only for poses that do not translate.
+        method : "radial", "tangential" or "normal"
+            Along rays from the joint centre (the fast path); along arcs about the axis of the angle `about` (flexion if
+            not given) at the pose, only for poses that do not translate; or along the normals of triangles, which open
+            meshes allow too: that is :meth:`normal_contact`, which takes further arguments.
         bodies : "both", "mobile" or "fixed"
             With "radial": vertices of which body are asked for.
         progress : callable of (done, total), optional
@@ -287,7 +290,7 @@ class Joint:
 
         Returns
         -------
-        Penetration for one pose, Penetrations for N: see there.
+        Penetration for one pose, Penetrations for N (see there); of "normal" what :meth:`normal_contact` gives.
 
         Raises UsageError for what is no pose, MeshError where the joint centre lies on a surface. The interpreter's
         lock is released; Ctrl-C ends it. Coordinates are read as float64; poses are copied.
@@ -303,9 +306,11 @@ class Joint:
         >>> [len(each.mobile) for each in many]
         [0, 0, 41]
         """
-        word(method, "method", ("radial", "tangential"))
+        word(method, "method", ("radial", "tangential", "normal"))
         if about is not None and method != "tangential":
             raise UsageError("about: is for method tangential")
+        if method == "normal":
+            return self.normal_contact(pose, progress=progress)
         if bodies not in ("both", "mobile", "fixed"):
             word(bodies, "bodies", ("both", "mobile", "fixed"))
         matrices = self._matrices(pose)
@@ -367,6 +372,63 @@ class Joint:
         C++: `condyle::measure_contact` in condyle/contact_measures.hpp.
         """
         return measures_of(_native.contact_measures(self._native, self._matrices(pose)), self._fixed, self._mobile)
+
+    def normal_contact(self, pose: PoseLike, *, casting: str = "both", rule: str = "cut_faces", reach_mm: float = 20,
+                       progress: Progress = None) -> Any:
+        """What rays along the normals of one body's triangles find of the other: open meshes too.
+
+        `casting` says which body casts; `rule` "face_centre" counts whole faces by the ray from their centre,
+        "cut_faces" the part of them where the depth is above 0; `reach_mm` is how far rays go. A
+        :class:`NormalContact`; of N poses a list of N. MeshError where triangles are wound against each other, or a
+        closed mesh is inverted.
+
+        C++: `condyle::NormalDepth` in condyle/normal_depth.hpp; `condyle depth --method normal`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.normal_contact({"flexion_deg": 140}, casting="mobile").fixed is None
+        True
+        """
+        return normal_contact(self, pose, casting, rule, reach_mm, progress)
+
+    def motion(self, path: Path) -> JointMotion:
+        """The recorded motion of a file, by the joint file's [recorded_motion] or columns such as flexion_deg, x_mm.
+
+        FileError for columns that are not there or whose unit is not known.
+
+        C++: `condyle::motion_of` in condyle/io/joint_motion.hpp.
+        """
+        found = _native.motion_of(self._native, path_of(path))
+        found["notes"] = tuple(found["notes"])
+        return JointMotion(**found)
+
+    def recorded_contact(self, time_s: ArrayLike, poses: ArrayLike, *, resolution_s: float = 1e-5,
+                         progress: Progress = None) -> RecordedContact:
+        """When the bodies are in contact in a motion recorded as (N, 4, 4) poses at (N,) times, between samples too.
+
+        Between two samples the mobile body follows one screw motion. About a held centre entry and exit are exact;
+        where the centre moves they lie between two moments whose state is certain. UsageError for times that do not
+        ascend, neighbours more than 179 degrees apart, gaps.
+
+        C++: `condyle::contact_between` in condyle/recorded_contact.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> contact, = joint.recorded_contact([0, 1, 2], joint.pose(flexion_deg=[0, 100, 140])).contacts
+        >>> contact
+        ContactInterval(1.86878 s to 2 s, exact)
+        """
+        found = _native.contact_between(self._native, time_s, poses, number(resolution_s, "resolution_s"),
+                                        _callable(progress))
+        for interval in found["contacts"]:
+            for name in ("entry", "exit"):
+                end = interval[name]
+                end["contact"] = witness_of(end["contact"], self._fixed, self._mobile)
+                interval[name] = ContactEnd(**end)
+        return RecordedContact(tuple(ContactInterval(**each) for each in found["contacts"]), found["searched"] == 1,
+                               found["poses"])
 
     def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: str = "leave_out",
                         bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,

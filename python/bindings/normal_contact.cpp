@@ -1,0 +1,63 @@
+#include "condyle/normal_contact.hpp"
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "interrupts.hpp"
+#include "joint.hpp"
+#include "mesh/require_solid.hpp"
+#include "surface_contact.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// For each pose what the rays of the fixed and of the mobile body found, None for one that does not cast.
+py::tuple normal(const JointHandle& handle, const py::object& given, const std::string& casting_word,
+                 const std::string& rule, double reach_mm, const py::object& progress) {
+  const PosesIn in = poses_in(given, "pose");
+  const Casting casting = casting_in(casting_word);
+  const NormalDepthOptions rays = rays_in(rule, reach_mm);
+  const Mesh &fixed = handle.joint().fixed.mesh, &mobile = handle.joint().mobile.mesh;
+  std::vector<std::pair<std::optional<SurfaceContact>, std::optional<SurfaceContact>>> found;
+  Follower follower(progress, in.poses.size());
+  {
+    const py::gil_scoped_release released;
+    mesh::require_oriented(fixed, handle.joint().fixed.name);
+    mesh::require_oriented(mobile, handle.joint().mobile.name);
+    std::optional<NormalDepth> from_fixed, from_mobile;
+    if (casting != Casting::mobile) from_fixed.emplace(fixed, mobile, rays);
+    if (casting != Casting::fixed) from_mobile.emplace(mobile, fixed, rays);
+    for (const Pose& X_FM : in.poses) {
+      auto& [of_fixed, of_mobile] = found.emplace_back();
+      if (from_fixed) of_fixed = from_fixed->at(X_FM);
+      if (from_mobile) of_mobile = from_mobile->at(X_FM.inverse());
+      follower.look(found.size());
+    }
+  }
+  py::list answers;
+  for (auto& [of_fixed, of_mobile] : found)
+    answers.append(py::make_tuple(of_fixed ? py::object(dict_of(std::move(*of_fixed))) : py::none(),
+                                  of_mobile ? py::object(dict_of(std::move(*of_mobile))) : py::none()));
+  return py::make_tuple(in.is_one, answers);
+}
+
+py::array thickness(const Mesh& layer, const Mesh& behind, double reach_mm) {
+  std::vector<double> values = [&] {
+    const py::gil_scoped_release released;
+    return thickness_to(layer, behind, reach_mm);
+  }();
+  return array_of(std::move(values));
+}
+
+}  // namespace
+
+void bind_normal_contact(py::module_& module) {
+  module.def("normal_contact", &normal);
+  module.def("thickness_to", &thickness);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,100 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <limits>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/motion_file.hpp"
+#include "condyle/recorded_contact.hpp"
+#include "interrupts.hpp"
+#include "motion.hpp"
+
+namespace condyle::python {
+namespace {
+
+py::dict table_of(const std::filesystem::path& path) {
+  MotionTable table = [&] {
+    const py::gil_scoped_release released;
+    return read_motion_table(path);
+  }();
+  py::dict columns;
+  for (std::size_t i = 0; i < table.columns.size(); ++i)
+    columns[py::str(table.columns[i])] = array_of(std::move(table.values[i]));
+  py::dict dict;
+  dict["columns"] = columns;
+  dict["in_degrees"] = table.in_degrees;
+  dict["notes"] = table.notes;
+  return dict;
+}
+
+/// Times and (N, 4, 4) poses, NaN for gaps.
+py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& path) {
+  JointMotion motion = [&] {
+    const py::gil_scoped_release released;
+    return motion_of(handle.loaded, read_motion_table(path));
+  }();
+  const auto count = static_cast<py::ssize_t>(motion.X_FM.size());
+  py::array_t<double> poses({count, py::ssize_t{4}, py::ssize_t{4}});
+  auto values = poses.mutable_unchecked<3>();
+  for (py::ssize_t n = 0; n < count; ++n)
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) {
+        const auto& pose = motion.X_FM[static_cast<std::size_t>(n)];
+        values(n, i, j) = pose ? pose->matrix()(i, j) : std::numeric_limits<double>::quiet_NaN();
+      }
+  py::dict dict;
+  dict["in_seconds"] = motion.times.in_seconds;
+  dict["time"] = array_of(std::move(motion.times.values));
+  dict["X_FM"] = poses;
+  dict["notes"] = motion.notes;
+  return dict;
+}
+
+py::dict dict_of_end(const ContactEnd& end) {
+  constexpr const char* kinds[] = {"exact", "bounded", "recording"};
+  py::dict dict;
+  dict["kind"] = kinds[static_cast<std::size_t>(end.kind)];
+  dict["time_s"] = end.time_s;
+  dict["uncertainty_s"] = end.uncertainty_s;
+  dict["sample"] = end.sample;
+  dict["turned_deg"] = end.turned.degrees();
+  dict["contact"] = dict_of(end.contact);
+  return dict;
+}
+
+py::dict recorded(const JointHandle& handle, const py::object& time_s, const py::object& given,
+                  double resolution_s, const py::object& progress) {
+  const std::vector<double> times = doubles_in(time_s, "time_s");
+  const PosesIn in = poses_in(given, "poses");
+  const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return contact_between(handle.contact, times, in.poses, RecordedContactOptions{resolution_s},
+                           {.progress = report, .stop = stop});
+  });
+  py::list contacts;
+  for (const ContactInterval& interval : found->contacts) {
+    py::dict dict;
+    dict["entry"] = dict_of_end(interval.entry);
+    dict["exit"] = dict_of_end(interval.exit);
+    dict["is_certain"] = interval.is_certain;
+    dict["undecided_s"] = interval.undecided_s;
+    contacts.append(dict);
+  }
+  py::dict dict;
+  dict["contacts"] = contacts;
+  dict["searched"] = bytes_of(found->searched);
+  dict["poses"] = found->poses;
+  return dict;
+}
+
+}  // namespace
+
+void bind_recorded_motion(py::module_& module) {
+  module.def("read_motion_table", &table_of);
+  module.def("motion_of", &motion_of_file);
+  module.def("contact_between", &recorded);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,119 @@
+"""Recorded motions, and contact in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Mapping, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._range_of_motion import ContactWitness
+from ._words import Path, path_of
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionTable:
+    """A motion file as it is: `columns` by name, (N,) float64 each, NaN for gaps; nothing is converted.
+
+    `in_degrees` is what an OpenSim header says of angles, None where it says nothing.
+    """
+
+    columns: Mapping[str, NDArray[np.float64]]
+    in_degrees: Optional[bool]
+    notes: tuple[str, ...]
+
+    def __getitem__(self, column: str) -> NDArray[np.float64]:
+        return self.columns[column]
+
+    def __repr__(self) -> str:
+        rows = len(next(iter(self.columns.values())))
+        return f"MotionTable({rows} rows; {', '.join(self.columns)})"
+
+    def to_dataframe(self) -> Any:
+        """A column per column. Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(dict(self.columns))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class JointMotion:
+    """A recorded motion of a joint: `time` (N,), in seconds where `in_seconds`, else numbers of frames.
+
+    `X_FM` (N, 4, 4) poses in the joint frame, mm, NaN for gaps; `is_gap` (N,) bool.
+    """
+
+    time: NDArray[np.float64]
+    X_FM: NDArray[np.float64]
+    in_seconds: bool
+    notes: tuple[str, ...]
+
+    @property
+    def is_gap(self) -> NDArray[np.bool_]:
+        gaps: NDArray[np.bool_] = np.isnan(self.X_FM[:, 0, 0])
+        return gaps
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+    def __repr__(self) -> str:
+        unit = " s" if self.in_seconds else ""
+        return (f"JointMotion({len(self)} frames from {self.time[0]:g} to {self.time[-1]:g}{unit}, "
+                f"{int(self.is_gap.sum())} gaps)")
+
+
+@dataclass(frozen=True, eq=False)
+class ContactEnd:
+    """Where a contact begins or ends.
+
+    `kind` "exact", "bounded" or "recording" (the recording begins or ends before it). Contact begins at `time_s` or
+    later by at most `uncertainty_s`, and ends at `time_s` or earlier by at most that. `sample`: on the way from it to
+    the next, `turned_deg` after it. `contact`: the features that meet, or None.
+    """
+
+    kind: str
+    time_s: float
+    uncertainty_s: float
+    sample: int
+    turned_deg: float
+    contact: Optional[ContactWitness]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ContactInterval:
+    """From `entry` to `exit` the bodies are in contact, but for `undecided_s`; before and after they are free.
+
+    `is_certain`: whether they are in contact for certain at some moment.
+    """
+
+    entry: ContactEnd
+    exit: ContactEnd
+    is_certain: bool
+    undecided_s: float
+
+    def __repr__(self) -> str:
+        return f"ContactInterval({self.entry.time_s:.6g} s to {self.exit.time_s:.6g} s, {self.entry.kind})"
+
+
+@dataclass(frozen=True, eq=False)
+class RecordedContact:
+    """Contact in a whole recording, between the samples too: free outside `contacts`.
+
+    `is_bounded` (N - 1,) bool: where the way from a sample to the next was decided by bounds and not in closed form;
+    `poses` looked at for these.
+    """
+
+    contacts: tuple[ContactInterval, ...]
+    is_bounded: NDArray[np.bool_]
+    poses: int
+
+
+def read_motion_table(path: Path) -> MotionTable:
+    """Reads .mot and .sto (OpenSim) or .csv (docs/motion-files.md). FileError naming file, line and column.
+
+    C++: `condyle::read_motion_table` in condyle/io/motion_file.hpp.
+    """
+    found = _native.read_motion_table(path_of(path))
+    return MotionTable(found["columns"], found["in_degrees"], tuple(found["notes"]))

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "condyle/contact.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/normal_contact.hpp"
+
+/// What C++ answers at the poses of a file, as doubles, for the tests of the Python module to compare with:
+///
+///     python_reference JOINT POSES ANSWERS      POSES: 16 doubles each, row by row
+///
+/// For each pose, each list with its length before it: vertices and depths of the mobile body, of the fixed body, pairs; and
+/// at every tenth pose the radial gaps of both bodies, their tangential gaps about flexion, and areas and depths of the faces
+/// in contact along normals.
+
+namespace condyle {
+namespace {
+
+class Answers {
+ public:
+  template <class Values>
+  void add(const Values& values) {
+    numbers_.push_back(static_cast<double>(std::size(values)));
+    for (const auto& value : values) numbers_.push_back(static_cast<double>(value));
+  }
+  void add(const Penetrations& found) {
+    add(found.point);
+    add(found.depth_mm);
+  }
+  void add(const SurfaceContact& found) {
+    std::vector<double> values;
+    for (const FaceContact& face : found.faces) {
+      values.push_back(face.face);
+      values.push_back(face.area_mm2);
+      values.push_back(face.max_depth_mm);
+      values.push_back(face.overlap_mm3);
+    }
+    add(values);
+  }
+  void write(const char* path) const {
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(numbers_.data()),
+               static_cast<std::streamsize>(numbers_.size() * sizeof(double)));
+  }
+
+ private:
+  std::vector<double> numbers_;
+};
+
+std::vector<Pose> poses_in(const char* path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<Pose> poses;
+  double rows[16];
+  while (file.read(reinterpret_cast<char*>(rows), sizeof rows)) {
+    Pose& pose = poses.emplace_back();
+    for (int i = 0; i < 16; ++i) pose.matrix()(i / 4, i % 4) = rows[i];
+  }
+  return poses;
+}
+
+void answer(const char* joint_file, const char* poses_file, const char* answers_file) {
+  const LoadedJoint loaded = read_joint(joint_file);
+  const JointContact joint(loaded.joint);
+  const NormalDepth from_mobile(joint.mobile(), joint.fixed());
+  Answers answers;
+  Penetrations inside;
+  const std::vector<Pose> poses = poses_in(poses_file);
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    const Pose& X_FM = poses[n];
+    joint.mobile_in_fixed(X_FM, inside);
+    answers.add(inside);
+    joint.fixed_in_mobile(X_FM, inside);
+    answers.add(inside);
+    std::vector<Index> pairs;
+    for (const auto& [fixed, mobile] : joint.pairs(X_FM)) pairs.insert(pairs.end(), {fixed, mobile});
+    answers.add(pairs);
+    if (n % 10 != 0) continue;
+    const RadialContact radial = joint.radial(X_FM);
+    answers.add(radial.mobile_in_fixed->radial_gap_mm);
+    answers.add(radial.fixed_in_mobile->radial_gap_mm);
+    const CoordinateSystem system = loaded.joint.coordinates();
+    const TangentialContact turned =
+        joint.tangential(X_FM, axis_of(JointAngle::flexion, system, angles_at(system, X_FM)));
+    answers.add(turned.mobile_in_fixed->arc_gap_mm);
+    answers.add(turned.fixed_in_mobile->arc_gap_mm);
+    answers.add(from_mobile.at(X_FM.inverse()));
+  }
+  answers.write(answers_file);
+}
+
+}  // namespace
+}  // namespace condyle
+
+int main(int argc, char** argv) {
+  if (argc != 4) {
+    std::fprintf(stderr, "usage: python_reference JOINT POSES ANSWERS\n");
+    return EXIT_FAILURE;
+  }
+  try {
+    condyle::answer(argv[1], argv[2], argv[3]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return EXIT_FAILURE;
+  }
+}
