@@ -52,8 +52,8 @@ bench: bench_dependencies
 	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
 	@cmake --build --preset release --target condyle_bench
 	@mkdir -p out/bench docs/images/bench
-	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --plots docs/images/bench \
-	  --save-baseline out/bench/baseline.json
+	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
+	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/experiment.csv docs/images/bench
 	@bench/update_page.py out/bench/run.json docs/performance.md docs/experiment.md
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.

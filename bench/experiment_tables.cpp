@@ -231,9 +231,12 @@ void add_our_details(const ExperimentResult& result, Report& report) {
 const TableHead long_head{"experiment",
                           "All outcomes",
                           {{"scene", "scene"},
+                           {"scene_family", "family of scenes"},
                            {"question", "question"},
                            {"deformed", "deformed"},
                            {"method", "method"},
+                           {"method_title", "in words"},
+                           {"method_family", "family of methods"},
                            {"fixed_triangles", "fixed triangles"},
                            {"mobile_vertices", "mobile vertices"},
                            {"poses", "poses"},
@@ -269,16 +272,29 @@ std::string work_text(const Work& work) {
   return words;
 }
 
+std::string family_of(std::string_view scene) {
+  const auto scenes = scene_names();
+  const auto at =
+      std::find_if(scenes.begin(), scenes.end(), [&](const SceneName& name) { return name.name == scene; });
+  return at == scenes.end() ? "" : std::string(at->family);
+}
+
 void add_long(const ExperimentResult& result, Report& report) {
+  const std::vector<MethodKind> all_kinds = kinds();
   for (const Outcome& o : result.outcomes) {
     const InsideAccuracy inside = o.inside.value_or(InsideAccuracy{});
     const TouchAccuracy touch = o.touch.value_or(TouchAccuracy{});
     const PairAccuracy pairs = o.pairs.value_or(PairAccuracy{});
     const auto count = [](auto n) { return static_cast<std::int64_t>(n); };
+    const auto kind = std::find_if(all_kinds.begin(), all_kinds.end(),
+                                   [&](const MethodKind& one) { return one.name == o.method; });
     report.table(long_head).add({o.scene,
+                                 family_of(o.scene),
                                  std::string(name_of(o.question)),
                                  o.is_deformed ? "yes" : "no",
                                  o.method,
+                                 kind == all_kinds.end() ? o.method : kind->title,
+                                 kind == all_kinds.end() ? "" : kind->family,
                                  count(o.fixed_triangles),
                                  count(o.mobile_vertices),
                                  count(o.poses),

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "baseline.hpp"
-#include "experiment_plots.hpp"
 #include "experiment_tables.hpp"
 #include "goals.hpp"
 #include "io/file/whole_file.hpp"
@@ -68,7 +67,7 @@ constexpr std::array<std::string_view, 3> quick_scenes = {"sample_1", "libhip_ca
                                                           "ball_0.1mm_1"};
 
 struct Options {
-  std::string filter, json, csv, plots, baseline, compare;
+  std::string filter, json, csv, baseline, compare;
   Effort effort = Effort::full;
 };
 
@@ -116,7 +115,6 @@ class LazyScene {
 };
 
 void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
-  if (!options.plots.empty()) write_plots(experiment, options.plots);
   if (!options.json.empty()) condyle::io::write_whole_file(options.json, to_json(report).dump(1) + "\n");
   if (!options.baseline.empty())
     condyle::io::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
@@ -213,9 +211,9 @@ int main(int argc, char** argv) {
   app.add_flag_callback(
       "--quick", [&] { options.effort = bench::Effort::quick; }, "Small scenes, once: answers, hardly times");
   app.add_option("--json", options.json, "Write all tables to this file too");
-  app.add_option("--csv", options.csv, "Write every outcome of the experiment to this file, a line each");
-  app.add_option("--plots", options.plots, "Draw the experiment into this folder")
-      ->check(CLI::ExistingDirectory);
+  app.add_option(
+      "--csv", options.csv,
+      "Write every outcome of the experiment to this file, a line each; bench/draw_experiment.py draws it");
   app.add_option("--save-baseline", options.baseline, "Write the ratios of this run, for --compare");
   app.add_option("--compare", options.compare,
                  "Say which ratios are worse than in this baseline; then exit 1")

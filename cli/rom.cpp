@@ -345,10 +345,10 @@ void add_rom(CLI::App& app) {
           "6 at the notch")
       ->check(CLI::IsMember({"sagittal", "rim"}))
       ->option_text("sagittal|rim (sagittal)");
-  command->add_option("--out", options->out,
-                      "Folder for rom.json, limits.csv, limits.svg, clock_face.svg and bearing.vtp, map.csv "
-                      "and map_*.svg of a map, "
-                      "zone_*.vtp of zones");
+  command->add_option(
+      "--out", options->out,
+      "Folder for rom.json, limits.csv and bearing.vtp, map.csv, map_intervals.csv and map.vtp of a "
+      "map, zone_*.vtp of zones; python3 -m condyle.plot draws what is in it");
   add_where(*command, options->where);
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");

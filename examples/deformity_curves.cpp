@@ -1,6 +1,6 @@
 // The curves of docs/deformities.md: internal rotation at 90 degrees of flexion against the alpha angle (cam)
-// and against the lateral centre-edge angle (pincer), as SVG files in the folder given and as tables.
-#include <array>
+// and against the lateral centre-edge angle (pincer), as CSV files in the folder given and as tables.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,7 +11,6 @@
 
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
-#include "io/result/plot_axes.hpp"
 #include "sample/femur_shape.hpp"
 
 namespace {
@@ -23,8 +22,7 @@ struct CurvePoint {
 };
 
 struct Curve {
-  std::string title, file, parameter;
-  double low, high;  // degrees, of the axis
+  std::string name;  // of what was varied: "alpha_angle"
   std::vector<CurvePoint> points;
 };
 
@@ -47,7 +45,7 @@ std::vector<double> values(double first, double last, int count) {
 }
 
 Curve cam_curve(int count) {
-  Curve curve = {"Cam: the alpha angle", "alpha_angle.svg", "alpha angle", 50, 90, {}};
+  Curve curve = {"alpha_angle", {}};
   // The first point is the hip without a cam.
   HipParameters hip;
   const double native = condyle::sample::native_alpha_angle(hip).degrees();
@@ -60,12 +58,7 @@ Curve cam_curve(int count) {
 }
 
 Curve pincer_curve(int count) {
-  Curve curve = {"Pincer: the lateral centre-edge angle",
-                 "centre_edge_angle.svg",
-                 "lateral centre-edge angle",
-                 15,
-                 45,
-                 {}};
+  Curve curve = {"lateral_centre_edge_angle", {}};
   HipParameters hip;
   for (const double centre_edge : values(18, 45, count)) {
     hip.lateral_centre_edge_angle = Angle::degrees(centre_edge);
@@ -74,35 +67,19 @@ Curve pincer_curve(int count) {
   return curve;
 }
 
-std::string drawing(const Curve& curve) {
-  namespace palette = condyle::io::palette;
-  constexpr double width = 640, height = 420;
-  condyle::io::SvgCanvas canvas(width, height, curve.title);
-  condyle::io::draw_heading(canvas, {curve.title, "Internal rotation at 90\xC2\xB0 flexion, sample hip"});
-  const condyle::io::PlotScale x{curve.low, curve.high, 84, width - 40}, y{0, 60, height - 92, 84};
-  constexpr int x_steps = 8, y_steps = 6;
-  for (const double value :
-       condyle::io::ticks(y.low, y.high, condyle::io::tick_step(y.high - y.low, y_steps)))
-    canvas.line({x.px_low, y(value)}, {x.px_high, y(value)}, {.stroke = palette::light_grey});
-  condyle::io::draw_bottom_axis(canvas, x, y.px_low, x_steps, curve.parameter + ", degrees");
-  condyle::io::draw_left_axis(canvas, y, x.px_low, y_steps, "internal rotation, degrees");
-  std::vector<condyle::io::ScreenPoint> line;
-  for (const auto& [parameter, rotation] : curve.points) line.push_back({x(parameter), y(rotation)});
-  canvas.polyline(line, {.stroke = palette::blue, .stroke_width = 2});
-  for (const condyle::io::ScreenPoint& at : line)
-    canvas.circle(at, 4.5, {.fill = palette::blue, .stroke = palette::paper, .stroke_width = 1.2});
-  condyle::io::draw_footer(canvas);
-  return canvas.document();
-}
-
 void write(const std::filesystem::path& folder, const Curve& curve) {
-  std::ofstream out(folder / curve.file);
-  out << drawing(curve);
-  if (!out.flush()) throw std::runtime_error((folder / curve.file).string() + ": cannot be written");
-  std::printf("| %s | internal rotation |\n|---:|---:|\n", curve.parameter.c_str());
-  for (const auto& [parameter, rotation] : curve.points)
+  const std::filesystem::path path = folder / (curve.name + ".csv");
+  std::ofstream out(path);
+  out << curve.name << "_deg,internal_rotation_deg\n";
+  std::string words = curve.name;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  std::printf("| %s | internal rotation |\n|---:|---:|\n", words.c_str());
+  for (const auto& [parameter, rotation] : curve.points) {
+    out << parameter << ',' << rotation << '\n';
     std::printf("| %.1f\xC2\xB0 | %.1f\xC2\xB0 |\n", parameter, rotation);
+  }
   std::printf("\n");
+  if (!out.flush()) throw std::runtime_error(path.string() + ": cannot be written");
 }
 
 }  // namespace

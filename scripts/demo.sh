@@ -26,8 +26,15 @@ echo
 echo "How far it turns in each clinical direction:"
 "$condyle" rom "$out/sample/hip.toml" --out "$out/range_of_motion"
 
+# Drawn where the Python module is built and matplotlib is there.
+draw() { PYTHONPATH=build/release/python /usr/bin/python3 "$@"; }
+if draw -c 'import condyle.plot' 2>/dev/null; then
+  echo
+  draw -m condyle.plot "$out/range_of_motion"
+fi
+
 echo
 echo "Results are in $out, a folder for each pose: fixed.vtp and mobile.vtp (open them in ParaView or 3D Slicer),"
-echo "pairs.csv and depth.json. Limits, their bar chart and clock face are in $out/range_of_motion. The joint itself is"
+echo "pairs.csv and depth.json. Limits and their figures are in $out/range_of_motion. The joint itself is"
 echo "$out/sample/hip.toml."
 echo "Osseous contact only: soft tissue is not modelled. Research software, not a medical device."

@@ -10,7 +10,7 @@ while IFS= read -r command; do
   run "$command"
 done < <(sed -n 's/^    \(condyle .*\)$/\1/p' "$source_folder/docs/tutorial.md")
 [ "$ran" -eq 5 ] || { echo "docs/tutorial.md: $ran commands found, not 5" >&2; exit 1; }
-for file in hip.toml range/rom.json range/limits.svg deep/fixed.vtp deep/mobile.vtp; do
+for file in hip.toml range/rom.json range/limits.csv deep/fixed.vtp deep/mobile.vtp; do
   [ -s "$file" ] || { echo "docs/tutorial.md: its commands left no $file" >&2; exit 1; }
 done
 echo "$ran commands"

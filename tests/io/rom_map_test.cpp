@@ -6,7 +6,6 @@
 
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/rom_result.hpp"
-#include "io/result/plot_map.hpp"
 #include "rom_scene.hpp"
 
 namespace condyle::test {
@@ -51,11 +50,14 @@ TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
   const Joint joint = arm_and_post();
   const Json json = Json::parse(rom_json({.joint = joint, .limits = {}, .map = &map}))["map"];
   EXPECT_EQ(json["vary"], "flexion");
+  EXPECT_EQ(json["vary_opposite"], "extension");
   EXPECT_EQ(json["columns"], (Json{{"angle", "adduction"},
+                                   {"opposite", "abduction"},
                                    {"first_deg", -10.0},
                                    {"last_deg", 10.0},
                                    {"step_deg", 2.5},
                                    {"count", 9}}));
+  EXPECT_EQ(json["rows"]["opposite"], "external_rotation");
   EXPECT_EQ(json["rows"]["count"], 5);
   EXPECT_EQ(json["points"], 45);
   for (const char* ends : {"negative_ends", "positive_ends"}) {
@@ -66,24 +68,6 @@ TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
   EXPECT_EQ(json["positive_ends"]["contact"], 45);
   EXPECT_EQ(json["free_volume_deg3"].get<double>(), free_volume(map).plain_deg3);
   EXPECT_EQ(json["row_free_area_deg2"].size(), 5u);
-}
-
-TEST(PlotOfMap, ShowsLimitsAsAnglesFromTheStartAndTheFreeRangeAsTheirSum) {
-  const MotionMap map = whole_map();
-  const io::MapPlot positive = io::plot_of(map, io::MapView::positive_limit, "j"),
-                    negative = io::plot_of(map, io::MapView::negative_limit, "j"),
-                    free = io::plot_of(map, io::MapView::free_range, "j");
-  EXPECT_EQ(positive.quantity, "limit of flexion");
-  EXPECT_EQ(negative.quantity, "limit of extension");
-  EXPECT_EQ(free.quantity, "free range of flexion");
-  ASSERT_EQ(free.values.size(), 45u);
-  for (std::size_t i = 0; i < 45; ++i) {
-    EXPECT_EQ(positive.values[i], map.points[i].from_start.positive.turned.degrees());
-    EXPECT_GE(negative.values[i], 0);
-    EXPECT_EQ(
-        free.values[i],
-        (map.points[i].from_start.negative.turned + map.points[i].from_start.positive.turned).degrees());
-  }
 }
 
 }  // namespace

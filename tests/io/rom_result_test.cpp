@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/result/clock_contacts.hpp"
+#include "condyle/io/normal_range.hpp"
+#include "io/result/clock_hour.hpp"
 #include "rom_scene.hpp"
 
 namespace condyle::test {
@@ -103,16 +105,19 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
   EXPECT_EQ(flexion["range_deg"].get<double>(), limits[0].motion.range.degrees());
   EXPECT_EQ(flexion["start_deg"]["adduction"].get<double>(), limits[0].motion.start.adduction.degrees());
   EXPECT_EQ(flexion["held_deg"].size(), 2u);
+  EXPECT_EQ(flexion["normal_range_deg"], 120);
   EXPECT_EQ(flexion["held_deg"]["internal_rotation"].get<double>(),
             limits[0].motion.start.internal_rotation.degrees());
   EXPECT_EQ(flexion["at_limit_deg"]["flexion"].get<double>(), limits[0].angles_at_limit().flexion.degrees());
   EXPECT_EQ(flexion["guarantee"], guarantee_text(limits[0]));
 
+  EXPECT_EQ(json["normal_range_source"], "AAOS 1965");
+
   const Json& ended = json["motions"][1];
   EXPECT_EQ(ended["reason"], "end_of_range");
   EXPECT_EQ(ended["at_limit_deg"]["internal_rotation"].get<double>(), -ended["limit_deg"].get<double>());
   for (const char* key : {"contact_kind", "contact_point_mm", "contact_point_mobile_mm", "features",
-                          "bearing_contact_deg", "centre_distance_mm", "joint_space_mm"})
+                          "bearing_contact_deg", "centre_distance_mm", "joint_space_mm", "normal_range_deg"})
     EXPECT_TRUE(ended.at(key).is_null()) << key;
   const Json& swallowed = json["motions"][2];
   EXPECT_EQ(swallowed["reason"], "contact_at_start");
@@ -144,7 +149,8 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
   EXPECT_EQ(turned, limits[0].end.turned.degrees());
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
-  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,"));
+  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,"));
+  EXPECT_TRUE(lines[1].ends_with(",120")) << "the normal range of flexion";
 }
 
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
@@ -169,6 +175,24 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_NE(lines[6].find(" 40.00 "), std::string::npos);
 }
 
+TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
+  EXPECT_EQ(normal_hip_range("flexion"), Angle::degrees(120));
+  EXPECT_EQ(normal_hip_range("extension"), Angle::degrees(30));
+  EXPECT_EQ(normal_hip_range("abduction"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("adduction"), Angle::degrees(30));
+  EXPECT_EQ(normal_hip_range("internal_rotation"), Angle::degrees(45));
+  EXPECT_EQ(normal_hip_range("external_rotation"), Angle::degrees(45));
+  for (const char* none : {"fadir", "faber", "internal_rotation_at_90_flexion", "my_motion", ""})
+    EXPECT_FALSE(normal_hip_range(none)) << none;
+}
+
+TEST(ClockHour, IsNamedAsAClockNamesIt) {
+  EXPECT_EQ(io::clock_text(0), "12:00");
+  EXPECT_EQ(io::clock_text(1.5), "1:30");
+  EXPECT_EQ(io::clock_text(11.999), "12:00");
+  EXPECT_EQ(io::clock_text(9.1), "9:06");
+}
+
 /// A limit with contact in this direction from the joint centre.
 MotionLimit contact_towards(const Vec3& p) {
   MotionLimit limit;
@@ -178,7 +202,7 @@ MotionLimit contact_towards(const Vec3& p) {
   return limit;
 }
 
-TEST(ClockContacts, HaveTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
+TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
   // Anterior is +X and superior +Y on both sides; the socket is to the right (+Z) of a right hip's centre.
   for (const Side side : {Side::right, Side::left}) {
     Joint joint = arm_and_post();
@@ -188,23 +212,27 @@ TEST(ClockContacts, HaveTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
                              contact_towards({14, 14, lateral}), contact_towards({0, -20, lateral}),
                              contact_towards({-20, 0, lateral})};
     const RomResult result{joint, limits};
-    const auto contacts = io::clock_contacts(result);
-    ASSERT_EQ(contacts.size(), 5u);
     const std::array hours{0.0, 3.0, 1.5, 6.0, 9.0};
     // Four roundings of an arctangent, in hours.
-    for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(contacts[i].hour, hours[i], 1e-14);
+    for (std::size_t i = 0; i < 5; ++i)
+      EXPECT_NEAR(io::clock_hour(result, limits[i]).value(), hours[i], 1e-14);
     EXPECT_NEAR(Json::parse(rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
     EXPECT_NE(rom_text(result).find("  1:30  "), std::string::npos);
-    EXPECT_NE(rom_csv(result).find(",1.5,,,,,,,\n"), std::string::npos);
+    EXPECT_NE(rom_csv(result).find(",1.5,,,,,,,,120\n"), std::string::npos);
   }
 }
 
-TEST(ClockContacts, LeaveOutWhatDidNotTouchAndHinges) {
+TEST(ClockHour, LeavesOutWhatDidNotTouchAndHinges) {
   Joint joint = arm_and_post();
   const std::vector<MotionLimit> limits = some_limits();
-  EXPECT_EQ(io::clock_contacts({joint, limits}).size(), 1u);
+  const auto with_hour = [&] {
+    return std::count_if(limits.begin(), limits.end(), [&](const MotionLimit& limit) {
+      return io::clock_hour({joint, limits}, limit).has_value();
+    });
+  };
+  EXPECT_EQ(with_hour(), 1);
   joint.kind = JointKind::hinge;
-  EXPECT_TRUE(io::clock_contacts({joint, limits}).empty());
+  EXPECT_EQ(with_hour(), 0);
   EXPECT_TRUE(Json::parse(rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
 }
 

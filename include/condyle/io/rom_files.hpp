@@ -7,8 +7,8 @@
 
 namespace condyle {
 
-/// Writes everything a result has into a folder: rom.json, limits.csv, limits.svg, clock_face.svg of a ball,
-/// map.csv and map_*.svg of a map, zone_*.vtp of zones, both bodies in the fixed one's frame. All files
+/// Writes everything a result has into a folder: rom.json, limits.csv, bearing.vtp where a bearing surface is known, map.csv,
+/// map_intervals.csv and map.vtp of a map, zone_*.vtp of zones, both bodies in the fixed one's frame. All files
 /// appear or none, and files of an earlier result go. Returns what was written. Throws FileError.
 std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result);
 

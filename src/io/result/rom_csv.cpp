@@ -3,7 +3,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "io/joint/given_degrees.hpp"
-#include "io/result/clock_contacts.hpp"
+#include "io/result/clock_hour.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
@@ -17,6 +17,14 @@ std::string angle_columns(std::string_view when, Anatomy joint) {
   for (const JointAngle angle : all_joint_angles)
     columns += fmt::format("{}_{}_deg,", when, name_of(angle, joint));
   return columns;
+}
+
+std::string band_fields(const LimitBand& band) {
+  std::string fields;
+  for (const Angle angle : {band.p5, band.median, band.p95, band.width_from.centre, band.width_from.axes,
+                            band.width_from.surface})
+    fields += fmt::format(",{}", angle.degrees());
+  return fields + fmt::format(",{}", band.share_without_contact);
 }
 
 }  // namespace
@@ -33,7 +41,7 @@ std::string rom_csv(const RomResult& result) {
       "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour,"
       "band_p5_deg,band_median_deg,band_p95_deg,band_from_centre_deg,band_from_axes_deg,band_from_surface_"
       "deg,"
-      "band_share_without_contact\n";
+      "band_share_without_contact,normal_range_deg\n";
   const auto point = [](const Vec3& p) { return fmt::format("{},{},{}", p.x(), p.y(), p.z()); };
   const auto start = [](const JointAngles& a) {
     return fmt::format("{},{},{}", io::given_degrees(a.flexion), io::given_degrees(a.adduction),
@@ -63,15 +71,9 @@ std::string rom_csv(const RomResult& result) {
                                   io::text_of(contact->fixed_feature), io::text_of(contact->mobile_feature))
                     : std::string(",,,,,,,");
     text += hour ? fmt::format(",{}", *hour) : ",";
-    if (result.bands.empty()) {
-      text += ",,,,,,,\n";
-      continue;
-    }
-    const LimitBand& band = result.bands[i];
-    for (const Angle angle : {band.p5, band.median, band.p95, band.width_from.centre, band.width_from.axes,
-                              band.width_from.surface})
-      text += fmt::format(",{}", angle.degrees());
-    text += fmt::format(",{}\n", band.share_without_contact);
+    text += result.bands.empty() ? ",,,,,,," : band_fields(result.bands[i]);
+    const auto normal = io::normal_range(result, limit);
+    text += normal ? fmt::format(",{}\n", io::given_degrees(*normal)) : ",\n";
   }
   return text;
 }

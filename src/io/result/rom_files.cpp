@@ -14,10 +14,6 @@
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/zone_result.hpp"
 #include "io/file/whole_file.hpp"
-#include "io/result/clock_contacts.hpp"
-#include "io/result/plot_clock_face.hpp"
-#include "io/result/plot_limits.hpp"
-#include "io/result/plot_map.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
@@ -26,13 +22,8 @@ namespace {
 /// Whether some result has a file of this name.
 bool is_of_rom(std::string_view name) {
   if (name.starts_with("zone_")) return name.ends_with("_fixed.vtp") || name.ends_with("_mobile.vtp");
-  static constexpr std::string_view names[] = {"rom.json",          "limits.csv",  "limits.svg",
-                                               "clock_face.svg",    "bearing.vtp", "map.csv",
-                                               "map_intervals.csv", "map.vtp",     "map_free_range.svg"};
-  for (const Anatomy joint : all_anatomies)
-    for (const auto& [positive, negative] : coordinate_names(joint))
-      for (const std::string_view movement : {positive, negative})
-        if (name == fmt::format("map_{}.svg", movement)) return true;
+  static constexpr std::string_view names[] = {"rom.json", "limits.csv",        "bearing.vtp",
+                                               "map.csv",  "map_intervals.csv", "map.vtp"};
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
@@ -95,18 +86,11 @@ void write_map_surface(const std::filesystem::path& path, const MotionMap& map, 
 
 void write_map(OutputFolder& out, const RomResult& result) {
   const MotionMap& map = *result.map;
-  const auto draw = [&](std::string_view name, io::MapView view) {
-    io::write_whole_file(out.file(fmt::format("map_{}.svg", name)),
-                         io::map_plot(io::plot_of(map, view, result.joint.name)));
-  };
   const std::string comments = io::provenance_comments(result.provenance);
   io::write_whole_file(out.file("map.csv"), comments + map_csv(map, frame_of(result)));
   io::write_whole_file(out.file("map_intervals.csv"), comments + map_intervals_csv(map, frame_of(result)));
   if (map.grid.row.count() > 1 && map.grid.column.count() > 1)
     write_map_surface(out.file("map.vtp"), map, vtp_options(result));
-  draw(movement_name(map.grid.vary, RotationSense::positive, map.anatomy), io::MapView::positive_limit);
-  draw(movement_name(map.grid.vary, RotationSense::negative, map.anatomy), io::MapView::negative_limit);
-  draw("free_range", io::MapView::free_range);
 }
 
 /// The mobile body at zero angles, triangles of the bearing surface marked.
@@ -122,23 +106,8 @@ void write_bearing(OutputFolder& out, const RomResult& result) {
 
 std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result) {
   OutputFolder out(folder, is_of_rom);
-  const std::string& name = result.joint.name;
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
-  io::write_whole_file(
-      out.file("limits.svg"),
-      io::limits_plot({name, "How far each motion turns from its start"}, result.limits, result.bands,
-                      result.joint.is_hip() ? io::NormalRanges::of_hip : io::NormalRanges::none));
-  if (result.joint.is_hip())
-    io::write_whole_file(
-        out.file("clock_face.svg"),
-        io::clock_face_plot(
-            {name, result.clock_plane == ClockPlane::rim
-                       ? "Where motions end, seen from the joint centre in the plane of the rim: "
-                         "6 at the notch, 3 anterior"
-                       : "Where motions end, seen from the joint centre in the sagittal plane: "
-                         "12 superior, 3 anterior"},
-            io::clock_contacts(result)));
   write_bearing(out, result);
   write_zones(out, result);
   if (result.map) write_map(out, result);

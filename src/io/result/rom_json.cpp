@@ -2,11 +2,12 @@
 #include <cmath>
 
 #include "condyle/io/map_result.hpp"
+#include "condyle/io/normal_range.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "io/file/format_version.hpp"
 #include "io/joint/given_degrees.hpp"
-#include "io/result/clock_contacts.hpp"
+#include "io/result/clock_hour.hpp"
 #include "io/result/json.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -112,6 +113,7 @@ Json motion_json(const RomResult& result, std::size_t i) {
   const MotionLimit& limit = result.limits[i];
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
+  const auto normal = io::normal_range(result, limit);
   const AnswerFrame frame = frame_of(result);
   const Anatomy joint = result.joint.anatomy;
   Json json{
@@ -138,6 +140,7 @@ Json motion_json(const RomResult& result, std::size_t i) {
       {"range_deg", io::given_degrees(limit.motion.range)},
       {"start_deg", start_json(limit.motion.start, joint)},
       {"held_deg", held_json(limit.motion, joint)},
+      {"normal_range_deg", normal ? Json(io::given_degrees(*normal)) : Json(nullptr)},
       {"at_limit_deg", angles_json(limit.angles_at_limit(), joint)},
       {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
   if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
@@ -165,6 +168,7 @@ Json json_of(const ReasonCounts& counts) {
 
 Json json_of(const GridAxis& axis, Anatomy joint) {
   return {{"angle", name_of(axis.angle, joint)},
+          {"opposite", movement_name(axis.angle, RotationSense::negative, joint)},
           {"first_deg", axis.first_deg},
           {"last_deg", axis.last_deg},
           {"step_deg", axis.step_deg},
@@ -194,6 +198,7 @@ Json other_intervals_json(const MotionMap& map) {
 Json json_of(const MotionMap& map) {
   const MapSummary summary = summarise(map);
   return {{"vary", name_of(map.grid.vary, map.anatomy)},
+          {"vary_opposite", movement_name(map.grid.vary, RotationSense::negative, map.anatomy)},
           {"start_deg", map.grid.start.degrees()},
           {"range_deg", {map.grid.range.negative.degrees(), map.grid.range.positive.degrees()}},
           {"columns", json_of(map.grid.column, map.anatomy)},
@@ -246,6 +251,7 @@ std::string rom_json(const RomResult& result) {
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
             {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},
+            {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
             {"terms", result.terms},

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "condyle/io/normal_range.hpp"
 #include "condyle/io/rom_result.hpp"
 
 /// What the JSON and the lines of a range of motion share.
@@ -17,6 +19,11 @@ std::string text_of(const Feature& feature);
 
 inline bool ends_in_contact(const MotionLimit& limit) noexcept {
   return limit.end.reason != LimitReason::end_of_range;
+}
+
+/// Of the living, behind the limit of a hip's motion; none where no source has a value.
+inline std::optional<Angle> normal_range(const RomResult& result, const MotionLimit& limit) noexcept {
+  return result.joint.is_hip() ? normal_hip_range(limit.motion.name) : std::nullopt;
 }
 
 }  // namespace condyle::io

@@ -8,7 +8,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "io/file/format_version.hpp"
-#include "io/result/clock_contacts.hpp"
+#include "io/result/clock_hour.hpp"
 #include "io/result/json.hpp"
 #include "io/result/quoted_limit.hpp"
 

@@ -1,18 +1,17 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <string>
 
 #include "condyle/io/rom_result.hpp"
-#include "io/result/plot_clock_face.hpp"
 
 namespace condyle::io {
 
-/// Direction of the limit's contact on the result's clock: 12 superior and 3 anterior on
+/// Direction of the limit's contact on the result's clock, in [0, 12): 12 (0) superior and 3 anterior on
 /// either side. None for a hinge, without contact, and far from the rim.
 std::optional<double> clock_hour(const RomResult& result, const MotionLimit& limit);
 
-/// Where on that clock the motions end that end in contact.
-std::vector<ClockContact> clock_contacts(const RomResult& result);
+/// "1:30" of 1.5: hours and minutes of the clock face, 12 for the first hour.
+std::string clock_text(double hour);
 
 }  // namespace condyle::io

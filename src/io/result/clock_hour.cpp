@@ -1,4 +1,8 @@
-#include "io/result/clock_contacts.hpp"
+#include "io/result/clock_hour.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
 
 #include "condyle/clock_face.hpp"
 
@@ -20,12 +24,9 @@ std::optional<double> clock_hour(const RomResult& result, const MotionLimit& lim
   return result.clock.hour_of(point);
 }
 
-std::vector<ClockContact> clock_contacts(const RomResult& result) {
-  std::vector<ClockContact> contacts;
-  for (const MotionLimit& limit : result.limits)
-    if (const auto hour = clock_hour(result, limit))
-      contacts.push_back({limit.motion.name, *hour, limit.end.kind()});
-  return contacts;
+std::string clock_text(double hour) {
+  const long minutes = std::lround(hour * 60) % 720;
+  return fmt::format("{}:{:02}", minutes < 60 ? 12 : minutes / 60, minutes % 60);
 }
 
 }  // namespace condyle::io

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""Draws the experiment: draw_experiment.py EXPERIMENT.csv FOLDER, with PYTHONPATH=build/release/python.
+
+EXPERIMENT.csv is what condyle-bench --csv writes. As far as there are outcomes for them, FOLDER gets
+
+    cost_QUESTION.svg       cost of a pose against the size of the sample bones, with the fitted exponents
+    accuracy_QUESTION.svg   share of wrong answers against cost, real bones; none where nobody is wrong
+"""
+import csv
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import condyle.plot as figures  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+GROWTH_FAMILY, ACCURACY_SCENE = "sample bones", "libhip_2"
+# Per question: what is wrong, what could be, and the words for the axis.
+WRONG = {
+    "touch": (("touch_missed", "touch_invented"), "poses", "wrong answers per pose"),
+    "pairs": (("pairs_missed", "pairs_invented"), "pairs", "missed and invented pairs per true pair"),
+    "inside": (("false_inside", "false_outside"), "vertices_inside", "wrong vertices per vertex truly inside"),
+}
+
+
+def fitted_exponent(sizes, costs):
+    """Of cost ~ size^b, by least squares through the logarithms; none of fewer than three."""
+    return np.polyfit(np.log(sizes), np.log(costs), 1)[0] if len(sizes) > 2 else None
+
+
+def by_method(rows):
+    methods = {}
+    for row in rows:
+        methods.setdefault(row["method"], []).append(row)
+    return methods.values()
+
+
+def cost_series(rows):
+    for own in by_method(row for row in rows if row["scene_family"] == GROWTH_FAMILY):
+        sizes, costs = ([float(row[key]) for row in own] for key in ("fixed_triangles", "query_ms"))
+        exponent = fitted_exponent(sizes, costs)
+        label = own[0]["method_title"] + (f"  ({exponent:.2f})" if exponent is not None else "")
+        yield figures.Series(label, own[0]["method_family"], sizes, costs)
+
+
+def accuracy_series(rows, question):
+    wrong, all_of, _ = WRONG[question]
+    for own in by_method(row for row in rows if row["scene"] == ACCURACY_SCENE):
+        shares = [sum(float(row[key]) for key in wrong) / max(float(row[all_of]), 1) for row in own]
+        yield figures.Series(own[0]["method_title"], own[0]["method_family"], [float(row["query_ms"]) for row in own], shares)
+
+
+def main(path, folder):
+    with open(path, encoding="utf-8") as file:
+        outcomes = [row for row in csv.DictReader(file) if row["deformed"] == "no"]
+    for question in WRONG:
+        rows = [row for row in outcomes if row["question"] == question]
+        drawn = {"cost": (list(cost_series(rows)), "triangles of the fixed body", "time per pose, one thread (ms)", None),
+                 "accuracy": (list(accuracy_series(rows, question)), "time per pose, one thread (ms)", WRONG[question][2], "none")}
+        for name, (series, x_label, y_label, zero_label) in drawn.items():
+            if not any(y > 0 for one in series for y in one.y):
+                continue
+            ax = figures.many_methods(series, x_label=x_label, y_label=y_label, zero_label=zero_label)
+            target = Path(folder) / f"{name}_{question}.svg"
+            figures.save(ax, target)
+            plt.close("all")
+            print(target)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    main(*sys.argv[1:])

@@ -1,0 +1,57 @@
+"""Figures for papers: what Condyle finds, drawn with matplotlib.
+
+Every function takes `ax=` and returns the axes; without `ax` it makes a figure as wide as a column of a journal, in 8 pt, with
+colours that stay apart for all eyes. No heading and no footer is drawn: that is the caption's work. Results are taken as the
+module gives them, or as `condyle.plot.files` reads them from the folders that the command writes:
+
+    import condyle.plot as figures
+    result = figures.files.read_rom("out/demo/range_of_motion")
+    ax = figures.limits(result)
+    figures.save(ax, "limits.pdf")
+
+`python3 -m condyle.plot FOLDER` draws all that is in a folder. Needs matplotlib 3.6 or newer; the compiled part of Condyle is
+not used.
+"""
+from __future__ import annotations
+
+try:
+    import matplotlib as _needed  # noqa: F401
+except ImportError:
+    raise ImportError("figures need matplotlib: install python3-matplotlib (Debian) or matplotlib") from None
+
+from . import files, style
+from .agreement import Series, agreement, many_methods
+from .files import ReadError
+from .flatten import Flattened, about_centre, on_plane
+from .limit_bars import limits
+from .map_contours import motion_map
+from .motion_curves import curve, cycles, panels
+from .motion_grid import MotionGrid
+from .pressure_surface import pressure_map
+from .rim_clock import clock_face
+from .style import DOUBLE_COLUMN_MM, SINGLE_COLUMN_MM, print_style, save, size_mm
+
+__all__ = [
+    "DOUBLE_COLUMN_MM",
+    "SINGLE_COLUMN_MM",
+    "Flattened",
+    "MotionGrid",
+    "ReadError",
+    "Series",
+    "about_centre",
+    "agreement",
+    "clock_face",
+    "curve",
+    "cycles",
+    "files",
+    "limits",
+    "many_methods",
+    "motion_map",
+    "on_plane",
+    "panels",
+    "pressure_map",
+    "print_style",
+    "save",
+    "size_mm",
+    "style",
+]

@@ -1,0 +1,242 @@
+"""Reads what `condyle rom --out`, `condyle motion --out` and `condyle depth --out` write, for figures.
+
+Every reader raises `ReadError` with one line that names file and place.
+"""
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .motion_grid import MotionGrid
+
+Array = NDArray[np.float64]
+PathLike = Union[str, Path]
+
+
+class ReadError(ValueError):
+    """A file that cannot be read, or does not say what a figure needs; the message is one line."""
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise ReadError(f"{path}: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise ReadError(f"{path}: not a text file") from None
+
+
+def read_json(path: PathLike) -> Dict[str, Any]:
+    """The object of a JSON file that some command wrote."""
+    path = Path(path)
+    try:
+        value = json.loads(_text(path))
+    except json.JSONDecodeError as error:
+        raise ReadError(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+    if not isinstance(value, dict) or "condyle" not in value:
+        raise ReadError(f"{path}: not a result of condyle: it has no key 'condyle'")
+    return value
+
+
+def _rows(path: Path) -> Tuple[List[str], List[Tuple[int, List[str]]]]:
+    """Names of columns, and the rows with the numbers of their lines; comments are passed over."""
+    lines = [(i, line) for i, line in enumerate(_text(path).splitlines(), 1) if line.strip() and not line.startswith("#")]
+    if len(lines) < 2:
+        raise ReadError(f"{path}: no rows")
+    names = next(csv.reader([lines[0][1]]))
+    rows = []
+    for i, line in lines[1:]:
+        fields = next(csv.reader([line]))
+        if len(fields) != len(names):
+            raise ReadError(f"{path}: line {i}: {len(fields)} fields, not {len(names)}")
+        rows.append((i, fields))
+    return names, rows
+
+
+def _number(path: Path, line: int, name: str, field: str) -> float:
+    try:
+        return float(field) if field else math.nan
+    except ValueError:
+        raise ReadError(f"{path}: line {line}: column '{name}': '{field}' is not a number") from None
+
+
+def read_curves(path: PathLike) -> Dict[str, Array]:
+    """The columns of `curves.csv`, `regions.csv` or `cycle.csv` by their names, each as long as there are rows; NaN for a gap.
+
+    The first column is what the curves run along: `time_s`, `frame` or `cycle_percent`.
+    """
+    path = Path(path)
+    names, rows = _rows(path)
+    values = np.array([[_number(path, i, name, field) for name, field in zip(names, fields)] for i, fields in rows])
+    return {name: values[:, k] for k, name in enumerate(names)}
+
+
+def read_sto(path: PathLike) -> Dict[str, Array]:
+    """The columns of an OpenSim table (`.sto`, `.mot`) by their names, `time` first."""
+    path = Path(path)
+    lines = _text(path).splitlines()
+    starts = [i for i, line in enumerate(lines) if line.strip() == "endheader"]
+    if not starts or len(lines) < starts[0] + 3:
+        raise ReadError(f"{path}: no 'endheader' with names and rows below it")
+    names = lines[starts[0] + 1].split()
+    rows = []
+    for i in range(starts[0] + 2, len(lines)):
+        fields = lines[i].split()
+        if not fields:
+            continue
+        if len(fields) != len(names):
+            raise ReadError(f"{path}: line {i + 1}: {len(fields)} fields, not {len(names)}")
+        rows.append([_number(path, i + 1, name, field) for name, field in zip(names, fields)])
+    values = np.array(rows)
+    return {name: values[:, k] for k, name in enumerate(names)}
+
+
+def read_rom(folder: PathLike) -> Dict[str, Any]:
+    """`rom.json` of a folder; with a map, `"grid"` holds it as a `MotionGrid`."""
+    folder = Path(folder)
+    path = folder / "rom.json"
+    result = read_json(path)
+    motions = result.get("motions")
+    if not isinstance(motions, list) or not motions:
+        raise ReadError(f"{path}: no motions")
+    for i, motion in enumerate(motions):
+        for key in ("name", "limit_deg", "reason"):
+            if not isinstance(motion, dict) or key not in motion:
+                raise ReadError(f"{path}: motion {i} has no '{key}'")
+    if "map" in result:
+        result["grid"] = _read_grid(folder, result["map"], path)
+    return result
+
+
+class _Interval(NamedTuple):
+    low: float
+    high: float
+    low_open: bool
+    high_open: bool
+    holds_start: bool
+
+
+def _read_grid(folder: Path, summary: Dict[str, Any], path: Path) -> MotionGrid:
+    """The map of `rom.json`'s `map` and `map_intervals.csv`."""
+    try:
+        columns, rows = (_axis_values(summary[key]) for key in ("columns", "rows"))
+        column, row = ((summary[key]["angle"], summary[key]["opposite"]) for key in ("columns", "rows"))
+        varied = (summary["vary"], summary["vary_opposite"])
+        start = float(summary["start_deg"])
+    except (KeyError, TypeError) as error:
+        raise ReadError(f"{path}: map: no {error}") from None
+    intervals = _read_intervals(folder / "map_intervals.csv", columns, rows)
+    return _grid_of(intervals, column, row, varied, columns, rows, start)
+
+
+def _axis_values(axis: Dict[str, Any]) -> Array:
+    count = int(axis["count"])
+    values = axis["first_deg"] + axis["step_deg"] * np.arange(count)
+    if count > 1:
+        values[-1] = axis["last_deg"]
+    return np.asarray(values, dtype=np.float64)
+
+
+def _read_intervals(path: Path, columns: Array, rows: Array) -> Dict[Tuple[int, int], List[_Interval]]:
+    """Free intervals of each grid point (row, column); none of a point that is free nowhere."""
+    names, lines = _rows(path)
+    needed = ("low_reason", "high_reason", "holds_start")
+    for name in needed:
+        if name not in names:
+            raise ReadError(f"{path}: no column '{name}'")
+    low_reason, high_reason, holds_start = (names.index(name) for name in needed)
+    found: Dict[Tuple[int, int], List[_Interval]] = {}
+    for i, fields in lines:
+        at_column, at_row, low, high = (_number(path, i, names[k], fields[k]) for k in range(4))
+        point = _index(path, i, names[1], rows, at_row), _index(path, i, names[0], columns, at_column)
+        found.setdefault(point, []).append(
+            _Interval(low, high, fields[low_reason] == "end_of_range", fields[high_reason] == "end_of_range",
+                      fields[holds_start] == "1"))
+    return found
+
+
+def _index(path: Path, line: int, name: str, values: Array, value: float) -> int:
+    nearest = int(np.argmin(np.abs(values - value)))
+    if not abs(values[nearest] - value) <= 1e-6:  # degrees; NaN is refused too
+        raise ReadError(f"{path}: line {line}: column '{name}': {value:g} is not a value of the grid in rom.json")
+    return nearest
+
+
+def _distance(interval: _Interval, start: float) -> float:
+    return max(interval.low - start, start - interval.high, 0.0)
+
+
+def _grid_of(intervals: Dict[Tuple[int, int], List[_Interval]], column: Tuple[str, str], row: Tuple[str, str],
+             varied: Tuple[str, str], columns: Array, rows: Array, start: float) -> MotionGrid:
+    shape = (len(rows), len(columns))
+    lower, upper = np.full(shape, np.nan), np.full(shape, np.nan)
+    lower_open, upper_open, free_at_start = (np.zeros(shape, dtype=bool) for _ in range(3))
+    count = np.zeros(shape, dtype=np.int64)
+    for point, of_point in intervals.items():
+        held = [interval for interval in of_point if interval.holds_start]
+        drawn = held[0] if held else min(of_point, key=lambda interval: _distance(interval, start))
+        lower[point], upper[point] = drawn.low, drawn.high
+        lower_open[point], upper_open[point] = drawn.low_open, drawn.high_open
+        free_at_start[point], count[point] = bool(held), len(of_point)
+    return MotionGrid(column, row, varied, columns, rows, start, lower, upper, lower_open, upper_open, free_at_start, count)
+
+
+class Surface(NamedTuple):
+    """A triangle mesh with values: `vertices` (V, 3) in mm, `triangles` (T, 3), `values` by name, each (T,)."""
+
+    vertices: Array
+    triangles: NDArray[np.int64]
+    values: Dict[str, Array]
+
+
+def read_surface(path: PathLike) -> Surface:
+    """Mesh and cell arrays of a `.vtp` file, as `condyle motion --maps` writes them.
+
+    Needs VTK's Python module (Debian's python3-vtk9); ImportError says so where it is missing.
+    """
+    try:
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkCommonCore import vtkLogger
+        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+    except ImportError:
+        raise ImportError("reading .vtp files needs VTK's Python module: install python3-vtk9 (Debian) or vtk") from None
+    path = Path(path)
+    if not path.is_file():
+        raise ReadError(f"{path}: No such file or directory")
+    complaints: List[str] = []
+    reader = vtkXMLPolyDataReader()
+    reader.AddObserver("ErrorEvent", _first_line(complaints))
+    reader.SetFileName(str(path))
+    verbosity = vtkLogger.GetCurrentVerbosityCutoff()
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # what is wrong is said below, in one line
+    try:
+        reader.Update()
+    finally:
+        vtkLogger.SetStderrVerbosity(verbosity)
+    data = reader.GetOutput()
+    if complaints or reader.GetErrorCode() != 0 or data.GetNumberOfPoints() == 0 or data.GetNumberOfPolys() == 0:
+        raise ReadError(f"{path}: not a VTP file with triangles")
+    polys = data.GetPolys()
+    if polys.GetMaxCellSize() != 3 or polys.GetNumberOfConnectivityIds() != 3 * polys.GetNumberOfCells():
+        raise ReadError(f"{path}: not all cells are triangles")
+    of_cells = data.GetCellData()
+    values = {of_cells.GetArrayName(k): np.array(vtk_to_numpy(of_cells.GetArray(k)), dtype=np.float64)
+              for k in range(of_cells.GetNumberOfArrays()) if of_cells.GetArray(k) is not None}
+    return Surface(np.array(vtk_to_numpy(data.GetPoints().GetData()), dtype=np.float64),
+                   np.array(vtk_to_numpy(polys.GetConnectivityArray()), dtype=np.int64).reshape(-1, 3), values)
+
+
+def _first_line(complaints: List[str]) -> Callable[..., None]:
+    """Takes VTK's complaints, which it would print."""
+
+    def note(_object: Any, _event: str, text: Optional[str] = None) -> None:
+        complaints.append((text or "").splitlines()[0] if text else "")
+
+    note.CallDataType = "string0"  # type: ignore[attr-defined]
+    return note

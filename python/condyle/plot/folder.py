@@ -1,0 +1,130 @@
+"""All figures that a folder of results has data for."""
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.figure import Figure
+
+from . import files, style
+from .limit_bars import limits
+from .map_contours import VIEWS, motion_map
+from .motion_curves import curve, has, panels
+from .pressure_surface import add_scale, laid_flat, pressure_map, quantity_label
+from .rim_clock import clock_face
+
+Drawing = Tuple[str, Callable[[], Figure]]
+"""Name of a figure without its ending, and what draws it."""
+
+
+def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: str = "plane") -> List[Drawing]:
+    """What can be drawn of a folder; files are read here, so that a bad one is told before anything is written.
+
+    Raises ReadError where there is nothing, or a file is bad.
+    """
+    if not folder.is_dir():
+        raise files.ReadError(f"{folder}: not a folder")
+    found: List[Drawing] = []
+    if (folder / "rom.json").exists():
+        found += _of_rom(files.read_rom(folder))
+    if (folder / "curves.csv").exists():
+        found += _of_motion(folder, frames, projection)
+    elif frames:
+        raise files.ReadError(f"{folder}: no curves.csv in it, so no frames to draw")
+    if not found:
+        raise files.ReadError(f"{folder}: neither rom.json nor curves.csv in it")
+    return found
+
+
+def _of_rom(result: Dict[str, Any]) -> List[Drawing]:
+    found: List[Drawing] = [("limits", lambda: limits(result).figure)]
+    if any(motion.get("clock_hour") is not None for motion in result["motions"]):
+        found.append(("clock_face", lambda: clock_face(result).figure))
+    grid = result.get("grid")
+    if grid is not None and np.isfinite(grid.lower_deg).any():
+        for view in VIEWS:
+            movement = {"positive": grid.varied[0], "negative": grid.varied[1]}.get(view, view)
+            found.append((f"map_{movement}", functools.partial(_map, result, view)))
+    return found
+
+
+def _map(result: Dict[str, Any], view: str) -> Figure:
+    return motion_map(result, view).figure
+
+
+def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: str) -> List[Drawing]:
+    table = files.read_curves(folder / "curves.csv")
+    found: List[Drawing] = []
+    if any(has(table, quantity) for quantity in ("area", "depth", "pressure", "force")):
+        found.append(("curves", lambda: panels(table)))
+    elif has(table, "gap"):
+        found.append(("curves", lambda: curve(table, "gap").figure))
+    else:
+        raise files.ReadError(f"{folder / 'curves.csv'}: no columns of contact that could be drawn")
+    if (folder / "cycle.csv").exists():
+        cycle = files.read_curves(folder / "cycle.csv")
+        found.append(("cycle", lambda: panels(cycle)))
+    maps = _maps(folder)
+    if frames and not maps:
+        raise files.ReadError(f"{folder}: no map_mobile_*.vtp with values in it: condyle motion writes them with --maps")
+    if maps:
+        found.append(("pressure_map", _surfaces(folder, maps, frames, projection)))
+    return found
+
+
+def _maps(folder: Path) -> Dict[int, Path]:
+    """The surfaces that cast, by frame."""
+    for body in ("fixed", "mobile"):
+        paths = sorted(folder.glob(f"map_{body}_[0-9]*.vtp"))
+        if paths and (body == "fixed" or (folder / "map_fixed.vtp").exists()):
+            return {int(path.stem.rpartition("_")[2]): path for path in paths}
+    return {}
+
+
+def _chosen(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]]) -> List[int]:
+    known = sorted(maps)
+    if not frames:
+        return sorted({known[0], known[len(known) // 2], known[-1]})
+    for frame in frames:
+        if frame not in maps:
+            raise files.ReadError(f"{folder}: no map of frame {frame}: there are {known[0]} to {known[-1]}")
+    return list(frames)
+
+
+def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: str) -> Callable[[], Figure]:
+    chosen = _chosen(folder, maps, frames)
+    surfaces = [files.read_surface(maps[frame]) for frame in chosen]
+    name = next((name for name in ("pressure_mpa", "depth_mm") if name in surfaces[0].values), None)
+    if name is None:
+        raise files.ReadError(f"{maps[chosen[0]]}: no cell array pressure_mpa or depth_mm")
+    first = files.read_surface(maps[min(maps)])
+    answer = files.read_json(folder / "motion.json")
+    in_joint_frame = (answer.get("provenance") or {}).get("frame") == "joint"
+    side = answer.get("side") if in_joint_frame else None
+    return functools.partial(_side_by_side, surfaces, first, name, side, projection)
+
+
+def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name: str, side: Optional[str],
+                  projection: str) -> Figure:
+    """All frames laid out as the first of the motion, so that places compare, on one scale."""
+    anywhere = np.max([surface.values[name] for surface in surfaces], axis=0) > 0
+    weights = np.where(anywhere, 1.0, 0.0) if anywhere.any() else np.ones(len(anywhere))
+    flat = laid_flat(projection, first.vertices, first.triangles, weights)
+    highest = max(float(surface.values[name].max()) for surface in surfaces) or 1.0
+    points = flat.points_mm[first.triangles[flat.facing | anywhere]].reshape(-1, 2)
+    width, height = np.ptp(points, axis=0)
+    each_mm = (style.DOUBLE_COLUMN_MM - 32) / len(surfaces)
+    with style.print_style():
+        figure, all_axes = plt.subplots(1, len(surfaces), sharex=True, sharey=True, squeeze=False, layout="constrained",
+                                        figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 13 + min(each_mm * height / width, 120)))
+        for i, (ax, surface) in enumerate(zip(all_axes.flat, surfaces)):
+            pressure_map(surface.vertices, surface.triangles, surface.values[name], ax=ax, highest=highest, side=side,
+                         colour_bar=False, flattened=flat)
+            ax.text(0.02, 0.98, "abcdefghijklmnopqrstuvwxyz"[i % 26], transform=ax.transAxes, fontweight="bold", va="top")
+            if i:
+                ax.set_ylabel("")
+        add_scale(all_axes, highest, quantity_label(name))
+    return figure

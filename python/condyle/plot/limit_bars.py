@@ -1,0 +1,143 @@
+"""How far each motion turns, as bars."""
+from __future__ import annotations
+
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
+
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.ticker import MultipleLocator
+
+from . import style
+from .motion_ends import Band, MotionEnd, motion_ends
+from .words import in_two_lines, motion_name, of, step_of_ticks
+
+
+class End(NamedTuple):
+    """How one way of ending is drawn: each has a shape of its own, so that the figure reads without colour."""
+
+    colour: str
+    marker: str
+    words: str
+
+
+ENDS: Dict[str, End] = {
+    "impingement": End(style.BLUE, "o", "impingement"),
+    "contact": End(style.BLUE, "o", "contact"),
+    "bearing": End(style.ORANGE, "D", "bearing contact"),
+    "end_of_range": End(style.GREY, ">", "no contact in the range"),
+    "contact_at_start": End(style.VERMILION, "X", "in contact at the start"),
+}
+
+
+def _value(end: MotionEnd) -> str:
+    """ "131.9° (126–135)": a limit with its band, as it may be quoted; "≥ 120°" where the range ended before."""
+    turned, band = end.turned_deg, end.band
+    if end.end == "end_of_range" and (band is None or band.p5_deg > turned - 0.5):
+        return f"≥ {turned:.0f}°"
+    text = f"{turned:.1f}°"
+    return text if band is None else f"{text} ({band.p5_deg:.0f}–{band.p95_deg:.0f})"
+
+
+def _bar(ax: Axes, y: float, end: MotionEnd) -> None:
+    look = ENDS[end.end]
+    ax.barh(y, end.turned_deg, height=0.3, color=look.colour, gid="limit", zorder=2)
+    if end.bearing_deg is not None:
+        _mark(ax, end.bearing_deg, y, ENDS["bearing"], "bearing_contact")
+    _mark(ax, end.turned_deg, y, look, "end")
+
+
+def _mark(ax: Axes, x: float, y: float, end: End, gid: str) -> None:
+    ax.plot([x], [y], marker=end.marker, color=end.colour, markeredgecolor="white", markeredgewidth=0.6, markersize=5.5,
+            linestyle="none", clip_on=False, zorder=4, gid=gid)
+
+
+def _whisker(ax: Axes, y: float, band: Band) -> None:
+    below = y + 0.29  # of the bar: the mark at its end would hide a narrow band
+    ax.errorbar([band.median_deg], [below], xerr=[[band.median_deg - band.p5_deg], [band.p95_deg - band.median_deg]], fmt="|",
+                color=style.BLACK, markersize=3, markeredgewidth=0.7, elinewidth=0.7, capsize=1.6, capthick=0.7, zorder=3,
+                label="_band")
+
+
+def _normal(ax: Axes, y: float, degrees: float) -> None:
+    ax.barh(y, degrees, height=0.74, color=style.LIGHT_GREY, gid="normal_range", zorder=1)
+    ax.vlines(degrees, y - 0.37, y + 0.37, color=style.GREY, linewidth=0.9, zorder=1)
+
+
+def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
+    """What is shown, for the legend."""
+    shown = {end.end for end in ends}
+    if any(end.bearing_deg is not None for end in ends):
+        shown.add("bearing")
+    handles: List[Any] = [
+        Line2D([], [], marker=end.marker, color=end.colour, markeredgecolor="white", markeredgewidth=0.6, label=end.words,
+               linewidth=3)
+        for name, end in ENDS.items()
+        if name in shown
+    ]
+    if any(end.band is not None for end in ends):
+        handles.append(Line2D([], [], marker="|", color=style.BLACK, linewidth=0.7, markersize=4, label="band, 5 to 95 %"))
+    if any(end.normal_deg is not None for end in ends):
+        handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
+    return handles
+
+
+def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequence[Any]] = True,
+           normal_ranges: Union[bool, Mapping[str, float]] = True, values: bool = True, legend: bool = True) -> Axes:
+    """Draws how far each motion turns from its start, as horizontal bars in degrees.
+
+    Parameters
+    ----------
+    result
+        A `condyle.RangeOfMotion`, what `files.read_rom` gives, or a mapping or object with `motions`, each with what `rom.json` has
+        of it: `name`, `limit_deg`, `reason`, `contact_kind`, and where there is one `bearing_contact_deg`, `band` (with `p5_deg`,
+        `median_deg`, `p95_deg`) and `normal_range_deg`.
+    ax
+        Where to draw; without it new axes as wide as a column, under `print_style`.
+    bands
+        A whisker from 5 to 95 % of each limit, with a tick at the median: those of the result, or one per motion as
+        `RangeOfMotion.bands` gives them. False: none.
+    normal_ranges
+        A grey bar behind, where a source has a value: of the living, in whom soft tissue stops most motions before bone does. Those of
+        the result, or degrees by the names of motions. False: none.
+    values
+        The limit in figures at the right, with its band in brackets.
+    legend
+        What marks and bars mean, below the axes.
+
+    Returns
+    -------
+    The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) tells what ended it, a diamond on the bar (gid
+    `bearing_contact`) where bearing surfaces met on the way.
+    """
+    ends = motion_ends(result, bands)
+    if normal_ranges is not True:
+        given = normal_ranges or {}
+        ends = [end._replace(normal_deg=given.get(end.name)) for end in ends]
+    is_ours = ax is None
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, 22 + 6.2 * len(ends)) as ax:
+        longest = 10.0  # degrees: an axis of some length when nothing turns at all
+        for y, end in enumerate(ends):
+            longest = max(longest, end.turned_deg)
+            _bar(ax, y, end)
+            if end.normal_deg is not None:
+                _normal(ax, y, end.normal_deg)
+                longest = max(longest, end.normal_deg)
+            if end.band is not None:
+                _whisker(ax, y, end.band)
+                longest = max(longest, end.band.p95_deg)
+            if values:
+                ax.text(1.04, y, _value(end), transform=ax.get_yaxis_transform(), va="center", fontsize=style.smaller(1.5),
+                        gid="value")
+        step = step_of_ticks(longest, 5)
+        ax.set_xlim(0, step * -(-longest // step))
+        ax.xaxis.set_major_locator(MultipleLocator(step))
+        ax.set_ylim(len(ends) - 0.5, -0.5)
+        ax.set_yticks(range(len(ends)), [in_two_lines(motion_name(end.name)) for end in ends])
+        ax.tick_params(axis="y", length=0)
+        ax.grid(axis="x")
+        ax.set_xlabel("turned from the start of the motion (°)")
+        if legend:
+            source = of(result, "normal_range_source") if normal_ranges is True else None
+            style.legend_below(ax, is_ours, _handles(ends, source))
+    return ax

@@ -1,0 +1,249 @@
+"""The range of motion over two held angles, as a map with contours."""
+from __future__ import annotations
+
+import math
+from typing import Any, Iterator, List, Optional, Sequence, Tuple
+
+import matplotlib
+import matplotlib.patheffects as effects
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PatchCollection
+from matplotlib.patches import Patch, Rectangle
+from matplotlib.text import Text
+from matplotlib.ticker import FuncFormatter, MultipleLocator
+from matplotlib.transforms import Bbox
+from numpy.typing import NDArray
+
+from . import style
+from .motion_grid import MotionGrid
+from .words import OPPOSITE, angle_axis, in_two_lines, number, of, spaced, step_of_ticks
+
+Array = NDArray[np.float64]
+VIEWS = ("positive", "negative", "free_range")
+"""What of a map can be drawn: how far it turns in the positive sense, in the negative sense, and both together."""
+
+#           gid              hatch   colour            words
+HATCHES = {
+    "nowhere": ("////", "#8c8c8c", "free nowhere"),
+    "not_at_start": ("\\\\\\\\", style.VERMILION, "not free at the start"),
+    "islands": ("....", style.BLACK, "free again beyond contact"),
+    "open": ("||||", "white", "no contact in the range"),
+}
+MOST_LEVELS = 12
+
+
+def grid_of(result: Any) -> MotionGrid:
+    """The map of a result: itself, its `grid`, or a `condyle.MotionMap` as a grid."""
+    if isinstance(result, MotionGrid):
+        return result
+    grid = of(result, "grid")
+    if isinstance(grid, MotionGrid):
+        return grid
+    if all(hasattr(result, name) for name in ("column_deg", "row_deg", "free_at_start", "positive")):
+        return _of_motion_map(result)
+    raise ValueError("no map of combined motion in this result")
+
+
+def _of_motion_map(result: Any) -> MotionGrid:
+    """Where the start is not free, ends of the range are not told from contact."""
+    column, row, varied = ((name, OPPOSITE.get(name, f"negative {name}")) for name in (result.column, result.row, result.vary))
+    end_of_range = 1  # condyle.REASONS
+    free = np.asarray(result.free_at_start)
+    count = np.diff(np.asarray(result.offset)).reshape(free.shape)
+    return MotionGrid(column, row, varied, np.asarray(result.column_deg), np.asarray(result.row_deg), float(result.start_deg),
+                      np.asarray(result.lower_deg), np.asarray(result.upper_deg),
+                      (np.asarray(result.negative.reason) == end_of_range) & free,
+                      (np.asarray(result.positive.reason) == end_of_range) & free, free, count)
+
+
+def values_of(grid: MotionGrid, view: str) -> Array:
+    """Degrees from the start, (rows, columns); below 0 where the interval drawn does not reach the start, NaN where none is."""
+    if view == "positive":
+        return grid.upper_deg - grid.start_deg
+    if view == "negative":
+        return grid.start_deg - grid.lower_deg
+    if view == "free_range":
+        return grid.upper_deg - grid.lower_deg
+    raise ValueError(f"view '{view}': there are positive, negative and free_range")
+
+
+def quantity_of(grid: MotionGrid, view: str) -> str:
+    """ "limit of internal rotation", or "free range of internal and external rotation"."""
+    positive, negative = (spaced(name) for name in grid.varied)
+    if view != "free_range":
+        return f"limit of {positive if view == 'positive' else negative}"
+    first, last = positive.split(" "), negative.split(" ")
+    if len(first) > 1 and first[1:] == last[1:]:
+        return f"free range of {first[0]} and {negative}"
+    return f"free range of {positive} and {negative}"
+
+
+def _levels(values: Array) -> Array:
+    """Multiples of a round step, from below the lowest value to above the highest; no step below a degree."""
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    step = step_of_ticks(max(high - low, 1.0), MOST_LEVELS)
+    first = math.floor(low / step)
+    last = max(math.ceil(high / step), first + 1)
+    return np.arange(first, last + 1) * step
+
+
+def _borders(values: Array) -> Array:
+    """Half way between neighbours, and the outer values themselves."""
+    return np.concatenate((values[:1], (values[1:] + values[:-1]) / 2, values[-1:]))
+
+
+def _cells(grid: MotionGrid, marked: NDArray[np.bool_]) -> Iterator[Rectangle]:
+    """Around the marked points, neighbours in a row at once."""
+    across, up = _borders(grid.columns_deg), _borders(grid.rows_deg)
+    for row in range(len(grid.rows_deg)):
+        edges = np.flatnonzero(np.diff(np.concatenate(([0], marked[row].astype(np.int8), [0]))))
+        for first, last in edges.reshape(-1, 2):
+            yield Rectangle((across[first], up[row]), across[last] - across[first], up[row + 1] - up[row])
+
+
+def _hatch(ax: Axes, grid: MotionGrid, marked: NDArray[np.bool_], name: str) -> None:
+    pattern, colour, _ = HATCHES[name]
+    cells = PatchCollection(list(_cells(grid, marked)), facecolor="none", edgecolor=colour, linewidth=0, hatch=pattern,
+                            zorder=1.5, gid=name)
+    ax.add_collection(cells)
+
+
+def _marks(grid: MotionGrid, view: str) -> List[Tuple[str, NDArray[np.bool_]]]:
+    """What is hatched, and where; only what there is."""
+    is_open = {"positive": grid.upper_open, "negative": grid.lower_open, "free_range": grid.upper_open | grid.lower_open}[view]
+    somewhere = grid.intervals > 0
+    marks = [
+        ("nowhere", ~somewhere),
+        ("not_at_start", somewhere & ~grid.free_at_start),
+        ("islands", grid.intervals > 1),
+        ("open", somewhere & is_open),
+    ]
+    return [(name, marked) for name, marked in marks if marked.any()]
+
+
+def _handles(names: Sequence[str]) -> List[Patch]:
+    """What the hatchings mean, for the legend."""
+    handles = []
+    for name in names:
+        pattern, colour, words = HATCHES[name]
+        ground = style.LIGHT_GREY if name == "nowhere" else matplotlib.colormaps[style.SEQUENTIAL](0.45 if name == "open" else 0.75)
+        handles.append(Patch(facecolor=ground, edgecolor=colour, hatch=pattern, linewidth=0, label=words))
+    return handles
+
+
+def _tidy(ax: Axes, labels: Sequence[Text]) -> None:
+    """Labels of contours upright, with a white border; without those that stand on another one or across the frame."""
+    kept: List[Bbox] = []
+    frame = ax.get_window_extent()
+    for label in labels:
+        label.set_rotation(0)
+        label.set_path_effects([effects.withStroke(linewidth=1.8, foreground="white")])
+        extent = label.get_window_extent(ax.figure.canvas.get_renderer())
+        is_inside = frame.x0 < extent.x0 and extent.x1 < frame.x1 and frame.y0 < extent.y0 and extent.y1 < frame.y1
+        if is_inside and not any(extent.overlaps(other) for other in kept):
+            kept.append(extent)
+        else:
+            label.set_visible(False)
+
+
+MOST_TICKS = 7
+
+
+def _angle_ticks(axis: Any, values: Array) -> None:
+    """Ticks at values of the grid, true minus signs."""
+    step = (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
+    steps = next(n for n in (1, 2, 3, 4, 5, 6, 9, 10, 18, 20, 45, 50, 90, 100, 10**9) if n * MOST_TICKS >= len(values) - 1)
+    axis.set_major_locator(MultipleLocator(step * steps))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: number(round(value, 6))))
+
+
+def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None, levels: Optional[Sequence[float]] = None,
+               colour_bar: bool = True, legend: bool = True) -> Axes:
+    """Draws how far one angle turns over two held ones, as filled contours with labels.
+
+    Points between those of the grid are interpolated linearly. Drawn is the free interval that holds the start, else the one
+    nearest to it: its end is then on the other side of the start, and the limit below zero.
+
+    Parameters
+    ----------
+    result
+        A `condyle.MotionMap`, what `files.read_rom` gives of a folder with a map, or a `MotionGrid`.
+    view
+        `"positive"` or `"negative"`: how far from the start it turns in that sense; `"free_range"`: both together.
+    ax
+        Where to draw; without it new axes as wide as a column, under `print_style`.
+    levels
+        Contours in degrees, ascending, for maps that are to be compared; otherwise round ones that hold all values.
+    colour_bar, legend
+        The scale at the right; what the hatchings mean, below.
+
+    Returns
+    -------
+    The axes. Cells around points are hatched, by gid: `nowhere` free, free but `not_at_start`, with other free intervals
+    (`islands`), free up to the end of the range (`open`). A map of one row or one column has no area and is drawn as a curve.
+    """
+    grid = grid_of(result)
+    values = values_of(grid, view)
+    if np.isnan(values).all():
+        raise ValueError("nothing to draw: no point of the map is free")
+    if min(values.shape) < 2:
+        return _curve(grid, values, view, ax)
+    chosen = _levels(values) if levels is None else np.asarray(levels, dtype=np.float64)
+    marks = _marks(grid, view)
+    is_ours = ax is None
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, 68 + style.rows_below(len(marks))) as ax:
+        ax.set_facecolor(style.LIGHT_GREY)
+        ax.set_xlim(grid.columns_deg[0], grid.columns_deg[-1])
+        ax.set_ylim(grid.rows_deg[0], grid.rows_deg[-1])
+        filled = ax.contourf(grid.columns_deg, grid.rows_deg, values, levels=chosen, cmap=style.SEQUENTIAL, zorder=1,
+                             extend="neither" if levels is None else "both")
+        lines = ax.contour(grid.columns_deg, grid.rows_deg, values, levels=chosen, colors="black", linewidths=0.5, zorder=2)
+        for name, marked in marks:
+            _hatch(ax, grid, marked, name)
+        labels = ax.clabel(lines, fmt=lambda level: number(level), fontsize=style.smaller(1), inline=False)
+        _tidy(ax, labels)
+        for side in ("top", "right"):
+            ax.spines[side].set_visible(True)
+        _angle_ticks(ax.xaxis, grid.columns_deg)
+        _angle_ticks(ax.yaxis, grid.rows_deg)
+        ax.set_xlabel(angle_axis(*grid.column, *ax.get_xlim()))
+        ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim()))
+        if colour_bar:
+            bar = ax.figure.colorbar(filled, ax=ax, pad=0.02, aspect=28)
+            bar.outline.set_linewidth(0.6)
+            bar.formatter = FuncFormatter(lambda value, _: number(value))
+            bar.update_ticks()
+            bar.set_label(in_two_lines(f"{quantity_of(grid, view)} (°)", 40))
+        if legend:
+            style.legend_below(ax, is_ours, _handles([name for name, _ in marks]))
+    return ax
+
+
+def _curve(grid: MotionGrid, values: Array, view: str, ax: Optional[Axes]) -> Axes:
+    """Along one held angle: broken where nothing is free, hollow where the range ends without contact."""
+    along_columns = len(grid.rows_deg) == 1
+    held = grid.columns_deg if along_columns else grid.rows_deg
+    flat = values.ravel()
+    marks = dict(_marks(grid, view))
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, 60) as ax:
+        ax.plot(held, flat, marker="o", color=style.BLUE, gid="limit")
+        if "open" in marks:
+            at = marks["open"].ravel()
+            ax.plot(held[at], flat[at], marker="o", linestyle="none", markerfacecolor="white", markeredgecolor=style.BLUE,
+                    label=HATCHES["open"][2], gid="open")
+        if "not_at_start" in marks:
+            at = marks["not_at_start"].ravel()
+            ax.plot(held[at], flat[at], marker="s", linestyle="none", color=style.VERMILION, label=HATCHES["not_at_start"][2],
+                    gid="not_at_start")
+        if "nowhere" in marks:
+            at = marks["nowhere"].ravel()
+            ax.plot(held[at], np.zeros(at.sum()), marker="X", linestyle="none", color=style.VERMILION, clip_on=False,
+                    transform=ax.get_xaxis_transform(), label=HATCHES["nowhere"][2], gid="nowhere")
+        _angle_ticks(ax.xaxis, held)
+        ax.grid(axis="y")
+        ax.set_xlabel(angle_axis(*(grid.column if along_columns else grid.row), float(held[0]), float(held[-1])))
+        ax.set_ylabel(f"{quantity_of(grid, view)} (°)")
+        if set(marks) - {"islands"}:
+            ax.legend()
+    return ax

@@ -1,0 +1,171 @@
+"""Contact along a recorded motion or over a cycle, as curves."""
+from __future__ import annotations
+
+from typing import Any, Mapping, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike, NDArray
+
+from . import style
+from .words import spaced
+
+Array = NDArray[np.float64]
+Table = Mapping[str, ArrayLike]
+
+
+class Quantity(NamedTuple):
+    """What can be drawn: its axis, and the columns with the words that tell them apart."""
+
+    axis: str
+    columns: Tuple[Tuple[str, str], ...]
+
+
+QUANTITIES = {
+    "area": Quantity("contact area (mm²)", (("area_mm2", ""),)),
+    "depth": Quantity("depth (mm)", (("max_depth_mm", "largest"), ("mean_depth_mm", "mean"))),
+    "pressure": Quantity("pressure (MPa)", (("max_pressure_mpa", "largest"), ("mean_pressure_mpa", "mean"))),
+    "force": Quantity("contact force (N)", (("force_n", ""),)),
+    "gap": Quantity("smallest gap (mm)", (("smallest_gap_mm", ""),)),
+}
+STYLES = ("-", "--", ":")
+UNITS = {"s": "s", "deg": "°", "mm": "mm", "percent": "%", "mm2": "mm²", "mpa": "MPa", "n": "N", "nmm": "N mm"}
+
+
+def column(table: Table, name: str) -> Array:
+    """A column by its name; `force_n` is the length of `force_x_n`, `force_y_n`, `force_z_n`."""
+    if name == "force_n" and name not in table:
+        parts = [np.asarray(table[f"force_{axis}_n"], dtype=np.float64) for axis in "xyz"]
+        return np.asarray(np.sqrt(sum(part**2 for part in parts)))
+    return np.asarray(table[name], dtype=np.float64)
+
+
+def has(table: Table, quantity: str) -> bool:
+    """Whether a table has the columns of a quantity."""
+    return all(name in table or (name == "force_n" and "force_x_n" in table) for name, _ in QUANTITIES[quantity].columns)
+
+
+def axis_label(name: str) -> str:
+    """ "flexion (°)" of `flexion_deg`; "time (s)", "cycle (%)"."""
+    words, _, unit = name.rpartition("_")
+    return f"{spaced(words)} ({UNITS[unit]})" if words and unit in UNITS else spaced(name)
+
+
+def _quantity(tables: Sequence[Table], quantity: str) -> Quantity:
+    if quantity not in QUANTITIES:
+        raise ValueError(f"quantity '{quantity}': there are {', '.join(QUANTITIES)}")
+    if not all(has(table, quantity) for table in tables):
+        raise ValueError(f"no {quantity} in this table: it has {', '.join(tables[0])}")
+    return QUANTITIES[quantity]
+
+
+def _label(label: Optional[str], words: str) -> str:
+    return ", ".join(part for part in (label, words) if part) or "_curve"
+
+
+def _finish(ax: Axes, along: str, quantity: Quantity) -> None:
+    ax.set_xlabel(axis_label(along))
+    ax.set_ylabel(quantity.axis)
+    ax.set_ylim(bottom=0)
+    ax.grid(axis="y")
+    ax.margins(x=0)
+    if ax.get_legend_handles_labels()[1]:
+        ax.legend(fontsize=style.smaller(1.5))
+
+
+def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Optional[str] = None, label: Optional[str] = None,
+          reference: Optional[Table] = None, reference_label: str = "reference", colour: str = style.BLUE) -> Axes:
+    """Draws one quantity along a motion.
+
+    Parameters
+    ----------
+    table
+        Columns by name: what `files.read_curves` gives of `curves.csv`, `regions.csv` or `cycle.csv`, a pandas DataFrame, or arrays in
+        a dict. NaN is a gap, and the line is broken there.
+    quantity
+        `"area"`, `"depth"` (largest and mean), `"pressure"` (largest and mean), `"force"` (length of the vector) or `"gap"`.
+    ax
+        Where to draw; without it new axes as wide as a column, under `print_style`. Given again, a second motion is drawn over
+        the first.
+    along
+        The column to the right: the first one (`time_s`, `frame`, `cycle_percent`), or an angle such as `"flexion_deg"`.
+    label, colour
+        Of this motion.
+    reference, reference_label
+        Columns of the same names by another method, drawn as black dots: at most 40, evenly spaced.
+
+    Returns
+    -------
+    The axes; lines have the gid `curve` and the name of the column, such as `curve:area_mm2`, those of the reference `reference:…`.
+    """
+    drawn = _quantity([table] if reference is None else [table, reference], quantity)
+    along = along or next(iter(table))
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, 52) as ax:
+        for (name, words), line in zip(drawn.columns, STYLES):
+            ax.plot(column(table, along), column(table, name), linestyle=line, color=colour, label=_label(label, words),
+                    gid=f"curve:{name}")
+        if reference is not None:
+            marked = max(1, -(-len(column(reference, along)) // 40))
+            for i, (name, _) in enumerate(drawn.columns):
+                ax.plot(column(reference, along), column(reference, name), linestyle="none", marker=".", markersize=3.5,
+                        markevery=marked, color=style.BLACK, zorder=3, label="_more" if i else reference_label,
+                        gid=f"reference:{name}")
+        _finish(ax, along, drawn)
+    return ax
+
+
+def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None, label: Optional[str] = None,
+           colour: str = style.BLUE) -> Axes:
+    """Draws the mean of a quantity over several cycles, and one standard deviation to either side.
+
+    Parameters
+    ----------
+    tables
+        Two or more of `cycle.csv`, as `files.read_curves` gives them, with the same `cycle_percent`. A gap in one is left out of the
+        mean there.
+    quantity, ax, label, colour
+        As for `curve`; of a quantity with two columns the first one, the largest value.
+
+    Returns
+    -------
+    The axes; the mean has the gid `mean`, the band `deviation` (of a sample: divided by n - 1).
+    """
+    if len(tables) < 2:
+        raise ValueError(f"{len(tables)} cycle: a mean needs two or more")
+    drawn = _quantity(tables, quantity)
+    percent = column(tables[0], "cycle_percent")
+    if any(not np.array_equal(column(table, "cycle_percent"), percent) for table in tables[1:]):
+        raise ValueError("the cycles are not sampled at the same cycle_percent")
+    name, words = drawn.columns[0]
+    values = np.array([column(table, name) for table in tables])
+    known = np.isfinite(values)
+    count = known.sum(axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):  # NaN where too few are known
+        mean = np.where(known, values, 0).sum(axis=0) / count
+        deviation = np.sqrt(np.square(np.where(known, values - mean, 0)).sum(axis=0) / (count - 1))
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, 52) as ax:
+        ax.fill_between(percent, mean - deviation, mean + deviation, color=colour, alpha=0.25, linewidth=0, gid="deviation")
+        ax.plot(percent, mean, color=colour, label=_label(label, f"{words} mean ± 1 SD, n = {len(tables)}".strip()), gid="mean")
+        _finish(ax, "cycle_percent", drawn)
+    return ax
+
+
+def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None) -> Any:
+    """Area, depth, pressure and force of one motion, as far as there are, in one figure as wide as a page; returns the figure."""
+    import matplotlib.pyplot as plt
+
+    shown = [name for name in ("area", "depth", "pressure", "force") if has(table, name)]
+    if not shown:
+        raise ValueError(f"no contact in this table: it has {', '.join(table)}")
+    rows = -(-len(shown) // 2)
+    with style.print_style():
+        figure, all_axes = plt.subplots(rows, 2, figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 50 * rows), layout="constrained",
+                                        squeeze=False)
+        for i, ax in enumerate(all_axes.flat):
+            if i >= len(shown):
+                ax.set_axis_off()
+                continue
+            known = None if reference is None or not has(reference, shown[i]) else reference
+            curve(table, shown[i], ax=ax, along=along, label=label, reference=known)
+            ax.text(-0.01, 1.03, "abcd"[i], transform=ax.transAxes, fontweight="bold", ha="right")
+    return figure

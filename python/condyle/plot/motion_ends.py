@@ -1,0 +1,67 @@
+"""What figures need of a range of motion, whether it comes from rom.json or from `Joint.range_of_motion`."""
+from __future__ import annotations
+
+from typing import Any, List, NamedTuple, Optional, Sequence, Union
+
+from .words import of
+
+
+class Band(NamedTuple):
+    """Of a limit, degrees: 5, 50 and 95 % of the joints of its band."""
+
+    p5_deg: float
+    median_deg: float
+    p95_deg: float
+
+
+class MotionEnd(NamedTuple):
+    """Where a motion ends. `end` is "impingement", "bearing", "contact" (of an unknown kind), "end_of_range" or "contact_at_start";
+    `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12)."""
+
+    name: str
+    turned_deg: float
+    end: str
+    bearing_deg: Optional[float]
+    band: Optional[Band]
+    normal_deg: Optional[float]
+    hour: Optional[float]
+
+
+def _end(reason: str, kind: Optional[str]) -> str:
+    if reason != "contact":
+        return reason
+    return kind if kind in ("impingement", "bearing") else "contact"
+
+
+def _band(found: Any) -> Optional[Band]:
+    return None if found is None else Band(*(float(of(found, name)) for name in Band._fields))
+
+
+def _of_file(limit: Any) -> MotionEnd:
+    return MotionEnd(of(limit, "name"), of(limit, "limit_deg"), _end(of(limit, "reason"), of(limit, "contact_kind")),
+                     of(limit, "bearing_contact_deg"), _band(of(limit, "band")), of(limit, "normal_range_deg"),
+                     of(limit, "clock_hour"))
+
+
+def _of_limit(limit: Any) -> MotionEnd:
+    kind = limit.contact.kind if limit.contact is not None else None
+    return MotionEnd(limit.motion.name, limit.turned_deg, _end(limit.reason, kind), limit.bearing_contact_deg, None,
+                     of(limit, "normal_range_deg"), of(limit, "clock_hour"))
+
+
+def motion_ends(result: Any, bands: Union[bool, Sequence[Any]] = True) -> List[MotionEnd]:
+    """Of each motion of a result. `bands` are those of the result (True), none (False), or one per motion.
+
+    Raises ValueError where there are no motions, or not as many bands.
+    """
+    limits = of(result, "limits")
+    ends = [_of_file(limit) for limit in of(result, "motions") or []] if limits is None else [_of_limit(each) for each in limits]
+    if not ends:
+        raise ValueError("no motions to draw")
+    if bands is True:
+        return ends
+    if bands is False:
+        return [end._replace(band=None) for end in ends]
+    if len(bands) != len(ends):
+        raise ValueError(f"{len(bands)} bands for {len(ends)} motions")
+    return [end._replace(band=_band(band)) for end, band in zip(ends, bands)]

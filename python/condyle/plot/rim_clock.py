@@ -1,0 +1,141 @@
+"""Where on the rim of the socket motions end, as a clock face."""
+from __future__ import annotations
+
+import math
+import textwrap
+from typing import Any, List, NamedTuple, Optional, Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Circle
+
+from . import style
+from .limit_bars import ENDS
+from .motion_ends import motion_ends
+from .words import motion_name
+
+
+def clock_text(hour: float) -> str:
+    """ "1:30" of 1.5: hours and minutes, 12 for the first hour."""
+    minutes = math.floor(hour * 60 + 0.5) % 720
+    return f"{minutes // 60 or 12}:{minutes % 60:02d}"
+
+
+def spread_apart(wanted: Sequence[float], gaps: Sequence[float], low: float, high: float) -> List[float]:
+    """Heights as near as possible (least squares) to those wanted, in the same order and between low and high.
+
+    `wanted` ascends; `gaps[i]` is the least distance from the i-th to the next, one less than heights. Where there is no room,
+    all gaps are made smaller alike.
+    """
+    if not wanted:
+        return []
+    total = sum(gaps)
+    scale = min(1.0, (high - low) / total) if total > 0 else 1.0
+    offsets = [0.0]
+    for gap in gaps:
+        offsets.append(offsets[-1] + gap * scale)
+    # With the offsets taken off, "at least a gap apart" becomes "not descending": pooled means.
+    pools: List[List[float]] = []
+    for value, offset in zip(wanted, offsets):
+        pools.append([value - offset, 1])
+        while len(pools) > 1 and pools[-2][0] / pools[-2][1] > pools[-1][0] / pools[-1][1]:
+            total_, size = pools.pop()
+            pools[-1][0] += total_
+            pools[-1][1] += size
+    highest = max(low, high - offsets[-1])
+    level = [min(max(total_ / size, low), highest) for total_, size in pools for _ in range(int(size))]
+    return [base + offset for base, offset in zip(level, offsets)]
+
+
+def _face(ax: Axes) -> None:
+    ax.add_patch(Circle((0, 0), 1, facecolor="#f7f7f7", edgecolor="#444444", linewidth=1))
+    for hour in range(1, 13):
+        x, y = _on_face(1, hour)
+        ax.plot([0.94 * x, x], [0.94 * y, y], color="#444444", linewidth=0.8)
+        ax.text(0.8 * x, 0.8 * y, str(hour), ha="center", va="center", fontsize=style.smaller(1.5))
+    for hour, word in ((12, "superior"), (6, "inferior")):
+        ax.text(0, 0.5 * _on_face(1, hour)[1], word, ha="center", va="center", fontsize=style.smaller(2.5), color="#555555")
+    for hour, word in ((3, "anterior"), (9, "posterior")):
+        ax.text(0.42 * _on_face(1, hour)[0], 0, word, ha="center", va="center", fontsize=style.smaller(2.5), color="#555555",
+                rotation=90)
+
+
+def _on_face(distance: float, hour: float) -> "tuple[float, float]":
+    angle = hour * math.pi / 6
+    return distance * math.sin(angle), distance * math.cos(angle)
+
+
+RADIUS_MM = 14.5
+HEIGHT_MM = 44.0
+LINE = 2.75 / RADIUS_MM
+"""Height of a line of a label in radii of the face."""
+HALF_HEIGHT, HALF_WIDTH = HEIGHT_MM / 2 / RADIUS_MM, style.SINGLE_COLUMN_MM / 2 / RADIUS_MM
+LETTERS = 16
+"""As many fit beside the face."""
+
+
+class Place(NamedTuple):
+    """Where a motion ends: `hour` in [0, 12), `end` a key of `ENDS`."""
+
+    hour: float
+    motion: str
+    end: str
+
+
+def _labels(ax: Axes, half: List[Place], side: int) -> None:
+    """Of one half of the face; side 1 is the right one."""
+    half = sorted(half, key=lambda place: _on_face(1, place.hour)[1])
+    texts = ["\n".join(textwrap.wrap(f"{clock_text(place.hour)} {motion_name(place.motion)}", LETTERS)) for place in half]
+    heights = [LINE * (1 + text.count("\n")) for text in texts]
+    gaps = [(a + b) / 2 + 0.1 for a, b in zip(heights, heights[1:])]
+    outer = max(heights, default=0.0) / 2
+    at = spread_apart([_on_face(1.14, place.hour)[1] for place in half], gaps, outer - HALF_HEIGHT, HALF_HEIGHT - outer)
+    for place, text, y in zip(half, texts, at):
+        on_rim, bend = _on_face(1, place.hour), _on_face(1.12, place.hour)
+        x = 1.28 * side
+        ax.plot([on_rim[0], bend[0], x], [on_rim[1], bend[1], y], color=style.GREY, linewidth=0.5, zorder=1, gid="leader")
+        ax.text(x + 0.04 * side, y, text, ha="left" if side > 0 else "right", va="center", fontsize=style.smaller(1.5),
+                linespacing=1.05, gid="place")
+
+
+def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -> Axes:
+    """Draws where on the rim of a hip's socket its motions end.
+
+    12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare.
+
+    Parameters
+    ----------
+    result
+        A range of motion, as `limits` takes it; motions with a `clock_hour` in [0, 12) are drawn.
+    ax
+        Where to draw; without it new axes as wide as a column, under `print_style`.
+    legend
+        What the marks mean, where there is more than one kind.
+
+    Returns
+    -------
+    The axes, the face at the origin with radius 1; one mark (gid `end`) per motion on its edge.
+    """
+    found = [Place(end.hour, end.name, end.end) for end in motion_ends(result) if end.hour is not None]
+    kinds = [name for name in ENDS if any(place.end == name for place in found)]
+    handles = [Line2D([], [], marker=ENDS[kind].marker, color=ENDS[kind].colour, linestyle="none", label=ENDS[kind].words)
+               for kind in kinds]
+    if not legend or len(kinds) < 2:
+        handles = []
+    is_ours = ax is None
+    with style.drawing(ax, style.SINGLE_COLUMN_MM, HEIGHT_MM + style.rows_below(len(handles))) as ax:
+        ax.set_axis_off()
+        ax.set_aspect("equal")
+        ax.set_ylim(-HALF_HEIGHT, HALF_HEIGHT)
+        ax.set_xlim(-HALF_WIDTH, HALF_WIDTH)
+        _face(ax)
+        _labels(ax, [place for place in found if place.hour < 6], 1)
+        _labels(ax, [place for place in found if place.hour >= 6], -1)
+        for place in found:
+            end = ENDS[place.end]
+            ax.plot(*([v] for v in _on_face(1, place.hour)), marker=end.marker, color=end.colour, markeredgecolor="white",
+                    markeredgewidth=0.6, markersize=5.5, linestyle="none", zorder=3, gid="end")
+        if not found:
+            ax.text(0, 0, "no contact", ha="center", va="center", gid="none")
+        style.legend_below(ax, is_ours, handles)
+    return ax

@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""Makes the figures of README.md and docs/ anew, from data that commands make in out/docs.
+
+Usage: PYTHONPATH=build/release/python scripts/draw_docs.py [NAME...]
+
+NAME is one or more of hip, deformities and knee; all if none is given. Needs a release build with the example
+`example_deformity_curves`, matplotlib, and for the knee python3-vtk9 and the data that CONDYLE_DATA names. The picture of
+two bones, docs/images/impingement.png, is scripts/picture.py's; those of docs/images/bench are made by `make bench`.
+"""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import condyle.plot as figures  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+from condyle.plot.folder import drawings  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+OUT, IMAGES = ROOT / "out/docs", ROOT / "docs/images"
+DPI = 200  # of screens, not of paper
+
+
+def run(*command):
+    subprocess.run([str(part) for part in command], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+
+
+def condyle(*arguments):
+    run(ROOT / "build/release/condyle", *arguments)
+
+
+def draw(folder, names, **options):
+    """Figures of a folder under other names."""
+    for name, figure in drawings(folder, **options):
+        if name in names:
+            save(figure(), names[name])
+
+
+def save(drawn, name):
+    figures.save(drawn, IMAGES / name, dpi=DPI)
+    plt.close("all")
+    print(f"docs/images/{name}")
+
+
+def draw_hip():
+    condyle("sample", "hip", "--scenario", 2, "--out", OUT / "sample")
+    condyle("rom", OUT / "sample/hip.toml", "--band=40", "--out", OUT / "rom")
+    condyle("rom", OUT / "sample/hip.toml", "--map", "flexion=0:130:5", "adduction=-40:30:5", "--out", OUT / "map")
+    draw(OUT / "rom", {"limits": "limits.png", "clock_face": "clock_face.png"})
+    draw(OUT / "map", {"map_internal_rotation": "map_internal_rotation.png"})
+
+
+def draw_deformities():
+    run(ROOT / "build/release/example_deformity_curves", OUT / "deformities")
+    axes_of = (("alpha_angle", "alpha angle (°)"), ("lateral_centre_edge_angle", "lateral centre-edge angle (°)"))
+    with figures.print_style():
+        figure, both = plt.subplots(1, 2, sharey=True, layout="constrained", figsize=figures.size_mm(130, 52))
+        for ax, (name, label) in zip(both, axes_of):
+            curve = figures.files.read_curves(OUT / f"deformities/{name}.csv")
+            ax.plot(curve[f"{name}_deg"], curve["internal_rotation_deg"], "o-")
+            ax.set_xlabel(label)
+            ax.set_ylim(0, 60)
+            ax.grid(axis="y")
+        both[0].set_ylabel("internal rotation\nat 90° flexion (°)")
+    save(figure, "deformities.png")
+
+
+def draw_knee():
+    data = Path(os.environ.get("CONDYLE_DATA", ROOT.parent / "shared/data")) / "knee_lenhart2015_right"
+    if not data.is_dir():
+        sys.exit(f"{data}: not a folder: set CONDYLE_DATA")
+    os.environ["CONDYLE_DATA"] = str(data.parent)
+    for joint in ("tibiofemoral", "patellofemoral"):
+        condyle("motion", f"examples/{joint}.toml", "--motion", data / "passive_flexion_states.sto", "--load", "--maps", "--out",
+                OUT / joint)
+        draw(OUT / joint, {"pressure_map": f"{joint}_pressure.png"}, frames=[0, 100, 250])
+
+
+DRAWN = {"hip": draw_hip, "deformities": draw_deformities, "knee": draw_knee}
+
+
+if __name__ == "__main__":
+    asked = sys.argv[1:] or list(DRAWN)
+    if not set(asked) <= set(DRAWN):
+        sys.exit(__doc__)
+    for one in asked:
+        DRAWN[one]()

@@ -1,0 +1,201 @@
+"""Bars, whiskers, marks and places on the clock stand where the numbers are."""
+import math
+from types import SimpleNamespace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import condyle.plot as figures
+from condyle.plot.rim_clock import clock_text, spread_apart
+
+
+def motion(name, limit, reason="contact", kind="impingement", **more):
+    return {"name": name, "limit_deg": limit, "reason": reason, "contact_kind": kind, "bearing_contact_deg": None, "band": None,
+            "normal_range_deg": None, "clock_hour": None, **more}
+
+
+BAND = {"p5_deg": 120.5, "median_deg": 126.0, "p95_deg": 131.5}
+RESULT = {
+    "normal_range_source": "AAOS 1965",
+    "motions": [
+        motion("flexion", 127.25, band=BAND, normal_range_deg=120, clock_hour=1.5),
+        motion("internal_rotation_at_90_flexion", 30.5, bearing_contact_deg=12.0, clock_hour=3.0),
+        motion("faber", 90.0, "end_of_range", None),
+        motion("adduction", 0.0, "contact_at_start", "unknown"),
+        motion("extension", 20.0, kind="bearing", clock_hour=7.5),
+    ],
+}
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def bars(ax, gid):
+    return [patch for patch in ax.patches if patch.get_gid() == gid]
+
+
+def lines(ax, gid):
+    return [line for line in ax.lines if line.get_gid() == gid]
+
+
+def texts(ax, gid):
+    return [text.get_text() for text in ax.texts if text.get_gid() == gid]
+
+
+def test_bars_are_as_long_as_the_limits_from_the_top():
+    ax = figures.limits(RESULT)
+    drawn = bars(ax, "limit")
+    assert [bar.get_width() for bar in drawn] == [127.25, 30.5, 90.0, 0.0, 20.0]
+    assert [bar.get_x() for bar in drawn] == [0] * 5
+    heights = [ax.transData.transform((0, bar.get_y()))[1] for bar in drawn]
+    assert heights == sorted(heights, reverse=True)
+    assert [label.get_text() for label in ax.get_yticklabels()][:2] == ["Flexion", "Internal rotation\nat 90° flexion"]
+    assert "(°)" in ax.get_xlabel()
+
+
+def test_normal_ranges_stand_behind_where_a_source_has_one():
+    ax = figures.limits(RESULT)
+    (normal,) = bars(ax, "normal_range")
+    assert normal.get_width() == 120
+    assert normal.get_zorder() < bars(ax, "limit")[0].get_zorder()
+    assert "AAOS 1965" in "".join(text.get_text() for text in ax.get_legend().get_texts())
+    assert not bars(figures.limits(RESULT, normal_ranges=False), "normal_range")
+
+
+def test_whiskers_reach_from_5_to_95_percent_with_the_median_between():
+    ax = figures.limits(RESULT)
+    (whisker,) = [c for c in ax.containers if hasattr(c, "has_xerr")]
+    (segment,) = whisker.lines[2][0].get_segments()
+    assert segment[:, 0] == pytest.approx([120.5, 131.5], abs=1e-12)
+    assert whisker.lines[0].get_xdata() == [126.0]
+    assert texts(ax, "value")[0] == "127.2° (120–132)"
+    without = figures.limits(RESULT, bands=False)
+    assert not [c for c in without.containers if hasattr(c, "has_xerr")]
+    assert texts(without, "value")[0] == "127.2°"
+
+
+def test_what_ended_a_motion_has_a_shape_of_its_own():
+    ax = figures.limits(RESULT)
+    ends = lines(ax, "end")
+    assert [line.get_xdata()[0] for line in ends] == [127.25, 30.5, 90.0, 0.0, 20.0]
+    assert [line.get_marker() for line in ends] == ["o", "o", ">", "X", "D"]
+    (bearing,) = lines(ax, "bearing_contact")
+    assert (bearing.get_xdata()[0], bearing.get_marker()) == (12.0, "D")
+    assert texts(ax, "value")[2:4] == ["≥ 90°", "0.0°"]
+
+
+def test_attributes_do_as_well_as_keys():
+    def as_object(value):
+        if isinstance(value, dict):
+            return SimpleNamespace(**{key: as_object(inner) for key, inner in value.items()})
+        return [as_object(inner) for inner in value] if isinstance(value, list) else value
+
+    by_keys, by_attributes = figures.limits(RESULT), figures.limits(as_object(RESULT))
+    assert [b.get_width() for b in by_keys.patches] == [b.get_width() for b in by_attributes.patches]
+
+
+def test_given_axes_are_drawn_on_and_returned():
+    figure, (left, right) = plt.subplots(1, 2)
+    size = figure.get_size_inches().copy()
+    assert figures.limits(RESULT, ax=right) is right
+    assert not left.patches and right.patches
+    assert (figure.get_size_inches() == size).all()
+    assert len(plt.get_fignums()) == 1
+
+
+def test_own_figures_are_as_wide_as_a_column_in_8_point_without_a_heading():
+    ax = figures.limits(RESULT)
+    assert ax.figure.get_size_inches()[0] * 25.4 == pytest.approx(85)
+    assert ax.xaxis.label.get_size() == 8
+    assert ax.get_title() == "" and ax.figure._suptitle is None
+
+
+def test_nothing_to_draw_is_said_and_leaves_no_figure():
+    with pytest.raises(ValueError, match="no motions"):
+        figures.limits({"motions": []})
+    assert not plt.get_fignums()
+
+
+def test_all_words_are_on_the_paper():
+    for ax in (figures.limits(RESULT), figures.clock_face(RESULT)):
+        figure = ax.figure
+        figure.canvas.draw()
+        page = figure.bbox
+        of_axes = [*ax.get_yticklabels(), ax.xaxis.label] if ax.axison else []
+        words = [*ax.texts, *of_axes, *(ax.get_legend().get_texts() if ax.get_legend() else [])]
+        for text in words:
+            if text.get_text() and text.get_visible():
+                extent = text.get_window_extent(figure.canvas.get_renderer())
+                assert extent.x0 >= -0.5 and extent.x1 <= page.x1 + 0.5, text.get_text()
+                assert extent.y0 >= -0.5 and extent.y1 <= page.y1 + 0.5, text.get_text()
+
+
+def test_the_clock_has_twelve_on_top_and_three_at_the_right():
+    ax = figures.clock_face(RESULT)
+    at = [(line.get_xdata()[0], line.get_ydata()[0]) for line in lines(ax, "end")]
+    half = math.sqrt(0.5)
+    assert np.allclose(at, [(half, half), (1, 0), (-half, -half)], atol=1e-15)
+    assert [line.get_marker() for line in lines(ax, "end")] == ["o", "o", "D"]
+    assert sorted(text.split("\n")[0].split(" ")[0] for text in texts(ax, "place")) == ["1:30", "3:00", "7:30"]
+    assert not lines(figures.clock_face({"motions": [motion("flexion", 1.0)]}), "end")
+
+
+def test_labels_of_the_clock_do_not_overlap():
+    crowded = {"motions": [motion(f"internal_rotation_{i}", 10.0, clock_hour=1 + 0.01 * i) for i in range(7)]}
+    ax = figures.clock_face(crowded)
+    ax.figure.canvas.draw()
+    extents = [text.get_window_extent() for text in ax.texts if text.get_gid() == "place"]
+    assert len(extents) == 7
+    assert not any(a.overlaps(b) for i, a in enumerate(extents) for b in extents[:i])
+
+
+def test_hours_are_named_as_a_clock_names_them():
+    assert [clock_text(hour) for hour in (0, 1.5, 11.999, 9.1)] == ["12:00", "1:30", "12:00", "9:06"]
+
+
+def test_spread_heights_keep_order_gap_and_bounds_and_none_are_nearer():
+    random = np.random.default_rng(4)
+    for _ in range(200):
+        wanted = np.sort(random.integers(0, 100, random.integers(1, 8))).astype(float)
+        gaps = random.integers(5, 14, len(wanted) - 1).astype(float).tolist()
+        heights = np.array(spread_apart(wanted.tolist(), gaps, 0, 100))
+        rounding = 1e-9
+
+        def allowed(h):
+            return (h >= -rounding).all() and (h <= 100 + rounding).all() and (np.diff(h) >= np.array(gaps) - rounding).all()
+
+        assert allowed(heights)
+        cost = ((heights - wanted) ** 2).sum()
+        # The problem is convex: what no shift of a run of neighbours betters is best of all.
+        for first in range(len(wanted)):
+            for last in range(first, len(wanted)):
+                for shift in (-1.0, -0.01, 0.01, 1.0):
+                    other = heights.copy()
+                    other[first : last + 1] += shift
+                    assert not allowed(other) or ((other - wanted) ** 2).sum() >= cost - rounding
+
+
+def test_gaps_shrink_where_there_is_no_room():
+    assert np.allclose(spread_apart([50.0] * 11, [20.0] * 10, 0, 100), np.arange(0, 101, 10))
+    assert spread_apart([], [], 0, 1) == []
+
+
+def test_live_results_are_drawn_as_files_are():
+    """With the names of condyle.RangeOfMotion."""
+
+    def limit(name, turned, reason, kind=None):
+        return SimpleNamespace(motion=SimpleNamespace(name=name), turned_deg=turned, reason=reason, bearing_contact_deg=None,
+                               contact=None if kind is None else SimpleNamespace(kind=kind))
+
+    live = SimpleNamespace(limits=(limit("flexion", 100.0, "contact", "impingement"), limit("faber", 90.0, "end_of_range")))
+    bands = [SimpleNamespace(p5_deg=95.0, median_deg=100.0, p95_deg=104.0), SimpleNamespace(p5_deg=90.0, median_deg=90.0, p95_deg=90.0)]
+    ax = figures.limits(live, bands=bands, normal_ranges={"flexion": 120})
+    assert [bar.get_width() for bar in bars(ax, "limit")] == [100, 90]
+    assert [bar.get_width() for bar in bars(ax, "normal_range")] == [120]
+    assert texts(ax, "value") == ["100.0° (95–104)", "≥ 90°"]
+    with pytest.raises(ValueError, match="1 bands for 2 motions"):
+        figures.limits(live, bands=bands[:1])

@@ -1,0 +1,148 @@
+"""Maps have the colours, contours and hatchings of their numbers."""
+from types import SimpleNamespace
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import condyle.plot as figures
+from condyle.plot.map_contours import quantity_of, values_of
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def plane(rows=4, columns=5, **changes):
+    """Upper ends 10 degrees a column and 20 a row, from 30 on; the start at 5."""
+    upper = 35.0 + 10 * np.arange(columns)[None, :] + 20 * np.arange(rows)[:, None]
+    none = np.zeros((rows, columns), dtype=bool)
+    grid = figures.MotionGrid(("flexion", "extension"), ("adduction", "abduction"), ("internal_rotation", "external_rotation"),
+                              10.0 * np.arange(columns), 5.0 * np.arange(rows) - 10, 5.0, upper - 70, upper, none, none.copy(),
+                              ~none, np.ones((rows, columns), dtype=np.int64))
+    return grid._replace(**changes)
+
+
+def hatched(ax):
+    """Gids of hatchings, with the boxes of their cells in data."""
+    return {c.get_gid(): [p.get_extents().bounds for p in c.get_paths()] for c in ax.collections if c.get_hatch()}
+
+
+def test_views_count_from_the_start():
+    grid = plane()
+    assert values_of(grid, "positive")[0, 0] == 30
+    assert values_of(grid, "negative")[0, 0] == 5 - (35 - 70)
+    assert (values_of(grid, "free_range") == 70).all()
+    assert [quantity_of(grid, view) for view in ("positive", "negative", "free_range")] == [
+        "limit of internal rotation", "limit of external rotation", "free range of internal and external rotation"]
+    with pytest.raises(ValueError, match="view 'up'"):
+        values_of(grid, "up")
+
+
+def test_contours_are_labelled_with_their_levels_and_lie_on_the_plane():
+    ax = figures.motion_map(plane())
+    levels = set(range(30, 131, 10))  # values run from 30 to 130
+    lines = [c for c in ax.collections if len(c.get_edgecolor()) and not c.get_hatch() and not len(c.get_facecolor())]
+    drawn = set()
+    for at in (path.vertices for c in lines for path in c.get_paths() if len(path.vertices)):
+        # The upper end less the start on the plane: linear, so that interpolation is exact to rounding.
+        values = 30 + at[:, 0] + 4 * (at[:, 1] + 10)
+        assert np.ptp(values) < 1e-9
+        drawn.add(round(float(values[0]), 9))
+    assert levels - {30, 130} <= drawn <= levels  # a corner of the map is no line
+    labels = {int(text.get_text()) for text in ax.texts}
+    assert labels and labels <= levels
+
+
+def test_the_scale_holds_all_values_and_can_be_given():
+    bar = figures.motion_map(plane()).figure.axes[-1]
+    assert tuple(bar.get_ylim()) == (30, 130)
+    assert bar.get_ylabel() == "limit of internal rotation (°)"
+    given = figures.motion_map(plane(), levels=[0, 100, 200])
+    bar = given.figure.axes[-1]
+    assert tuple(bar.get_ylim()) == (0, 200)
+
+
+def test_cells_that_are_not_free_are_marked_by_what_they_are():
+    grid = plane()
+    nowhere = grid.intervals.copy()
+    nowhere[0, 0] = 0
+    gone = grid.upper_deg.copy()
+    gone[0, 0] = np.nan
+    at_start = grid.free_at_start.copy()
+    at_start[1, 2] = at_start[0, 0] = False
+    nowhere[3, 4] = 2
+    is_open = grid.upper_open.copy()
+    is_open[2, 1:3] = True
+    ax = figures.motion_map(grid._replace(intervals=nowhere, upper_deg=gone, free_at_start=at_start, upper_open=is_open))
+    cells = hatched(ax)
+    assert cells == {
+        "nowhere": [(0, -10, 5, 2.5)],  # half a cell each way at the corner
+        "not_at_start": [(15, -7.5, 10, 5)],
+        "islands": [(35, 2.5, 5, 2.5)],
+        "open": [(5, -2.5, 20, 5)],  # neighbours in a row at once
+    }
+    words = {text.get_text() for text in ax.get_legend().get_texts()}
+    assert words == {"free nowhere", "not free at the start", "free again beyond contact", "no contact in the range"}
+    # The negative side ends in contact everywhere.
+    assert "open" not in hatched(figures.motion_map(grid._replace(upper_open=is_open), "negative"))
+
+
+def test_a_map_without_marks_has_no_legend():
+    ax = figures.motion_map(plane())
+    assert hatched(ax) == {} and ax.get_legend() is None
+
+
+def test_points_that_are_free_nowhere_have_no_colour():
+    grid = plane()
+    upper = grid.upper_deg.copy()
+    upper[0, 0] = np.nan
+    intervals = grid.intervals.copy()
+    intervals[0, 0] = 0
+    ax = figures.motion_map(grid._replace(upper_deg=upper, intervals=intervals))
+    fills = [p for c in ax.collections if len(c.get_facecolor()) and not c.get_hatch() for p in c.get_paths()]
+    assert not any(p.contains_point((0.5, -9.9)) for p in fills)  # beyond the diagonal of the corner's cell
+    assert any(p.contains_point((9.0, -5.5)) for p in fills)
+
+
+def test_axes_name_the_opposite_movement_only_where_they_have_it():
+    ax = figures.motion_map(plane())
+    assert ax.get_xlabel() == "flexion (°)"
+    assert ax.get_ylabel() == "adduction (+) / abduction (−) (°)"
+    assert (ax.get_xlim(), ax.get_ylim()) == ((0, 40), (-10, 5))
+
+
+def test_one_row_is_a_curve_with_its_points():
+    grid = plane(rows=1)
+    is_open = grid.upper_open.copy()
+    is_open[0, 4] = True
+    ax = figures.motion_map(grid._replace(upper_open=is_open))
+    by_gid = {line.get_gid(): line for line in ax.lines}
+    assert by_gid["limit"].get_ydata().tolist() == [30, 40, 50, 60, 70]
+    assert by_gid["open"].get_xdata().tolist() == [40]
+    assert ax.get_xlabel() == "flexion (°)"
+    across = figures.motion_map(plane(columns=1))
+    assert across.lines[0].get_xdata().tolist() == [-10, -5, 0, 5]
+
+
+def test_a_map_that_is_free_nowhere_is_refused():
+    grid = plane()
+    with pytest.raises(ValueError, match="no point of the map is free"):
+        figures.motion_map(grid._replace(upper_deg=np.full((4, 5), np.nan)))
+    with pytest.raises(ValueError, match="no map"):
+        figures.motion_map({"motions": []})
+
+
+def test_live_maps_are_drawn_as_files_are():
+    """With the names of condyle.MotionMap."""
+    grid = plane(rows=2, columns=3)
+    live = SimpleNamespace(
+        column="flexion", row="adduction", vary="internal_rotation", column_deg=grid.columns_deg, row_deg=grid.rows_deg, start_deg=5.0,
+        lower_deg=grid.lower_deg, upper_deg=grid.upper_deg, free_at_start=np.array([[True, True, False], [True, True, True]]),
+        offset=np.array([0, 1, 2, 3, 5, 6, 7]), negative=SimpleNamespace(reason=np.zeros((2, 3), np.int8)),
+        positive=SimpleNamespace(reason=np.array([[0, 1, 2], [0, 0, 0]], np.int8)))
+    ax = figures.motion_map(live)
+    assert ax.get_ylabel() == "adduction (+) / abduction (−) (°)" or ax.get_ylabel().startswith("adduction (°, negative")
+    assert {name: len(cells) for name, cells in hatched(ax).items()} == {"not_at_start": 1, "islands": 1, "open": 1}
