@@ -82,6 +82,8 @@ const char* name_of(BalanceOutcome outcome) {
   switch (outcome) {
     case BalanceOutcome::balanced:
       return "balanced";
+    case BalanceOutcome::at_jump:
+      return "at_jump";
     case BalanceOutcome::pulled_apart:
       return "pulled_apart";
     case BalanceOutcome::over_the_rim:

@@ -151,7 +151,8 @@ class ElasticContactResults:
 class BalancedPose:
     """The pose in which the contact carries a load, or why there is none.
 
-    `outcome` is "balanced", "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
+    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and next to `X_FM` the force jumps over
+    what is left), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
     there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
     `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose.
     """
