@@ -17,9 +17,9 @@ bench_dependencies:
 build/release/build.ninja: | dependencies
 	@cmake --preset release >/dev/null
 
-# Release build of the library and the command line only.
+# Release build of the library, the command line and the Python module only.
 build: dependencies build/release/build.ninja
-	@cmake --build --preset release --target condyle_cli
+	@cmake --build --preset release --target condyle_cli condyle_python
 
 demo: build
 	@scripts/demo.sh
@@ -50,7 +50,7 @@ fuzz: clang_dependencies
 # Condyle beside other libraries; the pages get the figures of this run, and ratios worse than the stored ones are told.
 bench: bench_dependencies
 	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
-	@cmake --build --preset release --target condyle_bench
+	@cmake --build --preset release --target condyle_bench condyle_python
 	@mkdir -p out/bench docs/images/bench
 	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
 	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/experiment.csv docs/images/bench

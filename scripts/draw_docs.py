@@ -3,8 +3,8 @@
 
 Usage: PYTHONPATH=build/release/python scripts/draw_docs.py [NAME...]
 
-NAME is one or more of hip, deformities and knee; all if none is given. Needs a release build with the example
-`example_deformity_curves`, matplotlib, and for the knee python3-vtk9 and the data that CONDYLE_DATA names. The picture of
+NAME is one or more of hip, deformities, knee and examples; all if none is given. Needs a release build with the example
+`example_deformity_curves`, matplotlib, and for knee and examples python3-vtk9 and the data that CONDYLE_DATA names. The picture of
 two bones, docs/images/impingement.png, is scripts/picture.py's; those of docs/images/bench are made by `make bench`.
 """
 import os
@@ -69,18 +69,31 @@ def draw_deformities():
     save(figure, "deformities.png")
 
 
-def draw_knee():
+def knee_data():
+    """Folder of the knee's data; also for those who ask the environment."""
     data = Path(os.environ.get("CONDYLE_DATA", ROOT.parent / "shared/data")) / "knee_lenhart2015_right"
     if not data.is_dir():
         sys.exit(f"{data}: not a folder: set CONDYLE_DATA")
     os.environ["CONDYLE_DATA"] = str(data.parent)
+    return data
+
+
+def draw_knee():
+    data = knee_data()
     for joint in ("tibiofemoral", "patellofemoral"):
         condyle("motion", f"examples/{joint}.toml", "--motion", data / "passive_flexion_states.sto", "--load", "--maps", "--out",
                 OUT / joint)
         draw(OUT / joint, {"pressure_map": f"{joint}_pressure.png"}, frames=[0, 100, 250])
 
 
-DRAWN = {"hip": draw_hip, "deformities": draw_deformities, "knee": draw_knee}
+def draw_examples():
+    knee_data()
+    for name in ("cam_and_internal_rotation", "knee_over_motion"):
+        run("/usr/bin/python3", f"examples/python/{name}.py", IMAGES / f"{name}.png")
+        print(f"docs/images/{name}.png")
+
+
+DRAWN = {"hip": draw_hip, "deformities": draw_deformities, "knee": draw_knee, "examples": draw_examples}
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ from .files import ReadError
 from .flatten import Flattened, about_centre, on_plane
 from .limit_bars import limits
 from .map_contours import motion_map
-from .motion_curves import curve, cycles, panels
+from .motion_curves import curve, cycles, panels, table_of
 from .motion_grid import MotionGrid
 from .pressure_surface import pressure_map
 from .rim_clock import clock_face
@@ -54,4 +54,5 @@ __all__ = [
     "save",
     "size_mm",
     "style",
+    "table_of",
 ]

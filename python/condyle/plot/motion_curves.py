@@ -1,7 +1,7 @@
 """Contact along a recorded motion or over a cycle, as curves."""
 from __future__ import annotations
 
-from typing import Any, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -45,6 +45,22 @@ def has(table: Table, quantity: str) -> bool:
     return all(name in table or (name == "force_n" and "force_x_n" in table) for name, _ in QUANTITIES[quantity].columns)
 
 
+def table_of(time_s: ArrayLike, answers: Sequence[Any]) -> Dict[str, Array]:
+    """Curves of what `condyle.ElasticContact.at` answers of the poses of a motion, by the names of `curves.csv`.
+
+    `time_s` (N,), and N answers; of bodies that both cast the mobile one's surface. None is a gap.
+    """
+    found = [None if answer is None else (answer.mobile or answer.fixed).totals for answer in answers]
+    table = {"time_s": np.asarray(time_s, dtype=np.float64)}
+    if len(table["time_s"]) != len(found):
+        raise ValueError(f"{len(table['time_s'])} times for {len(found)} answers")
+    for name in ("area_mm2", "mean_depth_mm", "max_depth_mm", "mean_pressure_mpa", "max_pressure_mpa"):
+        table[name] = np.array([np.nan if totals is None else getattr(totals, name) for totals in found])
+    for k, axis in enumerate("xyz"):
+        table[f"force_{axis}_n"] = np.array([np.nan if totals is None else totals.force_n[k] for totals in found])
+    return table
+
+
 def axis_label(name: str) -> str:
     """ "flexion (°)" of `flexion_deg`; "time (s)", "cycle (%)"."""
     words, _, unit = name.rpartition("_")
@@ -80,8 +96,8 @@ def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Opti
     Parameters
     ----------
     table
-        Columns by name: what `files.read_curves` gives of `curves.csv`, `regions.csv` or `cycle.csv`, a pandas DataFrame, or arrays in
-        a dict. NaN is a gap, and the line is broken there.
+        Columns by name: what `files.read_curves` gives of `curves.csv` or `cycle.csv`, what `table_of` gives of answers, a pandas
+        DataFrame, or arrays in a dict. NaN is a gap, and the line is broken there.
     quantity
         `"area"`, `"depth"` (largest and mean), `"pressure"` (largest and mean), `"force"` (length of the vector) or `"gap"`.
     ax
@@ -150,8 +166,12 @@ def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None,
     return ax
 
 
-def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None) -> Any:
-    """Area, depth, pressure and force of one motion, as far as there are, in one figure as wide as a page; returns the figure."""
+def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None,
+           reference_label: str = "reference") -> Any:
+    """Area, depth, pressure and force of one motion, as far as there are, in one figure as wide as a page; returns the figure.
+
+    Arguments are those of `curve`.
+    """
     import matplotlib.pyplot as plt
 
     shown = [name for name in ("area", "depth", "pressure", "force") if has(table, name)]
@@ -166,6 +186,6 @@ def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = 
                 ax.set_axis_off()
                 continue
             known = None if reference is None or not has(reference, shown[i]) else reference
-            curve(table, shown[i], ax=ax, along=along, label=label, reference=known)
+            curve(table, shown[i], ax=ax, along=along, label=label, reference=known, reference_label=reference_label)
             ax.text(-0.01, 1.03, "abcd"[i], transform=ax.transAxes, fontweight="bold", ha="right")
     return figure

@@ -206,3 +206,15 @@ def test_what_the_command_writes_is_read(tmp_path, command, hip_file):
     held = grid.free_at_start.ravel()
     assert held.any()
     assert np.array_equal(grid.upper_deg.ravel()[held], np.array([float(row[3]) for row in rows])[held])
+
+
+def test_what_the_module_answers_is_drawn(hip):
+    rom = hip.range_of_motion(["flexion", "extension"])
+    ax = figures.limits(rom, bands=rom.bands(samples=20))
+    assert [bar.get_width() for bar in ax.patches if bar.get_gid() == "limit"] == [limit.turned_deg for limit in rom.limits]
+    found = rom.map({"flexion": (120, 140, 10)}, {"adduction": (0, 40, 20)})
+    ax = figures.motion_map(found)
+    marked = {c.get_gid() for c in ax.collections if c.get_hatch()}
+    assert ("nowhere" in marked) == bool(np.isnan(found.upper_deg).any())
+    assert ("not_at_start" in marked) == bool((~found.free_at_start & ~np.isnan(found.upper_deg)).any())
+    assert marked, "a map without any mark would test nothing"

@@ -1,4 +1,6 @@
 """Curves, flattened surfaces and agreement show the numbers that they are given."""
+from types import SimpleNamespace
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -83,6 +85,20 @@ def test_panels_draw_what_there_is():
     assert figure.get_size_inches()[0] * 25.4 == pytest.approx(174)
     with pytest.raises(ValueError, match="no contact"):
         figures.panels({"time_s": [0.0]})
+
+
+def test_answers_of_poses_become_curves():
+    """With the names of condyle.ElasticContactResults."""
+    totals = SimpleNamespace(area_mm2=10.0, mean_depth_mm=0.1, max_depth_mm=0.3, mean_pressure_mpa=1.0, max_pressure_mpa=2.0,
+                             force_n=np.array([0.0, -3.0, 4.0]))
+    cast = SimpleNamespace(mobile=SimpleNamespace(totals=totals), fixed=None)
+    table = figures.table_of([0.0, 0.5], [cast, None])
+    assert table["time_s"].tolist() == [0, 0.5]
+    assert np.array_equal(table["max_pressure_mpa"], [2, np.nan], equal_nan=True)
+    force = by_gid(figures.curve(table, "force"))["curve:force_n"].get_ydata()
+    assert np.array_equal(force, [5, np.nan], equal_nan=True)
+    with pytest.raises(ValueError, match="1 times for 2 answers"):
+        figures.table_of([0.0], [cast, None])
 
 
 def cap(n=24, radius=20.0, inwards=False):
