@@ -29,7 +29,7 @@ std::optional<LayerEntry> layer_of(const ContactOptions& options, const std::opt
   LayerEntry layer = in_file.value_or(LayerEntry{});
   take(options.e, body, layer.youngs_modulus_mpa);
   take(options.nu, body, layer.poisson_ratio);
-  if (!options.thickness.empty()) layer.behind.reset();
+  if (!options.thickness.empty()) layer.behind.reset(), layer.thickness_file.reset();
   take(options.thickness, body, layer.thickness_mm);
   return layer;
 }
@@ -120,9 +120,11 @@ void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) 
           "The body in whose frame force and moment are given")
       ->check(CLI::IsMember({"fixed", "mobile"}))
       ->option_text("fixed|mobile (fixed)");
-  command.add_option("--along", given->along, "Translate along this direction of the fixed frame only")
-      ->expected(3)
-      ->option_text("X Y Z");
+  command
+      .add_option("--along", given->along,
+                  "Translate along this direction of the fixed frame only, or in the plane of two")
+      ->expected(3, 6)
+      ->option_text("X Y Z [X Y Z]");
   command.add_flag_callback(
       "--free-rotations", [given] { given->rotations = true; }, "Balance by rotations too");
 }
@@ -134,7 +136,10 @@ Load load_of(const BalanceGiven& given) {
 BalanceOptions balance_options_of(const BalanceGiven& given) {
   if (!given.moment.empty() && !given.rotations) throw UsageError("--moment: needs --free-rotations");
   BalanceOptions options;
-  if (!given.along.empty()) options.free_directions = {vector_of(given.along)};
+  if (given.along.size() % 3 != 0)
+    throw UsageError("--along: needs three numbers, or six for two directions");
+  for (std::size_t i = 0; i < given.along.size(); i += 3)
+    options.free_directions.emplace_back(given.along[i], given.along[i + 1], given.along[i + 2]);
   options.free_rotations = given.rotations;
   return options;
 }

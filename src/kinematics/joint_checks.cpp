@@ -108,6 +108,12 @@ bool check_size(const Body& body, Notes& notes) {
 }
 
 void check_surface(const Body& body, Notes& notes) {
+  // Meshes of one body may lie in each other, as a cartilage does in its bone: what is inside one is inside the body.
+  if (!body.parts.empty()) {
+    for (const BodyPart& part : body.parts)
+      check_surface({body.name + "'s " + part.name, mesh_of_part(body, part.name)}, notes);
+    return;
+  }
   if (!body.mesh.is_closed())
     notes.add(JointNoteCode::open_mesh, body.name + " is open: one body inside the other would not be seen");
   else if (mesh::enclosed_volume(body.mesh) < 0)

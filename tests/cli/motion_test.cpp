@@ -257,6 +257,33 @@ TEST_F(Motion, LoadRefusesWhatNoContactCarries) {
   refused("load cup.toml --force 0 0 0", "zero");
   refused("load shank.toml", "no layers");
   refused("load cup.toml --nu 0.5", "Poisson");
+  refused("load cup.toml --force 0 -2000 0 --along 0 1 0 1", "--along");
+  refused("load cup.toml --force 0 -2000 0 --along 0 1 0 0 2 0", "depend on each other");
+}
+
+TEST_F(Motion, LoadIsBalancedInThePlaneOfTwoDirections) {
+  const Ran ran = run("load cup.toml --force 300 -2000 100 --along 0 1 0 1 0 0 --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  EXPECT_NEAR(json["on_mobile"]["force_n"][0].get<double>(), -300, 1e-5);
+  EXPECT_NEAR(json["on_mobile"]["force_n"][1].get<double>(), 2000, 1e-5);
+  EXPECT_EQ(json["X_FM"][2][3].get<double>(), 0) << "not moved along Z";
+}
+
+TEST_F(Motion, LoadTellsWhatEachRegionCarries) {
+  std::ofstream(folder / "cup.toml", std::ios::app)
+      << "[[contact.region]]\nname = \"front\"\nhalf_space = [{ normal = [1, 0, 0] }]\n"
+         "[[contact.region]]\nname = \"back\"\nhalf_space = [{ normal = [-1, 0, 0] }]\n";
+  const Ran ran = run("load cup.toml --force 0 -2000 0 --json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json json = Json::parse(ran.out);
+  const Json& regions = json["fixed_regions"];
+  ASSERT_EQ(regions.size(), 2u);
+  EXPECT_EQ(regions[0]["name"], "front");
+  const auto y = [](const Json& of) { return of["force_n"][1].get<double>(); };
+  EXPECT_NEAR(y(regions[0]) + y(regions[1]), y(json["fixed_surface"]), 1e-9);
+  EXPECT_NEAR(y(regions[0]), y(regions[1]), 20) << "front and back alike up to the facets";
+  EXPECT_EQ(json["mobile_regions"], nullptr);
 }
 
 TEST(GaitOnAHip, IsFreeInEveryFrameAndBetween) {

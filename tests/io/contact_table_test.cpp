@@ -147,8 +147,7 @@ TEST(ContactTable, RefusesLayersByLineAndKey) {
             "knee.toml: line 5: contact.fixed.thickness: must be a number, not a text");
   EXPECT_EQ(of(std::string(layer) + "thickness = 3\nstiffness = 4\n"),
             "knee.toml: line 6: contact.fixed.stiffness: unknown key; known here: behind, poisson_ratio, "
-            "thickness, "
-            "youngs_modulus_mpa");
+            "thickness, thickness_file, youngs_modulus_mpa");
 }
 
 TEST(ContactTable, RefusesRegionsByLineAndKey) {
@@ -206,6 +205,29 @@ TEST_F(ContactSurfacesOfAJoint, AreItsPartsByName) {
   EXPECT_EQ(surfaces.fixed.mesh.arrays(), mesh_of_part(loaded.joint.fixed, "layer").arrays());
   EXPECT_EQ(surfaces.mobile.name, "ball");
   EXPECT_THROW(surfaces_of({.mobile_part = "layer"}, loaded.joint), UsageError) << "the ball is one mesh";
+}
+
+TEST_F(ContactSurfacesOfAJoint, AThicknessCanBeGivenForEachVertex) {
+  const std::string fixed = "[contact]\nfixed_part = \"layer\"\n[contact.fixed]\n" + std::string(layer) +
+                            "thickness_file = \"thickness.txt\"\n";
+  folder.file("thickness.txt", "1\n1.5\n2\n+2.5\n");
+  EXPECT_EQ(std::get<std::vector<double>>(options_of(joint(fixed)).fixed->thickness_mm),
+            (std::vector<double>{1, 1.5, 2, 2.5}));
+  const auto refusal = [&](const char* text) {
+    folder.file("thickness.txt", text);
+    const LoadedJoint loaded = joint(fixed);
+    try {
+      options_of(loaded);
+    } catch (const FileError& error) {
+      const std::string what = error.what();
+      return what.substr(what.find("thickness.txt"));
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal("1\n1\n2\n"), "thickness.txt: 3 thicknesses for the 4 vertices of layer");
+  EXPECT_EQ(refusal("1\n0\n2\n2\n"), "thickness.txt: line 2: '0' is no thickness: a number above 0");
+  EXPECT_EQ(refusal("1\n1\nnan\n2\n"), "thickness.txt: line 3: 'nan' is no thickness: a number above 0");
+  EXPECT_THROW(joint(fixed + "thickness = 2\n"), FileError) << "both";
 }
 
 TEST_F(ContactSurfacesOfAJoint, AThicknessIsMeasuredToTheMeshBehind) {

@@ -149,8 +149,17 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
   EXPECT_EQ(turned, limits[0].end.turned.degrees());
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
-  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,"));
+  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,,,"));
   EXPECT_TRUE(lines[1].ends_with(",120")) << "the normal range of flexion";
+}
+
+TEST(RomCsv, NamesTheMeshesThatMeet) {
+  Joint joint = arm_and_post();
+  joint.mobile.parts = {{"shaft", 0, joint.mobile.mesh.vertices().size(), 0, 40},
+                        {"tip", joint.mobile.mesh.vertices().size(), 0, 40, 1000}};
+  const auto lines = lines_of(rom_csv({joint, some_limits()}));
+  EXPECT_NE(lines[0].find(",fixed_feature,mobile_feature,fixed_part,mobile_part,"), std::string::npos);
+  EXPECT_NE(lines[1].find(",edge 3-17,face 40,,tip,"), std::string::npos) << lines[1];
 }
 
 TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {

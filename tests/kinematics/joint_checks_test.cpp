@@ -245,6 +245,22 @@ TEST(JointChecks, ThatDoNotApplyAreSilent) {
   EXPECT_TRUE(notes_of(JointKind::ball, test::socket({0, 0, 0}, 26, 60, 3), head).empty());
 }
 
+TEST(JointChecks, MeshesOfOneBodyMayLieInEachOther) {
+  const TriMesh bone = test::box({-20, -100, -20}, {20, 0, 20}), cartilage = test::sphere({0, -5, 0}, 15, 3);
+  Joint joint{"joint",
+              JointKind::hinge,
+              Side::right,
+              {"fixed", test::box({40, -120, -50}, {60, -80, 50})},
+              {"mobile", test::joined(bone, cartilage)}};
+  const auto notes = check_joint(joint, {});
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].code, Code::self_crossings);
+  joint.mobile.parts = {{"bone", 0, bone.vertices.size(), 0, bone.triangles.size()},
+                        {"cartilage", bone.vertices.size(), cartilage.vertices.size(), bone.triangles.size(),
+                         cartilage.triangles.size()}};
+  EXPECT_TRUE(check_joint(joint, {}).empty());
+}
+
 TEST(JointChecks, AllCodesHaveNamesOfTheirOwn) {
   std::vector<std::string_view> names;
   for (int code = 0; code <= static_cast<int>(Code::bodies_disagree); ++code)

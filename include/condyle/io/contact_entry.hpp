@@ -21,6 +21,9 @@ struct LayerEntry {
   double thickness_mm = 0;
   /// The mesh of what lies behind the layer, in the frame of the body's own mesh file: its thickness is measured.
   std::optional<std::filesystem::path> behind = {};
+  /// A text file with the thickness at each vertex of the surface, in the joint file's units; then nothing else is given.
+  std::optional<std::filesystem::path> thickness_file = {};
+  double mm_per_unit = 1;  ///< of that file
 };
 
 /// A part of the casting surface by its place: the faces whose centre is in all half-spaces.
@@ -49,7 +52,8 @@ struct ContactSurfaces {
 /// UsageError for a part that a body does not have, with those it has.
 ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
 
-/// The options of an elastic contact of these surfaces, thicknesses measured. FileError for a mesh that cannot be read,
+/// The options of an elastic contact of these surfaces, thicknesses measured or read. FileError for a mesh or a file of
+/// thicknesses that cannot be read or has not one for each vertex,
 /// MeshError where a vertex of a layer has nothing behind it within the reach and the entry gives no thickness for that.
 ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
                                       const LoadedJoint& joint);

@@ -7,7 +7,9 @@
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/joint/mesh_path.hpp"
+#include "io/mesh/parse.hpp"
 
 namespace condyle {
 namespace io {
@@ -21,8 +23,15 @@ LayerEntry layer_entry(TomlTable& table, double mm_per_unit, const std::filesyst
   if (!(layer.poisson_ratio > -1 && layer.poisson_ratio < 0.5))
     table.fail("poisson_ratio", "must be above -1 and below 0.5");
   if (const auto behind = table.text("behind")) layer.behind = folder / mesh_path(table, "behind", *behind);
+  if (const auto file = table.text("thickness_file")) {
+    for (const auto key : {"thickness", "behind"})
+      if (table.has(key))
+        table.fail(key, "stands beside thickness_file, which has the thickness of each vertex");
+    layer.thickness_file = folder / mesh_path(table, "thickness_file", *file);
+    layer.mm_per_unit = mm_per_unit;
+  }
   const auto thickness = table.number("thickness");
-  if (!layer.behind) table.required("thickness", thickness);
+  if (!layer.behind && !layer.thickness_file) table.required("thickness", thickness);
   if (thickness) {
     if (!(*thickness > 0)) table.fail("thickness", "must be above 0");
     layer.thickness_mm = mm_per_unit * *thickness;
@@ -100,6 +109,26 @@ std::vector<double> measured(const Body& layer, const LayerEntry& entry, const M
   return thickness;
 }
 
+/// One number in a line for each vertex of the surface.
+std::vector<double> read_thickness(const LayerEntry& entry, const Body& surface) {
+  const std::filesystem::path& path = *entry.thickness_file;
+  const std::string text = io::read_whole_file(path), name = path.string();
+  const io::Source source{text, name};
+  io::TextCursor cursor(source);
+  std::vector<double> thickness;
+  for (auto word = cursor.word(); !word.empty(); word = cursor.word()) {
+    double value = 0;
+    if (!io::parse_number(word, value) || !(value > 0) || !std::isfinite(value))
+      source.fail(
+          fmt::format("line {}: {} is no thickness: a number above 0", cursor.line(), io::in_quotes(word)));
+    thickness.push_back(entry.mm_per_unit * value);
+  }
+  if (thickness.size() != surface.mesh.vertices().size())
+    source.fail(fmt::format("{} thicknesses for the {} vertices of {}", thickness.size(),
+                            surface.mesh.vertices().size(), surface.name));
+  return thickness;
+}
+
 }  // namespace
 
 ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint) {
@@ -116,6 +145,7 @@ ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSu
     std::optional<ElasticLayer> made;
     if (!of) return made;
     made.emplace(ElasticLayer{of->youngs_modulus_mpa, of->poisson_ratio, of->thickness_mm});
+    if (of->thickness_file) made->thickness_mm = read_thickness(*of, surface);
     if (of->behind) made->thickness_mm = measured(surface, *of, origin, entry.rays.reach_mm);
     return made;
   };

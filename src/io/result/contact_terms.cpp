@@ -8,6 +8,10 @@ namespace {
 Json layer_json(const std::optional<LayerEntry>& layer) {
   if (!layer) return nullptr;
   Json json{{"youngs_modulus_mpa", layer->youngs_modulus_mpa}, {"poisson_ratio", layer->poisson_ratio}};
+  if (layer->thickness_file) {
+    json["thickness_file"] = layer->thickness_file->string();
+    return json;
+  }
   if (layer->behind) json["thickness_to"] = layer->behind->string();
   json[layer->behind ? "thickness_elsewhere_mm" : "thickness_mm"] =
       layer->thickness_mm > 0 ? Json(layer->thickness_mm) : Json(nullptr);
@@ -18,6 +22,7 @@ std::string layer_text(const std::optional<LayerEntry>& layer) {
   if (!layer) return "rigid";
   const std::string elastic =
       fmt::format("E {} MPa, nu {}, ", layer->youngs_modulus_mpa, layer->poisson_ratio);
+  if (layer->thickness_file) return elastic + "thickness of each vertex given";
   if (!layer->behind) return elastic + fmt::format("{} mm", layer->thickness_mm);
   return elastic + "thickness measured" +
          (layer->thickness_mm > 0 ? fmt::format(", {} mm where nothing lies behind", layer->thickness_mm)

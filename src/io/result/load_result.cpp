@@ -35,6 +35,21 @@ Json surface_json(const std::optional<SurfaceContact>& surface) {
   return json;
 }
 
+/// What each region of a casting surface carries; an empty list where the joint file has none.
+Json regions_json(const ContactEntry& contact, const Body& body,
+                  const std::optional<SurfaceContact>& surface) {
+  if (!surface) return nullptr;
+  Json regions = Json::array();
+  for (const RegionEntry& region : contact.regions) {
+    Json json = io::totals_json(
+        totals_of(faces_within(surface->faces, body.mesh, region.half_spaces), body.mesh, contact.rays.rule),
+        true);
+    json["name"] = region.name;
+    regions.push_back(std::move(json));
+  }
+  return regions;
+}
+
 std::string vector_text(const Vec3& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
@@ -107,6 +122,10 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
   }
   json["fixed_surface"] = surface_json(answer.contact.fixed);
   json["mobile_surface"] = surface_json(answer.contact.mobile);
+  if (!question.contact.regions.empty()) {
+    json["fixed_regions"] = regions_json(question.contact, question.surfaces.fixed, answer.contact.fixed);
+    json["mobile_regions"] = regions_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
+  }
   json["on_mobile"] = wrench_json(answer.contact.on_mobile);
   json["energy_nmm"] = answer.contact.energy_nmm;
   json["cut_off_by_reach"] = answer.cut_off_by_reach;

@@ -38,7 +38,9 @@ std::string rom_csv(const RomResult& result) {
       "error_bound_deg,vary,sense,range_deg," +
       angle_columns("start", joint) + angle_columns("limit", joint) +
       "contact_x_mm,contact_y_mm,contact_z_mm,"
-      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,clock_hour,"
+      "contact_mobile_x_mm,contact_mobile_y_mm,contact_mobile_z_mm,fixed_feature,mobile_feature,fixed_part,"
+      "mobile_part,"
+      "clock_hour,"
       "band_p5_deg,band_median_deg,band_p95_deg,band_from_centre_deg,band_from_axes_deg,band_from_surface_"
       "deg,"
       "band_share_without_contact,normal_range_deg\n";
@@ -66,10 +68,16 @@ std::string rom_csv(const RomResult& result) {
         start(motion.start), angles(limit.angles_at_limit()));
     const auto hour = io::clock_hour(result, limit);
     const auto& contact = end.contact;
-    text += contact ? fmt::format("{},{},{},{}", point(frame.fixed_point(contact->fixed_point)),
+    const auto part = [](const Body& body, const Feature& feature) {
+      const BodyPart* of = io::part_of(body, feature);
+      return of ? io::csv_field(of->name) : std::string();
+    };
+    text += contact ? fmt::format("{},{},{},{},{},{}", point(frame.fixed_point(contact->fixed_point)),
                                   point(frame.mobile_point(contact->mobile_point)),
-                                  io::text_of(contact->fixed_feature), io::text_of(contact->mobile_feature))
-                    : std::string(",,,,,,,");
+                                  io::text_of(contact->fixed_feature), io::text_of(contact->mobile_feature),
+                                  part(result.joint.fixed, contact->fixed_feature),
+                                  part(result.joint.mobile, contact->mobile_feature))
+                    : std::string(",,,,,,,,,");
     text += hour ? fmt::format(",{}", *hour) : ",";
     text += result.bands.empty() ? ",,,,,,," : band_fields(result.bands[i]);
     const auto normal = io::normal_range(result, limit);

@@ -46,9 +46,7 @@ Json json_of(const Feature& feature, const Body& body) {
     json["vertices"] = {feature.id, feature.other_end};
   else
     json["id"] = feature.id;
-  if (const BodyPart* part = feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id)
-                                                               : part_of_vertex(body, feature.id))
-    json["part"] = part->name;
+  if (const BodyPart* part = io::part_of(body, feature)) json["part"] = part->name;
   return json;
 }
 

@@ -17,6 +17,9 @@ std::string_view name_of(FeatureKind kind) noexcept;
 /// "vertex 12", "edge 3-7", "face 40".
 std::string text_of(const Feature& feature);
 
+/// The part of a body that a feature of its mesh is of; null where the body is one mesh.
+const BodyPart* part_of(const Body& body, const Feature& feature) noexcept;
+
 inline bool ends_in_contact(const MotionLimit& limit) noexcept {
   return limit.end.reason != LimitReason::end_of_range;
 }

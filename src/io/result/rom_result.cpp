@@ -19,6 +19,11 @@ std::string_view name_of(FeatureKind kind) noexcept {
   return "vertex";
 }
 
+const BodyPart* part_of(const Body& body, const Feature& feature) noexcept {
+  return feature.kind == FeatureKind::face ? part_of_triangle(body, feature.id)
+                                           : part_of_vertex(body, feature.id);
+}
+
 std::string text_of(const Feature& feature) {
   return feature.kind == FeatureKind::edge ? fmt::format("edge {}-{}", feature.id, feature.other_end)
                                            : fmt::format("{} {}", name_of(feature.kind), feature.id);
