@@ -128,11 +128,15 @@ TEST_F(RomCommand, WhatAnEarlierRunWroteIsReplaced) {
   std::ofstream(here / "notes.txt") << "somebody's";
   ASSERT_EQ(run(std::string("rom joint.toml --motion flexion --past 4 --out .") + small_map).exit_code, 0);
   EXPECT_TRUE(fs::exists(here / "zone_01_flexion_fixed.vtp"));
+  for (const char* drawn : {"limits.pdf", "clock_face.png", "map_flexion.svg", "map_free_range.pdf"})
+    std::ofstream(here / drawn) << "drawn of it";
+  std::ofstream(here / "map_of_mine.pdf") << "somebody's";
   const Ran ran = run("rom joint.toml --motion extension --out .");
   ASSERT_EQ(ran.exit_code, 0);
   EXPECT_NE(ran.err.find("wrote ./rom.json, ./limits.csv"), ran.err.npos) << ran.err;
   ASSERT_EQ(run("rom joint.toml --motion extension --out fresh").exit_code, 0);
-  std::set<std::string> left, fresh = {"notes.txt", "joint.toml", "post.ply", "arm.ply", "fresh"};
+  std::set<std::string> left,
+      fresh = {"notes.txt", "map_of_mine.pdf", "joint.toml", "post.ply", "arm.ply", "fresh"};
   for (const auto& entry : fs::directory_iterator(here)) left.insert(entry.path().filename());
   for (const auto& entry : fs::directory_iterator(here / "fresh")) fresh.insert(entry.path().filename());
   EXPECT_EQ(left, fresh);

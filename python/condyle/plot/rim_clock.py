@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from . import style
 from .limit_bars import ENDS
 from .motion_ends import motion_ends
-from .words import motion_name
+from .words import motion_name, of
 
 
 def clock_text(hour: float) -> str:
@@ -47,13 +47,14 @@ def spread_apart(wanted: Sequence[float], gaps: Sequence[float], low: float, hig
     return [base + offset for base, offset in zip(level, offsets)]
 
 
-def _face(ax: Axes) -> None:
+def _face(ax: Axes, plane: str) -> None:
     ax.add_patch(Circle((0, 0), 1, facecolor="#f7f7f7", edgecolor="#444444", linewidth=1))
     for hour in range(1, 13):
         x, y = _on_face(1, hour)
         ax.plot([0.94 * x, x], [0.94 * y, y], color="#444444", linewidth=0.8)
         ax.text(0.8 * x, 0.8 * y, str(hour), ha="center", va="center", fontsize=style.smaller(1.5))
-    for hour, word in ((12, "superior"), (6, "inferior")):
+    # In the plane of the rim 6 is at the notch, and 12 opposite of it.
+    for hour, word in ((6, "notch"),) if plane == "rim" else ((12, "superior"), (6, "inferior")):
         ax.text(0, 0.5 * _on_face(1, hour)[1], word, ha="center", va="center", fontsize=style.smaller(2.5), color="#555555")
     for hour, word in ((3, "anterior"), (9, "posterior")):
         ax.text(0.42 * _on_face(1, hour)[0], 0, word, ha="center", va="center", fontsize=style.smaller(2.5), color="#555555",
@@ -85,7 +86,7 @@ class Place(NamedTuple):
 def _labels(ax: Axes, half: List[Place], side: int) -> None:
     """Of one half of the face; side 1 is the right one."""
     half = sorted(half, key=lambda place: _on_face(1, place.hour)[1])
-    texts = ["\n".join(textwrap.wrap(f"{clock_text(place.hour)} {motion_name(place.motion)}", LETTERS)) for place in half]
+    texts = ["\n".join(textwrap.wrap(f"{clock_text(place.hour)} {motion_name(place.motion)}", LETTERS, max_lines=3, placeholder="…")) for place in half]
     heights = [LINE * (1 + text.count("\n")) for text in texts]
     gaps = [(a + b) / 2 + 0.1 for a, b in zip(heights, heights[1:])]
     outer = max(heights, default=0.0) / 2
@@ -101,7 +102,8 @@ def _labels(ax: Axes, half: List[Place], side: int) -> None:
 def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -> Axes:
     """Draws where on the rim of a hip's socket its motions end.
 
-    12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare.
+    12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare. In the plane of the
+    rim (`clock_plane` "rim") 6 is at the acetabular notch.
 
     Parameters
     ----------
@@ -128,7 +130,7 @@ def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -
         ax.set_aspect("equal")
         ax.set_ylim(-HALF_HEIGHT, HALF_HEIGHT)
         ax.set_xlim(-HALF_WIDTH, HALF_WIDTH)
-        _face(ax)
+        _face(ax, of(result, "clock_plane", "sagittal"))
         _labels(ax, [place for place in found if place.hour < 6], 1)
         _labels(ax, [place for place in found if place.hour >= 6], -1)
         for place in found:

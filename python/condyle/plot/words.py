@@ -31,13 +31,18 @@ def motion_name(name: str) -> str:
     return capitalised(spaced(name.replace("_at_90_flexion", "_at_90°_flexion")))
 
 
+def cut(text: str, longest: int) -> str:
+    """A text of at most so many letters; what is cut off is told by an ellipsis."""
+    return text if len(text) <= longest else text[: longest - 1] + "…"
+
+
 def in_two_lines(text: str, longest: int = 20) -> str:
-    """A text longer than this broken at the blank nearest to its middle."""
+    """A text longer than this broken at the blank nearest to its middle; lines are cut where they are far longer still."""
     blanks = [i for i, letter in enumerate(text) if letter == " "]
     if len(text) <= longest or not blanks:
-        return text
+        return cut(text, longest)
     at = min(blanks, key=lambda i: abs(2 * i + 1 - len(text)))
-    return text[:at] + "\n" + text[at + 1 :]
+    return "\n".join(cut(line, longest + longest // 4) for line in (text[:at], text[at + 1 :]))
 
 
 def number(value: float) -> str:

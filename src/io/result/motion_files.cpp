@@ -9,6 +9,7 @@
 #include "condyle/io/jam_file.hpp"
 #include "condyle/io/motion_result.hpp"
 #include "condyle/io/output_folder.hpp"
+#include "io/file/figure_ending.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -22,6 +23,9 @@ bool is_of_motion(std::string_view name) {
                                                "motion.json", "motion.pvd", "contacts.csv",
                                                "regions.csv", "jam.h5",     "map_fixed.vtp"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
+  // What condyle.plot drew of an earlier motion would belie this one.
+  for (const std::string_view stem : {"curves", "cycle", "pressure_map"})
+    if (name.starts_with(stem) && io::is_figure_ending(name.substr(stem.size()))) return true;
   return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
 }
 

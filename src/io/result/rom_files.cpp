@@ -13,18 +13,32 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/zone_result.hpp"
+#include "io/file/figure_ending.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
 
+/// Whether it is what condyle.plot draws of some result: of an earlier one, it would belie this one.
+bool is_drawn_of_rom(std::string_view name) {
+  const std::size_t dot = name.rfind('.');
+  if (dot == name.npos || !io::is_figure_ending(name.substr(dot))) return false;
+  const std::string_view stem = name.substr(0, dot);
+  if (stem == "limits" || stem == "clock_face" || stem == "map_free_range") return true;
+  for (const Anatomy joint : all_anatomies)
+    for (const auto& [positive, negative] : coordinate_names(joint))
+      for (const std::string_view movement : {positive, negative})
+        if (stem == fmt::format("map_{}", movement)) return true;
+  return false;
+}
+
 /// Whether some result has a file of this name.
 bool is_of_rom(std::string_view name) {
   if (name.starts_with("zone_")) return name.ends_with("_fixed.vtp") || name.ends_with("_mobile.vtp");
   static constexpr std::string_view names[] = {"rom.json", "limits.csv",        "bearing.vtp",
                                                "map.csv",  "map_intervals.csv", "map.vtp"};
-  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  return std::find(std::begin(names), std::end(names), name) != std::end(names) || is_drawn_of_rom(name);
 }
 
 VtpOptions vtp_options(const RomResult& result) {

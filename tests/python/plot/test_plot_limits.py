@@ -153,6 +153,24 @@ def test_labels_of_the_clock_do_not_overlap():
     assert not any(a.overlaps(b) for i, a in enumerate(extents) for b in extents[:i])
 
 
+def test_the_plane_of_the_rim_has_the_notch_at_six():
+    def words(result):
+        return {text.get_text() for text in figures.clock_face(result).texts}
+
+    assert {"superior", "inferior"} <= words(RESULT) and "notch" not in words(RESULT)
+    in_rim = words({**RESULT, "clock_plane": "rim"})
+    assert "notch" in in_rim and not {"superior", "inferior"} & in_rim
+
+
+def test_names_of_any_length_stay_on_the_paper():
+    long = {"motions": [motion("W" * 200, 30.0, clock_hour=2.0), motion("w w" * 60, 20.0, clock_hour=9.0)]}
+    for ax in (figures.limits(long), figures.clock_face(long)):
+        ax.figure.canvas.draw()
+        for text in [*ax.texts, *(ax.get_yticklabels() if ax.axison else [])]:
+            extent = text.get_window_extent()
+            assert extent.x0 >= -0.5 and extent.x1 <= ax.figure.bbox.x1 + 0.5, text.get_text()
+
+
 def test_hours_are_named_as_a_clock_names_them():
     assert [clock_text(hour) for hour in (0, 1.5, 11.999, 9.1)] == ["12:00", "1:30", "12:00", "9:06"]
 
