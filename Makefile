@@ -67,7 +67,7 @@ docs: docs_dependencies
 	@cmake --preset release >/dev/null
 	@cmake --build --preset release --target docs
 
-# Debian packages in out/packages: the command, libcondyle-dev, condyle-doc.
+# Debian packages in out/packages: the command, python3-condyle, libcondyle-dev, condyle-doc.
 package: build docs
 	@cmake --build --preset release --target condyle condyle_sample condyle_io
 	@rm -rf out/packages

@@ -44,7 +44,11 @@ configure_file(${PROJECT_SOURCE_DIR}/cmake/condyle.pc.in ${PROJECT_BINARY_DIR}/c
 install(FILES ${PROJECT_BINARY_DIR}/cmake/condyle.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
 # Whoever gets one part gets the licence.
-foreach(part command:condyle development:libcondyle-dev documentation:condyle-doc)
+set(condyle_parts command:condyle development:libcondyle-dev documentation:condyle-doc)
+if(CONDYLE_PYTHON)
+  list(APPEND condyle_parts python:python3-condyle)
+endif()
+foreach(part ${condyle_parts})
   string(REGEX MATCH "^(.*):(.*)$" matched ${part})
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
           DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CMAKE_MATCH_2} COMPONENT ${CMAKE_MATCH_1})

@@ -34,4 +34,6 @@ install "/$(cd "$root" && ls ./packages/condyle_*.deb)" "/$(cd "$root" && ls ./p
 inside condyle --version
 inside condyle sample hip --out /tmp/sample >/dev/null
 inside condyle depth /tmp/sample/hip.toml --pose "flexion=130" | head -3
+install "/$(cd "$root" && ls ./packages/python3-condyle_*.deb)"
+inside python3 -c "import condyle; print(condyle.read_joint('/tmp/sample/hip.toml'))"
 test -e "$root/usr/share/doc/condyle-doc/api/index.html"

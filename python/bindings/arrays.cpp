@@ -52,15 +52,14 @@ double at(const py::array& array, py::ssize_t i, py::ssize_t j) {
 /// Rotations written with six decimals pass, as they do in joint files.
 constexpr double rotation_tolerance = 1e-6;
 
-void check_rigid(const Pose& pose, const std::string& name) {
-  if (!pose.matrix().allFinite()) throw UsageError(fmt::format("{}: finite numbers are needed", name));
-  if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    throw UsageError(fmt::format("{}: the last row of a pose is 0 0 0 1", name));
+/// What is wrong with a rigid motion, empty where nothing is.
+std::string fault_of(const Pose& pose) {
+  if (!pose.matrix().allFinite()) return "finite numbers are needed";
+  if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1)) return "the last row of a pose is 0 0 0 1";
   const Eigen::Matrix3d rotation = pose.linear();
   const double off = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (off > rotation_tolerance)
-    throw UsageError(fmt::format("{}: the rotation is not orthonormal, but off by {:.3g}", name, off));
-  if (rotation.determinant() < 0) throw UsageError(fmt::format("{}: a reflection is no pose", name));
+  if (off > rotation_tolerance) return fmt::format("the rotation is not orthonormal, but off by {:.3g}", off);
+  return rotation.determinant() < 0 ? "a reflection is no pose" : "";
 }
 
 }  // namespace
@@ -164,26 +163,30 @@ PosesIn poses_in(const py::object& given, std::string_view name) {
         fmt::format("{}: an array of shape {} is needed, not {}", name, wanted, shape_of(array)));
   array = aligned(as_doubles(in.is_one ? py::array(array.attr("reshape")(1, 4, 4)) : array, name));
   in.poses.resize(static_cast<std::size_t>(array.shape(0)));
+  const auto entries = array.unchecked<double, 3>();
   for (std::size_t n = 0; n < in.poses.size(); ++n) {
     for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j)
-        in.poses[n].matrix()(i, j) =
-            *static_cast<const double*>(array.data(static_cast<py::ssize_t>(n), i, j));
-    check_rigid(in.poses[n], in.is_one ? std::string(name) : fmt::format("{}: pose {}", name, n));
+      for (int j = 0; j < 4; ++j) in.poses[n].matrix()(i, j) = entries(static_cast<py::ssize_t>(n), i, j);
+    if (const std::string fault = fault_of(in.poses[n]); !fault.empty())
+      throw UsageError(fmt::format("{}{}: {}", name, in.is_one ? "" : fmt::format(": pose {}", n), fault));
   }
   return in;
 }
 
-std::vector<Triangle> triangles_in(const py::object& given, std::size_t vertices) {
-  const py::array array = array_in(given, "triangles", {-1, 3}, "(T, 3)");
+py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view name,
+                                      std::vector<py::ssize_t> shape, std::string_view wanted) {
+  const py::array array = array_in(given, name, std::move(shape), wanted);
   if (array.dtype().kind() != 'i' && array.dtype().kind() != 'u')
-    throw UsageError(fmt::format("triangles: integers are needed, not {}", name_of_type(array)));
-  if (array.dtype().kind() == 'u' && array.itemsize() == 8) {
-    // Numbers beyond the signed ones are no vertices either; they must not become some by wrapping.
-    if (array.size() > 0 && py::bool_(array.attr("max")().attr("__gt__")(py::int_(INT64_MAX))))
-      throw MeshError(fmt::format("triangles: a vertex number beyond {}", INT64_MAX));
-  }
-  const py::array_t<std::int64_t, py::array::forcecast> numbers(array);
+    throw UsageError(fmt::format("{}: integers are needed, not {}", name, name_of_type(array)));
+  // Those beyond the signed ones must not become others by wrapping.
+  if (array.dtype().kind() == 'u' && array.itemsize() == 8 && array.size() > 0 &&
+      py::bool_(array.attr("max")().attr("__gt__")(py::int_(INT64_MAX))))
+    throw UsageError(fmt::format("{}: a number beyond {}", name, INT64_MAX));
+  return py::array_t<std::int64_t, py::array::forcecast>(array);
+}
+
+std::vector<Triangle> triangles_in(const py::object& given, std::size_t vertices) {
+  const py::array_t<std::int64_t> numbers = integers_in(given, "triangles", {-1, 3}, "(T, 3)");
   const auto numbers_at = numbers.unchecked<2>();
   std::vector<Triangle> triangles(static_cast<std::size_t>(numbers.shape(0)));
   for (std::size_t t = 0; t < triangles.size(); ++t)

@@ -24,7 +24,8 @@ template <class T>
 py::array view_of(const T* data, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
                   const py::object& owner) {
   py::array array(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
-  array.attr("flags").attr("writeable") = false;
+  // What `flags.writeable = False` does, in nanoseconds: small answers have many arrays.
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
@@ -86,6 +87,10 @@ struct PosesIn {
   bool is_one;  ///< a single matrix
 };
 PosesIn poses_in(const py::object& given, std::string_view name);
+
+/// Integers of an array of this shape. UsageError for other kinds of numbers, and for some beyond what std::int64_t holds.
+py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view name,
+                                      std::vector<py::ssize_t> shape, std::string_view wanted);
 
 /// Triangles of a (T, 3) array of integers, in range. MeshError for one that is not.
 std::vector<Triangle> triangles_in(const py::object& given, std::size_t vertices);

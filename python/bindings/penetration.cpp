@@ -13,7 +13,7 @@ namespace condyle::python {
 namespace {
 
 /// Poses computed at once, between two looks for Ctrl-C: some tens of milliseconds on large bones.
-constexpr std::size_t poses_at_once = 64;
+constexpr std::size_t poses_at_once = 256;
 
 /// The vertices that are not outside, of one pose after the other: pose n owns [offset[n], offset[n + 1]).
 struct VertexLists {
@@ -31,9 +31,12 @@ struct VertexLists {
     add(triangle, from.triangle);
     add(winding, from.winding);
     add(depth_mm, from.depth_mm);
+    const std::size_t first = state.size();
+    state.resize(first + from.size());
+    direction.resize(first + from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
-      state.push_back(static_cast<std::int8_t>(from.state[i]));
-      direction.push_back(from.direction[i] == RayDirection::away_from_centre ? 1 : -1);
+      state[first + i] = static_cast<std::int8_t>(from.state[i]);
+      direction[first + i] = from.direction[i] == RayDirection::away_from_centre ? 1 : -1;
     }
     end_pose();
   }
@@ -52,25 +55,27 @@ struct VertexLists {
     }
     end_pose();
   }
-
-  py::dict dict() && {
-    py::dict dict;
-    dict["offset"] = array_of(std::move(offset));
-    dict["vertex"] = array_of(std::move(vertex));
-    dict["state"] = array_of(std::move(state));
-    dict["winding"] = array_of(std::move(winding));
-    dict["triangle"] = array_of(std::move(triangle));
-    dict["depth_mm"] = array_of(std::move(depth_mm));
-    dict["direction"] = array_of(std::move(direction));
-    return dict;
-  }
 };
 
+/// Columns that keep the lists alive.
 py::object dict_of(bool is_asked, VertexLists&& lists, bool with_angles) {
   if (!is_asked) return py::none();
-  std::vector<double> degrees = std::move(lists.depth_deg);
-  py::dict dict = std::move(lists).dict();
-  if (with_angles) dict["depth_deg"] = array_of(std::move(degrees));
+  auto kept = std::make_unique<VertexLists>(std::move(lists));
+  const VertexLists& of = *kept;
+  const py::capsule owner(kept.release(), [](void* pointer) { delete static_cast<VertexLists*>(pointer); });
+  const auto column = [&](const auto& values) {
+    return view_of(values.data(), {static_cast<py::ssize_t>(values.size())},
+                   {static_cast<py::ssize_t>(sizeof values[0])}, owner);
+  };
+  py::dict dict;
+  dict["offset"] = column(of.offset);
+  dict["vertex"] = column(of.vertex);
+  dict["state"] = column(of.state);
+  dict["winding"] = column(of.winding);
+  dict["triangle"] = column(of.triangle);
+  dict["depth_mm"] = column(of.depth_mm);
+  dict["direction"] = column(of.direction);
+  if (with_angles) dict["depth_deg"] = column(of.depth_deg);
   return dict;
 }
 
@@ -97,7 +102,7 @@ py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mob
       if (count == 1)
         ask(0, 1);
       else
-        core::parallel_chunks(count, 1, ask);
+        core::parallel_chunks(count, 8, ask);
       for (std::size_t i = 0; i < count; ++i) {
         if (of_mobile) mobile.append(mobile_now[i]);
         if (of_fixed) fixed.append(fixed_now[i]);

@@ -44,7 +44,7 @@ class SharedRadialTable {
 
   void update_some(const py::object& moved, const py::object& given) {
     const PointsIn positions(given, "vertices");
-    const py::array_t<std::int64_t, py::array::forcecast> numbers(array_in(moved, "moved", {-1}, "(K,)"));
+    const py::array_t<std::int64_t> numbers = integers_in(moved, "moved", {-1}, "(K,)");
     std::vector<Index> vertices;
     for (py::ssize_t i = 0; i < numbers.shape(0); ++i) {
       const std::int64_t vertex = numbers.at(i);

@@ -115,11 +115,12 @@ class Joint:
             raise UsageError('fit_within: is for centre="fit"')
         if landmarks is not None and not isinstance(landmarks, Mapping):
             raise UsageError(f"landmarks: points by their names are needed, not {type(landmarks).__name__}")
+        word(kind, "kind", ("ball", "hinge", "free"))
         names = _native.angle_names_of(anatomy)
-        angles, translation = _coordinates(reference_pose or {}, names, "reference_pose", suffix="",
-                                           is_free=kind == "free")
+        angles, translation = _coordinates({} if reference_pose is None else reference_pose, names, "reference_pose",
+                                           suffix="", is_free=kind == "free")
         description = {
-            "name": name, "kind": word(kind, "kind", ("ball", "hinge", "free")), "anatomy": anatomy,
+            "name": name, "kind": kind, "anatomy": anatomy,
             "side": word(side, "side", ("right", "left")), "units": units,
             "translation_frame": word(translation_frame, "translation_frame", ("fixed", "joint_axes")),
             "centre": None if centre is None or is_fit else _in_mm(centre, to_mm, "centre"),
@@ -469,8 +470,6 @@ class Joint:
             "count_bearing": word(bearing, "bearing", ("leave_out", "count")) == "count",
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
-        if motions is not None and (isinstance(motions, str) or not isinstance(motions, Sequence)):
-            raise UsageError(f"motions: a list of names is needed, not {type(motions).__name__}")
         return RangeOfMotion(self, _native.range_of_motion(self._native, translation_mm, options), motions)
 
     def path_limit(self, waypoints: Sequence[Mapping[str, float]], *, tolerance_deg: float = 1e-3) -> PathLimit:

@@ -323,8 +323,7 @@ class RangeOfMotion:
         self._native, self._joint = native, joint
         self._angles = tuple(joint._native.angle_names)
         self.known_motions = tuple(self._motion_of(found) for found in _native.motions(joint._native))
-        motions = self.known_motions if asked is None else tuple(self.motion(each) for each in asked)
-        self.limits = self._limits(motions)
+        self.limits = self._limits(self.known_motions if asked is None else self._asked(asked))
 
     # Motions and angles between words and the compiled part.
 
@@ -365,6 +364,11 @@ class RangeOfMotion:
                 if motion.name == named or motion.name.lower() == wanted:
                     return motion
         raise UsageError(f"motion: no {named!r:.60}; there are {', '.join(each.name for each in self.known_motions)}")
+
+    def _asked(self, motions: Sequence[MotionLike]) -> tuple[Motion, ...]:
+        if isinstance(motions, str) or not isinstance(motions, Sequence):
+            raise UsageError(f"motions: a list of names is needed, not {type(motions).__name__}")
+        return tuple(self.motion(each) for each in motions)
 
     def _contact_of(self, found: Optional[dict[str, Any]]) -> Optional[ContactWitness]:
         return witness_of(found, self._joint.fixed, self._joint.mobile)
@@ -480,7 +484,7 @@ class RangeOfMotion:
         """
         from ._joint import _callable
 
-        asked = [limit.motion for limit in self.limits] if motions is None else [self.motion(each) for each in motions]
+        asked = [limit.motion for limit in self.limits] if motions is None else self._asked(motions)
         usual = _native.uncertainty(self._joint._native)
         sigma = [number(value if given is None else given, what) for given, value, what in (
             (sigma_centre_mm, usual[0], "sigma_centre_mm"), (sigma_axes_deg, usual[1], "sigma_axes_deg"),
@@ -498,7 +502,7 @@ class RangeOfMotion:
         """
         from ._joint import _callable
 
-        asked = [limit.motion for limit in self.limits] if motions is None else [self.motion(each) for each in motions]
+        asked = [limit.motion for limit in self.limits] if motions is None else self._asked(motions)
         found = _native.impingement_zones(self._native, [self._tuple_of(each) for each in asked],
                                           number(past_deg, "past_deg"), _callable(progress))
         return tuple(self._zone_of(zone) for zone in found)

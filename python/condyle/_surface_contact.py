@@ -241,11 +241,11 @@ class ElasticContact:
 
         C++: `condyle::balance` in condyle/load_balance.hpp.
         """
-        directions = np.asarray(free_directions, float)
         found = self._native.balance(
             np.eye(4) if start is None else start, force_n, moment_nmm,
             word(frame, "frame", ("fixed", "mobile")) == "mobile",
-            directions.reshape(-1, 3) if directions.size == 0 else directions, bool(free_rotations))
+            np.empty((0, 3)) if isinstance(free_directions, (tuple, list)) and not free_directions else free_directions,
+            bool(free_rotations))
         found["residual_force_n"], found["residual_moment_nmm"] = found.pop("residual")
         found["contact"] = results_of(found["contact"])
         return BalancedPose(**found)

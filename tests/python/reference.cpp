@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/contact.hpp"
@@ -14,6 +16,7 @@
 /// What C++ answers at the poses of a file, as doubles, for the tests of the Python module to compare with:
 ///
 ///     python_reference JOINT POSES ANSWERS      POSES: 16 doubles each, row by row
+///     python_reference --times JOINT POSES      median seconds of all poses, and of one with the bodies apart
 ///
 /// For each pose, each list with its length before it: vertices and depths of the mobile body, of the fixed body, pairs; and
 /// at every tenth pose the radial gaps of both bodies, their tangential gaps about flexion, and areas and depths of the faces
@@ -94,16 +97,49 @@ void answer(const char* joint_file, const char* poses_file, const char* answers_
   answers.write(answers_file);
 }
 
+template <class Act>
+double median_seconds(int repetitions, const Act& act) {
+  std::vector<double> seconds;
+  for (int i = 0; i < repetitions; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    act();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + repetitions / 2, seconds.end());
+  return seconds[static_cast<std::size_t>(repetitions) / 2];
+}
+
+/// As bench/python_overhead.py measures them in Python.
+void print_times(const char* joint_file, const char* poses_file) {
+  const LoadedJoint loaded = read_joint(joint_file);
+  const JointContact joint(loaded.joint);
+  const std::vector<Pose> poses = poses_in(poses_file);
+  Penetrations inside;
+  const auto ask = [&](const Pose& X_FM) {
+    joint.mobile_in_fixed(X_FM, inside);
+    joint.fixed_in_mobile(X_FM, inside);
+  };
+  ask(poses.front());
+  const double all = median_seconds(15, [&] {
+    for (const Pose& X_FM : poses) ask(X_FM);
+  });
+  const double apart = median_seconds(5000, [&] { ask(Pose::Identity()); });
+  std::printf("{\"poses_s\": %.9g, \"apart_s\": %.9g}\n", all, apart);
+}
+
 }  // namespace
 }  // namespace condyle
 
 int main(int argc, char** argv) {
   if (argc != 4) {
-    std::fprintf(stderr, "usage: python_reference JOINT POSES ANSWERS\n");
+    std::fprintf(stderr, "usage: python_reference JOINT POSES ANSWERS, or --times JOINT POSES\n");
     return EXIT_FAILURE;
   }
   try {
-    condyle::answer(argv[1], argv[2], argv[3]);
+    if (std::string_view(argv[1]) == "--times")
+      condyle::print_times(argv[2], argv[3]);
+    else
+      condyle::answer(argv[1], argv[2], argv[3]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return EXIT_FAILURE;

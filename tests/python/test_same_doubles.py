@@ -62,7 +62,7 @@ def test_python_gives_the_doubles_of_cpp(scene, tmp_path):
 
 def test_one_pose_gives_what_it_gives_among_many(scene):
     _, joint = scene
-    poses = joint.pose(**random_angles(150))  # more than are computed at once
+    poses = joint.pose(**random_angles(300))  # more than are computed at once
     for method in ("radial", "tangential"):
         for n, among in enumerate(joint.penetration(poses, method)):
             if n % 7 == 0:

@@ -27,7 +27,7 @@ CASES = {
     "triangles of floats": (lambda hip: condyle.TriMesh(V, T.astype(float)), condyle.UsageError, "integers"),
     "an index too high": (lambda hip: condyle.TriMesh(V, T + 1), condyle.MeshError, "triangle 1 uses vertex 4 of 4"),
     "a negative index": (lambda hip: condyle.TriMesh(V, T - 1), condyle.MeshError, "triangle 0 uses vertex -1 of 4"),
-    "an index beyond int64": (lambda hip: condyle.TriMesh(V, np.full((1, 3), 2**64 - 1, np.uint64)), condyle.MeshError,
+    "an index beyond int64": (lambda hip: condyle.TriMesh(V, np.full((1, 3), 2**64 - 1, np.uint64)), condyle.UsageError,
                               "beyond"),
     "no mesh at all": (lambda hip: condyle.inspect(3), condyle.UsageError, "int is none"),
     "no such file": (lambda hip: condyle.read_mesh("nowhere.stl"), condyle.FileError, "nowhere.stl: no such file"),

@@ -1,0 +1,16 @@
+"""A first look at a hip: from meshes to limits in twelve lines."""
+
+import condyle
+
+bones = condyle.sample_hip()  # or condyle.read_mesh("hip_bone.stl"), condyle.read_mesh("femur.stl")
+print(condyle.inspect(bones.femur))
+joint = condyle.Joint(bones.hip_bone, bones.femur, centre="fit", name="right hip")
+for note in joint.notes:
+    print(note)
+
+penetration = joint.penetration(joint.pose(flexion_deg=140))
+print(penetration)
+
+rom = joint.range_of_motion()
+for limit in rom:
+    print(f"{limit.motion.name:32} {limit.turned_deg:6.1f} deg  {limit.reason}")
