@@ -243,8 +243,10 @@ class Joint:
         if self.kind == "hinge" and (angles[:, 1:] != 0).any():
             raise UsageError(f"pose: a hinge rotates in {self.angle_names[0][0]} only")
         poses = self._native.poses_at(angles, translations)
+        if any(np.ndim(value) for value in coordinates.values()):
+            return poses
         one: NDArray[np.float64] = poses[0]
-        return one if all(np.ndim(value) == 0 for value in coordinates.values()) else poses
+        return one
 
     def coordinates(self, pose: PoseLike) -> dict[str, Any]:
         """The angles in degrees and the translation in mm of a pose or of N, by the names that :meth:`pose` takes.

@@ -68,6 +68,10 @@ CASES = {
     "a vertex that is no vertex": (lambda hip: condyle.RadialTable((V - 0.1, T)).update(V[:1], moved=[9]),
                                    condyle.UsageError, ""),
     "an axis without direction": (lambda hip: condyle.RingTable((V, T), [0, 0, 0], [0, 0, 0]), condyle.UsageError, ""),
+    "an axis beyond all bounds": (lambda hip: condyle.RingTable((V, T), [1e308, 0, 0], [0, 0, 1]), condyle.UsageError,
+                                  "too large"),
+    "a mesh beyond all bounds": (lambda hip: condyle.RingTable((1e307 * V, T), [0, 0, 0], [0, 0, 1]),
+                                 condyle.UsageError, "too large"),
     "no layer": (lambda hip: condyle.ElasticContact(hip.fixed, hip.mobile), condyle.UsageError, ""),
     "a layer like rubber": (lambda hip: condyle.ElasticContact(
         hip.fixed, hip.mobile, fixed_layer=condyle.ElasticLayer(1, 0.5, 1)), condyle.UsageError, ""),
@@ -133,6 +137,11 @@ def test_arrays_freed_after_the_call_do_not_matter():
     del vertices
     gc.collect()
     np.testing.assert_array_equal(table.query(bones.hip_bone.vertices).gap_mm, before)
+
+
+def test_no_angles_are_no_poses(hip):
+    assert hip.pose(flexion_deg=[]).shape == (0, 4, 4)
+    assert len(hip.penetration(hip.pose(flexion_deg=[]))) == 0
 
 
 def test_a_refused_update_leaves_the_table_as_it_was():
