@@ -117,10 +117,13 @@ class ElasticLayer:
 
     def _checked(self, mesh: TriMesh) -> dict[str, Any]:
         thickness: Any = self.thickness_mm
-        if np.ndim(thickness) == 0:
+        if not isinstance(thickness, (list, tuple)) and getattr(thickness, "ndim", 0) == 0:
             thickness = number(thickness, "thickness_mm")
         elif mesh._first is not None:
-            thickness = np.asarray(thickness)
+            try:
+                thickness = np.asarray(thickness)
+            except ValueError:
+                raise UsageError("thickness_mm: numbers are needed, one for each vertex") from None
             if thickness.shape != mesh.vertices.shape[:1]:
                 raise UsageError(f"thickness_mm: an array of shape ({len(mesh.vertices)},) is needed")
             thickness = thickness[mesh._first]
