@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test
+  package package-test page-core
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -61,6 +61,16 @@ verify: bench_dependencies
 	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
 	@cmake --build --preset release --target condyle_verify
 	@build/release/condyle-verify
+
+# The core compiled to WebAssembly, and its answers held against the native ones bit for bit.
+page-core: dependencies build/release/build.ninja
+	@scripts/install_dependencies.sh page
+	@cmake --build --preset release --target page_core_answers
+	@emcmake cmake -S viewer/core -B build/page_core -G Ninja >/dev/null
+	@NODE_PATH=/usr/share/nodejs cmake --build build/page_core
+	@mkdir -p build/page_core/test
+	@build/release/page_core_answers build/page_core/test
+	@node tests/viewer/same_bits.mjs build/page_core/page_core.js build/page_core/test
 
 # The API page and every other page: out/api/index.html.
 docs: docs_dependencies

@@ -4,6 +4,7 @@
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 #   install_dependencies.sh bench     and for make bench; groups can be named together
 #   install_dependencies.sh docs      and for make docs and make package
+#   install_dependencies.sh page      and for make page-core
 #   install_dependencies.sh package-test   and for make package-test
 set -euo pipefail
 
@@ -27,9 +28,10 @@ for group in "$@"; do
       packages+=(python3 git)
       ;;
     docs) packages+=(doxygen) ;;
+    page) packages+=(emscripten nodejs) ;;
     package-test) packages+=(debootstrap) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs and package-test" >&2
+      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page and package-test" >&2
       exit 2
       ;;
   esac

@@ -15,6 +15,19 @@ inline Vec3 posed(const Pose& X, const Vec3& p) noexcept {
   return {row(0), row(1), row(2)};
 }
 
+/// The pose the other way round, its sums in one fixed order too. The last coordinate's differs from the others' as Eigen's does
+/// where it vectorises: stored results keep their bits.
+inline Pose inverted(const Pose& X) noexcept {
+  const auto& m = X.matrix();
+  Pose out = Pose::Identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) out.matrix()(i, k) = m(k, i);
+    const double a = -m(0, i) * m(0, 3), b = -m(1, i) * m(1, 3), c = -m(2, i) * m(2, 3);
+    out.matrix()(i, 3) = i < 2 ? (a + b) + c : a + (b + c);
+  }
+  return out;
+}
+
 /// Many points moved by a pose; out may hold any size before.
 void posed(const Pose& X, PointsView points, Points& out);
 Points posed(const Pose& X, PointsView points);

@@ -121,7 +121,7 @@ ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, con
   const TriMesh mobile_in_F = posed(X_FM, mobile);
   ContactMeasures out;
   out.distances = {distances_to(to_fixed, mobile_in_F.vertices),
-                   distances_to(to_mobile, posed(X_FM.inverse(), fixed.vertices()))};
+                   distances_to(to_mobile, posed(inverted(X_FM), fixed.vertices()))};
   const mesh::ClosestPoints closest = *mesh::closest_points(to_fixed.tree(), to_mobile.tree(), X_FM);
   out.nearest = {closest.distance_mm, closest.a_point, closest.b_point};
 

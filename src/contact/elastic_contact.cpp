@@ -144,7 +144,7 @@ ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
 
 void ElasticContact::Parts::answer(const Pose& X_FM, Answers& out) const {
   if (from_fixed) from_fixed->answer(X_FM, out.of_fixed);
-  if (from_mobile) from_mobile->answer(X_FM.inverse(), out.of_mobile);
+  if (from_mobile) from_mobile->answer(inverted(X_FM), out.of_mobile);
 }
 
 contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const Pose& X_FM,
@@ -176,7 +176,7 @@ ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, 
 std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {
   std::size_t rays = 0;
   if (parts_->from_fixed) rays += parts_->from_fixed->sampler().cut_off_by_reach(X_FM);
-  if (parts_->from_mobile) rays += parts_->from_mobile->sampler().cut_off_by_reach(X_FM.inverse());
+  if (parts_->from_mobile) rays += parts_->from_mobile->sampler().cut_off_by_reach(inverted(X_FM));
   return rays;
 }
 

@@ -140,14 +140,14 @@ void JointContact::mobile_in_fixed(const Pose& X_FM, Penetrations& out) const {
 }
 
 void JointContact::fixed_in_mobile(const Pose& X_FM, Penetrations& out) const {
-  parts_->mobile.table().penetrations(parts_->fixed.sorted_vertices(), X_FM.inverse(), out);
+  parts_->mobile.table().penetrations(parts_->fixed.sorted_vertices(), inverted(X_FM), out);
 }
 
 RadialContact JointContact::radial(const Pose& X_FM) const {
   RadialContact contact;
   if (fixed().is_closed()) contact.mobile_in_fixed = fixed_table().query(posed(X_FM, mobile().vertices()));
   if (mobile().is_closed())
-    contact.fixed_in_mobile = mobile_table().query(posed(X_FM.inverse(), fixed().vertices()));
+    contact.fixed_in_mobile = mobile_table().query(posed(inverted(X_FM), fixed().vertices()));
   contact.pairs = pairs(X_FM);
   contact.in_contact = any_contact(contact);
   return contact;
@@ -160,7 +160,7 @@ TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
     contact.mobile_in_fixed = table->query(posed(X_FM, mobile().vertices()), rule);
   }
   if (mobile().is_closed()) {
-    const Pose X_MF = X_FM.inverse();
+    const Pose X_MF = inverted(X_FM);
     const auto table = parts_->mobile.ring_table(X_MF.translation(), X_MF.linear() * axis_F);
     contact.fixed_in_mobile = table->query(posed(X_MF, fixed().vertices()), rule);
   }

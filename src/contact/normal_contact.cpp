@@ -16,7 +16,7 @@ NormalContact normal_contact(const JointContact& joint, const Pose& X_FM, Castin
   contact.pairs = joint.pairs(X_FM);
   contact.in_contact = !contact.pairs.empty() || joint.in_contact(X_FM);
   if (casting != Casting::mobile) contact.fixed = cast(joint.fixed(), joint.mobile(), X_FM, rays);
-  if (casting != Casting::fixed) contact.mobile = cast(joint.mobile(), joint.fixed(), X_FM.inverse(), rays);
+  if (casting != Casting::fixed) contact.mobile = cast(joint.mobile(), joint.fixed(), inverted(X_FM), rays);
   return contact;
 }
 

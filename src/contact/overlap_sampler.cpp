@@ -221,7 +221,7 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
 }
 
 void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
-  const Pose X_TC = X_CT.inverse();
+  const Pose X_TC = inverted(X_CT);
   const std::size_t count = inward_.size();
   scratch.ends.assign(count, {});
   const auto end_of = [&](std::size_t ray, std::size_t hit) {
@@ -247,7 +247,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
 
 void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
                                     Found& out) const {
-  const Pose X_TC = X_CT.inverse();
+  const Pose X_TC = inverted(X_CT);
   // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
   for (Index face = 0; face < centre_ray_.size(); ++face) {
     if (centre_ray_[face] == no_index) continue;
@@ -269,7 +269,7 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
 
 void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
                                   const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
-  const Pose X_TC = X_CT.inverse();
+  const Pose X_TC = inverted(X_CT);
   auto& ends = scratch.ends;
 
   // Corners outside the target next to one inside it: how far outside.
@@ -372,7 +372,7 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
 void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
                                 Found& out) const {
   static const auto centres = rim_centres();
-  const Pose X_TC = X_CT.inverse();
+  const Pose X_TC = inverted(X_CT);
   const auto at = [&](Index face, const std::array<double, 3>& w, const auto& of_vertex) {
     const auto& corners = casting_.triangles()[face];
     using Value = decltype(of_vertex(corners[0]));
@@ -409,7 +409,7 @@ void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thickn
 
 std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
   mesh::RayHits hits;
-  mesh::nearest_hits(ray_target_, X_CT.inverse(), inward_, 2 * options_.reach_mm, hits);
+  mesh::nearest_hits(ray_target_, inverted(X_CT), inward_, 2 * options_.reach_mm, hits);
   std::size_t count = 0;
   for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
     if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;

@@ -48,7 +48,7 @@ RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const Radia
   }
   if (contact.fixed_in_mobile) {
     summary.fixed = summarise(*contact.fixed_in_mobile,
-                              posed(X_FM.inverse(), joint.fixed().vertices().view()), joint.mobile());
+                              posed(inverted(X_FM), joint.fixed().vertices().view()), joint.mobile());
   }
   return summary;
 }

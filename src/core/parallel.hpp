@@ -1,19 +1,25 @@
 #pragma once
 
+#include <cstddef>
+
+#ifndef CONDYLE_SERIAL
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
-
-#include <cstddef>
+#endif
 
 namespace condyle::core {
 
-/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena. A body
-/// writes only to its own elements: results then do not depend on the number of threads. Limit threads from
+/// Calls body(first, last) over [0, count) in chunks, on all threads of the calling oneTBB arena; built without threads, once
+/// for all. A body writes only to its own elements: results then do not depend on the number of threads. Limit threads from
 /// outside with tbb::global_control or tbb::task_arena.
 template <class Body>
-void parallel_chunks(std::size_t count, std::size_t grain, const Body& body) {
+void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, const Body& body) {
+#ifdef CONDYLE_SERIAL
+  if (count > 0) body(std::size_t{0}, count);
+#else
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+#endif
 }
 
 }  // namespace condyle::core

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "condyle/repair.hpp"
+#include "core/formatted.hpp"
 #include "core/predicates.hpp"
 #include "mesh/disjoint_sets.hpp"
 #include "mesh/edge_table.hpp"
@@ -240,9 +240,7 @@ void measure_surface(Edges& edges, MeshReport& report) {
 
 /// A number as a person would write it: six digits, no trailing zeros.
 std::string in_short(double value) {
-  std::array<char, 32> text;
-  const auto end = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, 6).ptr;
-  return {text.begin(), end};
+  return core::formatted("%.6g", value);
 }
 
 /// Human bones and their cartilages, whole or in part, span 20 mm (a wedge of meniscus) to 1 m (a tall man's

@@ -59,7 +59,7 @@ LastingContact lasting_contact(const Mesh& fixed, const Mesh& mobile, const Pose
     return ContactWitness{{FeatureKind::face, pair.fixed},
                           {FeatureKind::face, pair.mobile},
                           on_fixed,
-                          posed(X_FM.inverse(), on_mobile)};
+                          posed(inverted(X_FM), on_mobile)};
   };
   const auto placed = [&](const Corners& own) -> Corners {
     return {posed(X_FM, own[0]), posed(X_FM, own[1]), posed(X_FM, own[2])};

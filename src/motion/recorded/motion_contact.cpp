@@ -1,11 +1,10 @@
 #include "condyle/motion_contact.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <mutex>
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/parallel.hpp"
 #include "mesh/surface_to_surface.hpp"
 
 namespace condyle {
@@ -49,7 +48,7 @@ void ask(const ElasticContact& surfaces, const AlongMotionOptions&, FrameContact
   frame.on_mobile = results.on_mobile;
 }
 void ask(const NormalDepth& surfaces, const AlongMotionOptions& options, FrameContact& frame) {
-  surfaces.at(options.casting == BodyRole::fixed ? frame.X_FM : frame.X_FM.inverse(), frame.surface);
+  surfaces.at(options.casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM), frame.surface);
 }
 
 }  // namespace
@@ -60,18 +59,19 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
   const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
   std::vector<std::optional<FrameContact>> frames(X_FM.size());
   Followed followed(options, frames.size());
-  tbb::parallel_for(std::size_t{0}, frames.size(), [&](std::size_t i) {
-    if (followed.stopped()) return;
-    if (X_FM[i]) {
-      FrameContact& frame = frames[i].emplace(FrameContact{.X_FM = *X_FM[i]});
-      frame.intersecting_pairs = joint.pairs(frame.X_FM).size();
-      frame.in_contact = frame.intersecting_pairs > 0 || joint.in_contact(frame.X_FM);
-      if (frame.intersecting_pairs == 0)
-        if (const auto nearest = mesh::closest_points(fixed, mobile, frame.X_FM))
-          frame.smallest_gap_mm = nearest->distance_mm;
-      named(i, [&] { std::visit([&](const auto* of) { ask(*of, options, frame); }, surfaces); });
+  core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last && !followed.stopped(); ++i) {
+      if (X_FM[i]) {
+        FrameContact& frame = frames[i].emplace(FrameContact{.X_FM = *X_FM[i]});
+        frame.intersecting_pairs = joint.pairs(frame.X_FM).size();
+        frame.in_contact = frame.intersecting_pairs > 0 || joint.in_contact(frame.X_FM);
+        if (frame.intersecting_pairs == 0)
+          if (const auto nearest = mesh::closest_points(fixed, mobile, frame.X_FM))
+            frame.smallest_gap_mm = nearest->distance_mm;
+        named(i, [&] { std::visit([&](const auto* of) { ask(*of, options, frame); }, surfaces); });
+      }
+      followed.one_done();
     }
-    followed.one_done();
   });
   if (followed.stopped()) return std::nullopt;
   return frames;
@@ -91,8 +91,7 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
       Pose start = *X_FM[i];
       start.translation() += moved;
       frames[i] = named(i, [&] { return balance(surfaces, start, loads[loads.size() == 1 ? 0 : i], how); });
-      if (frames[i]->carries_load())
-        moved = frames[i]->X_FM.translation() - X_FM[i]->translation();
+      if (frames[i]->carries_load()) moved = frames[i]->X_FM.translation() - X_FM[i]->translation();
     }
     followed.one_done();
   }

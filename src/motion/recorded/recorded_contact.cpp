@@ -1,7 +1,5 @@
 #include "condyle/recorded_contact.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -10,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "core/per_thread.hpp"
 #include "motion/recorded/rotation_contacts.hpp"
 #include "motion/recorded/screw_contacts.hpp"
 
@@ -102,7 +101,7 @@ class WaySearch {
   const JointContact& bodies_;
   double reach_mm_;
   motion::FeatureTree fixed_, mobile_;
-  tbb::enumerable_thread_specific<Worker> workers_;
+  core::PerThread<Worker> workers_;
 };
 
 /// A place in the recording.

@@ -72,7 +72,7 @@ DepthRange::~DepthRange() = default;
 DeepestPlace DepthRange::deepest(const JointAngles& at) const {
   const Pose X = pose_at(parts_->system, at);
   DeepestPlace deepest;
-  const Pose X_MF = X.inverse();
+  const Pose X_MF = inverted(X);
   const TriMesh &fixed = parts_->contact.fixed(), &mobile = parts_->contact.mobile();
   Penetrations found;
   parts_->contact.mobile_in_fixed(X, found);

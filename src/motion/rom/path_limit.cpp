@@ -73,7 +73,7 @@ struct PathFinder::Parts {
     return {{FeatureKind::face, f},
             face,
             nearest.fixed_point,
-            posed(X_FM.inverse(), nearest.mobile_point),
+            posed(inverted(X_FM), nearest.mobile_point),
             range.bearing().kind_of(whole_mobile, face)};
   }
 };

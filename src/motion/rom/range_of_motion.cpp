@@ -1,7 +1,5 @@
 #include "condyle/range_of_motion.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "condyle/tangential.hpp"
 #include "core/parallel.hpp"
+#include "core/per_thread.hpp"
 #include "mesh/surface_to_surface.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/contact_set.hpp"
@@ -106,7 +105,7 @@ struct RangeOfMotion::Parts {
       if (parts.sliding) sliding.emplace(parts.sliding->body.tree);
     }
   };
-  mutable tbb::enumerable_thread_specific<Worker> workers;
+  mutable core::PerThread<Worker> workers;
 
   Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint counting)
       : kind(joint.kind),
@@ -141,7 +140,7 @@ struct RangeOfMotion::Parts {
       return motion::first_contact(table, body, range);
     };
     RotationLimits limits =
-        vary == JointAngle::internal_rotation ? search(part.rotation_table, worker.fixed, X_FM.inverse())
+        vary == JointAngle::internal_rotation ? search(part.rotation_table, worker.fixed, inverted(X_FM))
         : vary == JointAngle::adduction       ? search(adduction_table(worker, start), turning, X_FM)
                                               : search(flexion_table, turning, X_FM);
     for (Limit* limit : {&limits.negative, &limits.positive})

@@ -1,7 +1,5 @@
 #include "motion/search/first_contact.hpp"
 
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "condyle/error.hpp"
+#include "core/per_thread.hpp"
 #include "motion/search/node_pairs.hpp"
 #include "motion/search/start_contact.hpp"
 
@@ -272,7 +271,7 @@ SearchWork& SearchWork::operator+=(const SearchWork& more) noexcept {
 struct FirstContact::Parts {
   motion::FeatureTree fixed, mobile;
   motion::RotationTable table;
-  mutable tbb::enumerable_thread_specific<motion::TurningBody> turning;
+  mutable core::PerThread<motion::TurningBody> turning;
 
   Parts(const Mesh& fixed_mesh, const Mesh& mobile_mesh, const AxisFrame& axis_F)
       : fixed(fixed_mesh),

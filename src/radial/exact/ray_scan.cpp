@@ -45,7 +45,8 @@ double distance_along_ray(const Vec3& v, const Cone& t) {
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, av = v - t.a;
   const double past = core::filtered_determinant(av, ab, ac).value,
                full = core::filtered_determinant(v, ab, ac).value;
-  const double radius = v.norm();
+  // Written out: Eigen's norm sums in another order where it does not vectorise.
+  const double radius = std::sqrt((v.x() * v.x() + v.y() * v.y()) + v.z() * v.z());
   const double error = 12 * core::rounding_unit * ab.norm() * ac.norm() * (radius + av.norm());
   constexpr double accepted = 3e-13;
   const double relative = error <= accepted * std::abs(full) ? -past / full : exact_relative_gap(v, t);

@@ -13,9 +13,13 @@ std::size_t rounded_up_to(std::size_t multiple, std::size_t count) {
   return (count + multiple - 1) / multiple * multiple;
 }
 
-/// Halves the longest side of the points' box until a block is left, at multiples of a block.
+/// Halves the longest side of the points' box until a block is left, at multiples of a block. A block is in the order of
+/// numbers: how nth_element leaves it differs between standard libraries.
 void sort_into_blocks(PointsView points, std::span<Index> range) {
-  if (range.size() <= fan) return;
+  if (range.size() <= fan) {
+    std::sort(range.begin(), range.end());
+    return;
+  }
   Vec3 low = points[range[0]], high = low;
   for (const Index i : range) low = low.cwiseMin(points[i]), high = high.cwiseMax(points[i]);
   int longest = 0;

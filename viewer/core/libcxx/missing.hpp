@@ -1,0 +1,42 @@
+#pragma once
+
+/// What the C++20 library of emscripten 3.1.6 (libc++ 13) lacks and the core uses. Read before every source of the core.
+
+#include <array>
+#include <compare>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace std {
+
+template <class To, class From>
+constexpr To bit_cast(const From& from) noexcept {
+  return __builtin_bit_cast(To, from);
+}
+
+template <class T>
+  requires(!is_array_v<T>)
+unique_ptr<T> make_unique_for_overwrite() {
+  return unique_ptr<T>(new T);
+}
+template <class T>
+  requires is_unbounded_array_v<T>
+unique_ptr<T> make_unique_for_overwrite(size_t count) {
+  return unique_ptr<T>(new remove_extent_t<T>[count]);
+}
+
+template <class T, size_t N>
+constexpr auto operator<=>(const array<T, N>& a, const array<T, N>& b) -> decltype(a[0] <=> b[0]) {
+  for (size_t i = 0; i < N; ++i)
+    if (const auto order = a[i] <=> b[i]; order != 0) return order;
+  return strong_ordering::equal;
+}
+template <class A, class B>
+constexpr auto operator<=>(const pair<A, B>& a, const pair<A, B>& b)
+    -> common_comparison_category_t<decltype(a.first <=> b.first), decltype(a.second <=> b.second)> {
+  if (const auto first = a.first <=> b.first; first != 0) return first;
+  return a.second <=> b.second;
+}
+
+}  // namespace std

@@ -1,0 +1,185 @@
+#include "page_core.hpp"
+
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/contact.hpp"
+#include "condyle/range_of_motion.hpp"
+
+using namespace condyle;
+
+struct CondyleJoint {
+  Joint joint;
+  JointContact bodies;
+  std::optional<RangeOfMotion> range = {};
+  Penetrations penetrations = {};
+  std::vector<std::uint32_t> pair_triangles = {};
+};
+
+namespace {
+
+std::string& last_error() {
+  static std::string error;
+  return error;
+}
+
+/// What `answer` returns, or `failed` with the error's line kept.
+template <class Result, class Answer>
+Result guarded(Result failed, const Answer& answer) {
+  try {
+    return answer();
+  } catch (const std::exception& error) {
+    last_error() = error.what();
+  }
+  return failed;
+}
+
+Mesh mesh_of(const double* vertices, int vertex_count, const std::uint32_t* triangles, int triangle_count) {
+  TriMesh mesh;
+  for (int v = 0; v < vertex_count; ++v)
+    mesh.vertices.push_back({vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]});
+  for (int t = 0; t < triangle_count; ++t)
+    mesh.triangles.push_back({triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]});
+  return Mesh(std::move(mesh));
+}
+
+Pose pose_of(const double* rows) {
+  Pose pose = Pose::Identity();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) pose.matrix()(r, c) = rows[4 * r + c];
+  return pose;
+}
+
+JointAngles angles_of(const double* deg) {
+  return {Angle::degrees(deg[0]), Angle::degrees(deg[1]), Angle::degrees(deg[2])};
+}
+
+int number_of(LimitReason reason) {
+  switch (reason) {
+    case LimitReason::contact:
+      return 0;
+    case LimitReason::end_of_range:
+      return 1;
+    case LimitReason::contact_at_start:
+      return 2;
+  }
+  return -1;
+}
+
+int number_of(ContactKind kind) {
+  switch (kind) {
+    case ContactKind::unknown:
+      return 0;
+    case ContactKind::bearing:
+      return 1;
+    case ContactKind::impingement:
+      return 2;
+  }
+  return -1;
+}
+
+}  // namespace
+
+const char* condyle_error() {
+  return last_error().c_str();
+}
+
+CondyleJoint* condyle_joint(int kind, int anatomy, int side, const double* fixed_vertices,
+                            int fixed_vertex_count, const std::uint32_t* fixed_triangles,
+                            int fixed_triangle_count, const double* mobile_vertices, int mobile_vertex_count,
+                            const std::uint32_t* mobile_triangles, int mobile_triangle_count) {
+  return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
+    constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::free};
+    constexpr Anatomy anatomies[] = {Anatomy::hip, Anatomy::knee, Anatomy::ankle, Anatomy::elbow,
+                                     Anatomy::shoulder};
+    Joint joint{.name = {},
+                .kind = kinds[kind],
+                .side = side == 0 ? Side::right : Side::left,
+                .fixed = {"fixed body",
+                          mesh_of(fixed_vertices, fixed_vertex_count, fixed_triangles, fixed_triangle_count)},
+                .mobile = {"mobile body", mesh_of(mobile_vertices, mobile_vertex_count, mobile_triangles,
+                                                  mobile_triangle_count)},
+                .anatomy = anatomies[anatomy]};
+    JointContact bodies(joint);
+    return new CondyleJoint{std::move(joint), std::move(bodies)};
+  });
+}
+
+void condyle_free(CondyleJoint* joint) {
+  delete joint;
+}
+
+int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const double* translation_mm,
+                 double* pose) {
+  return guarded(-1, [&] {
+    const JointCoordinates at{angles_of(angles_deg),
+                              Vec3(translation_mm[0], translation_mm[1], translation_mm[2])};
+    const Pose X_FM = pose_at(joint->joint.coordinates(), at, joint->joint.translation_frame);
+    for (int r = 0; r < 4; ++r)
+      for (int c = 0; c < 4; ++c) pose[4 * r + c] = X_FM.matrix()(r, c);
+    return 0;
+  });
+}
+
+int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed) {
+  return guarded(-1, [&] {
+    if (of_fixed)
+      joint->bodies.fixed_in_mobile(pose_of(pose), joint->penetrations);
+    else
+      joint->bodies.mobile_in_fixed(pose_of(pose), joint->penetrations);
+    return static_cast<int>(joint->penetrations.size());
+  });
+}
+
+const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint) {
+  return joint->penetrations.point.data();
+}
+
+const double* condyle_depths(const CondyleJoint* joint) {
+  return joint->penetrations.depth_mm.data();
+}
+
+int condyle_in_contact(CondyleJoint* joint, const double* pose) {
+  return guarded(-1, [&] { return joint->bodies.in_contact(pose_of(pose)) ? 1 : 0; });
+}
+
+int condyle_pairs(CondyleJoint* joint, const double* pose) {
+  return guarded(-1, [&] {
+    joint->pair_triangles.clear();
+    for (const TrianglePair& pair : joint->bodies.pairs(pose_of(pose)))
+      joint->pair_triangles.insert(joint->pair_triangles.end(), {pair.fixed, pair.mobile});
+    return static_cast<int>(joint->pair_triangles.size() / 2);
+  });
+}
+
+const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
+  return joint->pair_triangles.data();
+}
+
+int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
+                  double limit[7]) {
+  return guarded(-1, [&] {
+    if (!joint->range) {
+      RangeOptions options;
+      options.overlap.reference_contact = ReferenceContact::accept;
+      joint->range.emplace(joint->joint, options);
+    }
+    const Motion motion{.vary = all_joint_angles[vary],
+                        .sense = positive ? RotationSense::positive : RotationSense::negative,
+                        .start = angles_of(start_deg),
+                        .range = Angle::degrees(range_deg)};
+    const Limit end = joint->range->limit(motion).end;
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const Vec3 point = end.contact ? end.contact->fixed_point : Vec3(none, none, none);
+    limit[0] = end.turned.degrees();
+    limit[1] = number_of(end.reason);
+    limit[2] = number_of(end.kind());
+    limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;
+    for (int i = 0; i < 3; ++i) limit[4 + i] = point[i];
+    return 0;
+  });
+}

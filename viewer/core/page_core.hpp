@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+
+/// What the page asks of the core, as functions that JavaScript can call: numbers and arrays in, numbers and arrays out. The
+/// same source is compiled to WebAssembly for the page and natively for the test that holds the two against each other.
+///
+/// Lengths in mm, angles in degrees, poses as the 16 numbers of X_FM row by row. A function that fails returns -1 or null and
+/// leaves its line in condyle_error(). Arrays that are answered belong to the joint and last until it is asked again.
+
+extern "C" {
+
+struct CondyleJoint;
+
+/// One line about the last call that failed.
+const char* condyle_error();
+
+/// A joint of two closed surfaces in the joint frame. `kind`: 0 ball, 1 hinge, 2 free; `anatomy`: 0 hip, 1 knee, 2 ankle, 3 elbow,
+/// 4 shoulder; `side`: 0 right, 1 left. Vertices are x, y, z each; triangles three vertices each. Tables are made when a
+/// question first needs them.
+CondyleJoint* condyle_joint(int kind, int anatomy, int side, const double* fixed_vertices,
+                            int fixed_vertex_count, const std::uint32_t* fixed_triangles,
+                            int fixed_triangle_count, const double* mobile_vertices, int mobile_vertex_count,
+                            const std::uint32_t* mobile_triangles, int mobile_triangle_count);
+void condyle_free(CondyleJoint* joint);
+
+/// The pose of three angles and a translation, in `pose`.
+int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const double* translation_mm,
+                 double* pose);
+
+/// How many vertices of the mobile body are in the fixed one (`of_fixed` 0), or the other way (1).
+int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed);
+/// Of the last answer: numbers of vertices, and their radial depths.
+const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint);
+const double* condyle_depths(const CondyleJoint* joint);
+
+/// 1 where the bodies share a point, else 0.
+int condyle_in_contact(CondyleJoint* joint, const double* pose);
+/// How many pairs of triangles meet, and which: fixed, mobile each.
+int condyle_pairs(CondyleJoint* joint, const double* pose);
+const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint);
+
+/// How far an angle turns from a pose until contact: `vary` 0 to 2 in the joint's order, `positive` 1 or 0, up to `range_deg`.
+/// In `limit`: the angle turned, the reason (0 contact, 1 end of range, 2 in contact at the start), the kind of contact (0
+/// unknown, 1 bearing, 2 impingement), where bearing surfaces touch before (or -1), and the contact's point in F (or NaN).
+/// Bearing surfaces are looked for at the first call.
+int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
+                  double limit[7]);
+}
