@@ -6,6 +6,7 @@
 #include "bindings.hpp"
 #include "condyle/error.hpp"
 #include "condyle/load_balance.hpp"
+#include "condyle/motion_contact.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
 #include "surface_contact.hpp"
@@ -96,20 +97,7 @@ const char* name_of(BalanceOutcome outcome) {
   return "free_direction";
 }
 
-py::dict balanced(const ElasticContact& contact, const py::object& start, const py::object& force_n,
-                  const py::object& moment_nmm, bool goes_along, const py::object& free_directions,
-                  bool free_rotations) {
-  const PosesIn in = poses_in(start, "start");
-  if (!in.is_one) throw UsageError("start: one pose of shape (4, 4) is needed");
-  const Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")},
-                  goes_along ? BodyRole::mobile : BodyRole::fixed};
-  BalanceOptions options;
-  options.free_rotations = free_rotations;
-  const PointsIn directions(free_directions, "free_directions");
-  for (std::size_t i = 0; i < directions.size(); ++i) options.free_directions.push_back(directions.view()[i]);
-  BalancedPose found = followed(py::none(), [&](const auto&, const std::stop_token&) {
-    return balance(contact, in.poses.front(), load, options);
-  });
+py::dict dict_of_balance(BalancedPose&& found) {
   py::dict dict;
   dict["outcome"] = name_of(found.outcome);
   dict["reason"] = reason_of(found);
@@ -120,6 +108,47 @@ py::dict balanced(const ElasticContact& contact, const py::object& start, const 
   return dict;
 }
 
+BalanceOptions options_in(const py::object& free_directions, bool free_rotations) {
+  BalanceOptions options;
+  options.free_rotations = free_rotations;
+  const PointsIn directions(free_directions, "free_directions");
+  for (std::size_t i = 0; i < directions.size(); ++i) options.free_directions.push_back(directions.view()[i]);
+  return options;
+}
+
+py::dict balanced(const ElasticContact& contact, const py::object& start, const py::object& force_n,
+                  const py::object& moment_nmm, bool goes_along, const py::object& free_directions,
+                  bool free_rotations) {
+  const PosesIn in = poses_in(start, "start");
+  if (!in.is_one) throw UsageError("start: one pose of shape (4, 4) is needed");
+  const Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")},
+                  goes_along ? BodyRole::mobile : BodyRole::fixed};
+  const BalanceOptions options = options_in(free_directions, free_rotations);
+  return dict_of_balance(followed(py::none(), [&](const auto&, const std::stop_token&) {
+    return balance(contact, in.poses.front(), load, options);
+  }));
+}
+
+/// Forces and moments have a row for all frames, or one for each.
+py::list balanced_along(const ElasticContact& contact, const py::object& poses, const py::object& force_n,
+                        const py::object& moment_nmm, bool goes_along, const py::object& free_directions,
+                        bool free_rotations, const py::object& progress) {
+  const PosesIn in = poses_in(poses, "poses");
+  const PointsIn forces(force_n, "force_n"), moments(moment_nmm, "moment_nmm");
+  if (forces.size() != moments.size()) throw UsageError("moment_nmm: as many rows as force_n has are needed");
+  std::vector<Load> loads;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    loads.push_back({{forces.view()[i], moments.view()[i]}, goes_along ? BodyRole::mobile : BodyRole::fixed});
+  const BalanceOptions options = options_in(free_directions, free_rotations);
+  const std::vector<std::optional<Pose>> X_FM(in.poses.begin(), in.poses.end());
+  auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return balance_along(contact, X_FM, loads, options, {.progress = report, .stop = stop});
+  });
+  py::list answers;
+  for (std::optional<BalancedPose>& pose : *found) answers.append(dict_of_balance(std::move(*pose)));
+  return answers;
+}
+
 }  // namespace
 
 void bind_pressure(py::module_& module) {
@@ -127,6 +156,7 @@ void bind_pressure(py::module_& module) {
       .def(py::init(&elastic))
       .def("at", &at)
       .def("balance", &balanced)
+      .def("balance_along", &balanced_along)
       .def("cut_off_by_reach",
            [](const ElasticContact& contact, const py::object& pose) {
              const PosesIn in = poses_in(pose, "pose");

@@ -168,6 +168,11 @@ class BalancedPose:
     steps: int
     contact: ElasticContactResults
 
+    @property
+    def carries_load(self) -> bool:
+        """Whether the contact carries the load at `X_FM`: balanced, unstable, or at a jump up to the residual."""
+        return self.outcome in ("balanced", "unstable", "at_jump")
+
 
 class ElasticContact:
     """Two surfaces with their layers, ready to be asked at any pose. Any number of threads may ask.
@@ -244,17 +249,50 @@ class ElasticContact:
 
         C++: `condyle::balance` in condyle/load_balance.hpp.
         """
-        found = self._native.balance(
+        return _balanced(self._native.balance(
             np.eye(4) if start is None else start, force_n, moment_nmm,
-            word(frame, "frame", ("fixed", "mobile")) == "mobile",
-            np.empty((0, 3)) if isinstance(free_directions, (tuple, list)) and not free_directions else free_directions,
-            bool(free_rotations))
-        found["residual_force_n"], found["residual_moment_nmm"] = found.pop("residual")
-        found["contact"] = results_of(found["contact"])
-        return BalancedPose(**found)
+            word(frame, "frame", ("fixed", "mobile")) == "mobile", _directions(free_directions),
+            bool(free_rotations)))
+
+    def balance_along(self, poses: ArrayLike, force_n: ArrayLike, *, moment_nmm: Optional[ArrayLike] = None,
+                      frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
+                      progress: Progress = None) -> list[BalancedPose]:
+        """The poses that balance a load, frame after frame of a motion, (N, 4, 4).
+
+        Rotations are the given ones; each frame starts from its translation as the last frame that carries its load has
+        moved its own. `force_n` and `moment_nmm` (3,) for all frames, or (N, 3) one for each; the rest as
+        :meth:`balance` takes it. UsageError where there are neither one nor N loads.
+
+        C++: `condyle::balance_along` in condyle/motion_contact.hpp.
+        """
+        from ._joint import _callable
+
+        forces = _rows(force_n, "force_n")
+        moments = np.zeros_like(forces, dtype=np.float64) if moment_nmm is None else _rows(moment_nmm, "moment_nmm")
+        return [_balanced(found) for found in self._native.balance_along(
+            poses, forces, moments, word(frame, "frame", ("fixed", "mobile")) == "mobile",
+            _directions(free_directions), bool(free_rotations), _callable(progress))]
 
     def __repr__(self) -> str:
         return f"ElasticContact(fixed={self._fixed!r}, mobile={self._mobile!r})"
+
+
+def _rows(given: ArrayLike, name: str) -> NDArray[Any]:
+    try:
+        rows: NDArray[Any] = np.atleast_2d(np.asarray(given))
+        return rows
+    except ValueError:
+        raise UsageError(f"{name}: numbers of shape (3,) or (N, 3) are needed") from None
+
+
+def _directions(given: ArrayLike) -> ArrayLike:
+    return np.empty((0, 3)) if isinstance(given, (tuple, list)) and not given else given
+
+
+def _balanced(found: dict[str, Any]) -> BalancedPose:
+    found["residual_force_n"], found["residual_moment_nmm"] = found.pop("residual")
+    found["contact"] = results_of(found["contact"])
+    return BalancedPose(**found)
 
 
 def surface_of(found: Optional[dict[str, Any]]) -> Optional[SurfaceContact]:

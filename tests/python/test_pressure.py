@@ -1,0 +1,75 @@
+"""Pressure and loads: a block on a plane has closed forms, and frames are balanced as single poses are."""
+
+import numpy as np
+import pytest
+
+import condyle
+
+
+def box(low: tuple[float, float, float], high: tuple[float, float, float]) -> condyle.TriMesh:
+    corners = np.array([[(low, high)[(i >> k) & 1][k] for k in range(3)] for i in range(8)], dtype=float)
+    quads = [(0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)]
+    return condyle.TriMesh(corners, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+
+
+PLANE, BLOCK = box((-40, -10, -40), (40, 0, 40)), box((-5, 0, -5), (5, 5, 5))
+LAYER = condyle.ElasticLayer(youngs_modulus_mpa=10, poisson_ratio=0.25, thickness_mm=2)
+# A layer that cannot spread sideways: (1 - nu) E / ((1 + nu) (1 - 2 nu)) = 12 MPa, so 6 MPa per mm of 2 mm.
+STIFFNESS = 12 / 2
+AREA = 100.0
+
+
+def on_the_plane(**options: object) -> condyle.ElasticContact:
+    return condyle.ElasticContact(PLANE, BLOCK, fixed_layer=LAYER, casting="mobile", **options)
+
+
+def lowered(depth: float) -> np.ndarray:
+    X_FM = np.eye(4)
+    X_FM[1, 3] = -depth
+    return X_FM
+
+
+def test_a_block_on_a_plane_is_pushed_by_stiffness_times_depth() -> None:
+    found = on_the_plane().at(lowered(0.3))
+    assert found.force_n == pytest.approx([0, STIFFNESS * 0.3 * AREA, 0], rel=1e-12, abs=1e-9)
+    assert found.mobile.totals.area_mm2 == pytest.approx(AREA, rel=1e-12)
+    assert found.mobile.totals.max_pressure_mpa == pytest.approx(STIFFNESS * 0.3, rel=1e-12)
+    assert found.fixed is None
+
+
+def test_a_thickness_for_each_vertex_counts_as_the_constant_one_does() -> None:
+    everywhere = condyle.ElasticLayer(10, 0.25, np.full(8, 2.0))
+    contact = condyle.ElasticContact(PLANE, BLOCK, fixed_layer=everywhere, casting="mobile")
+    assert contact.at(lowered(0.3)).force_n == pytest.approx(on_the_plane().at(lowered(0.3)).force_n, rel=1e-12)
+
+
+def test_frames_are_balanced_where_the_closed_form_says() -> None:
+    contact = on_the_plane()
+    forces = np.array([[0, -120.0, 0], [0, -300.0, 0], [0, -600.0, 0]])
+    found = contact.balance_along([lowered(0.1)] * 3, forces, free_directions=[[0, 1, 0]])
+    assert [pose.outcome for pose in found] == ["balanced"] * 3
+    assert all(pose.carries_load for pose in found)
+    depths = [-pose.X_FM[1, 3] for pose in found]
+    assert depths == pytest.approx(-forces[:, 1] / (STIFFNESS * AREA), abs=1e-9)
+    one_load = contact.balance_along([lowered(0.1)] * 2, [0, -300, 0], free_directions=[[0, 1, 0]])
+    assert [-pose.X_FM[1, 3] for pose in one_load] == pytest.approx([0.5, 0.5], abs=1e-9)
+
+
+def test_a_load_that_no_pose_carries_is_told() -> None:
+    pulled = on_the_plane().balance([0, 10, 0], start=lowered(0.1), free_directions=[[0, 1, 0]])
+    assert pulled.outcome == "pulled_apart" and not pulled.carries_load and "pulls the bodies apart" in pulled.reason
+
+
+def test_a_force_that_jumps_is_told_with_what_is_left() -> None:
+    # At the reach of 0.5 mm the block carries 300 N, and nothing beyond.
+    contact = on_the_plane(reach_mm=0.5)
+    found = contact.balance([0, -303, 0], start=lowered(0.3), free_directions=[[0, 1, 0]])
+    assert found.outcome == "at_jump" and found.carries_load
+    assert 3 <= np.linalg.norm(found.residual_force_n) <= 0.02 * 303
+
+
+@pytest.mark.parametrize("forces", [[[0, -1, 0]] * 2, [[0, 1], [2]], "much", [[0, 0, 0]]])
+def test_wrong_loads_are_refused_in_one_line(forces: object) -> None:
+    with pytest.raises(condyle.UsageError) as refused:
+        on_the_plane().balance_along([lowered(0.1)] * 3, forces)
+    assert "\n" not in str(refused.value)
