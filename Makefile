@@ -34,7 +34,7 @@ test: dependencies build/release/build.ninja
 	@$(call run_tests,release)
 
 sanitize clang: clang_dependencies
-	@cmake --preset $@ -DCONDYLE_TESTS=ON >/dev/null
+	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
 	@cmake --build --preset $@
 	@$(call run_tests,$@)
 
@@ -62,7 +62,8 @@ verify: bench_dependencies
 	@cmake --build --preset release --target condyle_verify
 	@build/release/condyle-verify
 
-# The core compiled to WebAssembly, and its answers held against the native ones bit for bit.
+# The core compiled to WebAssembly, and its answers held against the native ones bit for bit. Emscripten's linker looks for
+# Debian's modules of node by NODE_PATH.
 page-core: dependencies build/release/build.ninja
 	@scripts/install_dependencies.sh page
 	@cmake --build --preset release --target page_core_answers

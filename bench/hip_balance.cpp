@@ -69,7 +69,7 @@ std::size_t rays_of_a_look(const ElasticContact& surfaces, const Pose& X_FM) {
     rays += answer.found.rays;
   };
   ask(surfaces.parts().from_fixed, X_FM);
-  ask(surfaces.parts().from_mobile, X_FM.inverse());
+  ask(surfaces.parts().from_mobile, inverted(X_FM));
   return rays;
 }
 

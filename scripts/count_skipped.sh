@@ -3,11 +3,12 @@
 # (*.xml) and ctest (ctest.junit) wrote. Tests skip where something is not there (real joints, another library, rights).
 set -euo pipefail
 results=$1
-tests=$(cat "$results"/*.xml 2>/dev/null | grep -c '<testcase ' || true)
+tests=$( (grep -soh '<testcase ' "$results"/*.xml 2>/dev/null || true) | wc -l)
 
-# GoogleTest: message="FILE:LINE&#x0A;REASON", of tests that a run leaves passed. ctest: whole runs without a reason.
+# GoogleTest: message="FILE:LINE&#x0A;REASON", of tests that a run leaves passed; pytest: type="..." message="REASON". ctest:
+# whole runs without a reason.
 reasons() {
-  sed -nE 's/.*<skipped message="([^"]*)".*/\1/p' "$results"/*.xml | sed -E 's/^[^&]*&#x0A;//; s/&#x0A;/ /g'
+  (grep -sohE '<skipped [^>]*message="[^"]*"' "$results"/*.xml || true) | sed -E 's/.*message="([^"]*)"/\1/; s/^[^&]*&#x0A;//; s/&#x0A;/ /g'
   sed -nE '/<testcase name="[^"]*".*status="notrun"/ s/.*<testcase name="([^"]*)".*/\1 did not run/p' \
     "$results/ctest.junit"
 }

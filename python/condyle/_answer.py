@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any, Iterator
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,9 +41,3 @@ def html_of(title: str, rows: list[tuple[str, str]]) -> str:
     """A small table for notebooks."""
     body = "".join(f"<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>" for name, value in rows)
     return f"<table><caption>{html.escape(title)}</caption>{body}</table>"
-
-
-def slices_of(offset: NDArray[np.int64]) -> Iterator[slice]:
-    """The elements of each pose: offset[n] to offset[n + 1]."""
-    for first, last in zip(offset[:-1].tolist(), offset[1:].tolist()):
-        yield slice(first, last)

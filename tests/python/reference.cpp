@@ -92,7 +92,7 @@ void answer(const char* joint_file, const char* poses_file, const char* answers_
         joint.tangential(X_FM, axis_of(JointAngle::flexion, system, angles_at(system, X_FM)));
     answers.add(turned.mobile_in_fixed->arc_gap_mm);
     answers.add(turned.fixed_in_mobile->arc_gap_mm);
-    answers.add(from_mobile.at(X_FM.inverse()));
+    answers.add(from_mobile.at(inverted(X_FM)));
   }
   answers.write(answers_file);
 }

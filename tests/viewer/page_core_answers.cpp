@@ -52,9 +52,15 @@ std::string penetrations(CondyleJoint* joint, const double* pose, int of_fixed) 
   return text;
 }
 
+int failed() {
+  std::fprintf(stderr, "%s\n", condyle_error());
+  return 1;
+}
+
 }  // namespace
 
-int main(int, char** arguments) {
+int main(int count, char** arguments) {
+  if (count != 2) return 2;
   const std::string folder = arguments[1];
   const SampleHip hip = sample_hip({}, Scenario::two);
   const std::vector<double> fixed = flat(hip.hip_bone), mobile = flat(hip.femur);
@@ -88,14 +94,11 @@ int main(int, char** arguments) {
                                       fixed_triangles.data(), static_cast<int>(fixed_triangles.size() / 3),
                                       mobile.data(), static_cast<int>(mobile.size() / 3),
                                       mobile_triangles.data(), static_cast<int>(mobile_triangles.size() / 3));
-  if (!joint) {
-    std::fprintf(stderr, "%s\n", condyle_error());
-    return 1;
-  }
+  if (!joint) return failed();
   std::ofstream answers(folder + "/answers.txt");
   for (int i = 0; i < poses; ++i) {
     double X[16];
-    condyle_pose(joint, &questions[6 * i], &questions[6 * i + 3], X);
+    if (condyle_pose(joint, &questions[6 * i], &questions[6 * i + 3], X) != 0) return failed();
     answers << "pose";
     for (const double entry : X) answers << ' ' << bits(entry);
     answers << "\nmobile " << penetrations(joint, X, 0) << "\nfixed " << penetrations(joint, X, 1);
@@ -108,8 +111,9 @@ int main(int, char** arguments) {
     const double start[] = {motion.start.flexion.degrees(), motion.start.adduction.degrees(),
                             motion.start.internal_rotation.degrees()};
     double limit[7];
-    condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive, start,
-                  motion.range.degrees(), limit);
+    if (condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive, start,
+                      motion.range.degrees(), limit) != 0)
+      return failed();
     answers << "limit " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
     for (const double value : start) answers << ' ' << bits(value);
     answers << ' ' << bits(motion.range.degrees());

@@ -1,6 +1,6 @@
 #include "page_core.hpp"
 
-#include <cmath>
+#include <array>
 #include <exception>
 #include <limits>
 #include <optional>
@@ -93,17 +93,17 @@ CondyleJoint* condyle_joint(int kind, int anatomy, int side, const double* fixed
                             int fixed_triangle_count, const double* mobile_vertices, int mobile_vertex_count,
                             const std::uint32_t* mobile_triangles, int mobile_triangle_count) {
   return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
-    constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::free};
-    constexpr Anatomy anatomies[] = {Anatomy::hip, Anatomy::knee, Anatomy::ankle, Anatomy::elbow,
-                                     Anatomy::shoulder};
+    constexpr std::array kinds{JointKind::ball, JointKind::hinge, JointKind::free};
+    constexpr std::array anatomies{Anatomy::hip, Anatomy::knee, Anatomy::ankle, Anatomy::elbow,
+                                   Anatomy::shoulder};
     Joint joint{.name = {},
-                .kind = kinds[kind],
+                .kind = kinds.at(static_cast<std::size_t>(kind)),
                 .side = side == 0 ? Side::right : Side::left,
                 .fixed = {"fixed body",
                           mesh_of(fixed_vertices, fixed_vertex_count, fixed_triangles, fixed_triangle_count)},
                 .mobile = {"mobile body", mesh_of(mobile_vertices, mobile_vertex_count, mobile_triangles,
                                                   mobile_triangle_count)},
-                .anatomy = anatomies[anatomy]};
+                .anatomy = anatomies.at(static_cast<std::size_t>(anatomy))};
     JointContact bodies(joint);
     return new CondyleJoint{std::move(joint), std::move(bodies)};
   });
@@ -168,7 +168,7 @@ int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* sta
       options.overlap.reference_contact = ReferenceContact::accept;
       joint->range.emplace(joint->joint, options);
     }
-    const Motion motion{.vary = all_joint_angles[vary],
+    const Motion motion{.vary = all_joint_angles.at(static_cast<std::size_t>(vary)),
                         .sense = positive ? RotationSense::positive : RotationSense::negative,
                         .start = angles_of(start_deg),
                         .range = Angle::degrees(range_deg)};

@@ -44,10 +44,10 @@ def read_json(path: PathLike) -> Dict[str, Any]:
     return value
 
 
-def _rows(path: Path) -> Tuple[List[str], List[Tuple[int, List[str]]]]:
+def _rows(path: Path, fewest: int = 1) -> Tuple[List[str], List[Tuple[int, List[str]]]]:
     """Names of columns, and the rows with the numbers of their lines; comments are passed over."""
     lines = [(i, line) for i, line in enumerate(_text(path).splitlines(), 1) if line.strip() and not line.startswith("#")]
-    if len(lines) < 2:
+    if len(lines) < 1 + fewest:
         raise ReadError(f"{path}: no rows")
     names = next(csv.reader([lines[0][1]]))
     rows = []
@@ -145,7 +145,7 @@ def _axis_values(axis: Dict[str, Any]) -> Array:
 
 def _read_intervals(path: Path, columns: Array, rows: Array) -> Dict[Tuple[int, int], List[_Interval]]:
     """Free intervals of each grid point (row, column); none of a point that is free nowhere."""
-    names, lines = _rows(path)
+    names, lines = _rows(path, fewest=0)  # none where the joint is free nowhere
     needed = ("low_reason", "high_reason", "holds_start")
     for name in needed:
         if name not in names:

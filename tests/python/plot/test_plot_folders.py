@@ -138,7 +138,7 @@ BAD = {
     "short_row": ("map_intervals.csv", INTERVALS + "1,2\n", "map_intervals.csv: line 10: 2 fields, not 7"),
     "no_number": ("map_intervals.csv", INTERVALS.replace("-30,40", "-30,x"), "line 3: column 'internal_rotation_high_deg': 'x'"),
     "off_the_grid": ("map_intervals.csv", INTERVALS.replace("0,-5,-30", "1,-5,-30", 1), "line 3: column 'flexion_deg': 1 is not"),
-    "no_rows": ("map_intervals.csv", "a,b\n", "map_intervals.csv: no rows"),
+    "no_header": ("map_intervals.csv", "# nothing\n", "map_intervals.csv: no rows"),
     "no_column": ("map_intervals.csv", "a,b,c,d\n1,2,3,4\n", "map_intervals.csv: no column 'low_reason'"),
 }
 
@@ -152,6 +152,13 @@ def test_a_bad_file_is_one_line_and_3_and_nothing_is_written(tmp_path, name):
     assert ran.stderr.startswith("condyle: ") and ran.stderr.count("\n") == 1
     assert words in ran.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_limits_beside_a_map_that_is_free_nowhere_are_drawn(tmp_path):
+    header = next(line for line in INTERVALS.splitlines() if not line.startswith("#"))
+    ran = run(damaged(tmp_path / "in", "map_intervals.csv", header + "\n"), "--out", tmp_path / "out")
+    assert ran.returncode == 0, ran.stderr
+    assert any(path.name.startswith("limits") for path in (tmp_path / "out").iterdir())
 
 
 def test_folders_without_results_are_refused(tmp_path):
