@@ -20,6 +20,7 @@ using condyle::BalanceOutcome;
 using condyle::Casting;
 using condyle::ElasticContact;
 using condyle::FaceRule;
+using condyle::inverted;
 using condyle::Pose;
 
 const TableHead balance_head{
