@@ -51,7 +51,8 @@ def accuracy_series(rows, question):
     wrong, all_of, _ = WRONG[question]
     for own in by_method(row for row in rows if row["scene"] == ACCURACY_SCENE):
         shares = [sum(float(row[key]) for key in wrong) / max(float(row[all_of]), 1) for row in own]
-        yield figures.Series(own[0]["method_title"], own[0]["method_family"], [float(row["query_ms"]) for row in own], shares)
+        yield figures.Series(own[0]["method_title"], own[0]["method_family"], [float(row["query_ms"]) for row in own],
+                             shares)
 
 
 def main(path, folder):
@@ -59,8 +60,10 @@ def main(path, folder):
         outcomes = [row for row in csv.DictReader(file) if row["deformed"] == "no"]
     for question in WRONG:
         rows = [row for row in outcomes if row["question"] == question]
-        drawn = {"cost": (list(cost_series(rows)), "triangles of the fixed body", "time per pose, one thread (ms)", None),
-                 "accuracy": (list(accuracy_series(rows, question)), "time per pose, one thread (ms)", WRONG[question][2], "none")}
+        drawn = {"cost": (list(cost_series(rows)), "triangles of the fixed body", "time per pose, one thread (ms)",
+                          None),
+                 "accuracy": (list(accuracy_series(rows, question)), "time per pose, one thread (ms)",
+                              WRONG[question][2], "none")}
         for name, (series, x_label, y_label, zero_label) in drawn.items():
             if not any(y > 0 for one in series for y in one.y):
                 continue

@@ -4,8 +4,9 @@
 Usage: PYTHONPATH=build/release/python scripts/draw_docs.py [NAME...]
 
 NAME is one or more of hip, deformities, knee and examples; all if none is given. Needs a release build with the example
-`example_deformity_curves`, matplotlib, and for knee and examples python3-vtk9 and the data that CONDYLE_DATA names. The picture of
-two bones, docs/images/impingement.png, is scripts/picture.py's; those of docs/images/bench are made by `make bench`.
+`example_deformity_curves`, matplotlib, and for knee and examples python3-vtk9 and the data that CONDYLE_DATA names. The
+picture of two bones, docs/images/impingement.png, is scripts/picture.py's; those of docs/images/bench are made by `make
+bench`.
 """
 import os
 import subprocess
@@ -81,8 +82,8 @@ def knee_data():
 def draw_knee():
     data = knee_data()
     for joint in ("tibiofemoral", "patellofemoral"):
-        condyle("motion", f"examples/{joint}.toml", "--motion", data / "passive_flexion_states.sto", "--load", "--maps", "--out",
-                OUT / joint)
+        condyle("motion", f"examples/{joint}.toml", "--motion", data / "passive_flexion_states.sto", "--load", "--maps",
+                "--out", OUT / joint)
         draw(OUT / joint, {"pressure_map": f"{joint}_pressure.png"}, frames=[0, 100, 250])
 
 

@@ -4,8 +4,8 @@
 Usage: scripts/picture.py FOLDER PICTURE.png
 Needs Debian's python3-vtk9; without a display run it under xvfb-run.
 
-Both bones are drawn as they stand, side by side: the fixed one with the mobile one as glass before it, and the mobile one
-alone. Triangles with all corners inside the other bone are red, those in contact orange.
+Both bones are drawn as they stand, side by side: the fixed one with the mobile one as glass before it, and the mobile
+one alone. Triangles with all corners inside the other bone are red, those in contact orange.
 """
 import sys
 

@@ -3,8 +3,8 @@
 
 Usage: cam_and_internal_rotation.py [PICTURE [HIPS]]
 
-Each hip has a femur and a socket drawn from how living hips differ; its cam has an alpha angle of 75 degrees. Internal rotation at
-90 degrees of flexion ends where bone meets bone. PICTURE is a .pdf, .svg or .png.
+Each hip has a femur and a socket drawn from how living hips differ; its cam has an alpha angle of 75 degrees. Internal
+rotation at 90 degrees of flexion ends where bone meets bone. PICTURE is a .pdf, .svg or .png.
 """
 import sys
 
@@ -36,8 +36,10 @@ def hips(count):
 def draw(anteversion_deg, without, with_cam):
     with figures.print_style():
         figure, (left, right) = plt.subplots(1, 2, figsize=figures.size_mm(130, 60), layout="constrained")
-        left.plot([0, 1], np.stack((without, with_cam)), "o-", color=figures.style.BLUE, linewidth=0.6, markersize=2.5, alpha=0.7)
-        left.plot([0, 1], [np.mean(without), np.mean(with_cam)], "D-", color=figures.style.VERMILION, label="mean", zorder=3)
+        left.plot([0, 1], np.stack((without, with_cam)), "o-", color=figures.style.BLUE, linewidth=0.6, markersize=2.5,
+                  alpha=0.7)
+        left.plot([0, 1], [np.mean(without), np.mean(with_cam)], "D-", color=figures.style.VERMILION, label="mean",
+                  zorder=3)
         left.set_xticks([0, 1], ["no cam", f"alpha {ALPHA_DEG:g}°"])
         left.set_xlim(-0.2, 1.2)
         left.set_ylim(bottom=min(0, with_cam.min()))
@@ -55,7 +57,8 @@ def main(picture=None, count=20):
     without = np.array([internal_rotation_deg(**shape) for shape in shapes])
     with_cam = np.array([internal_rotation_deg(**shape, alpha_angle_deg=ALPHA_DEG) for shape in shapes])
     lost = without - with_cam
-    print(f"{len(shapes)} hips: internal rotation {without.mean():.1f} deg without a cam, {with_cam.mean():.1f} with one; "
+    print(f"{len(shapes)} hips: internal rotation {without.mean():.1f} deg without a cam, "
+          f"{with_cam.mean():.1f} with one; "
           f"it takes {lost.min():.1f} to {lost.max():.1f} deg")
     if picture:
         figures.save(draw(np.array([shape["femoral_anteversion_deg"] for shape in shapes]), without, with_cam), picture)

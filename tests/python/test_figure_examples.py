@@ -10,8 +10,8 @@ import pytest
 
 
 def run(source: Path, name: str, *arguments: object, **environment: str) -> str:
-    ran = subprocess.run([sys.executable, source / "examples/python" / name, *map(str, arguments)], capture_output=True, text=True,
-                         env={**os.environ, "MPLBACKEND": "Agg", **environment})
+    ran = subprocess.run([sys.executable, source / "examples/python" / name, *map(str, arguments)], capture_output=True,
+                         text=True, env={**os.environ, "MPLBACKEND": "Agg", **environment})
     assert ran.returncode == 0, ran.stderr
     return ran.stdout
 

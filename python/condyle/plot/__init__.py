@@ -1,16 +1,16 @@
 """Figures for papers: what Condyle finds, drawn with matplotlib.
 
-Every function takes `ax=` and returns the axes; without `ax` it makes a figure as wide as a column of a journal, in 8 pt, with
-colours that stay apart for all eyes. No heading and no footer is drawn: that is the caption's work. Results are taken as the
-module gives them, or as `condyle.plot.files` reads them from the folders that the command writes:
+Every function takes `ax=` and returns the axes; without `ax` it makes a figure as wide as a column of a journal, in 8
+pt, with colours that stay apart for all eyes. No heading and no footer is drawn: that is the caption's work. Results
+are taken as the module gives them, or as `condyle.plot.files` reads them from the folders that the command writes:
 
     import condyle.plot as figures
     result = figures.files.read_rom("out/demo/range_of_motion")
     ax = figures.limits(result)
     figures.save(ax, "limits.pdf")
 
-`python3 -m condyle.plot FOLDER` draws all that is in a folder. Needs matplotlib 3.6 or newer; the compiled part of Condyle is
-not used.
+`python3 -m condyle.plot FOLDER` draws all that is in a folder. Needs matplotlib 3.6 or newer. What is read
+of files is drawn without the compiled part of Condyle, which `import condyle` loads all the same.
 """
 from __future__ import annotations
 

@@ -17,7 +17,8 @@ EXAMPLES = """\
 examples:
   condyle rom hip.toml --band=40 --out range && python3 -m condyle.plot range
   condyle rom hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out map && python3 -m condyle.plot map --format png
-  condyle motion knee.toml --motion walk.mot --load --maps --out walk && python3 -m condyle.plot walk --frames 0 20 40 --out figures
+  condyle motion knee.toml --motion walk.mot --load --maps --out walk
+  python3 -m condyle.plot walk --frames 0 20 40 --out figures
 """
 WRONG_USAGE, BAD_FILE, INTERNAL = 2, 3, 5
 

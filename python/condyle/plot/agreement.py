@@ -24,12 +24,12 @@ def _pairs(ours: ArrayLike, theirs: ArrayLike) -> "tuple[Array, Array]":
     return a[known], b[known]
 
 
-def agreement(ours: ArrayLike, theirs: ArrayLike, *, unit: str, ax: Optional[Axes] = None, names: Sequence[str] = ("ours", "theirs"),
-              quantity: str = "") -> Axes:
+def agreement(ours: ArrayLike, theirs: ArrayLike, *, unit: str, ax: Optional[Axes] = None,
+              names: Sequence[str] = ("ours", "theirs"), quantity: str = "") -> Axes:
     """Draws differences of two methods against their means, with bias and limits of agreement.
 
-    After J. M. Bland and D. G. Altman, Lancet 327 (1986): bias is the mean difference, ours less theirs, and the limits are 1.96
-    standard deviations (n - 1) to either side.
+    After J. M. Bland and D. G. Altman, Lancet 327 (1986): bias is the mean difference, ours less theirs, and the limits
+    are 1.96 standard deviations (n - 1) to either side.
 
     Parameters
     ----------
@@ -52,8 +52,8 @@ def agreement(ours: ArrayLike, theirs: ArrayLike, *, unit: str, ax: Optional[Axe
         for value, name, words, line in ((bias, "bias", "bias", "-"), (bias - spread, "lower", f"{-1.96:.2f} SD", "--"),
                                          (bias + spread, "upper", "+1.96 SD", "--")):
             ax.axhline(value, color=style.VERMILION, linestyle=line, linewidth=0.9, gid=name)
-            ax.annotate(f"{words.replace('-', '−')}\n{value:.3g}".replace("-", "−"), (1.01, value), xycoords=("axes fraction", "data"),
-                        va="center", fontsize=style.smaller(1.5))
+            ax.annotate(f"{words.replace('-', '−')}\n{value:.3g}".replace("-", "−"), (1.01, value),
+                        xycoords=("axes fraction", "data"), va="center", fontsize=style.smaller(1.5))
         what = f"{quantity}, " if quantity else ""
         ax.set_xlabel(f"{what}mean of both ({unit})")
         ax.set_ylabel(f"{names[0]} less {names[1]} ({unit})")
@@ -62,7 +62,9 @@ def agreement(ours: ArrayLike, theirs: ArrayLike, *, unit: str, ax: Optional[Axe
 
 
 class Series(NamedTuple):
-    """One method: `label` beside its last point, `family` for its colour, `x` and `y` as many, above 0 (`y` at least 0)."""
+    """One method: `label` beside its last point, `family` for its colour, `x` and `y` as many, above 0 (`y` at least
+    0).
+    """
 
     label: str
     family: str

@@ -19,6 +19,10 @@ Array = NDArray[np.float64]
 PathLike = Union[str, Path]
 
 
+#: Of a map, as the command refuses more.
+MOST_POINTS = 10_000_000
+
+
 class ReadError(ValueError):
     """A file that cannot be read, or does not say what a figure needs; the message is one line."""
 
@@ -46,7 +50,8 @@ def read_json(path: PathLike) -> Dict[str, Any]:
 
 def _rows(path: Path, fewest: int = 1) -> Tuple[List[str], List[Tuple[int, List[str]]]]:
     """Names of columns, and the rows with the numbers of their lines; comments are passed over."""
-    lines = [(i, line) for i, line in enumerate(_text(path).splitlines(), 1) if line.strip() and not line.startswith("#")]
+    lines = [(i, line) for i, line in enumerate(_text(path).splitlines(), 1) if line.strip()
+             and not line.startswith("#")]
     if len(lines) < 1 + fewest:
         raise ReadError(f"{path}: no rows")
     names = next(csv.reader([lines[0][1]]))
@@ -67,7 +72,7 @@ def _number(path: Path, line: int, name: str, field: str) -> float:
 
 
 def read_curves(path: PathLike) -> Dict[str, Array]:
-    """The columns of `curves.csv`, `regions.csv` or `cycle.csv` by their names, each as long as there are rows; NaN for a gap.
+    """The columns of `curves.csv`, `regions.csv` or `cycle.csv` by name, each as long as there are rows; NaN for a gap.
 
     The first column is what the curves run along: `time_s`, `frame` or `cycle_percent`.
     """
@@ -106,12 +111,35 @@ def read_rom(folder: PathLike) -> Dict[str, Any]:
     if not isinstance(motions, list) or not motions:
         raise ReadError(f"{path}: no motions")
     for i, motion in enumerate(motions):
-        for key in ("name", "limit_deg", "reason"):
-            if not isinstance(motion, dict) or key not in motion:
-                raise ReadError(f"{path}: motion {i} has no '{key}'")
+        _check_motion(f"{path}: motion {i}", motion)
     if "map" in result:
         result["grid"] = _read_grid(folder, result["map"], path)
     return result
+
+
+def _check_motion(where: str, motion: Any) -> None:
+    """That all which figures read of a motion is of its type."""
+    for key in ("name", "limit_deg", "reason"):
+        if not isinstance(motion, dict) or key not in motion:
+            raise ReadError(f"{where} has no '{key}'")
+    if not isinstance(motion["name"], str):
+        raise ReadError(f"{where}: 'name' is not a text")
+    if motion["reason"] not in ("contact", "end_of_range", "contact_at_start"):
+        raise ReadError(f"{where}: 'reason' is none of contact, end_of_range and contact_at_start")
+    _check_number(where, motion, "limit_deg")
+    for key in ("bearing_contact_deg", "normal_range_deg", "clock_hour"):
+        if motion.get(key) is not None:
+            _check_number(where, motion, key)
+    band = motion.get("band")
+    if band is not None:
+        for key in ("p5_deg", "median_deg", "p95_deg"):
+            _check_number(f"{where}: band", band, key)
+
+
+def _check_number(where: str, of: Any, key: str) -> None:
+    value = of.get(key) if isinstance(of, dict) else None
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        raise ReadError(f"{where}: '{key}' is not a number")
 
 
 class _Interval(NamedTuple):
@@ -125,9 +153,10 @@ class _Interval(NamedTuple):
 def _read_grid(folder: Path, summary: Dict[str, Any], path: Path) -> MotionGrid:
     """The map of `rom.json`'s `map` and `map_intervals.csv`."""
     try:
-        columns, rows = (_axis_values(summary[key]) for key in ("columns", "rows"))
-        column, row = ((summary[key]["angle"], summary[key]["opposite"]) for key in ("columns", "rows"))
-        varied = (summary["vary"], summary["vary_opposite"])
+        columns, rows = (_axis_values(f"{path}: map: {key}", summary[key]) for key in ("columns", "rows"))
+        column, row = ((str(summary[key]["angle"]), str(summary[key]["opposite"])) for key in ("columns", "rows"))
+        varied = (str(summary["vary"]), str(summary["vary_opposite"]))
+        _check_number(f"{path}: map", summary, "start_deg")
         start = float(summary["start_deg"])
     except (KeyError, TypeError) as error:
         raise ReadError(f"{path}: map: no {error}") from None
@@ -135,8 +164,12 @@ def _read_grid(folder: Path, summary: Dict[str, Any], path: Path) -> MotionGrid:
     return _grid_of(intervals, column, row, varied, columns, rows, start)
 
 
-def _axis_values(axis: Dict[str, Any]) -> Array:
-    count = int(axis["count"])
+def _axis_values(where: str, axis: Dict[str, Any]) -> Array:
+    for key in ("count", "first_deg", "step_deg", "last_deg"):
+        _check_number(where, axis, key)
+    count = axis["count"]
+    if not isinstance(count, int) or not 0 < count <= MOST_POINTS:
+        raise ReadError(f"{where}: 'count' is not in 1 to {MOST_POINTS}")
     values = axis["first_deg"] + axis["step_deg"] * np.arange(count)
     if count > 1:
         values[-1] = axis["last_deg"]
@@ -184,7 +217,8 @@ def _grid_of(intervals: Dict[Tuple[int, int], List[_Interval]], column: Tuple[st
         lower[point], upper[point] = drawn.low, drawn.high
         lower_open[point], upper_open[point] = drawn.low_open, drawn.high_open
         free_at_start[point], count[point] = bool(held), len(of_point)
-    return MotionGrid(column, row, varied, columns, rows, start, lower, upper, lower_open, upper_open, free_at_start, count)
+    return MotionGrid(column, row, varied, columns, rows, start, lower, upper, lower_open, upper_open, free_at_start,
+                      count)
 
 
 class Surface(NamedTuple):
@@ -205,7 +239,8 @@ def read_surface(path: PathLike) -> Surface:
         from vtkmodules.vtkCommonCore import vtkLogger
         from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
     except ImportError:
-        raise ImportError("reading .vtp files needs VTK's Python module: install python3-vtk9 (Debian) or vtk") from None
+        raise ImportError(
+            "reading .vtp files needs VTK's Python module: install python3-vtk9 (Debian) or vtk") from None
     path = Path(path)
     if not path.is_file():
         raise ReadError(f"{path}: No such file or directory")

@@ -10,8 +10,9 @@ Array = NDArray[np.float64]
 
 
 class Flattened(NamedTuple):
-    """A surface laid flat: `points_mm` (V, 2) to the right and up; `facing` (T,) triangles whose front is seen; `right` and `up`,
-    unit vectors (3,) on the paper's axes at its middle; `projection`, in words."""
+    """A surface laid flat: `points_mm` (V, 2) to the right and up; `facing` (T,) triangles whose front is seen; `right`
+    and `up`, unit vectors (3,) on the paper's axes at its middle; `projection`, in words.
+    """
 
     points_mm: Array
     facing: NDArray[np.bool_]
@@ -34,8 +35,9 @@ def _unit(vector: Array) -> Array:
 
 
 def axes_seen_along(normal: Array, up: Optional[ArrayLike]) -> Tuple[Array, Array]:
-    """To the right and up on paper when looking against `normal`. Without `up`: superior (+Y), or anterior (+X) where the surface
-    faces up or down by more than 45 degrees."""
+    """To the right and up on paper when looking against `normal`. Without `up`: superior (+Y), or anterior (+X) where
+    the surface faces up or down by more than 45 degrees.
+    """
     if up is None:
         up = (1.0, 0.0, 0.0) if abs(normal[1]) > np.sqrt(0.5) else (0.0, 1.0, 0.0)
     wanted = np.asarray(up, dtype=np.float64)
@@ -43,7 +45,8 @@ def axes_seen_along(normal: Array, up: Optional[ArrayLike]) -> Tuple[Array, Arra
     return np.cross(upwards, normal), upwards
 
 
-def on_plane(vertices: Array, triangles: NDArray[np.int64], weights: Array, up: Optional[ArrayLike] = None) -> Flattened:
+def on_plane(vertices: Array, triangles: NDArray[np.int64], weights: Array,
+             up: Optional[ArrayLike] = None) -> Flattened:
     """Orthographic: seen from far away along the mean normal of the triangles, weighted; the origin at their centroid.
 
     Lengths are true along the paper only where the surface is parallel to it.
@@ -59,8 +62,9 @@ def on_plane(vertices: Array, triangles: NDArray[np.int64], weights: Array, up: 
 
 def about_centre(vertices: Array, triangles: NDArray[np.int64], weights: Array, centre: ArrayLike = (0, 0, 0),
                  up: Optional[ArrayLike] = None) -> Flattened:
-    """Azimuthal equidistant about a centre: the pole is the mean direction of the triangles, weighted; along every line through it
-    lengths are true on the sphere of the triangles' mean distance from the centre. Heads are seen from outside, sockets from inside.
+    """Azimuthal equidistant about a centre: the pole is the mean direction of the triangles, weighted; along every line
+    through it lengths are true on the sphere of the triangles' mean distance from the centre. Heads are seen from
+    outside, sockets from inside.
     """
     from_centre = vertices - np.asarray(centre, dtype=np.float64)
     normals = area_normals(vertices, triangles)

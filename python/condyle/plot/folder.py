@@ -69,7 +69,8 @@ def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: str) -
         found.append(("cycle", lambda: panels(cycle)))
     maps = _maps(folder)
     if frames and not maps:
-        raise files.ReadError(f"{folder}: no map_mobile_*.vtp with values in it: condyle motion writes them with --maps")
+        raise files.ReadError(
+            f"{folder}: no map_mobile_*.vtp with values in it: condyle motion writes them with --maps")
     if maps:
         found.append(("pressure_map", _surfaces(folder, maps, frames, projection)))
     return found
@@ -94,7 +95,8 @@ def _chosen(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]]
     return list(frames)
 
 
-def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: str) -> Callable[[], Figure]:
+def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: str
+              ) -> Callable[[], Figure]:
     chosen = _chosen(folder, maps, frames)
     surfaces = [files.read_surface(maps[frame]) for frame in chosen]
     name = next((name for name in ("pressure_mpa", "depth_mm") if name in surfaces[0].values), None)
@@ -102,7 +104,8 @@ def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int
         raise files.ReadError(f"{maps[chosen[0]]}: no cell array pressure_mpa or depth_mm")
     first = files.read_surface(maps[min(maps)])
     answer = files.read_json(folder / "motion.json")
-    in_joint_frame = (answer.get("provenance") or {}).get("frame") == "joint"
+    provenance = answer.get("provenance")
+    in_joint_frame = isinstance(provenance, dict) and provenance.get("frame") == "joint"
     side = answer.get("side") if in_joint_frame else None
     return functools.partial(_side_by_side, surfaces, first, name, side, projection)
 
@@ -119,11 +122,13 @@ def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name:
     each_mm = (style.DOUBLE_COLUMN_MM - 32) / len(surfaces)
     with style.print_style():
         figure, all_axes = plt.subplots(1, len(surfaces), sharex=True, sharey=True, squeeze=False, layout="constrained",
-                                        figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 13 + min(each_mm * height / width, 120)))
+                                        figsize=style.size_mm(style.DOUBLE_COLUMN_MM,
+                                                              13 + min(each_mm * height / width, 120)))
         for i, (ax, surface) in enumerate(zip(all_axes.flat, surfaces)):
             pressure_map(surface.vertices, surface.triangles, surface.values[name], ax=ax, highest=highest, side=side,
                          colour_bar=False, flattened=flat)
-            ax.text(0.02, 0.98, "abcdefghijklmnopqrstuvwxyz"[i % 26], transform=ax.transAxes, fontweight="bold", va="top")
+            ax.text(0.02, 0.98, "abcdefghijklmnopqrstuvwxyz"[i % 26], transform=ax.transAxes, fontweight="bold",
+                    va="top")
             if i:
                 ax.set_ylabel("")
         add_scale(all_axes, highest, quantity_label(name))

@@ -54,9 +54,9 @@ def _mark(ax: Axes, x: float, y: float, end: End, gid: str) -> None:
 
 def _whisker(ax: Axes, y: float, band: Band) -> None:
     below = y + 0.29  # of the bar: the mark at its end would hide a narrow band
-    ax.errorbar([band.median_deg], [below], xerr=[[band.median_deg - band.p5_deg], [band.p95_deg - band.median_deg]], fmt="|",
-                color=style.BLACK, markersize=3, markeredgewidth=0.7, elinewidth=0.7, capsize=1.6, capthick=0.7, zorder=3,
-                label="_band")
+    ax.errorbar([band.median_deg], [below], xerr=[[band.median_deg - band.p5_deg], [band.p95_deg - band.median_deg]],
+                fmt="|", color=style.BLACK, markersize=3, markeredgewidth=0.7, elinewidth=0.7, capsize=1.6,
+                capthick=0.7, zorder=3, label="_band")
 
 
 def _normal(ax: Axes, y: float, degrees: float) -> None:
@@ -70,13 +70,14 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     if any(end.bearing_deg is not None for end in ends):
         shown.add("bearing")
     handles: List[Any] = [
-        Line2D([], [], marker=end.marker, color=end.colour, markeredgecolor="white", markeredgewidth=0.6, label=end.words,
-               linewidth=3)
+        Line2D([], [], marker=end.marker, color=end.colour, markeredgecolor="white", markeredgewidth=0.6,
+               label=end.words, linewidth=3)
         for name, end in ENDS.items()
         if name in shown
     ]
     if any(end.band is not None for end in ends):
-        handles.append(Line2D([], [], marker="|", color=style.BLACK, linewidth=0.7, markersize=4, label="band, 5 to 95 %"))
+        handles.append(Line2D([], [], marker="|", color=style.BLACK, linewidth=0.7, markersize=4,
+                              label="band, 5 to 95 %"))
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
     return handles
@@ -89,17 +90,17 @@ def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequenc
     Parameters
     ----------
     result
-        A `condyle.RangeOfMotion`, what `files.read_rom` gives, or a mapping or object with `motions`, each with what `rom.json` has
-        of it: `name`, `limit_deg`, `reason`, `contact_kind`, and where there is one `bearing_contact_deg`, `band` (with `p5_deg`,
-        `median_deg`, `p95_deg`) and `normal_range_deg`.
+        A `condyle.RangeOfMotion`, what `files.read_rom` gives, or a mapping or object with `motions`, each with what
+        `rom.json` has of it: `name`, `limit_deg`, `reason`, `contact_kind`, and where there is one
+        `bearing_contact_deg`, `band` (with `p5_deg`, `median_deg`, `p95_deg`) and `normal_range_deg`.
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     bands
         A whisker from 5 to 95 % of each limit, with a tick at the median: those of the result, or one per motion as
         `RangeOfMotion.bands` gives them. False: none.
     normal_ranges
-        A grey bar behind, where a source has a value: of the living, in whom soft tissue stops most motions before bone does. Those of
-        the result, or degrees by the names of motions. False: none.
+        A grey bar behind, where a source has a value: of the living, in whom soft tissue stops most motions before bone
+        does. Those of the result, or degrees by the names of motions. False: none.
     values
         The limit in figures at the right, with its band in brackets.
     legend
@@ -107,8 +108,8 @@ def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequenc
 
     Returns
     -------
-    The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) tells what ended it, a diamond on the bar (gid
-    `bearing_contact`) where bearing surfaces met on the way.
+    The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) tells what ended it, a diamond on the
+    bar (gid `bearing_contact`) where bearing surfaces met on the way.
     """
     ends = motion_ends(result, bands)
     if normal_ranges is not True:
@@ -127,8 +128,8 @@ def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequenc
                 _whisker(ax, y, end.band)
                 longest = max(longest, end.band.p95_deg)
             if values:
-                ax.text(1.04, y, _value(end), transform=ax.get_yaxis_transform(), va="center", fontsize=style.smaller(1.5),
-                        gid="value")
+                ax.text(1.04, y, _value(end), transform=ax.get_yaxis_transform(), va="center",
+                        fontsize=style.smaller(1.5), gid="value")
         step = step_of_ticks(longest, 5)
         ax.set_xlim(0, step * -(-longest // step))
         ax.xaxis.set_major_locator(MultipleLocator(step))

@@ -47,18 +47,21 @@ def grid_of(result: Any) -> MotionGrid:
 
 def _of_motion_map(result: Any) -> MotionGrid:
     """Where the start is not free, ends of the range are not told from contact."""
-    column, row, varied = ((name, OPPOSITE.get(name, f"negative {name}")) for name in (result.column, result.row, result.vary))
+    column, row, varied = ((name, OPPOSITE.get(name, f"negative {name}"))
+                           for name in (result.column, result.row, result.vary))
     end_of_range = 1  # condyle.REASONS
     free = np.asarray(result.free_at_start)
     count = np.diff(np.asarray(result.offset)).reshape(free.shape)
-    return MotionGrid(column, row, varied, np.asarray(result.column_deg), np.asarray(result.row_deg), float(result.start_deg),
-                      np.asarray(result.lower_deg), np.asarray(result.upper_deg),
+    return MotionGrid(column, row, varied, np.asarray(result.column_deg), np.asarray(result.row_deg),
+                      float(result.start_deg), np.asarray(result.lower_deg), np.asarray(result.upper_deg),
                       (np.asarray(result.negative.reason) == end_of_range) & free,
                       (np.asarray(result.positive.reason) == end_of_range) & free, free, count)
 
 
 def values_of(grid: MotionGrid, view: str) -> Array:
-    """Degrees from the start, (rows, columns); below 0 where the interval drawn does not reach the start, NaN where none is."""
+    """Degrees from the start, (rows, columns); below 0 where the interval drawn does not reach the start, NaN where
+    none is.
+    """
     if view == "positive":
         return grid.upper_deg - grid.start_deg
     if view == "negative":
@@ -111,7 +114,8 @@ def _hatch(ax: Axes, grid: MotionGrid, marked: NDArray[np.bool_], name: str) -> 
 
 def _marks(grid: MotionGrid, view: str) -> List[Tuple[str, NDArray[np.bool_]]]:
     """What is hatched, and where; only what there is."""
-    is_open = {"positive": grid.upper_open, "negative": grid.lower_open, "free_range": grid.upper_open | grid.lower_open}[view]
+    is_open = {"positive": grid.upper_open, "negative": grid.lower_open,
+               "free_range": grid.upper_open | grid.lower_open}[view]
     somewhere = grid.intervals > 0
     marks = [
         ("nowhere", ~somewhere),
@@ -127,7 +131,8 @@ def _handles(names: Sequence[str]) -> List[Patch]:
     handles = []
     for name in names:
         pattern, colour, words = HATCHES[name]
-        ground = style.LIGHT_GREY if name == "nowhere" else matplotlib.colormaps[style.SEQUENTIAL](0.45 if name == "open" else 0.75)
+        colours = matplotlib.colormaps[style.SEQUENTIAL]
+        ground = style.LIGHT_GREY if name == "nowhere" else colours(0.45 if name == "open" else 0.75)
         handles.append(Patch(facecolor=ground, edgecolor=colour, hatch=pattern, linewidth=0, label=words))
     return handles
 
@@ -153,17 +158,18 @@ MOST_TICKS = 7
 def _angle_ticks(axis: Any, values: Array) -> None:
     """Ticks at values of the grid, true minus signs."""
     step = (values[-1] - values[0]) / max(len(values) - 1, 1) or 1.0
-    steps = next(n for n in (1, 2, 3, 4, 5, 6, 9, 10, 18, 20, 45, 50, 90, 100, 10**9) if n * MOST_TICKS >= len(values) - 1)
+    steps = next(n for n in (1, 2, 3, 4, 5, 6, 9, 10, 18, 20, 45, 50, 90, 100, 10**9)
+                 if n * MOST_TICKS >= len(values) - 1)
     axis.set_major_locator(MultipleLocator(step * steps))
     axis.set_major_formatter(FuncFormatter(lambda value, _: number(round(value, 6))))
 
 
-def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None, levels: Optional[Sequence[float]] = None,
-               colour_bar: bool = True, legend: bool = True) -> Axes:
+def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None,
+               levels: Optional[Sequence[float]] = None, colour_bar: bool = True, legend: bool = True) -> Axes:
     """Draws how far one angle turns over two held ones, as filled contours with labels.
 
-    Points between those of the grid are interpolated linearly. Drawn is the free interval that holds the start, else the one
-    nearest to it: its end is then on the other side of the start, and the limit below zero.
+    Points between those of the grid are interpolated linearly. Drawn is the free interval that holds the start, else
+    the one nearest to it: its end is then on the other side of the start, and the limit below zero.
 
     Parameters
     ----------
@@ -180,8 +186,9 @@ def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None
 
     Returns
     -------
-    The axes. Cells around points are hatched, by gid: `nowhere` free, free but `not_at_start`, with other free intervals
-    (`islands`), free up to the end of the range (`open`). A map of one row or one column has no area and is drawn as a curve.
+    The axes. Cells around points are hatched, by gid: `nowhere` free, free but `not_at_start`, with other free
+    intervals (`islands`), free up to the end of the range (`open`). A map of one row or one column has no area and is
+    drawn as a curve.
     """
     grid = grid_of(result)
     values = values_of(grid, view)
@@ -198,7 +205,8 @@ def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None
         ax.set_ylim(grid.rows_deg[0], grid.rows_deg[-1])
         filled = ax.contourf(grid.columns_deg, grid.rows_deg, values, levels=chosen, cmap=style.SEQUENTIAL, zorder=1,
                              extend="neither" if levels is None else "both")
-        lines = ax.contour(grid.columns_deg, grid.rows_deg, values, levels=chosen, colors="black", linewidths=0.5, zorder=2)
+        lines = ax.contour(grid.columns_deg, grid.rows_deg, values, levels=chosen, colors="black", linewidths=0.5,
+                           zorder=2)
         for name, marked in marks:
             _hatch(ax, grid, marked, name)
         labels = ax.clabel(lines, fmt=lambda level: number(level), fontsize=style.smaller(1), inline=False)
@@ -230,12 +238,12 @@ def _curve(grid: MotionGrid, values: Array, view: str, ax: Optional[Axes]) -> Ax
         ax.plot(held, flat, marker="o", color=style.BLUE, gid="limit")
         if "open" in marks:
             at = marks["open"].ravel()
-            ax.plot(held[at], flat[at], marker="o", linestyle="none", markerfacecolor="white", markeredgecolor=style.BLUE,
-                    label=HATCHES["open"][2], gid="open")
+            ax.plot(held[at], flat[at], marker="o", linestyle="none", markerfacecolor="white",
+                    markeredgecolor=style.BLUE, label=HATCHES["open"][2], gid="open")
         if "not_at_start" in marks:
             at = marks["not_at_start"].ravel()
-            ax.plot(held[at], flat[at], marker="s", linestyle="none", color=style.VERMILION, label=HATCHES["not_at_start"][2],
-                    gid="not_at_start")
+            ax.plot(held[at], flat[at], marker="s", linestyle="none", color=style.VERMILION,
+                    label=HATCHES["not_at_start"][2], gid="not_at_start")
         if "nowhere" in marks:
             at = marks["nowhere"].ravel()
             ax.plot(held[at], np.zeros(at.sum()), marker="X", linestyle="none", color=style.VERMILION, clip_on=False,

@@ -42,7 +42,8 @@ def column(table: Table, name: str) -> Array:
 
 def has(table: Table, quantity: str) -> bool:
     """Whether a table has the columns of a quantity."""
-    return all(name in table or (name == "force_n" and "force_x_n" in table) for name, _ in QUANTITIES[quantity].columns)
+    return all(name in table or (name == "force_n" and "force_x_n" in table)
+               for name, _ in QUANTITIES[quantity].columns)
 
 
 def table_of(time_s: ArrayLike, answers: Sequence[Any]) -> Dict[str, Array]:
@@ -89,22 +90,25 @@ def _finish(ax: Axes, along: str, quantity: Quantity) -> None:
         ax.legend(fontsize=style.smaller(1.5))
 
 
-def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Optional[str] = None, label: Optional[str] = None,
-          reference: Optional[Table] = None, reference_label: str = "reference", colour: str = style.BLUE) -> Axes:
+def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Optional[str] = None,
+          label: Optional[str] = None, reference: Optional[Table] = None, reference_label: str = "reference",
+          colour: str = style.BLUE) -> Axes:
     """Draws one quantity along a motion.
 
     Parameters
     ----------
     table
-        Columns by name: what `files.read_curves` gives of `curves.csv` or `cycle.csv`, what `table_of` gives of answers, a pandas
-        DataFrame, or arrays in a dict. NaN is a gap, and the line is broken there.
+        Columns by name: what `files.read_curves` gives of `curves.csv` or `cycle.csv`, what `table_of` gives of
+        answers, a pandas DataFrame, or arrays in a dict. NaN is a gap, and the line is broken there.
     quantity
-        `"area"`, `"depth"` (largest and mean), `"pressure"` (largest and mean), `"force"` (length of the vector) or `"gap"`.
+        `"area"`, `"depth"` (largest and mean), `"pressure"` (largest and mean), `"force"` (length of the vector) or
+        `"gap"`.
     ax
-        Where to draw; without it new axes as wide as a column, under `print_style`. Given again, a second motion is drawn over
-        the first.
+        Where to draw; without it new axes as wide as a column, under `print_style`. Given again, a second motion is
+        drawn over the first.
     along
-        The column to the right: the first one (`time_s`, `frame`, `cycle_percent`), or an angle such as `"flexion_deg"`.
+        The column to the right: the first one (`time_s`, `frame`, `cycle_percent`), or an angle such as
+        `"flexion_deg"`.
     label, colour
         Of this motion.
     reference, reference_label
@@ -112,7 +116,8 @@ def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Opti
 
     Returns
     -------
-    The axes; lines have the gid `curve` and the name of the column, such as `curve:area_mm2`, those of the reference `reference:…`.
+    The axes; lines have the gid `curve` and the name of the column, such as `curve:area_mm2`, those of the reference
+    `reference:…`.
     """
     drawn = _quantity([table] if reference is None else [table, reference], quantity)
     along = along or next(iter(table))
@@ -137,8 +142,8 @@ def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None,
     Parameters
     ----------
     tables
-        Two or more of `cycle.csv`, as `files.read_curves` gives them, with the same `cycle_percent`. A gap in one is left out of the
-        mean there.
+        Two or more of `cycle.csv`, as `files.read_curves` gives them, with the same `cycle_percent`. A gap in one is
+        left out of the mean there.
     quantity, ax, label, colour
         As for `curve`; of a quantity with two columns the first one, the largest value.
 
@@ -160,15 +165,17 @@ def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None,
         mean = np.where(known, values, 0).sum(axis=0) / count
         deviation = np.sqrt(np.square(np.where(known, values - mean, 0)).sum(axis=0) / (count - 1))
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 52) as ax:
-        ax.fill_between(percent, mean - deviation, mean + deviation, color=colour, alpha=0.25, linewidth=0, gid="deviation")
-        ax.plot(percent, mean, color=colour, label=_label(label, f"{words} mean ± 1 SD, n = {len(tables)}".strip()), gid="mean")
+        ax.fill_between(percent, mean - deviation, mean + deviation, color=colour, alpha=0.25, linewidth=0,
+                        gid="deviation")
+        ax.plot(percent, mean, color=colour, label=_label(label, f"{words} mean ± 1 SD, n = {len(tables)}".strip()),
+                gid="mean")
         _finish(ax, "cycle_percent", drawn)
     return ax
 
 
 def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None,
            reference_label: str = "reference") -> Any:
-    """Area, depth, pressure and force of one motion, as far as there are, in one figure as wide as a page; returns the figure.
+    """Area, depth, pressure and force of one motion, as far as there are: a figure as wide as a page, which it returns.
 
     Arguments are those of `curve`.
     """
@@ -179,8 +186,8 @@ def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = 
         raise ValueError(f"no contact in this table: it has {', '.join(table)}")
     rows = -(-len(shown) // 2)
     with style.print_style():
-        figure, all_axes = plt.subplots(rows, 2, figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 50 * rows), layout="constrained",
-                                        squeeze=False)
+        figure, all_axes = plt.subplots(rows, 2, figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 50 * rows),
+                                        layout="constrained", squeeze=False)
         for i, ax in enumerate(all_axes.flat):
             if i >= len(shown):
                 ax.set_axis_off()

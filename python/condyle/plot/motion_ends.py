@@ -15,8 +15,9 @@ class Band(NamedTuple):
 
 
 class MotionEnd(NamedTuple):
-    """Where a motion ends. `end` is "impingement", "bearing", "contact" (of an unknown kind), "end_of_range" or "contact_at_start";
-    `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12)."""
+    """Where a motion ends. `end` is "impingement", "bearing", "contact" (of an unknown kind), "end_of_range" or
+    "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12).
+    """
 
     name: str
     turned_deg: float
@@ -55,7 +56,7 @@ def motion_ends(result: Any, bands: Union[bool, Sequence[Any]] = True) -> List[M
     Raises ValueError where there are no motions, or not as many bands.
     """
     limits = of(result, "limits")
-    ends = [_of_file(limit) for limit in of(result, "motions") or []] if limits is None else [_of_limit(each) for each in limits]
+    ends = list(map(_of_file, of(result, "motions") or [])) if limits is None else list(map(_of_limit, limits))
     if not ends:
         raise ValueError("no motions to draw")
     if bands is True:

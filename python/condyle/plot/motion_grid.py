@@ -14,8 +14,8 @@ class MotionGrid(NamedTuple):
     """Which values of one angle are free over a grid of two others.
 
     Arrays over the grid are (rows, columns). An angle is named by its two movements, the positive one first.
-    `lower_deg` and `upper_deg` are the ends of the free interval that holds the start, else of the one nearest to it; NaN where
-    nothing is free.
+    `lower_deg` and `upper_deg` are the ends of the free interval that holds the start, else of the one nearest to it;
+    NaN where nothing is free.
     """
 
     column: Tuple[str, str]

@@ -33,8 +33,8 @@ def quantity_label(name: str) -> str:
     return f"{spaced(words)} ({UNITS[unit]})" if unit in UNITS else spaced(name)
 
 
-def laid_flat(projection: str, vertices: Array, triangles: NDArray[np.int64], weights: Array, centre: ArrayLike = (0, 0, 0),
-              up: Optional[ArrayLike] = None) -> flatten.Flattened:
+def laid_flat(projection: str, vertices: Array, triangles: NDArray[np.int64], weights: Array,
+              centre: ArrayLike = (0, 0, 0), up: Optional[ArrayLike] = None) -> flatten.Flattened:
     """A surface by the name of its projection, `"plane"` or `"sphere"`."""
     if projection == "plane":
         return flatten.on_plane(vertices, triangles, weights, up)
@@ -52,12 +52,14 @@ def pressure_map(vertices: ArrayLike, triangles: ArrayLike, values: ArrayLike, *
     Parameters
     ----------
     vertices, triangles, values
-        (V, 3) in mm, (T, 3), and (T,) of at least 0: what `files.read_surface` gives of a map of `condyle motion --maps`.
+        (V, 3) in mm, (T, 3), and (T,) of at least 0: what `files.read_surface` gives of a map of `condyle motion
+        --maps`.
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     projection
-        `"plane"`: orthographic along the mean normal of what is in contact (of all, where nothing is). `"sphere"`: azimuthal equidistant
-        about `centre`, for heads and sockets: lengths through the middle are true on the sphere of the mean radius.
+        `"plane"`: orthographic along the mean normal of what is in contact (of all, where nothing is). `"sphere"`:
+        azimuthal equidistant about `centre`, for heads and sockets: lengths through the middle are true on the sphere
+        of the mean radius.
     centre
         Of the sphere, mm; the joint centre is the origin of the joint frame.
     up
@@ -73,7 +75,8 @@ def pressure_map(vertices: ArrayLike, triangles: ArrayLike, values: ArrayLike, *
 
     Returns
     -------
-    The axes, in mm; the triangles in contact have the gid `in_contact`, the grey ones `surface`. `Axes.get_title` is left to you.
+    The axes, in mm; the triangles in contact have the gid `in_contact`, the grey ones `surface`. `Axes.get_title` is
+    left to you.
     """
     points = np.asarray(vertices, dtype=np.float64)
     corners = np.asarray(triangles, dtype=np.int64)
@@ -89,11 +92,11 @@ def pressure_map(vertices: ArrayLike, triangles: ArrayLike, values: ArrayLike, *
     width, height = np.ptp(shown, axis=0)
     room_mm = style.SINGLE_COLUMN_MM - (33 if colour_bar else 15)
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 14 + room_mm * min(height / width, 2.0)) as ax:
-        ax.add_collection(PolyCollection(paper[flat.facing & ~in_contact], facecolor="#d9d9d9", edgecolor="#d9d9d9", linewidth=0.2,
-                                         rasterized=True, gid="surface"))
+        ax.add_collection(PolyCollection(paper[flat.facing & ~in_contact], facecolor="#d9d9d9", edgecolor="#d9d9d9",
+                                         linewidth=0.2, rasterized=True, gid="surface"))
         scale = matplotlib.colors.Normalize(0, top)
-        drawn = PolyCollection(paper[in_contact], array=numbers[in_contact], cmap=style.SEQUENTIAL, norm=scale, edgecolor="face",
-                               linewidth=0.2, rasterized=True, gid="in_contact")
+        drawn = PolyCollection(paper[in_contact], array=numbers[in_contact], cmap=style.SEQUENTIAL, norm=scale,
+                               edgecolor="face", linewidth=0.2, rasterized=True, gid="in_contact")
         ax.add_collection(drawn)
         ax.set_aspect("equal")
         ax.update_datalim(shown)

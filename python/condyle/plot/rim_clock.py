@@ -24,8 +24,8 @@ def clock_text(hour: float) -> str:
 def spread_apart(wanted: Sequence[float], gaps: Sequence[float], low: float, high: float) -> List[float]:
     """Heights as near as possible (least squares) to those wanted, in the same order and between low and high.
 
-    `wanted` ascends; `gaps[i]` is the least distance from the i-th to the next, one less than heights. Where there is no room,
-    all gaps are made smaller alike.
+    `wanted` ascends; `gaps[i]` is the least distance from the i-th to the next, one less than heights. Where there is
+    no room, all gaps are made smaller alike.
     """
     if not wanted:
         return []
@@ -55,10 +55,11 @@ def _face(ax: Axes, plane: str) -> None:
         ax.text(0.8 * x, 0.8 * y, str(hour), ha="center", va="center", fontsize=style.smaller(1.5))
     # In the plane of the rim 6 is at the notch, and 12 opposite of it.
     for hour, word in ((6, "notch"),) if plane == "rim" else ((12, "superior"), (6, "inferior")):
-        ax.text(0, 0.5 * _on_face(1, hour)[1], word, ha="center", va="center", fontsize=style.smaller(2.5), color="#555555")
+        ax.text(0, 0.5 * _on_face(1, hour)[1], word, ha="center", va="center", fontsize=style.smaller(2.5),
+                color="#555555")
     for hour, word in ((3, "anterior"), (9, "posterior")):
-        ax.text(0.42 * _on_face(1, hour)[0], 0, word, ha="center", va="center", fontsize=style.smaller(2.5), color="#555555",
-                rotation=90)
+        ax.text(0.42 * _on_face(1, hour)[0], 0, word, ha="center", va="center", fontsize=style.smaller(2.5),
+                color="#555555", rotation=90)
 
 
 def _on_face(distance: float, hour: float) -> "tuple[float, float]":
@@ -86,7 +87,8 @@ class Place(NamedTuple):
 def _labels(ax: Axes, half: List[Place], side: int) -> None:
     """Of one half of the face; side 1 is the right one."""
     half = sorted(half, key=lambda place: _on_face(1, place.hour)[1])
-    texts = ["\n".join(textwrap.wrap(f"{clock_text(place.hour)} {motion_name(place.motion)}", LETTERS, max_lines=3, placeholder="…")) for place in half]
+    names = [f"{clock_text(place.hour)} {motion_name(place.motion)}" for place in half]
+    texts = ["\n".join(textwrap.wrap(name, LETTERS, max_lines=3, placeholder="…")) for name in names]
     heights = [LINE * (1 + text.count("\n")) for text in texts]
     gaps = [(a + b) / 2 + 0.1 for a, b in zip(heights, heights[1:])]
     outer = max(heights, default=0.0) / 2
@@ -94,7 +96,8 @@ def _labels(ax: Axes, half: List[Place], side: int) -> None:
     for place, text, y in zip(half, texts, at):
         on_rim, bend = _on_face(1, place.hour), _on_face(1.12, place.hour)
         x = 1.28 * side
-        ax.plot([on_rim[0], bend[0], x], [on_rim[1], bend[1], y], color=style.GREY, linewidth=0.5, zorder=1, gid="leader")
+        ax.plot([on_rim[0], bend[0], x], [on_rim[1], bend[1], y], color=style.GREY, linewidth=0.5, zorder=1,
+                gid="leader")
         ax.text(x + 0.04 * side, y, text, ha="left" if side > 0 else "right", va="center", fontsize=style.smaller(1.5),
                 linespacing=1.05, gid="place")
 
@@ -102,8 +105,8 @@ def _labels(ax: Axes, half: List[Place], side: int) -> None:
 def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -> Axes:
     """Draws where on the rim of a hip's socket its motions end.
 
-    12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare. In the plane of the
-    rim (`clock_plane` "rim") 6 is at the acetabular notch.
+    12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare. In the
+    plane of the rim (`clock_plane` "rim") 6 is at the acetabular notch.
 
     Parameters
     ----------
@@ -120,7 +123,8 @@ def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -
     """
     found = [Place(end.hour, end.name, end.end) for end in motion_ends(result) if end.hour is not None]
     kinds = [name for name in ENDS if any(place.end == name for place in found)]
-    handles = [Line2D([], [], marker=ENDS[kind].marker, color=ENDS[kind].colour, linestyle="none", label=ENDS[kind].words)
+    handles = [Line2D([], [], marker=ENDS[kind].marker, color=ENDS[kind].colour, linestyle="none",
+                      label=ENDS[kind].words)
                for kind in kinds]
     if not legend or len(kinds) < 2:
         handles = []
@@ -135,8 +139,8 @@ def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -
         _labels(ax, [place for place in found if place.hour >= 6], -1)
         for place in found:
             end = ENDS[place.end]
-            ax.plot(*([v] for v in _on_face(1, place.hour)), marker=end.marker, color=end.colour, markeredgecolor="white",
-                    markeredgewidth=0.6, markersize=5.5, linestyle="none", zorder=3, gid="end")
+            ax.plot(*([v] for v in _on_face(1, place.hour)), marker=end.marker, color=end.colour,
+                    markeredgecolor="white", markeredgewidth=0.6, markersize=5.5, linestyle="none", zorder=3, gid="end")
         if not found:
             ax.text(0, 0, "no contact", ha="center", va="center", gid="none")
         style.legend_below(ax, is_ours, handles)

@@ -110,8 +110,8 @@ def legend_below(ax: Axes, is_ours: bool, handles: Sequence[Any], columns: int =
     """Says below the plot what marks mean: over the whole width where the figure is ours, else under the axes."""
     if not handles:
         return
-    look: Dict[str, Any] = dict(handles=list(handles), ncol=columns, columnspacing=1.4, handletextpad=0.6, borderaxespad=0,
-                                fontsize=smaller(1.5))
+    look: Dict[str, Any] = dict(handles=list(handles), ncol=columns, columnspacing=1.4, handletextpad=0.6,
+                                borderaxespad=0, fontsize=smaller(1.5))
     if not is_ours:
         ax.legend(loc="upper center", bbox_to_anchor=(0.5, -0.2), **look)
         return
@@ -119,7 +119,8 @@ def legend_below(ax: Axes, is_ours: bool, handles: Sequence[Any], columns: int =
     height = figure.get_size_inches()[1] * MM_PER_INCH
     strip = rows_below(len(handles), columns) / height
     figure.get_layout_engine().set(rect=(0, strip, 1, 1 - strip))
-    legend = ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.5 / height), bbox_transform=figure.transFigure, **look)
+    legend = ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.5 / height), bbox_transform=figure.transFigure,
+                       **look)
     legend.set_in_layout(False)
 
 

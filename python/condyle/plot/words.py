@@ -6,9 +6,9 @@ from typing import Any, Optional
 
 MINUS = "\N{MINUS SIGN}"
 OPPOSITE = {
-    "flexion": "extension", "adduction": "abduction", "internal_rotation": "external_rotation", "dorsiflexion": "plantarflexion",
-    "inversion": "eversion", "varus": "valgus", "pronation": "supination", "plane_of_elevation": "posterior_plane_of_elevation",
-    "elevation": "lowering",
+    "flexion": "extension", "adduction": "abduction", "internal_rotation": "external_rotation",
+    "dorsiflexion": "plantarflexion", "inversion": "eversion", "varus": "valgus", "pronation": "supination",
+    "plane_of_elevation": "posterior_plane_of_elevation", "elevation": "lowering",
 }
 """The negative movement of each clinical angle by the name of its positive one."""
 _SHORT = {"fadir": "FADIR", "faber": "FABER"}

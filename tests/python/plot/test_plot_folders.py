@@ -20,8 +20,10 @@ def closed():
 
 
 MAP = {"vary": "internal_rotation", "vary_opposite": "external_rotation", "start_deg": 0,
-       "columns": {"angle": "flexion", "opposite": "extension", "first_deg": 0, "last_deg": 20, "step_deg": 10, "count": 3},
-       "rows": {"angle": "adduction", "opposite": "abduction", "first_deg": -5, "last_deg": 5, "step_deg": 10, "count": 2}}
+       "columns": {"angle": "flexion", "opposite": "extension", "first_deg": 0, "last_deg": 20, "step_deg": 10,
+                   "count": 3},
+       "rows": {"angle": "adduction", "opposite": "abduction", "first_deg": -5, "last_deg": 5, "step_deg": 10,
+                "count": 2}}
 INTERVALS = """\
 # a comment
 flexion_deg,adduction_deg,internal_rotation_low_deg,internal_rotation_high_deg,holds_start,low_reason,high_reason
@@ -37,7 +39,8 @@ flexion_deg,adduction_deg,internal_rotation_low_deg,internal_rotation_high_deg,h
 
 def rom_folder(folder: Path, **changes: object) -> Path:
     folder.mkdir(exist_ok=True)
-    motion = {"name": "flexion", "limit_deg": 100.0, "reason": "contact", "contact_kind": "impingement", "clock_hour": 2.0}
+    motion = {"name": "flexion", "limit_deg": 100.0, "reason": "contact", "contact_kind": "impingement",
+              "clock_hour": 2.0}
     (folder / "rom.json").write_text(json.dumps({"condyle": 1, "motions": [motion], **changes}))
     return folder
 
@@ -97,7 +100,8 @@ def test_the_module_names_what_it_wrote(tmp_path, format, begins):
     written = [Path(line) for line in ran.stdout.splitlines()]
     assert [path.name for path in written] == [f"limits.{format}", f"clock_face.{format}"]
     assert all(path.read_bytes().startswith(begins) for path in written)
-    assert sorted(path.name for path in (tmp_path / "new" / "figures").iterdir()) == sorted(path.name for path in written)
+    there = sorted(path.name for path in (tmp_path / "new" / "figures").iterdir())
+    assert there == sorted(path.name for path in written)
 
 
 def test_the_same_figure_is_the_same_file(tmp_path):
@@ -109,7 +113,8 @@ def test_the_same_figure_is_the_same_file(tmp_path):
         assert (folder / f"limits.{format}").read_bytes() == first
 
 
-@pytest.mark.parametrize("arguments", [[], ["a", "b"], ["a", "--format", "jpg"], ["a", "--frames", "x"], ["a", "--colour", "red"]])
+@pytest.mark.parametrize("arguments", [[], ["a", "b"], ["a", "--format", "jpg"], ["a", "--frames", "x"],
+                                       ["a", "--colour", "red"]])
 def test_wrong_usage_is_one_line_and_2(arguments):
     ran = run(*arguments)
     assert ran.returncode == 2 and ran.stdout == ""
@@ -127,17 +132,30 @@ def damaged(folder: Path, name: str, text: str) -> Path:
     return folder
 
 
+def rom_text(map: object = None, **changes: object) -> str:
+    motion = {"name": "flexion", "limit_deg": 1, "reason": "contact", **changes}
+    return json.dumps({"condyle": 1, "motions": [motion], **({} if map is None else {"map": map})})
+
+
 NO_REASON = json.dumps({"condyle": 1, "motions": [{"name": "flexion", "limit_deg": 1}]})
 BAD = {
     "not_json": ("rom.json", "{", "rom.json: line 1: not JSON"),
     "another_json": ("rom.json", "[1]", "rom.json: not a result of condyle"),
     "no_motions": ("rom.json", '{"condyle": 1}', "rom.json: no motions"),
     "no_reason": ("rom.json", NO_REASON, "rom.json: motion 0 has no 'reason'"),
-    "no_grid": ("rom.json", json.dumps({"condyle": 1, "map": {}, "motions": [{"name": "f", "limit_deg": 1, "reason": "contact"}]}),
-                "rom.json: map: no 'columns'"),
+    "no_grid": ("rom.json", rom_text(map={}), "rom.json: map: no 'columns'"),
+    "columns_of_text": ("rom.json", rom_text(map={"columns": {"count": "3"}, "rows": {}}),
+                        "rom.json: map: columns: 'count' is not a number"),
+    "a_limit_of_text": ("rom.json", rom_text(limit_deg="far"), "rom.json: motion 0: 'limit_deg' is not a number"),
+    "a_limit_of_nothing": ("rom.json", rom_text(limit_deg=None), "rom.json: motion 0: 'limit_deg' is not a number"),
+    "a_reason_of_no_kind": ("rom.json", rom_text(reason="tired"), "rom.json: motion 0: 'reason' is none of"),
+    "an_hour_of_text": ("rom.json", rom_text(clock_hour="two"), "rom.json: motion 0: 'clock_hour' is not a number"),
+    "a_band_of_text": ("rom.json", rom_text(band={"p5_deg": "1"}), "rom.json: motion 0: band: 'p5_deg' is not"),
     "short_row": ("map_intervals.csv", INTERVALS + "1,2\n", "map_intervals.csv: line 10: 2 fields, not 7"),
-    "no_number": ("map_intervals.csv", INTERVALS.replace("-30,40", "-30,x"), "line 3: column 'internal_rotation_high_deg': 'x'"),
-    "off_the_grid": ("map_intervals.csv", INTERVALS.replace("0,-5,-30", "1,-5,-30", 1), "line 3: column 'flexion_deg': 1 is not"),
+    "no_number": ("map_intervals.csv", INTERVALS.replace("-30,40", "-30,x"),
+                  "line 3: column 'internal_rotation_high_deg': 'x'"),
+    "off_the_grid": ("map_intervals.csv", INTERVALS.replace("0,-5,-30", "1,-5,-30", 1),
+                     "line 3: column 'flexion_deg': 1 is not"),
     "no_header": ("map_intervals.csv", "# nothing\n", "map_intervals.csv: no rows"),
     "no_column": ("map_intervals.csv", "a,b,c,d\n1,2,3,4\n", "map_intervals.csv: no column 'low_reason'"),
 }
@@ -197,7 +215,8 @@ def test_figures_can_be_saved_by_the_ending_of_the_name(tmp_path):
 
 def test_what_the_command_writes_is_read(tmp_path, command, hip_file):
     """The writer is C++, the reader Python: a key that one of them renames is told here."""
-    arguments = [hip_file, "--motion", "flexion", "--map", "flexion=90:110:10", "adduction=0:20:10", "--band=20", "--out", tmp_path]
+    arguments = [hip_file, "--motion", "flexion", "--map", "flexion=90:110:10", "adduction=0:20:10", "--band=20",
+                 "--out", tmp_path]
     subprocess.run([command, "rom", *arguments], check=True, capture_output=True)
     result = figures.files.read_rom(tmp_path)
     limit = result["motions"][0]
@@ -218,7 +237,8 @@ def test_what_the_command_writes_is_read(tmp_path, command, hip_file):
 def test_what_the_module_answers_is_drawn(hip):
     rom = hip.range_of_motion(["flexion", "extension"])
     ax = figures.limits(rom, bands=rom.bands(samples=20))
-    assert [bar.get_width() for bar in ax.patches if bar.get_gid() == "limit"] == [limit.turned_deg for limit in rom.limits]
+    drawn = [bar.get_width() for bar in ax.patches if bar.get_gid() == "limit"]
+    assert drawn == [limit.turned_deg for limit in rom.limits]
     found = rom.map({"flexion": (120, 140, 10)}, {"adduction": (0, 40, 20)})
     ax = figures.motion_map(found)
     marked = {c.get_gid() for c in ax.collections if c.get_hatch()}

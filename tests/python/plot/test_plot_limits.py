@@ -11,8 +11,8 @@ from condyle.plot.rim_clock import clock_text, spread_apart
 
 
 def motion(name, limit, reason="contact", kind="impingement", **more):
-    return {"name": name, "limit_deg": limit, "reason": reason, "contact_kind": kind, "bearing_contact_deg": None, "band": None,
-            "normal_range_deg": None, "clock_hour": None, **more}
+    return {"name": name, "limit_deg": limit, "reason": reason, "contact_kind": kind, "bearing_contact_deg": None,
+            "band": None, "normal_range_deg": None, "clock_hour": None, **more}
 
 
 BAND = {"p5_deg": 120.5, "median_deg": 126.0, "p95_deg": 131.5}
@@ -184,7 +184,8 @@ def test_spread_heights_keep_order_gap_and_bounds_and_none_are_nearer():
         rounding = 1e-9
 
         def allowed(h):
-            return (h >= -rounding).all() and (h <= 100 + rounding).all() and (np.diff(h) >= np.array(gaps) - rounding).all()
+            is_inside = (h >= -rounding).all() and (h <= 100 + rounding).all()
+            return is_inside and (np.diff(h) >= np.array(gaps) - rounding).all()
 
         assert allowed(heights)
         cost = ((heights - wanted) ** 2).sum()
@@ -206,11 +207,13 @@ def test_live_results_are_drawn_as_files_are():
     """With the names of condyle.RangeOfMotion."""
 
     def limit(name, turned, reason, kind=None):
-        return SimpleNamespace(motion=SimpleNamespace(name=name), turned_deg=turned, reason=reason, bearing_contact_deg=None,
-                               contact=None if kind is None else SimpleNamespace(kind=kind))
+        return SimpleNamespace(motion=SimpleNamespace(name=name), turned_deg=turned, reason=reason,
+                               bearing_contact_deg=None, contact=None if kind is None else SimpleNamespace(kind=kind))
 
-    live = SimpleNamespace(limits=(limit("flexion", 100.0, "contact", "impingement"), limit("faber", 90.0, "end_of_range")))
-    bands = [SimpleNamespace(p5_deg=95.0, median_deg=100.0, p95_deg=104.0), SimpleNamespace(p5_deg=90.0, median_deg=90.0, p95_deg=90.0)]
+    live = SimpleNamespace(limits=(limit("flexion", 100.0, "contact", "impingement"),
+                                   limit("faber", 90.0, "end_of_range")))
+    bands = [SimpleNamespace(p5_deg=95.0, median_deg=100.0, p95_deg=104.0),
+             SimpleNamespace(p5_deg=90.0, median_deg=90.0, p95_deg=90.0)]
     ax = figures.limits(live, bands=bands, normal_ranges={"flexion": 120})
     assert [bar.get_width() for bar in bars(ax, "limit")] == [100, 90]
     assert [bar.get_width() for bar in bars(ax, "normal_range")] == [120]

@@ -19,9 +19,10 @@ def plane(rows=4, columns=5, **changes):
     """Upper ends 10 degrees a column and 20 a row, from 30 on; the start at 5."""
     upper = 35.0 + 10 * np.arange(columns)[None, :] + 20 * np.arange(rows)[:, None]
     none = np.zeros((rows, columns), dtype=bool)
-    grid = figures.MotionGrid(("flexion", "extension"), ("adduction", "abduction"), ("internal_rotation", "external_rotation"),
-                              10.0 * np.arange(columns), 5.0 * np.arange(rows) - 10, 5.0, upper - 70, upper, none, none.copy(),
-                              ~none, np.ones((rows, columns), dtype=np.int64))
+    grid = figures.MotionGrid(("flexion", "extension"), ("adduction", "abduction"),
+                              ("internal_rotation", "external_rotation"), 10.0 * np.arange(columns),
+                              5.0 * np.arange(rows) - 10, 5.0, upper - 70, upper, none, none.copy(), ~none,
+                              np.ones((rows, columns), dtype=np.int64))
     return grid._replace(**changes)
 
 
@@ -76,7 +77,8 @@ def test_cells_that_are_not_free_are_marked_by_what_they_are():
     nowhere[3, 4] = 2
     is_open = grid.upper_open.copy()
     is_open[2, 1:3] = True
-    ax = figures.motion_map(grid._replace(intervals=nowhere, upper_deg=gone, free_at_start=at_start, upper_open=is_open))
+    ax = figures.motion_map(grid._replace(intervals=nowhere, upper_deg=gone, free_at_start=at_start,
+                                          upper_open=is_open))
     cells = hatched(ax)
     assert cells == {
         "nowhere": [(0, -10, 5, 2.5)],  # half a cell each way at the corner
@@ -139,10 +141,12 @@ def test_live_maps_are_drawn_as_files_are():
     """With the names of condyle.MotionMap."""
     grid = plane(rows=2, columns=3)
     live = SimpleNamespace(
-        column="flexion", row="adduction", vary="internal_rotation", column_deg=grid.columns_deg, row_deg=grid.rows_deg, start_deg=5.0,
-        lower_deg=grid.lower_deg, upper_deg=grid.upper_deg, free_at_start=np.array([[True, True, False], [True, True, True]]),
-        offset=np.array([0, 1, 2, 3, 5, 6, 7]), negative=SimpleNamespace(reason=np.zeros((2, 3), np.int8)),
+        column="flexion", row="adduction", vary="internal_rotation", column_deg=grid.columns_deg, row_deg=grid.rows_deg,
+        start_deg=5.0, lower_deg=grid.lower_deg, upper_deg=grid.upper_deg,
+        free_at_start=np.array([[True, True, False], [True, True, True]]), offset=np.array([0, 1, 2, 3, 5, 6, 7]),
+        negative=SimpleNamespace(reason=np.zeros((2, 3), np.int8)),
         positive=SimpleNamespace(reason=np.array([[0, 1, 2], [0, 0, 0]], np.int8)))
     ax = figures.motion_map(live)
-    assert ax.get_ylabel() == "adduction (+) / abduction (−) (°)" or ax.get_ylabel().startswith("adduction (°, negative")
+    said = ax.get_ylabel()
+    assert said == "adduction (+) / abduction (−) (°)" or said.startswith("adduction (°, negative")
     assert {name: len(cells) for name, cells in hatched(ax).items()} == {"not_at_start": 1, "islands": 1, "open": 1}

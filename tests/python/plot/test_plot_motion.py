@@ -81,7 +81,8 @@ def test_cycles_have_their_mean_and_a_standard_deviation_to_either_side():
 
 def test_panels_draw_what_there_is():
     figure = figures.panels(TABLE)
-    assert [ax.get_ylabel() for ax in figure.axes if ax.axison] == ["contact area (mm²)", "depth (mm)", "contact force (N)"]
+    assert [ax.get_ylabel() for ax in figure.axes if ax.axison] == [
+        "contact area (mm²)", "depth (mm)", "contact force (N)"]
     assert figure.get_size_inches()[0] * 25.4 == pytest.approx(174)
     with pytest.raises(ValueError, match="no contact"):
         figures.panels({"time_s": [0.0]})
@@ -89,8 +90,8 @@ def test_panels_draw_what_there_is():
 
 def test_answers_of_poses_become_curves():
     """With the names of condyle.ElasticContactResults."""
-    totals = SimpleNamespace(area_mm2=10.0, mean_depth_mm=0.1, max_depth_mm=0.3, mean_pressure_mpa=1.0, max_pressure_mpa=2.0,
-                             force_n=np.array([0.0, -3.0, 4.0]))
+    totals = SimpleNamespace(area_mm2=10.0, mean_depth_mm=0.1, max_depth_mm=0.3, mean_pressure_mpa=1.0,
+                             max_pressure_mpa=2.0, force_n=np.array([0.0, -3.0, 4.0]))
     cast = SimpleNamespace(mobile=SimpleNamespace(totals=totals), fixed=None)
     table = figures.table_of([0.0, 0.5], [cast, None])
     assert table["time_s"].tolist() == [0, 0.5]
@@ -118,9 +119,10 @@ def test_distances_from_the_pole_are_true_on_the_sphere():
     polar = np.arccos(np.clip(points[:, 2] / 20.0, -1, 1))
     used = np.unique(triangles)
     radius = float(flat.projection.split("radius ")[1].split(" ")[0])
-    assert radius == pytest.approx(20, abs=0.1)  # middles of chords of 2.6 degrees lie within 20 (1 - cos 1.9 deg) inside
+    # Middles of chords of 2.6 degrees lie within 20 (1 - cos 1.9 deg) inside.
+    assert radius == pytest.approx(20, abs=0.1)
     stretch = np.linalg.norm(flat.points_mm[used] - middle, axis=1) / polar[used]
-    # The mean direction is the pole up to the uneven halves of the strip that closes the cap: the same scale all around.
+    # The mean direction is the pole up to the uneven halves of the strip that closes the cap: one scale all around.
     assert np.ptp(stretch) < 0.01 * stretch.mean()
     assert flat.facing.all()
 
