@@ -8,13 +8,17 @@ the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_
 from ._errors import FileError, MeshError, ReferenceContactError, UsageError
 from ._fit import SphereFit, find_sphere, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
+from ._impingement_zone import BodyZone, ImpingementZone
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
-from ._joint import Joint, JointNote, read_joint
+from ._joint import BodyPart, Joint, JointNote, read_joint
+from ._limit_band import LimitBand
+from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
+from ._motion import Motion
+from ._motion_map import MapEnds, MotionMap
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
-from ._range_of_motion import KINDS, REASONS, BodyZone, ContactWitness, FreeAngles, ImpingementZone, Limit, LimitBand
-from ._range_of_motion import MapEnds, Motion, MotionLimit, MotionMap, PathLimit, RangeOfMotion
+from ._range_of_motion import RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
@@ -23,7 +27,8 @@ from ._surface_contact import NormalContact, SurfaceContact, thickness_to
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalancedPose", "BodyZone", "ContactEnd", "ContactInterval", "ContactMeasures", "ContactPatch", "ContactTotals",
+    "BalancedPose", "BodyPart", "BodyZone", "ContactEnd", "ContactInterval", "ContactMeasures", "ContactPatch",
+    "ContactTotals",
     "ContactWitness", "Depths", "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding",
     "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
     "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._mesh import MeshLike, TriMesh
-from ._words import count, number, word
+from ._words import ball, count, number, word
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def find_sphere(mesh: MeshLike, *, part: str = "head", smallest_radius_mm: float
     mesh = TriMesh.of(mesh)
     smallest = number(smallest_radius_mm, "smallest_radius_mm", low=0)
     largest = number(largest_radius_mm, "largest_radius_mm", low=smallest)
-    centre, radius = (None, 0.0) if within is None else (within[0], number(within[1], "within", low=0))
+    centre, radius = (None, 0.0) if within is None else ball(within, "within")
     found = _native.find_sphere(mesh._native, word(part, "part", ("head", "socket")) == "head", smallest, largest,
                                 centre, radius, count(resamples, "resamples", high=100_000))
     if mesh._first is not None:

@@ -3,27 +3,39 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Callable, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
+from ._coordinates import positions_in
 from ._errors import UsageError
 from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
+from ._joint_description import description_of
+from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
+from ._motion import MotionLike
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
-from ._range_of_motion import MotionLike, PathLimit, RangeOfMotion, witness_of
-from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, RecordedContact
+from ._range_of_motion import RangeOfMotion
+from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import normal_contact
-from ._words import Path, count, number, path_of, word
+from ._words import Path, Progress, count, number, path_of, progress_of, text_of, word
 
-Progress = Optional[Callable[[int, int], Any]]
 PoseLike = Union[ArrayLike, Mapping[str, float]]
 
-_axes = {"LPS": ((0, -1, 0), (0, 0, 1)), "RAS": ((0, 1, 0), (0, 0, 1))}
+
+@dataclass(frozen=True)
+class BodyPart:
+    """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many."""
+
+    name: str
+    first_vertex: int
+    vertices: int
+    first_triangle: int
+    triangles: int
 
 
 @dataclass(frozen=True)
@@ -95,45 +107,12 @@ class Joint:
                  mobile_in_W: Optional[ArrayLike] = None, fixed_name: str = "fixed",
                  mobile_name: str = "mobile") -> None:
         fixed, mobile = TriMesh.of(fixed), TriMesh.of(mobile)
-        for text, what in ((name, "name"), (fixed_name, "fixed_name"), (mobile_name, "mobile_name")):
-            if not isinstance(text, str):
-                raise UsageError(f"{what}: a text is needed, not {type(text).__name__}")
-        anatomy = word(joint, "joint", ("hip", "knee", "ankle", "elbow", "shoulder"))
-        to_mm = 1000.0 if word(units, "units", ("mm", "m")) == "m" else 1.0
-        given = [what for what, value in (("axes", axes), ("anterior", anterior), ("landmarks", landmarks))
-                 if value is not None]
-        if len(given) > 1:
-            raise UsageError(f"{given[1]}: given beside {given[0]}")
-        if (anterior is None) != (superior is None):
-            raise UsageError("superior: anterior and superior are given together")
-        if axes is not None:
-            anterior, superior = _axes[word(axes, "axes", ("LPS", "RAS"))]
-        is_fit = isinstance(centre, str)
-        if is_fit:
-            word(centre, "centre", ("fit", "three numbers"))
-        if fit_within is not None and not is_fit:
-            raise UsageError('fit_within: is for centre="fit"')
-        if landmarks is not None and not isinstance(landmarks, Mapping):
-            raise UsageError(f"landmarks: points by their names are needed, not {type(landmarks).__name__}")
-        word(kind, "kind", ("ball", "hinge", "free"))
-        names = _native.angle_names_of(anatomy)
-        angles, translation = _coordinates({} if reference_pose is None else reference_pose, names, "reference_pose",
-                                           suffix="", is_free=kind == "free")
-        description = {
-            "name": name, "kind": kind, "anatomy": anatomy,
-            "side": word(side, "side", ("right", "left")), "units": units,
-            "translation_frame": word(translation_frame, "translation_frame", ("fixed", "joint_axes")),
-            "centre": None if centre is None or is_fit else _in_mm(centre, to_mm, "centre"),
-            "fit": word(fit_body, "fit_body", ("mobile", "fixed")) if is_fit else None,
-            "fit_within": None if fit_within is None else _ball_in_mm(fit_within, to_mm),
-            "anterior": (1, 0, 0) if anterior is None else anterior,
-            "superior": (0, 1, 0) if superior is None else superior,
-            "landmarks": None if landmarks is None else {
-                str(point): _in_mm(place, to_mm, f"landmarks: {point}") for point, place in landmarks.items()},
-            "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm), "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm),
-            "reference_angles_deg": angles[0],
-            "reference_translation_mm": translation[0] * to_mm,
-        }
+        description = description_of(
+            name=name, kind=kind, joint=joint, side=side, units=units, translation_frame=translation_frame,
+            centre=centre, fit_body=fit_body, fit_within=fit_within, axes=axes, anterior=anterior, superior=superior,
+            landmarks=landmarks, reference_pose=reference_pose, fixed_in_W=fixed_in_W, mobile_in_W=mobile_in_W)
+        for text, what in ((fixed_name, "fixed_name"), (mobile_name, "mobile_name")):
+            text_of(text, what)
         self._native = _native.make_joint(description, fixed_name, fixed._native, mobile_name, mobile._native)
         self._fixed = TriMesh._moved(self._native.fixed, fixed)
         self._mobile = TriMesh._moved(self._native.mobile, mobile)
@@ -190,6 +169,21 @@ class Joint:
         return self._native.mobile_name
 
     @property
+    def fixed_parts(self) -> tuple[BodyPart, ...]:
+        """The meshes that the fixed body is made of; empty where it is one."""
+        return tuple(BodyPart(*part) for part in self._native.fixed_parts)
+
+    @property
+    def mobile_parts(self) -> tuple[BodyPart, ...]:
+        """Those of the mobile body."""
+        return tuple(BodyPart(*part) for part in self._native.mobile_parts)
+
+    @property
+    def translation_frame(self) -> str:
+        """Along which axes a free joint's x, y and z are: "fixed" or "joint_axes"."""
+        return self._native.translation_frame
+
+    @property
     def X_WF(self) -> NDArray[np.float64]:
         """(4, 4) the joint frame in the frame in which the meshes were given, mm."""
         return self._native.X_WF
@@ -238,8 +232,7 @@ class Joint:
         >>> joint.pose(flexion_deg=[0, 30, 60], abduction_deg=10).shape
         (3, 4, 4)
         """
-        angles, translations = _coordinates(coordinates, self._native.angle_names, "pose", suffix="_deg",
-                                            is_free=self.kind == "free")
+        angles, translations = positions_in(coordinates, self._native.angle_names, "pose", is_free=self.kind == "free")
         if self.kind == "hinge" and (angles[:, 1:] != 0).any():
             raise UsageError(f"pose: a hinge rotates in {self.angle_names[0][0]} only")
         poses = self._native.poses_at(angles, translations)
@@ -319,10 +312,10 @@ class Joint:
         matrices = self._matrices(pose)
         if method == "radial":
             is_one, mobile, fixed = _native.penetration_radial(
-                self._native, matrices, bodies != "fixed", bodies != "mobile", _callable(progress))
+                self._native, matrices, bodies != "fixed", bodies != "mobile", progress_of(progress))
         else:
             is_one, mobile, fixed = _native.penetration_tangential(
-                self._native, matrices, 0 if about is None else self._angle(about), _callable(progress))
+                self._native, matrices, 0 if about is None else self._angle(about), progress_of(progress))
         inside = vertices_inside(mobile, self._mobile, is_one), vertices_inside(fixed, self._fixed, is_one)
         if is_one:
             return Penetration(*inside, method)
@@ -335,7 +328,7 @@ class Joint:
 
         C++: `JointContact::pairs` in condyle/contact.hpp.
         """
-        is_one, found, offset = _native.pairs(self._native, self._matrices(pose), _callable(progress))
+        is_one, found, offset = _native.pairs(self._native, self._matrices(pose), progress_of(progress))
         return found if is_one else [found[first:last] for first, last in zip(offset[:-1], offset[1:])]
 
     def in_contact(self, pose: PoseLike, *, progress: Progress = None) -> Any:
@@ -343,7 +336,7 @@ class Joint:
 
         C++: `JointContact::in_contact` in condyle/contact.hpp.
         """
-        is_one, answers = _native.in_contact(self._native, self._matrices(pose), _callable(progress))
+        is_one, answers = _native.in_contact(self._native, self._matrices(pose), progress_of(progress))
         return bool(answers[0]) if is_one else answers
 
     def gaps(self, pose: PoseLike, method: str = "radial", *, about: Optional[str] = None) -> Gaps:
@@ -423,15 +416,7 @@ class Joint:
         >>> contact
         ContactInterval(1.86878 s to 2 s, exact)
         """
-        found = _native.contact_between(self._native, time_s, poses, number(resolution_s, "resolution_s"),
-                                        _callable(progress))
-        for interval in found["contacts"]:
-            for name in ("entry", "exit"):
-                end = interval[name]
-                end["contact"] = witness_of(end["contact"], self._fixed, self._mobile)
-                interval[name] = ContactEnd(**end)
-        return RecordedContact(tuple(ContactInterval(**each) for each in found["contacts"]), found["searched"] == 1,
-                               found["poses"])
+        return recorded_contact(self, time_s, poses, resolution_s, progress)
 
     def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: str = "leave_out",
                         bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,
@@ -482,15 +467,7 @@ class Joint:
 
         C++: `condyle::PathFinder` in condyle/path_limit.hpp.
         """
-        rows = [_coordinates(each, self._native.angle_names, "waypoints", suffix="", is_free=False)[0][0]
-                for each in waypoints]
-        options = {"count_bearing": False, "bearing_margin_mm": None, "accept_reference_contact": False,
-                   "leave_out_rings": None}
-        found = _native.path_limit(self._native, np.array(rows).reshape(-1, 3), number(tolerance_deg, "tolerance_deg"),
-                                   options)
-        found["angles_deg"] = dict(zip((names[0] for names in self.angle_names), found["angles_deg"]))
-        found["contact"] = witness_of(found["contact"], self._fixed, self._mobile)
-        return PathLimit(**found)
+        return path_limit(self, waypoints, tolerance_deg)
 
     def __repr__(self) -> str:
         return (f"Joint({self.name!r}: {self.kind} {self.joint}, {self.side}; {self.fixed_name} "
@@ -507,66 +484,3 @@ def read_joint(path: Path) -> Joint:
     C++: `condyle::read_joint` in condyle/io/joint_file.hpp.
     """
     return Joint.from_file(path)
-
-
-def _callable(progress: Progress) -> Progress:
-    if progress is not None and not callable(progress):
-        raise UsageError(f"progress: a callable of (done, total) is needed, not {type(progress).__name__}")
-    return progress
-
-
-def _in_mm(given: Any, to_mm: float, name: str) -> NDArray[np.float64]:
-    try:
-        return np.asarray(given, float) * to_mm
-    except (TypeError, ValueError):
-        raise UsageError(f"{name}: three numbers are needed, not {type(given).__name__}") from None
-
-
-def _ball_in_mm(given: Any, to_mm: float) -> tuple[NDArray[np.float64], float]:
-    if not isinstance(given, Sequence) or len(given) != 2:
-        raise UsageError("fit_within: a centre and a radius are needed")
-    return _in_mm(given[0], to_mm, "fit_within"), number(given[1], "fit_within", low=0) * to_mm
-
-
-def _pose_in_mm(given: Any, to_mm: float) -> Optional[NDArray[np.float64]]:
-    if given is None:
-        return None
-    pose = np.array(_in_mm(given, 1, "fixed_in_W, mobile_in_W"))
-    if pose.shape == (4, 4):
-        pose[:3, 3] *= to_mm
-    return pose
-
-
-def _coordinates(given: Mapping[str, Any], names: Any, what: str, *, suffix: str,
-                 is_free: bool) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(N, 3) degrees and (N, 3) translations of coordinates by name; scalars stand for all N."""
-    unit = "_mm" if suffix else ""
-    known = {word + suffix: (i, sign) for i, pair in enumerate(names) for word, sign in zip(pair, (1.0, -1.0))}
-    if is_free:
-        known.update({axis + unit: (3 + i, 1.0) for i, axis in enumerate("xyz")})
-    if not isinstance(given, Mapping):
-        raise UsageError(f"{what}: coordinates by their names are needed, not {type(given).__name__}")
-    columns: dict[int, NDArray[np.float64]] = {}
-    for name, value in given.items():
-        if name not in known:
-            raise UsageError(f"{what}: unknown {str(name)[:60]!r}; there are {', '.join(known)}")
-        column, sign = known[name]
-        try:
-            values = np.asarray(value)
-            if values.dtype.kind not in "fiu" or values.ndim > 1:
-                raise TypeError
-        except (TypeError, ValueError):
-            raise UsageError(f"{what}: {name} is a number or an array of shape (N,)") from None
-        if column in columns:
-            raise UsageError(f"{what}: {names[column][0]} is given twice" if column < 3 else f"{what}: twice")
-        if not np.isfinite(values).all():
-            raise UsageError(f"{what}: {name} must be finite")
-        columns[column] = sign * values.astype(float) + 0.0
-    sizes = {column.shape for column in columns.values()} - {()}
-    if len(sizes) > 1:
-        lengths = ", ".join(str(size[0]) for size in sorted(sizes))
-        raise UsageError(f"{what}: coordinates of different lengths: {lengths}")
-    table = np.zeros((6, sizes.pop()[0] if sizes else 1))
-    for i, values in columns.items():
-        table[i] = values
-    return table[:3].T, table[3:].T

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterator, Optional
+from typing import Any, Iterator, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -68,10 +68,11 @@ class VerticesInside(Columns):
     def __repr__(self) -> str:
         return f"VerticesInside({len(self)} vertices, up to {self.max_depth_mm:.6g} mm)"
 
-    def _part(self, part: slice) -> VerticesInside:
+    def _part(self, part: Union[slice, NDArray[np.int64]], offset: Optional[NDArray[np.int64]] = None
+              ) -> VerticesInside:
         return VerticesInside(self.vertex[part], self.state[part], self.winding[part], self.triangle[part],
                               self.depth_mm[part], self.direction[part],
-                              None if self.depth_deg is None else self.depth_deg[part])
+                              None if self.depth_deg is None else self.depth_deg[part], offset)
 
     _dimension = "vertex_inside"
 
@@ -138,14 +139,23 @@ def _said(body: Optional[VerticesInside]) -> str:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Penetrations(Penetration):
-    """What many poses show. `penetrations[n]` is that of one of them, without a copy."""
+    """What many poses show. `penetrations[n]` is that of one of them, `penetrations[k:n]` of some: without a copy."""
 
     count: int = 0
 
     def __len__(self) -> int:
         return self.count
 
-    def __getitem__(self, n: int) -> Penetration:
+    @overload
+    def __getitem__(self, n: int) -> Penetration: ...
+
+    @overload
+    def __getitem__(self, n: slice) -> Penetrations: ...
+
+    def __getitem__(self, n: Union[int, slice]) -> Penetration:
+        if isinstance(n, slice):
+            poses = range(self.count)[n]
+            return Penetrations(_of_poses(self.mobile, poses), _of_poses(self.fixed, poses), self.method, len(poses))
         n = range(self.count)[n]
         return Penetration(_of_pose(self.mobile, n), _of_pose(self.fixed, n), self.method)
 
@@ -192,3 +202,13 @@ def _of_pose(body: Optional[VerticesInside], n: int) -> Optional[VerticesInside]
     return body._part(slice(int(body.offset[n]), int(body.offset[n + 1])))
 
 
+def _of_poses(body: Optional[VerticesInside], poses: range) -> Optional[VerticesInside]:
+    if body is None or body.offset is None:
+        return None
+    chosen: NDArray[np.int64] = np.arange(poses.start, poses.stop, poses.step)
+    begin, end = body.offset[:-1][chosen], body.offset[1:][chosen]
+    offset: NDArray[np.int64] = np.append(0, np.cumsum(end - begin))
+    if poses.step == 1 and len(poses):
+        return body._part(slice(int(begin[0]), int(end[-1])), offset)
+    parts = [np.arange(first, last) for first, last in zip(begin, end)]
+    return body._part(np.concatenate([np.empty(0, np.int64), *parts]), offset)

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Mapping, Optional
+from typing import TYPE_CHECKING, Any, Mapping, Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
-from ._range_of_motion import ContactWitness
-from ._words import Path, path_of
+from ._limits import ContactWitness, witness_of
+from ._words import Path, Progress, number, path_of, progress_of
+
+if TYPE_CHECKING:
+    from ._joint import Joint
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -108,6 +111,19 @@ class RecordedContact:
     contacts: tuple[ContactInterval, ...]
     is_bounded: NDArray[np.bool_]
     poses: int
+
+
+def recorded_contact(joint: Joint, time_s: ArrayLike, poses: ArrayLike, resolution_s: float, progress: Progress
+                     ) -> RecordedContact:
+    found = _native.contact_between(joint._native, time_s, poses, number(resolution_s, "resolution_s"),
+                                    progress_of(progress))
+    for interval in found["contacts"]:
+        for name in ("entry", "exit"):
+            end = interval[name]
+            end["contact"] = witness_of(end["contact"], joint.fixed, joint.mobile)
+            interval[name] = ContactEnd(**end)
+    return RecordedContact(tuple(ContactInterval(**each) for each in found["contacts"]), found["searched"] == 1,
+                           found["poses"])
 
 
 def read_motion_table(path: Path) -> MotionTable:

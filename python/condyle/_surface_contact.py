@@ -12,10 +12,10 @@ from . import _native
 from ._answer import Columns, html_of
 from ._errors import UsageError
 from ._mesh import MeshLike, TriMesh
-from ._words import number, word
+from ._words import Progress, array, number, progress_of, word
 
 if TYPE_CHECKING:
-    from ._joint import Joint, PoseLike, Progress
+    from ._joint import Joint, PoseLike
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,10 +120,7 @@ class ElasticLayer:
         if not isinstance(thickness, (list, tuple)) and getattr(thickness, "ndim", 0) == 0:
             thickness = number(thickness, "thickness_mm")
         elif mesh._first is not None:
-            try:
-                thickness = np.asarray(thickness)
-            except ValueError:
-                raise UsageError("thickness_mm: numbers are needed, one for each vertex") from None
+            thickness = array(thickness, "thickness_mm", "a number for each vertex")
             if thickness.shape != mesh.vertices.shape[:1]:
                 raise UsageError(f"thickness_mm: an array of shape ({len(mesh.vertices)},) is needed")
             thickness = thickness[mesh._first]
@@ -233,9 +230,7 @@ class ElasticContact:
 
         MeshError with the logarithmic law where the overlap reaches the thickness.
         """
-        from ._joint import _callable
-
-        is_one, found = self._native.at(pose, _callable(progress))
+        is_one, found = self._native.at(pose, progress_of(progress))
         results = [results_of(each) for each in found]
         return results[0] if is_one else results
 
@@ -265,13 +260,11 @@ class ElasticContact:
 
         C++: `condyle::balance_along` in condyle/motion_contact.hpp.
         """
-        from ._joint import _callable
-
         forces = _rows(force_n, "force_n")
         moments = np.zeros_like(forces, dtype=np.float64) if moment_nmm is None else _rows(moment_nmm, "moment_nmm")
         return [_balanced(found) for found in self._native.balance_along(
             poses, forces, moments, word(frame, "frame", ("fixed", "mobile")) == "mobile",
-            _directions(free_directions), bool(free_rotations), _callable(progress))]
+            _directions(free_directions), bool(free_rotations), progress_of(progress))]
 
     def __repr__(self) -> str:
         return f"ElasticContact(fixed={self._fixed!r}, mobile={self._mobile!r})"
@@ -308,11 +301,9 @@ def results_of(found: dict[str, Any]) -> ElasticContactResults:
 
 
 def normal_contact(joint: Joint, pose: PoseLike, casting: str, rule: str, reach_mm: float, progress: Progress) -> Any:
-    from ._joint import _callable
-
     is_one, found = _native.normal_contact(
         joint._native, joint._matrices(pose), word(casting, "casting", ("both", "fixed", "mobile")),
-        word(rule, "rule", ("cut_faces", "face_centre")), number(reach_mm, "reach_mm"), _callable(progress))
+        word(rule, "rule", ("cut_faces", "face_centre")), number(reach_mm, "reach_mm"), progress_of(progress))
     contacts = [NormalContact(surface_of(fixed), surface_of(mobile)) for fixed, mobile in found]
     return contacts[0] if is_one else contacts
 

@@ -13,7 +13,7 @@ from ._answer import Columns
 from ._errors import UsageError
 from ._gaps import VertexGaps
 from ._mesh import MeshLike, TriMesh
-from ._words import count, number, word
+from ._words import array, count, number, word
 
 
 class RadialTable:
@@ -74,7 +74,7 @@ class RadialTable:
         elif given.vertex_map is None:
             self._native.update(vertices)
         else:
-            positions = np.asarray(vertices)
+            positions = array(vertices, "vertices", f"an array of shape {given.vertices.shape}")
             if positions.shape != given.vertices.shape:
                 raise UsageError(f"vertices: an array of shape {given.vertices.shape} is needed, not {positions.shape}")
             merged = positions[given._first]

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Any, SupportsFloat, Union
+from typing import Any, Callable, Optional, SupportsFloat, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from ._errors import UsageError
 
 Path = Union[str, "os.PathLike[str]"]
+Progress = Optional[Callable[[int, int], Any]]
 
 
 def path_of(given: Any, name: str = "path") -> str:
@@ -57,9 +61,46 @@ def count(given: Any, name: str, low: int = 0, high: int = 2**31 - 1) -> int:
     return int(value)
 
 
+def text_of(given: Any, name: str) -> str:
+    if not isinstance(given, str):
+        raise UsageError(f"{name}: a text is needed, not {type(given).__name__}")
+    return given
+
+
 def word(given: Any, name: str, known: tuple[str, ...]) -> str:
     """One of the words there are."""
     if not isinstance(given, str) or given not in known:
         said = repr(given) if isinstance(given, str) and len(given) < 60 else type(given).__name__
         raise UsageError(f"{name}: there are {', '.join(known[:-1])} and {known[-1]}, not {said}")
+    return given
+
+
+def array(given: ArrayLike, name: str, wanted: str) -> NDArray[Any]:
+    """An array of whatever shape; `wanted` is what is asked for: "an array of shape (V, 3)"."""
+    try:
+        values: NDArray[Any] = np.asarray(given)
+    except (TypeError, ValueError):  # rows of different lengths
+        raise UsageError(f"{name}: {wanted} is needed, not {type(given).__name__} of another form") from None
+    return values
+
+
+def number_array(given: Any, name: str, wanted: str) -> NDArray[np.float64]:
+    """As doubles, of whatever shape; `wanted` is what is asked for: "three numbers"."""
+    try:
+        return np.asarray(given, float)
+    except (TypeError, ValueError, OverflowError):
+        raise UsageError(f"{name}: {wanted} are needed, not {type(given).__name__}") from None
+
+
+def ball(given: Any, name: str) -> tuple[Any, float]:
+    """Centre and radius; the centre is looked at where it is used."""
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise UsageError(f"{name}: a centre and a radius are needed, not {type(given).__name__}")
+    return given[0], number(given[1], name, low=0)
+
+
+def progress_of(given: Progress) -> Progress:
+    """A callable of (done, total), or None."""
+    if given is not None and not callable(given):
+        raise UsageError(f"progress: a callable of (done, total) is needed, not {type(given).__name__}")
     return given

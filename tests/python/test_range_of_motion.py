@@ -127,3 +127,18 @@ def test_soups_give_the_limits_and_features_of_the_joined_mesh(hip):
             assert numbers == expected
         else:
             np.testing.assert_array_equal(mesh.vertices[numbers], whole.vertices[expected])
+
+
+def test_areas_of_rows_add_up_to_the_volume(rom):
+    found = rom.map({"flexion": (0, 60, 30)}, {"adduction": (-20, 20, 20)})
+    np.testing.assert_allclose(found.row_area_deg2, np.trapz(found.free_width_deg, found.column_deg, axis=1), rtol=1e-12)
+    assert np.trapz(found.row_area_deg2, found.row_deg) == pytest.approx(found.free_volume_deg3, rel=1e-12)
+
+
+def test_what_touches_in_the_reference_pose_is_left_out_by_number(hip):
+    beside = condyle.TriMesh(hip.mobile.vertices + [0, 5, 0], hip.mobile.triangles)  # the joint space is 3.5 mm
+    bones = condyle.Joint(hip.fixed, beside)
+    fixed, mobile = bones.range_of_motion(["flexion"], bearing="count", exclude_reference_contacts=0).left_out
+    pairs = bones.pairs(bones.pose())
+    assert (fixed, mobile) == (len(set(pairs[:, 0])), len(set(pairs[:, 1]))) and fixed > 0
+    assert hip.range_of_motion([]).left_out == (0, 0)

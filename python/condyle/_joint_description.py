@@ -1,0 +1,80 @@
+"""What a joint file says, from the arguments of Joint()."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._coordinates import position_in
+from ._errors import UsageError
+from ._words import ball, number_array, text_of, word
+
+_axes = {"LPS": ((0, -1, 0), (0, 0, 1)), "RAS": ((0, 1, 0), (0, 0, 1))}
+
+
+def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, translation_frame: Any, centre: Any,
+                   fit_body: Any, fit_within: Any, axes: Any, anterior: Any, superior: Any, landmarks: Any,
+                   reference_pose: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
+    """For the compiled part, in mm and degrees."""
+    anatomy = word(joint, "joint", ("hip", "knee", "ankle", "elbow", "shoulder"))
+    to_mm = 1000.0 if word(units, "units", ("mm", "m")) == "m" else 1.0
+    is_fit = isinstance(centre, str)
+    if is_fit:
+        word(centre, "centre", ("fit", "three numbers"))
+    if fit_within is not None and not is_fit:
+        raise UsageError('fit_within: is for centre="fit"')
+    if landmarks is not None and not isinstance(landmarks, Mapping):
+        raise UsageError(f"landmarks: points by their names are needed, not {type(landmarks).__name__}")
+    anterior, superior = _directions(axes, anterior, superior, landmarks)
+    word(kind, "kind", ("ball", "hinge", "free"))
+    angles, translation = position_in({} if reference_pose is None else reference_pose,
+                                      _native.angle_names_of(anatomy), "reference_pose", is_free=kind == "free")
+    return {
+        "name": text_of(name, "name"), "kind": kind, "anatomy": anatomy,
+        "side": word(side, "side", ("right", "left")), "units": units,
+        "translation_frame": word(translation_frame, "translation_frame", ("fixed", "joint_axes")),
+        "centre": None if centre is None or is_fit else _point_in_mm(centre, to_mm, "centre"),
+        "fit": word(fit_body, "fit_body", ("mobile", "fixed")) if is_fit else None,
+        "fit_within": None if fit_within is None else _ball_in_mm(fit_within, to_mm),
+        "anterior": anterior, "superior": superior,
+        "landmarks": None if landmarks is None else {
+            str(point): _point_in_mm(place, to_mm, f"landmarks: {point}") for point, place in landmarks.items()},
+        "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm, "fixed_in_W"),
+        "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm, "mobile_in_W"),
+        "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
+    }
+
+
+def _directions(axes: Any, anterior: Any, superior: Any, landmarks: Any) -> tuple[Any, Any]:
+    """X and Y of the joint frame in that of the meshes; landmarks are left to the compiled part."""
+    given = [what for what, value in (("axes", axes), ("anterior", anterior), ("landmarks", landmarks))
+             if value is not None]
+    if len(given) > 1:
+        raise UsageError(f"{given[1]}: given beside {given[0]}")
+    if (anterior is None) != (superior is None):
+        raise UsageError("superior: anterior and superior are given together")
+    if axes is not None:
+        return _axes[word(axes, "axes", ("LPS", "RAS"))]
+    return ((1, 0, 0), (0, 1, 0)) if anterior is None else (anterior, superior)
+
+
+def _point_in_mm(given: Any, to_mm: float, name: str) -> NDArray[np.float64]:
+    return number_array(given, name, "three numbers") * to_mm
+
+
+def _ball_in_mm(given: Any, to_mm: float) -> tuple[NDArray[np.float64], float]:
+    centre, radius = ball(given, "fit_within")
+    return _point_in_mm(centre, to_mm, "fit_within"), radius * to_mm
+
+
+def _pose_in_mm(given: Any, to_mm: float, name: str) -> Optional[NDArray[np.float64]]:
+    if given is None:
+        return None
+    pose = np.array(number_array(given, name, "an array of shape (4, 4)"))
+    if pose.shape != (4, 4):
+        raise UsageError(f"{name}: an array of shape (4, 4) is needed, not {pose.shape}")
+    pose[:3, 3] *= to_mm
+    return pose

@@ -1,0 +1,169 @@
+"""Where motions and paths end, and why."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._coordinates import position_in
+from ._errors import UsageError
+from ._mesh import TriMesh
+from ._motion import Motion, Motions
+from ._words import number
+
+if TYPE_CHECKING:
+    from ._joint import Joint
+
+
+#: Values of `reason` in maps, by number.
+REASONS = ("contact", "end_of_range", "contact_at_start")
+#: Values of `kind` in maps, by number.
+KINDS = ("unknown", "bearing", "impingement")
+
+
+@dataclass(frozen=True, eq=False)
+class ContactWitness:
+    """A pair of features in contact. Each is ("vertex", number), ("edge", vertex, vertex) or ("face", triangle).
+
+    `fixed_point` and `mobile_point` are (3,), each in its own body's frame, mm. `kind` is "bearing", "impingement" or
+    "unknown".
+    """
+
+    fixed_feature: tuple[Any, ...]
+    mobile_feature: tuple[Any, ...]
+    fixed_point: NDArray[np.float64]
+    mobile_point: NDArray[np.float64]
+    kind: str
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Limit:
+    """One end of a free rotation.
+
+    Attributes
+    ----------
+    turned_deg : float
+        From the start, at least 0 in either sense.
+    reason : str
+        "contact", "end_of_range" or "contact_at_start".
+    contact : ContactWitness or None
+        None where nothing meets, or one body is inside the other.
+    error_bound_deg : float
+        First contact is at `turned_deg` or past it by at most this, never before.
+    bearing_contact_deg : float or None
+        Where bearing contact does not count: the first one, if it comes before the limit.
+    """
+
+    turned_deg: float
+    reason: str
+    contact: Optional[ContactWitness]
+    error_bound_deg: float
+    bearing_contact_deg: Optional[float]
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.turned_deg:.6g} deg, {self.reason})"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotionLimit(Limit):
+    """Where one motion ends.
+
+    Besides what a :class:`Limit` has: `motion`; `angles_deg`, the joint's angles there by name; `centre_distance_mm`
+    between head and socket and `joint_space_mm` of the bearing surface, None where not known.
+    """
+
+    motion: Motion
+    angles_deg: Mapping[str, float]
+    centre_distance_mm: Optional[float]
+    joint_space_mm: Optional[float]
+
+    def __repr__(self) -> str:
+        return f"MotionLimit({self.motion.name}: {self.turned_deg:.6g} deg, {self.reason})"
+
+
+@dataclass(frozen=True)
+class FreeAngles:
+    """All angles of one joint angle that are free.
+
+    Attributes
+    ----------
+    intervals_deg : (K, 2) float64
+        Low and high of each free interval, ascending: of the varied angle less its start.
+    range_deg : (low, high)
+        In which was looked.
+    negative, positive : Limit
+        Both limits from the start.
+    at_low, at_high : tuple of Limit
+        What ends each interval.
+    """
+
+    intervals_deg: NDArray[np.float64]
+    range_deg: tuple[float, float]
+    negative: Limit
+    positive: Limit
+    at_low: tuple[Limit, ...]
+    at_high: tuple[Limit, ...]
+
+    @property
+    def free_width_deg(self) -> float:
+        """Of all intervals together."""
+        return float((self.intervals_deg[:, 1] - self.intervals_deg[:, 0]).sum())
+
+    @property
+    def contact_set_deg(self) -> NDArray[np.float64]:
+        """(K, 2) the angles in contact: what the free intervals leave of the range."""
+        low, high = self.range_deg
+        ends: NDArray[np.float64] = np.array([low, *self.intervals_deg.ravel().tolist(), high]).reshape(-1, 2)
+        return ends[ends[:, 1] > ends[:, 0]]
+
+
+@dataclass(frozen=True)
+class PathLimit:
+    """Where a path ends: on the way from waypoint `segment` to the next one, after `fraction` of it.
+
+    `angles_deg` are the joint's angles there, by name; `reason` "contact", "end_of_range" or "contact_at_start";
+    `contact` the two faces that are nearest to meeting, `distance_mm` apart.
+    """
+
+    segment: int
+    fraction: float
+    angles_deg: Mapping[str, float]
+    reason: str
+    contact: Optional[ContactWitness]
+    distance_mm: float
+
+
+def witness_of(found: Optional[dict[str, Any]], fixed: TriMesh, mobile: TriMesh) -> Optional[ContactWitness]:
+    """The compiled part's answer with vertices numbered as in the meshes that were given."""
+    if found is None:
+        return None
+    for body, of in (("fixed", fixed), ("mobile", mobile)):
+        kind, *numbers = found[f"{body}_feature"]
+        if kind != "face":
+            numbers = [of._as_given(vertex) for vertex in numbers]
+        found[f"{body}_feature"] = (kind, *numbers)
+    return ContactWitness(**found)
+
+
+def motion_limit_of(found: dict[str, Any], motions: Motions, fixed: TriMesh, mobile: TriMesh) -> MotionLimit:
+    found["contact"] = witness_of(found["contact"], fixed, mobile)
+    found["motion"] = motions.motion_of(found["motion"])
+    found["angles_deg"] = motions.named(found["angles_deg"])
+    return MotionLimit(**found)
+
+
+def path_limit(joint: Joint, waypoints: Sequence[Mapping[str, float]], tolerance_deg: float) -> PathLimit:
+    if isinstance(waypoints, str) or not isinstance(waypoints, Sequence):
+        raise UsageError(f"waypoints: a list of mappings is needed, not {type(waypoints).__name__}")
+    rows = [position_in(each, joint.angle_names, "waypoints", is_free=False)[0] for each in waypoints]
+    options = {"count_bearing": False, "bearing_margin_mm": None, "accept_reference_contact": False,
+               "leave_out_rings": None}
+    found = _native.path_limit(joint._native, np.array(rows).reshape(-1, 3), number(tolerance_deg, "tolerance_deg"),
+                               options)
+    found["angles_deg"] = dict(zip((names[0] for names in joint.angle_names), found["angles_deg"]))
+    found["contact"] = witness_of(found["contact"], joint.fixed, joint.mobile)
+    return PathLimit(**found)
