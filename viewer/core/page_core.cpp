@@ -1,6 +1,8 @@
 #include "page_core.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <exception>
 #include <limits>
 #include <optional>
@@ -9,6 +11,8 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "condyle/reliable_depth.hpp"
+#include "mesh/surface_distance.hpp"
 
 using namespace condyle;
 
@@ -18,6 +22,11 @@ struct CondyleJoint {
   std::optional<RangeOfMotion> range = {};
   Penetrations penetrations = {};
   std::vector<std::uint32_t> pair_triangles = {};
+  std::vector<double> intervals = {};
+  /// Of the pose that was last shown.
+  Pose shown_at = Pose::Identity();
+  std::optional<RadialContact> shown = {};
+  std::optional<mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
 };
 
 namespace {
@@ -56,6 +65,58 @@ Pose pose_of(const double* rows) {
 
 JointAngles angles_of(const double* deg) {
   return {Angle::degrees(deg[0]), Angle::degrees(deg[1]), Angle::degrees(deg[2])};
+}
+
+const RadialContact& shown_at(CondyleJoint& joint, const Pose& X_FM) {
+  if (!joint.shown || joint.shown_at.matrix() != X_FM.matrix()) {
+    joint.shown = joint.bodies.radial(X_FM);
+    joint.shown_at = X_FM;
+  }
+  return *joint.shown;
+}
+
+/// The other body's surface, for vertices of this one.
+const mesh::SurfaceDistance& other_surface(CondyleJoint& joint, bool of_fixed) {
+  auto& surface = of_fixed ? joint.to_mobile : joint.to_fixed;
+  if (!surface) surface.emplace((of_fixed ? joint.joint.mobile : joint.joint.fixed).mesh.arrays());
+  return *surface;
+}
+
+enum class Shown { radial_gap, depth, nearest_distance };
+enum class Mark : std::uint8_t { nothing, value, bound };
+
+struct ShownValue {
+  double mm = 0;
+  Mark mark = Mark::nothing;
+};
+
+/// `nearest` tells the distance to the other body's surface.
+template <class Nearest>
+ShownValue shown_value(Shown quantity, const RadialResults& radial, Index v, const Nearest& nearest) {
+  const bool is_inside = radial.state[v] == PointState::inside;
+  switch (quantity) {
+    case Shown::radial_gap:
+      if (!std::isfinite(radial.radial_gap_mm[v])) return {};
+      return {radial.radial_gap_mm[v], Mark::value};
+    case Shown::depth: {
+      if (!is_inside) return {};
+      const DeepestVertex vertex{v, -radial.radial_gap_mm[v], nearest(), radial.ray_to_normal[v]};
+      if (vertex.applies() == DepthKind::radial) return {vertex.depth_mm, Mark::value};
+      return {vertex.shortest_exit_mm, Mark::bound};
+    }
+    case Shown::nearest_distance:
+      return {is_inside ? -nearest() : nearest(), Mark::value};
+  }
+  return {};
+}
+
+RangeOfMotion& range_of(CondyleJoint& joint) {
+  if (!joint.range) {
+    RangeOptions options;
+    options.overlap.reference_contact = ReferenceContact::accept;
+    joint.range.emplace(joint.joint, options);
+  }
+  return *joint.range;
 }
 
 int number_of(LimitReason reason) {
@@ -143,6 +204,25 @@ const double* condyle_depths(const CondyleJoint* joint) {
   return joint->penetrations.depth_mm.data();
 }
 
+int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
+                  std::uint8_t* marks) {
+  return guarded(-1, [&] {
+    const Pose X_FM = pose_of(pose);
+    const RadialContact& contact = shown_at(*joint, X_FM);
+    const auto& radial = of_fixed ? contact.fixed_in_mobile : contact.mobile_in_fixed;
+    const Mesh& body = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh;
+    const Pose X = of_fixed ? inverted(X_FM) : X_FM;
+    const auto what = static_cast<Shown>(quantity);
+    for (Index v = 0; v < body.vertices().size(); ++v) {
+      const auto nearest = [&] { return other_surface(*joint, of_fixed)(X * body.vertices()[v]); };
+      const ShownValue shown = radial ? shown_value(what, *radial, v, nearest) : ShownValue{};
+      values[v] = static_cast<float>(shown.mm);
+      marks[v] = static_cast<std::uint8_t>(shown.mark);
+    }
+    return 0;
+  });
+}
+
 int condyle_in_contact(CondyleJoint* joint, const double* pose) {
   return guarded(-1, [&] { return joint->bodies.in_contact(pose_of(pose)) ? 1 : 0; });
 }
@@ -163,16 +243,11 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
                   double limit[7]) {
   return guarded(-1, [&] {
-    if (!joint->range) {
-      RangeOptions options;
-      options.overlap.reference_contact = ReferenceContact::accept;
-      joint->range.emplace(joint->joint, options);
-    }
     const Motion motion{.vary = all_joint_angles.at(static_cast<std::size_t>(vary)),
                         .sense = positive ? RotationSense::positive : RotationSense::negative,
                         .start = angles_of(start_deg),
                         .range = Angle::degrees(range_deg)};
-    const Limit end = joint->range->limit(motion).end;
+    const Limit end = range_of(*joint).limit(motion).end;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Vec3 point = end.contact ? end.contact->fixed_point : Vec3(none, none, none);
     limit[0] = end.turned.degrees();
@@ -181,5 +256,34 @@ int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* sta
     limit[3] = end.bearing_contact ? end.bearing_contact->turned.degrees() : -1;
     for (int i = 0; i < 3; ++i) limit[4 + i] = point[i];
     return 0;
+  });
+}
+
+int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, double back_deg,
+                        double forth_deg) {
+  return guarded(-1, [&] {
+    const FreeAngles free = range_of(*joint).free_angles(
+        all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
+        {Angle::degrees(-back_deg), Angle::degrees(forth_deg)});
+    joint->intervals.clear();
+    const auto by_contact = [](const Limit& end) { return end.reason == LimitReason::contact ? 1.0 : 0.0; };
+    for (const FreeInterval& interval : free.intervals)
+      joint->intervals.insert(joint->intervals.end(),
+                              {interval.low.degrees(), interval.high.degrees(), by_contact(interval.at_low),
+                               by_contact(interval.at_high)});
+    return static_cast<int>(free.intervals.size());
+  });
+}
+
+const double* condyle_intervals(const CondyleJoint* joint) {
+  return joint->intervals.data();
+}
+
+int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles) {
+  return guarded(-1, [&] {
+    const auto& surface = range_of(*joint).bearing().surface;
+    if (!surface) return 0;
+    std::ranges::copy(surface->triangles, triangles);
+    return static_cast<int>(surface->count());
   });
 }

@@ -34,6 +34,13 @@ int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed);
 const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint);
 const double* condyle_depths(const CondyleJoint* joint);
 
+/// What every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) shows at a pose, for colours: in `values` mm, in
+/// `marks` 0 for nothing, 1 for the value, 2 for a value that is no more than a bound. `quantity`: 0 the gap along its ray,
+/// negative inside; 1 of vertices inside the depth to read without rotations, their nearest distance marked 2 where the ray's
+/// is none; 2 the distance to the nearest point of the other body, negative inside. Both arrays have an element per vertex.
+int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
+                  std::uint8_t* marks);
+
 /// 1 where the bodies share a point, else 0.
 int condyle_in_contact(CondyleJoint* joint, const double* pose);
 /// How many pairs of triangles meet, and which: fixed, mobile each.
@@ -46,4 +53,11 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint);
 /// Bearing surfaces are looked for at the first call.
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
                   double limit[7]);
+/// How many intervals of an angle are free, from its start less `back_deg` to its start and `forth_deg`, half a turn at most
+/// either way; and of each its ends, and 1 for each that contact makes: low, high, contact at low, at high.
+int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, double back_deg,
+                        double forth_deg);
+const double* condyle_intervals(const CondyleJoint* joint);
+/// How many triangles of the mobile body are its bearing surface, each marked 1 in `triangles`; 0 where none was found.
+int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles);
 }
