@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test page-core
+  package package-test page-core page page-template
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -72,6 +72,18 @@ page-core: dependencies build/release/build.ninja
 	@mkdir -p build/page_core/test
 	@build/release/page_core_answers build/page_core/test
 	@node tests/viewer/same_bits.mjs build/page_core/page_core.js build/page_core/test
+
+# The page of condyle report, made anew: its committed template has to be what its sources make. Then in a real browser.
+page: page-core
+	@scripts/make_page_template.sh build/page/report_template.html
+	@cmp build/page/report_template.html viewer/report_template.html || \
+	  { echo "viewer/report_template.html is not what its sources make: make page-template" >&2; exit 1; }
+	@cmake --build --preset release --target condyle_cli
+	@scripts/test_page.sh
+
+# After a change of the page or of the core: the template that condyle report fills in.
+page-template: page-core
+	@scripts/make_page_template.sh viewer/report_template.html
 
 # The API page and every other page: out/api/index.html.
 docs: docs_dependencies

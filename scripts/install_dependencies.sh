@@ -4,7 +4,7 @@
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 #   install_dependencies.sh bench     and for make bench; groups can be named together
 #   install_dependencies.sh docs      and for make docs and make package
-#   install_dependencies.sh page      and for make page-core
+#   install_dependencies.sh page      and for make page-core, make page and make page-template
 #   install_dependencies.sh package-test   and for make package-test
 set -euo pipefail
 
@@ -28,7 +28,11 @@ for group in "$@"; do
       packages+=(python3 git)
       ;;
     docs) packages+=(doxygen) ;;
-    page) packages+=(emscripten nodejs) ;;
+    page)
+      packages+=(emscripten nodejs chromium)
+      # Debian's npm brings its own nodejs, which another one on the machine may rule out; that one has an npm.
+      command -v npm >/dev/null || packages+=(npm)
+      ;;
     package-test) packages+=(debootstrap) ;;
     *)
       echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page and package-test" >&2

@@ -283,7 +283,7 @@ int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles) {
   return guarded(-1, [&] {
     const auto& surface = range_of(*joint).bearing().surface;
     if (!surface) return 0;
-    std::ranges::copy(surface->triangles, triangles);
+    std::copy(surface->triangles.begin(), surface->triangles.end(), triangles);
     return static_cast<int>(surface->count());
   });
 }

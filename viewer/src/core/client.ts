@@ -1,0 +1,130 @@
+import type {
+  BothValues, Coordinates, FromWorker, JointArrays, LiveLimit, MapQuestion, Quantity, Query, QueryAnswer, Shown, ToWorker,
+} from "./protocol";
+
+declare const workerSource: string;
+
+export interface Answers {
+  shown(at: Coordinates, shown: Shown, roundTripMs: number): void;
+  values(values: BothValues): void;
+  limit(at: Coordinates, limit: LiveLimit): void;
+  bearing(triangles: Uint8Array): void;
+  mapPoint(point: number, intervals: [number, number, number, number][]): void;
+  failed(message: string): void;
+}
+
+interface Question {
+  at: Coordinates;
+  quantity: Quantity;
+  ranges: [number, number][] | null;
+}
+
+/// The core in its worker. One pose is under way at a time; of those asked meanwhile only the latest is answered.
+export class CoreClient {
+  private readonly worker: Worker;
+  private underWay: { id: number; question: Question; asked: number } | null = null;
+  private waiting: Question | null = null;
+  private answered: { id: number; at: Coordinates } | null = null;
+  private count = 0;
+  private readonly queries = new Map<number, (answer: QueryAnswer | null, error: string) => void>();
+  private answers: Answers | null = null;
+
+  private constructor() {
+    this.worker = new Worker(URL.createObjectURL(new Blob([workerSource], { type: "text/javascript" })));
+  }
+
+  /// Rejects with the core's own line where the joint cannot be made.
+  static open(wasm: ArrayBuffer, joint: JointArrays): Promise<CoreClient> {
+    const client = new CoreClient();
+    return new Promise((resolve, reject) => {
+      client.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+        if (data.type === "failed") reject(new Error(data.message));
+        if (data.type !== "ready") return;
+        client.worker.onmessage = (event: MessageEvent<FromWorker>) => client.hear(event.data);
+        resolve(client);
+      };
+      client.worker.onerror = (event) => reject(new Error(event.message));
+      client.say({ type: "open", wasm, joint }, [wasm]);
+    });
+  }
+
+  listen(answers: Answers): void {
+    this.answers = answers;
+  }
+
+  /// `ranges`: how far each angle is followed back and forth for its limits; null for none.
+  ask(at: Coordinates, quantity: Quantity, ranges: [number, number][] | null): void {
+    this.waiting = { at, quantity, ranges };
+    if (!this.underWay) this.send();
+  }
+
+  askBearing(): void {
+    this.say({ type: "bearing" });
+  }
+
+  askMap(question: MapQuestion): void {
+    this.say({ type: "map", question });
+  }
+
+  /// One question by itself, after what the page asks: all are answered, in their order.
+  query(query: Query): Promise<QueryAnswer> {
+    const id = ++this.count;
+    return new Promise((resolve, reject) => {
+      this.queries.set(id, (answer, error) => (answer ? resolve(answer) : reject(new Error(error))));
+      this.say({ type: "query", id, query });
+    });
+  }
+
+  close(): void {
+    this.worker.terminate();
+  }
+
+  private send(): void {
+    if (!this.waiting) return;
+    const question = this.waiting;
+    this.waiting = null;
+    this.underWay = { id: ++this.count, question, asked: performance.now() };
+    this.say({ type: "pose", id: this.count, ...question });
+  }
+
+  private say(message: ToWorker, transfer: Transferable[] = []): void {
+    this.worker.postMessage(message, transfer);
+  }
+
+  private hear(message: FromWorker): void {
+    switch (message.type) {
+      case "shown": {
+        const { id, question, asked } = this.underWay!;
+        this.underWay = null;
+        this.answered = { id, at: question.at };
+        this.answers?.shown(question.at, message.shown, performance.now() - asked);
+        this.send();
+        return;
+      }
+      case "values":
+        if (message.id === this.answered?.id) this.answers?.values(message.values);
+        return;
+      case "limit":
+        // A limit of a pose that is past is nobody's.
+        if (message.id === this.answered?.id) this.answers?.limit(this.answered.at, message.limit);
+        return;
+      case "queried":
+        this.queries.get(message.id)?.(message.answer, message.error);
+        this.queries.delete(message.id);
+        return;
+      case "bearing":
+        this.answers?.bearing(message.triangles);
+        return;
+      case "mapPoint":
+        this.answers?.mapPoint(message.point, message.intervals);
+        return;
+      case "failed":
+        this.underWay = null;
+        this.answers?.failed(message.message);
+        this.send();
+        return;
+      case "ready":
+        return;
+    }
+  }
+}

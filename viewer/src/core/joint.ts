@@ -1,0 +1,154 @@
+import pageCore, { type PageCore } from "page-core";
+import {
+  quantityNumber, type BothValues, type Coordinates, type Details, type Inside, type JointArrays, type LiveLimit, type MapQuestion, type Penetrations,
+  type Shown, type Surface, type Values,
+} from "./protocol";
+
+const poseBytes = 16 * 8;
+const reasons = ["contact", "end_of_range", "contact_at_start"] as const;
+const kinds = ["unknown", "bearing", "impingement"] as const;
+
+/// A joint in the module's memory. Everything it answers is copied out of there.
+export class CoreJoint {
+  private readonly joint: number;
+  private readonly pose: number;
+  private readonly three: number;
+  private readonly otherThree: number;
+  private readonly limitAnswer: number;
+  private readonly mmPlace: number;
+  private readonly marksPlace: number;
+  private readonly vertices: { fixed: number; mobile: number };
+  private readonly mobileTriangles: number;
+
+  static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
+    return new CoreJoint(await pageCore({ wasmBinary: wasm }), arrays);
+  }
+
+  private constructor(private readonly core: PageCore, arrays: JointArrays) {
+    this.vertices = { fixed: arrays.fixed.vertices.length / 3, mobile: arrays.mobile.vertices.length / 3 };
+    this.mobileTriangles = arrays.mobile.triangles.length / 3;
+    const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) =>
+      ({ vertices: this.copied(vertices), triangles: this.copied(triangles), count: triangles.length / 3 }));
+    const [fixed, mobile] = [placed[0]!, placed[1]!];
+    this.joint = core._condyle_joint(
+      arrays.kind, arrays.anatomy, arrays.side, fixed.vertices, this.vertices.fixed, fixed.triangles, fixed.count,
+      mobile.vertices, this.vertices.mobile, mobile.triangles, mobile.count);
+    for (const { vertices, triangles } of placed) {
+      core._free(vertices);
+      core._free(triangles);
+    }
+    if (!this.joint) throw this.error();
+    const most = Math.max(this.vertices.fixed, this.vertices.mobile);
+    this.pose = core._malloc(poseBytes);
+    this.three = core._malloc(3 * 8);
+    this.otherThree = core._malloc(3 * 8);
+    this.limitAnswer = core._malloc(7 * 8);
+    this.mmPlace = core._malloc(4 * most);
+    this.marksPlace = core._malloc(Math.max(most, this.mobileTriangles));
+  }
+
+  shown(at: Coordinates): Shown {
+    this.place(at);
+    const inside = { mobile: this.inside(0), fixed: this.inside(1) };
+    const inContact = this.checked(this.core._condyle_in_contact(this.joint, this.pose)) === 1;
+    const pairCount = inContact ? this.checked(this.core._condyle_pairs(this.joint, this.pose)) : 0;
+    const pairs = this.u32(this.core._condyle_pair_triangles(this.joint), 2 * pairCount);
+    return { pose: this.f64(this.pose, 16), inContact, inside, pairs };
+  }
+
+  values(at: Coordinates, quantity: keyof typeof quantityNumber): BothValues {
+    this.place(at);
+    return { mobile: this.valuesOf(quantity, 0, this.vertices.mobile), fixed: this.valuesOf(quantity, 1, this.vertices.fixed) };
+  }
+
+  limit(start: [number, number, number], vary: number, positive: boolean, range_deg: number): LiveLimit {
+    this.put(this.three, start);
+    this.checked(this.core._condyle_limit(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.limitAnswer));
+    const [turned_deg, reason, kind, bearing, x, y, z] = this.f64(this.limitAnswer, 7) as unknown as number[];
+    return {
+      vary, positive, turned_deg: turned_deg!, reason: reasons[reason!]!, kind: kinds[kind!]!,
+      bearing_deg: bearing! < 0 ? null : bearing!, point: Number.isNaN(x!) ? null : [x!, y!, z!],
+    };
+  }
+
+  details(at: Coordinates): Details {
+    this.place(at);
+    const mobileInFixed = this.penetrations(0), fixedInMobile = this.penetrations(1);
+    const inContact = this.checked(this.core._condyle_in_contact(this.joint, this.pose)) === 1;
+    const count = this.checked(this.core._condyle_pairs(this.joint, this.pose));
+    const pairs = this.u32(this.core._condyle_pair_triangles(this.joint), 2 * count);
+    return { pose: this.f64(this.pose, 16), inContact, mobileInFixed, fixedInMobile, pairs };
+  }
+
+  /// Free intervals of a point of a map, as angles of the joint.
+  mapPoint(question: MapQuestion, point: number): [number, number, number, number][] {
+    const start: [number, number, number] = [0, 0, 0];
+    start[question.columnAngle] = question.columns[point % question.columns.length]!;
+    start[question.rowAngle] = question.rows[Math.floor(point / question.columns.length)]!;
+    this.put(this.three, start);
+    const count = this.checked(this.core._condyle_free_angles(this.joint, question.vary, this.three, 180, 180));
+    const flat = this.f64(this.core._condyle_intervals(this.joint), 4 * count);
+    return Array.from({ length: count }, (_, i) => Array.from(flat.subarray(4 * i, 4 * i + 4)) as [number, number, number, number]);
+  }
+
+  /// Per triangle of the mobile body 1 where it is bearing; all 0 where no bearing surface was found.
+  bearing(): Uint8Array {
+    const found = this.checked(this.core._condyle_bearing(this.joint, this.marksPlace));
+    return found ? this.core.HEAPU8.slice(this.marksPlace, this.marksPlace + this.mobileTriangles) : new Uint8Array(this.mobileTriangles);
+  }
+
+  private penetrations(ofFixed: number): Penetrations {
+    const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
+    return {
+      vertices: this.u32(this.core._condyle_penetrating_vertices(this.joint), count),
+      depths_mm: this.f64(this.core._condyle_depths(this.joint), count),
+    };
+  }
+
+  private inside(ofFixed: number): Inside {
+    const { depths_mm } = this.penetrations(ofFixed);
+    return { count: depths_mm.length, deepest_mm: depths_mm.reduce((most, depth) => Math.max(most, depth), 0) };
+  }
+
+  private valuesOf(quantity: keyof typeof quantityNumber, ofFixed: number, count: number): Values {
+    this.checked(this.core._condyle_shown(
+      this.joint, this.pose, quantityNumber[quantity], ofFixed, this.mmPlace, this.marksPlace));
+    return {
+      mm: new Float32Array(this.bytes(this.mmPlace, 4 * count)), marks: new Uint8Array(this.bytes(this.marksPlace, count)),
+    };
+  }
+
+  private place({ angles, translation }: Coordinates): void {
+    this.put(this.three, angles);
+    this.put(this.otherThree, translation);
+    this.checked(this.core._condyle_pose(this.joint, this.three, this.otherThree, this.pose));
+  }
+
+  private put(pointer: number, numbers: readonly number[]): void {
+    new Float64Array(this.core.HEAPU8.buffer, pointer, numbers.length).set(numbers);
+  }
+
+  private bytes(pointer: number, count: number): ArrayBuffer {
+    return this.core.HEAPU8.slice(pointer, pointer + count).buffer as ArrayBuffer;
+  }
+  private f64(pointer: number, count: number): Float64Array {
+    return new Float64Array(this.bytes(pointer, 8 * count));
+  }
+  private u32(pointer: number, count: number): Uint32Array {
+    return new Uint32Array(this.bytes(pointer, 4 * count));
+  }
+
+  private copied(array: Float64Array | Uint32Array): number {
+    const pointer = this.core._malloc(array.byteLength);
+    this.core.HEAPU8.set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), pointer);
+    return pointer;
+  }
+
+  private checked(answer: number): number {
+    if (answer < 0) throw this.error();
+    return answer;
+  }
+  private error(): Error {
+    return new Error(this.core.UTF8ToString(this.core._condyle_error()));
+  }
+}

@@ -1,0 +1,110 @@
+/// What page and worker say to each other.
+
+export type Quantity = "gap" | "depth" | "nearest" | "none";
+export const quantityNumber = { gap: 0, depth: 1, nearest: 2 } as const;
+
+export interface Surface {
+  vertices: Float64Array;
+  triangles: Uint32Array;
+}
+
+export interface JointArrays {
+  kind: number;
+  anatomy: number;
+  side: number;
+  fixed: Surface;
+  mobile: Surface;
+}
+
+/// Of a body's vertices, for colours: mm, and per vertex 0 nothing, 1 the value, 2 a bound.
+export interface Values {
+  mm: Float32Array;
+  marks: Uint8Array;
+}
+
+export interface BothValues {
+  mobile: Values;
+  fixed: Values;
+}
+
+export interface Coordinates {
+  angles: [number, number, number];
+  translation: [number, number, number];
+}
+
+export interface Inside {
+  count: number;
+  deepest_mm: number;
+}
+
+/// What one pose shows.
+export interface Shown {
+  pose: Float64Array;
+  inContact: boolean;
+  inside: { mobile: Inside; fixed: Inside };
+  pairs: Uint32Array;
+}
+
+/// An angle turned from a pose until contact.
+export interface LiveLimit {
+  vary: number;
+  positive: boolean;
+  turned_deg: number;
+  reason: "contact" | "end_of_range" | "contact_at_start";
+  kind: "unknown" | "bearing" | "impingement";
+  bearing_deg: number | null;
+  point: [number, number, number] | null;
+}
+
+export interface MapQuestion {
+  columnAngle: number;
+  rowAngle: number;
+  vary: number;
+  columns: number[];
+  rows: number[];
+}
+
+/// The vertices that are not outside at a pose, and their radial depths.
+export interface Penetrations {
+  vertices: Uint32Array;
+  depths_mm: Float64Array;
+}
+
+/// All that a script may want to know of a pose.
+export interface Details {
+  pose: Float64Array;
+  inContact: boolean;
+  mobileInFixed: Penetrations;
+  fixedInMobile: Penetrations;
+  pairs: Uint32Array;
+}
+
+export interface LimitQuestion {
+  start: [number, number, number];
+  vary: number;
+  positive: boolean;
+  range_deg: number;
+}
+
+export type Query =
+  | { of: "pose"; at: Coordinates }
+  | { of: "limit"; limit: LimitQuestion }
+  | { of: "mapPoint"; question: MapQuestion; point: number };
+export type QueryAnswer = Details | LiveLimit | [number, number, number, number][];
+
+export type ToWorker =
+  | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
+  | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
+  | { type: "query"; id: number; query: Query }
+  | { type: "bearing" }
+  | { type: "map"; question: MapQuestion };
+
+export type FromWorker =
+  | { type: "ready" }
+  | { type: "failed"; message: string }
+  | { type: "shown"; id: number; shown: Shown }
+  | { type: "values"; id: number; values: BothValues }
+  | { type: "limit"; id: number; limit: LiveLimit }
+  | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
+  | { type: "bearing"; triangles: Uint8Array }
+  | { type: "mapPoint"; point: number; intervals: [number, number, number, number][] };

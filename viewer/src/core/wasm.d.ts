@@ -1,0 +1,30 @@
+/// The module that emscripten makes of viewer/core.
+declare module "page-core" {
+  export interface PageCore {
+    HEAPU8: Uint8Array;
+    UTF8ToString(pointer: number): string;
+    _malloc(bytes: number): number;
+    _free(pointer: number): void;
+    _condyle_error(): number;
+    _condyle_joint(
+      kind: number, anatomy: number, side: number, fixedVertices: number, fixedVertexCount: number, fixedTriangles: number,
+      fixedTriangleCount: number, mobileVertices: number, mobileVertexCount: number, mobileTriangles: number,
+      mobileTriangleCount: number): number;
+    _condyle_free(joint: number): void;
+    _condyle_pose(joint: number, angles: number, translation: number, pose: number): number;
+    _condyle_penetrations(joint: number, pose: number, ofFixed: number): number;
+    _condyle_penetrating_vertices(joint: number): number;
+    _condyle_depths(joint: number): number;
+    _condyle_shown(joint: number, pose: number, quantity: number, ofFixed: number, values: number, marks: number): number;
+    _condyle_in_contact(joint: number, pose: number): number;
+    _condyle_pairs(joint: number, pose: number): number;
+    _condyle_pair_triangles(joint: number): number;
+    _condyle_limit(
+      joint: number, vary: number, positive: number, start: number, range: number, limit: number): number;
+    _condyle_free_angles(joint: number, vary: number, start: number, back: number, forth: number): number;
+    _condyle_intervals(joint: number): number;
+    _condyle_bearing(joint: number, triangles: number): number;
+  }
+  const pageCore: (options: { wasmBinary: ArrayBuffer }) => Promise<PageCore>;
+  export default pageCore;
+}

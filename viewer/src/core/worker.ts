@@ -1,0 +1,112 @@
+import { CoreJoint } from "./joint";
+import type { FromWorker, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
+
+/// Answers in the order of what matters to the eye: the latest pose, then its colours, its limits one by one, then all else. A
+/// message that arrives meanwhile comes in between; what is left to say of a pose that is past is dropped.
+
+type PoseQuestion = Extract<ToWorker, { type: "pose" }>;
+
+let joint: CoreJoint | null = null;
+let latest: PoseQuestion | null = null;
+let aboutPose: (() => void)[] = [];
+const afterwards: (() => void)[] = [];
+
+function say(message: FromWorker, transfer: Transferable[] = []): void {
+  (self as unknown as DedicatedWorkerGlobalScope).postMessage(message, transfer);
+}
+
+function attempt(work: () => void): void {
+  try {
+    work();
+  } catch (error) {
+    say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
+  }
+}
+
+/// The worker's own turn of the event loop: a message waits no longer than one piece of work.
+const turns = new MessageChannel();
+turns.port1.onmessage = () => attempt(next);
+function soon(): void {
+  turns.port2.postMessage(null);
+}
+
+function next(): void {
+  if (!joint) return;
+  if (latest) {
+    const asked = latest;
+    latest = null;
+    aboutPose = [];
+    const shown = joint.shown(asked.at);
+    say({ type: "shown", id: asked.id, shown }, [shown.pose.buffer as ArrayBuffer, shown.pairs.buffer as ArrayBuffer]);
+    const { quantity } = asked;
+    if (quantity !== "none") aboutPose.push(() => sayValues(asked, quantity));
+    asked.ranges?.forEach((range, vary) => range.forEach((range_deg, positive) => aboutPose.push(() => {
+      const limit = joint!.limit(asked.at.angles, vary, positive === 1, range_deg);
+      say({ type: "limit", id: asked.id, limit });
+    })));
+  } else {
+    (aboutPose.shift() ?? afterwards.shift())?.();
+  }
+  if (latest || aboutPose.length || afterwards.length) soon();
+}
+
+function sayValues({ id, at }: PoseQuestion, quantity: Exclude<Quantity, "none">): void {
+  const values = joint!.values(at, quantity);
+  const arrays = [values.mobile.mm, values.mobile.marks, values.fixed.mm, values.fixed.marks];
+  say({ type: "values", id, values }, arrays.map((array) => array.buffer as ArrayBuffer));
+}
+
+function askMap(question: MapQuestion): void {
+  for (let point = 0; point < question.columns.length * question.rows.length; ++point)
+    afterwards.push(() => say({ type: "mapPoint", point, intervals: joint!.mapPoint(question, point) }));
+}
+
+function answerTo(query: Query): QueryAnswer {
+  switch (query.of) {
+    case "pose":
+      return joint!.details(query.at);
+    case "limit":
+      return joint!.limit(query.limit.start, query.limit.vary, query.limit.positive, query.limit.range_deg);
+    case "mapPoint":
+      return joint!.mapPoint(query.question, query.point);
+  }
+}
+
+function askQuery(id: number, query: Query): void {
+  afterwards.push(() => {
+    try {
+      say({ type: "queried", id, answer: answerTo(query), error: "" });
+    } catch (error) {
+      say({ type: "queried", id, answer: null, error: error instanceof Error ? error.message : String(error) });
+    }
+  });
+}
+
+self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
+  switch (data.type) {
+    case "open":
+      try {
+        joint = await CoreJoint.open(data.wasm, data.joint);
+        say({ type: "ready" });
+      } catch (error) {
+        say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
+      }
+      return;
+    case "pose":
+      latest = data;
+      break;
+    case "query":
+      askQuery(data.id, data.query);
+      break;
+    case "bearing":
+      afterwards.push(() => {
+        const triangles = joint!.bearing();
+        say({ type: "bearing", triangles }, [triangles.buffer as ArrayBuffer]);
+      });
+      break;
+    case "map":
+      askMap(data.question);
+      break;
+  }
+  soon();
+};

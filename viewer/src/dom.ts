@@ -1,0 +1,54 @@
+/// Elements with attributes and children; text is only ever set as text.
+type Attributes = Record<string, string | number | boolean>;
+type Child = Node | string;
+
+function filled<E extends Element>(element: E, attributes: Attributes, children: readonly Child[]): E {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false) continue;
+    element.setAttribute(name, value === true ? "" : String(value));
+  }
+  element.append(...children);
+  return element;
+}
+
+export function html<K extends keyof HTMLElementTagNameMap>(
+  tag: K, attributes: Attributes = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
+  return filled(document.createElement(tag), attributes, children);
+}
+
+export function svg<K extends keyof SVGElementTagNameMap>(
+  tag: K, attributes: Attributes = {}, ...children: Child[]): SVGElementTagNameMap[K] {
+  return filled(document.createElementNS("http://www.w3.org/2000/svg", tag), attributes, children);
+}
+
+/// A title over contents, as one landmark of the page.
+export function section(title: string, ...children: Child[]): HTMLElement {
+  const id = `section-${title.toLowerCase().replaceAll(/[^a-z]+/g, "-")}`;
+  return html("section", { "aria-labelledby": id }, html("h2", { id }, title), ...children);
+}
+
+export function button(text: string, pressed: () => void, attributes: Attributes = {}): HTMLButtonElement {
+  const element = html("button", { type: "button", ...attributes }, text);
+  element.addEventListener("click", pressed);
+  return element;
+}
+
+export function checkbox(text: string, checked: boolean, changed: (on: boolean) => void): HTMLLabelElement {
+  const input = html("input", { type: "checkbox", checked });
+  input.addEventListener("change", () => changed(input.checked));
+  return html("label", { class: "check" }, input, " ", text);
+}
+
+export function choice<Key extends string>(
+  text: string, options: Record<Key, string>, chosen: Key, changed: (key: Key) => void): HTMLLabelElement {
+  const select = html("select");
+  for (const [key, name] of Object.entries(options) as [Key, string][])
+    select.append(html("option", { value: key, selected: key === chosen }, name));
+  select.addEventListener("change", () => changed(select.value as Key));
+  return html("label", {}, text, " ", select);
+}
+
+/// A name with underscores as words.
+export function spaced(name: string): string {
+  return name.replaceAll("_", " ");
+}

@@ -1,0 +1,246 @@
+import { CoreClient } from "./core/client";
+import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
+import { button, choice, html, section, spaced } from "./dom";
+import { DisplayPanel } from "./panels/display";
+import { anglesAt, MotionPanel } from "./panels/motion";
+import { numbersPanel } from "./panels/numbers";
+import { PointerPanel } from "./panels/pointer";
+import { RecordedPanel } from "./panels/recorded";
+import { clockDrawing } from "./plots/clock";
+import { figure } from "./plots/figure";
+import { limitsDrawing } from "./plots/limits";
+import { MapPlot } from "./plots/map";
+import { bytesOf, inflated, Report, ReportError, type MapAnswer, type MotionAnswer, type StoredPose } from "./report";
+import { JointScene } from "./scene/scene";
+import { readViewState, writeViewState } from "./view_state";
+import { words } from "./words";
+
+const kinds = ["ball", "hinge", "free"], anatomies = ["hip", "knee", "ankle", "elbow", "shoulder"];
+const translationNames = ["x", "y", "z"];
+const quantities = Object.keys(words.quantity) as Quantity[];
+
+function found<T extends HTMLElement>(id: string): T {
+  return document.getElementById(id) as T;
+}
+
+function textOf(id: string): string | null {
+  return document.getElementById(id)?.textContent ?? null;
+}
+
+function warn(message: string): void {
+  found("messages").append(html("p", { class: "warning", role: "alert" }, message));
+}
+
+function arraysOf(report: Report): JointArrays {
+  const { joint } = report.text;
+  const surface = (body: string) => ({
+    vertices: report.array(`${body}_vertices`, "f64"), triangles: report.array(`${body}_triangles`, "u32"),
+  });
+  return {
+    kind: kinds.indexOf(joint.kind), anatomy: anatomies.indexOf(joint.anatomy), side: joint.side === "right" ? 0 : 1,
+    fixed: surface("fixed"), mobile: surface("mobile"),
+  };
+}
+
+/// A scene, or nothing but a line where the browser shows none.
+function sceneOf(arrays: JointArrays, label: string): JointScene | null {
+  try {
+    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, label);
+  } catch {
+    warn(words.noWebGl);
+    return null;
+  }
+}
+
+/// The page of one report.
+class Page {
+  private readonly scene: JointScene | null;
+  private readonly display: DisplayPanel;
+  private readonly motion: MotionPanel;
+  private readonly arrays: JointArrays;
+  private core: CoreClient | null = null;
+  private mapPlot: MapPlot | null = null;
+  private fragmentTimer = 0;
+
+  constructor(private readonly report: Report) {
+    const { text } = report;
+    const { joint } = text;
+    document.title = `${text.title} – ${words.appName}`;
+    found("title").textContent = text.title;
+    found("subtitle").textContent = `${joint.side} ${joint.anatomy}: ${joint.mobile} in ${joint.fixed}`;
+    const names = { fixed: joint.fixed, mobile: joint.mobile };
+    this.arrays = arraysOf(report);
+    this.scene = sceneOf(this.arrays, words.sceneLabel(joint.fixed, joint.mobile));
+    const state = readViewState(location.hash, this.coordinateNames());
+    const quantity = quantities.find((key) => key === state.colour) ?? "gap";
+    this.motion = new MotionPanel(text, (at) => this.moved(at));
+    this.display = new DisplayPanel(this.scene, names, quantity, () => this.moved(this.motion.coordinates));
+    found("legend-place").append(this.display.legend);
+    if (this.scene) {
+      found("pointer-place").append(new PointerPanel(this.scene, names).element);
+      this.scene.onViewChange(() => this.rememberView());
+    }
+    if (state.camera && this.scene) this.scene.viewpoint = state.camera;
+    found("panels").append(this.motion.element, this.display.element, ...this.plots(), numbersPanel(text, this.counts()));
+    const angles = text.coordinates.map(({ name }, i) => state.coordinates[name] ?? text.reference_deg[i]!);
+    const translation = translationNames.map((name, i) => state.coordinates[name] ?? text.reference_mm[i]!);
+    this.motion.set(angles, translation);
+  }
+
+  /// Makes the joint ready in the worker; poses are answered from then on.
+  async compute(wasm: ArrayBuffer): Promise<void> {
+    const copies = structuredClone(this.arrays);
+    const core = await CoreClient.open(wasm, copies);
+    core.listen({
+      shown: (_, shown, roundTrip_ms) => {
+        this.scene?.setPose(shown.pose);
+        if (this.display.quantity === "none") this.show(null);
+        this.scene?.bodies.fixed.showMeeting(Array.from(shown.pairs).filter((_, i) => i % 2 === 0));
+        this.scene?.bodies.mobile.showMeeting(Array.from(shown.pairs).filter((_, i) => i % 2 === 1));
+        this.motion.show(shown, roundTrip_ms);
+        document.documentElement.dataset["answered"] = String(Number(document.documentElement.dataset["answered"] ?? 0) + 1);
+      },
+      values: (values) => this.show(values),
+      limit: (at, limit) => this.motion.setLimit(at, limit),
+      bearing: (triangles) => this.scene?.bodies.mobile.setBearing(triangles),
+      mapPoint: (point, intervals) => this.mapPlot?.set(point, intervals),
+      failed: warn,
+    });
+    this.core = core;
+    // For scripts in the console and for tests: docs/report.md, "From a script".
+    Object.assign(globalThis, { condyle: { query: (query: Query) => core.query(query) } });
+    this.moved(this.motion.coordinates);
+    core.askBearing();
+  }
+
+  private show(values: BothValues | null): void {
+    this.scene?.bodies.fixed.show(values?.fixed ?? null);
+    this.scene?.bodies.mobile.show(values?.mobile ?? null);
+    this.scene?.draw();
+  }
+
+  /// For browsers without WebAssembly: poses that the report holds.
+  useStoredPoses(): void {
+    warn(words.noWebAssembly);
+    const poses = this.report.text.poses;
+    if (poses.length === 0) return;
+    const options = Object.fromEntries(poses.map((pose, i) => [String(i), spaced(pose.name)]));
+    found("panels").prepend(section(words.precomputed,
+      choice<string>(words.precomputed, options, "0", (key) => this.showStored(poses[Number(key)]!))));
+    this.showStored(poses[0]!);
+  }
+
+  private showStored(pose: StoredPose): void {
+    this.motion.set(pose.coordinates_deg);
+    this.scene?.setPose(pose.pose);
+    this.show({ fixed: this.storedGaps(pose.fixed_gaps), mobile: this.storedGaps(pose.mobile_gaps) });
+    this.scene?.showContactPoint(pose.contact_point_mm);
+  }
+
+  private storedGaps(name: string): Values {
+    const hundredths = this.report.array(name, "i16"), none = 32767;
+    return {
+      mm: Float32Array.from(hundredths, (gap) => gap / 100), marks: Uint8Array.from(hundredths, (gap) => (gap === none ? 0 : 1)),
+    };
+  }
+
+  private plots(): HTMLElement[] {
+    const { rom, map, recorded } = this.report.text;
+    const made: HTMLElement[] = [];
+    if (recorded)
+      made.push(new RecordedPanel(this.report, recorded, (angles, translation) => this.motion.set(angles, translation)).element);
+    const go = (motion: MotionAnswer) => {
+      this.motion.goTo(anglesAt(this.report.text, motion.at_limit_deg));
+      this.scene?.showContactPoint(motion.contact_point_mm);
+    };
+    if (rom) {
+      made.push(section(words.limits, figure(limitsDrawing(rom.motions, go))));
+      const clock = clockDrawing(rom.motions, go);
+      if (clock) made.push(section(words.clock, figure(clock)));
+    }
+    if (this.report.text.joint.kind !== "hinge") made.push(this.mapSection(map));
+    return made;
+  }
+
+  /// The report's map, or a button that has the page compute one.
+  private mapSection(map: MapAnswer | null): HTMLElement {
+    const place = section(words.map);
+    const showMap = (answer: MapAnswer) => {
+      const angle = (name: string) => this.report.text.coordinates.findIndex((c) => c.name === name);
+      this.mapPlot = new MapPlot(answer, (column, row) => {
+        const angles: number[] = [0, 0, 0];
+        angles[angle(answer.columns.angle)] = column;
+        angles[angle(answer.rows.angle)] = row;
+        angles[angle(answer.vary)] = answer.start_deg;
+        this.motion.goTo(angles);
+      });
+      place.append(this.mapPlot.element);
+    };
+    if (map) {
+      showMap(map);
+      return place;
+    }
+    const ask = button(words.computeMap, () => {
+      if (!this.core) return;
+      ask.remove();
+      const question = coarseMap();
+      const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.report.text.coordinates[i]!);
+      showMap({
+        columns: { angle: column!.name, opposite: column!.opposite, values_deg: question.columns },
+        rows: { angle: row!.name, opposite: row!.opposite, values_deg: question.rows },
+        vary: vary!.name, vary_opposite: vary!.opposite, start_deg: 0, intervals: [],
+      });
+      this.core.askMap(question);
+    });
+    place.append(ask);
+    return place;
+  }
+
+  private moved(at: Coordinates): void {
+    this.core?.ask(at, this.display.quantity, this.motion.ranges());
+    this.scene?.showContactPoint(null);
+    this.rememberView();
+  }
+
+  private coordinateNames(): string[] {
+    return [...this.report.text.coordinates.map(({ name }) => name), ...translationNames];
+  }
+
+  /// Browsers refuse an address that changes at every frame.
+  private rememberView(): void {
+    clearTimeout(this.fragmentTimer);
+    this.fragmentTimer = window.setTimeout(() => {
+      const { angles, translation } = this.motion.coordinates;
+      const values = [...angles, ...translation];
+      const coordinates = Object.fromEntries(this.coordinateNames().map((name, i) => [name, values[i]!]));
+      history.replaceState(null, "", writeViewState({
+        coordinates, colour: this.display.quantity, camera: this.scene?.viewpoint ?? null,
+      }));
+    }, 300);
+  }
+
+  private counts(): { fixed: [number, number]; mobile: [number, number] } {
+    const of = ({ vertices, triangles }: JointArrays["fixed"]): [number, number] => [vertices.length / 3, triangles.length / 3];
+    return { fixed: of(this.arrays.fixed), mobile: of(this.arrays.mobile) };
+  }
+}
+
+/// Internal rotation over flexion and adduction, every ten degrees.
+function coarseMap(): MapQuestion {
+  const every10 = (first: number, last: number) => Array.from({ length: (last - first) / 10 + 1 }, (_, i) => first + 10 * i);
+  return { columnAngle: 0, rowAngle: 1, vary: 2, columns: every10(-20, 120), rows: every10(-40, 30) };
+}
+
+async function open(): Promise<void> {
+  found("licences").textContent = textOf("licence-texts") ?? "";
+  found("scope").textContent = words.scope;
+  const data = textOf("condyle-data");
+  if (data === null) return warn(words.noData);
+  const page = new Page(await Report.read(data));
+  if (typeof WebAssembly === "undefined") return page.useStoredPoses();
+  await page.compute(await inflated(bytesOf(textOf("core") ?? ""), "gzip"));
+}
+
+open().catch((error: unknown) => {
+  warn(error instanceof ReportError || error instanceof Error ? error.message : String(error));
+});

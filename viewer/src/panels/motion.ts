@@ -1,0 +1,189 @@
+import { scaleLinear } from "d3-scale";
+import { button, html, section, spaced, svg } from "../dom";
+import type { Coordinates, LiveLimit, Shown } from "../core/protocol";
+import type { MotionAnswer, ReportText } from "../report";
+import { words } from "../words";
+
+const stripWidth = 400, stripHeight = 18;
+const usualRange_deg = 120, translationRange_mm = 20, farthest_deg = 180;
+const axes = ["x", "y", "z"] as const;
+
+interface Slider {
+  name: string;
+  input: HTMLInputElement;
+  number: HTMLInputElement;
+  strip: SVGSVGElement;
+  told: HTMLElement;
+  low: number;
+  high: number;
+  limits: { negative: LiveLimit | null; positive: LiveLimit | null };
+}
+
+/// Sliders of the joint's coordinates with the limits from where it is, and what the pose shows.
+export class MotionPanel {
+  readonly element: HTMLElement;
+  private readonly sliders: Slider[];
+  private readonly translations: HTMLInputElement[] = [];
+  private readonly answer = html("p", { id: "answer", "aria-live": "polite" });
+  private readonly took = html("p", { class: "small", "aria-hidden": "true" });
+  private animation = 0;
+  private toldAt = 0;
+
+  constructor(private readonly report: ReportText, private readonly moved: (at: Coordinates) => void) {
+    const count = report.joint.kind === "hinge" ? 1 : 3;
+    this.sliders = report.coordinates.slice(0, count).map((_, angle) => this.slider(angle));
+    const rows = this.sliders.map(({ name, input, number, strip, told }) =>
+      html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), number, input, strip, told));
+    if (report.joint.kind === "free") rows.push(html("div", { class: "row" }, ...axes.map((axis) => this.translation(axis))));
+    const manoeuvres = (report.rom?.motions ?? []).map((motion) =>
+      button(spaced(motion.name), () => this.goTo(anglesAt(report, motion.at_limit_deg)), { class: "manoeuvre" }));
+    this.element = section(words.motion, ...rows, this.answer, this.took,
+      html("div", { class: "row no-print" },
+        button(words.reset, () => this.goTo([...report.reference_deg])),
+        ...(manoeuvres.length ? [html("span", {}, words.manoeuvres)] : []), ...manoeuvres));
+  }
+
+  get coordinates(): Coordinates {
+    const angles: [number, number, number] = [0, 0, 0];
+    this.sliders.forEach(({ number }, i) => (angles[i] = number.valueAsNumber || 0));
+    const translation: [number, number, number] = [...this.report.reference_mm];
+    this.translations.forEach((input, i) => (translation[i] = input.valueAsNumber || 0));
+    return { angles, translation };
+  }
+
+  /// As said, at once.
+  set(angles: readonly number[], translation?: readonly number[]): void {
+    this.sliders.forEach((slider, i) => this.write(slider, angles[i]!));
+    if (translation) this.translations.forEach((input, i) => (input.value = String(translation[i]!)));
+    this.moved(this.coordinates);
+  }
+
+  /// The joint turns there, unless its user asked for less motion.
+  goTo(angles: readonly number[]): void {
+    cancelAnimationFrame(this.animation);
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return this.set(angles);
+    const from = this.coordinates.angles, begun = performance.now(), duration_ms = 450;
+    const step = () => {
+      const share = Math.min(1, (performance.now() - begun) / duration_ms);
+      const eased = share * share * (3 - 2 * share);
+      this.set(share === 1 ? angles : from.map((angle, i) => angle + eased * (angles[i]! - angle)));
+      if (share < 1) this.animation = requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  /// How far each angle is followed for its limits, back and forth.
+  ranges(): [number, number][] {
+    return this.sliders.map(() => [farthest_deg, farthest_deg]);
+  }
+
+  setLimit(at: Coordinates, limit: LiveLimit): void {
+    const slider = this.sliders[limit.vary]!;
+    slider.limits[limit.positive ? "positive" : "negative"] = limit;
+    this.drawStrip(slider, at.angles[limit.vary]!);
+  }
+
+  show(shown: Shown, roundTrip_ms: number): void {
+    const { fixed, mobile } = this.report.joint;
+    const inside = ([["mobile", mobile], ["fixed", fixed]] as const)
+      .filter(([key]) => shown.inside[key].count > 0)
+      .map(([key, name]) => words.deepest(name, shown.inside[key].count, shown.inside[key].deepest_mm.toFixed(2)));
+    const text = [
+      shown.inContact ? words.inContact : words.notInContact, ...inside,
+      ...(shown.pairs.length ? [words.pairsCount(shown.pairs.length / 2)] : []),
+    ].join("; ");
+    // A reader that speaks is not interrupted at every step of a slider.
+    const now = performance.now();
+    if (this.answer.textContent !== text || now - this.toldAt > 1000) {
+      this.answer.textContent = text;
+      this.toldAt = now;
+    }
+    this.answer.classList.toggle("contact", shown.inContact);
+    this.took.textContent = words.stepTook(roundTrip_ms);
+  }
+
+  private slider(angle: number): Slider {
+    const { name } = this.report.coordinates[angle]!;
+    const [low, high] = this.rangeOf(angle);
+    const input = html("input", {
+      type: "range", id: `angle-${name}`, min: low, max: high, step: 0.1, value: 0, "aria-label": words.coordinate(spaced(name)),
+    });
+    const number = html("input", { type: "number", min: -farthest_deg, max: farthest_deg, step: 0.1, value: 0,
+      "aria-label": words.coordinate(spaced(name)) });
+    const slider: Slider = {
+      name, input, number, low, high, limits: { negative: null, positive: null },
+      strip: svg("svg", { viewBox: `0 0 ${stripWidth} ${stripHeight}`, class: "strip", preserveAspectRatio: "none",
+        "aria-hidden": "true" }),
+      told: html("span", { class: "small told" }),
+    };
+    input.addEventListener("input", () => {
+      cancelAnimationFrame(this.animation);
+      number.value = input.value;
+      this.moved(this.coordinates);
+    });
+    number.addEventListener("input", () => {
+      input.value = number.value;
+      this.moved(this.coordinates);
+    });
+    return slider;
+  }
+
+  private translation(axis: (typeof axes)[number]): HTMLLabelElement {
+    const input = html("input", { type: "number", min: -translationRange_mm, max: translationRange_mm, step: 0.1,
+      value: this.report.reference_mm[axes.indexOf(axis)]! });
+    input.addEventListener("input", () => this.moved(this.coordinates));
+    this.translations.push(input);
+    return html("label", {}, `${words.translation(axis)} `, input);
+  }
+
+  private write({ input, number }: Slider, angle: number): void {
+    // A limit is quoted to its last bit; the slider shows what it can.
+    number.value = String(angle);
+    input.value = String(angle);
+  }
+
+  /// From where motions start to where they may end.
+  private rangeOf(angle: number): [number, number] {
+    const { name } = this.report.coordinates[angle]!;
+    let [low, high] = [0, 0];
+    for (const { vary, sense, range_deg, start_deg } of this.report.rom?.motions ?? []) {
+      if (vary !== name) continue;
+      const start = start_deg[name] ?? 0;
+      if (sense === "positive") high = Math.max(high, start + range_deg);
+      else low = Math.min(low, start - range_deg);
+    }
+    return [Math.max(-farthest_deg, low || -usualRange_deg), Math.min(farthest_deg, high || usualRange_deg)];
+  }
+
+  /// Free from here, and the bands of the motions that start at zero.
+  private drawStrip(slider: Slider, at: number): void {
+    const { negative, positive } = slider.limits;
+    if (!negative || !positive) return;
+    const x = scaleLinear([slider.low, slider.high], [0, stripWidth]).clamp(true);
+    const low = at - negative.turned_deg, high = at + positive.turned_deg;
+    const startsInContact = positive.reason === "contact_at_start";
+    const marks: SVGElement[] = [svg("rect", { x: 0, y: 7, width: stripWidth, height: 4, class: "track" })];
+    if (!startsInContact)
+      marks.push(svg("rect", { x: x(low), y: 4, width: Math.max(1, x(high) - x(low)), height: 10, class: "free" }));
+    for (const motion of this.report.rom?.motions ?? []) {
+      if (motion.vary !== slider.name || Object.values(motion.start_deg).some((start) => start !== 0)) continue;
+      const sign = motion.sense === "positive" ? 1 : -1;
+      if (motion.band) {
+        const ends = [sign * motion.band.p5_deg, sign * motion.band.p95_deg].sort((a, b) => a - b);
+        marks.push(svg("rect", { x: x(ends[0]!), y: 0, width: Math.max(1, x(ends[1]!) - x(ends[0]!)), height: stripHeight,
+          class: "band" }));
+      }
+      marks.push(svg("rect", { x: x(sign * motion.limit_deg) - 1, y: 0, width: 2, height: stripHeight, class: "limit" }));
+    }
+    slider.strip.replaceChildren(...marks);
+    const end = (deg: number, { reason }: LiveLimit) =>
+      `${deg.toFixed(1)}° (${reason === "contact" ? words.limitBy.contact : words.limitBy.range})`;
+    slider.told.textContent = startsInContact ? words.startsInContact
+      : words.free(spaced(slider.name), end(low, negative), end(high, positive));
+  }
+}
+
+/// The three angles of a pose that names them.
+export function anglesAt(report: ReportText, named: MotionAnswer["at_limit_deg"]): number[] {
+  return report.coordinates.map(({ name }) => named[name] ?? 0);
+}

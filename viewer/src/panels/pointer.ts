@@ -1,0 +1,66 @@
+import { html } from "../dom";
+import { checkbox } from "../dom";
+import type { BodyName, JointScene, Picked } from "../scene/scene";
+import { words } from "../words";
+
+const clickTolerance_px = 4;
+
+/// What the pointer tells: the vertex under it and its value, and the distance between two vertices.
+export class PointerPanel {
+  readonly element: HTMLElement;
+  private readonly told = html("p", { id: "hover", "aria-live": "polite" });
+  private measures = false;
+  private first: Picked | null = null;
+  private pressedAt: [number, number] = [0, 0];
+
+  constructor(private readonly scene: JointScene, private readonly names: Record<BodyName, string>) {
+    this.element = html("div", {},
+      checkbox(words.measure, false, (on) => {
+        this.measures = on;
+        this.first = null;
+        scene.showDistance(null);
+        this.told.textContent = on ? words.measureFirst : "";
+      }), this.told);
+    let asked = false;
+    scene.canvas.addEventListener("pointermove", (event) => {
+      if (asked || event.buttons !== 0) return;
+      asked = true;
+      requestAnimationFrame(() => {
+        asked = false;
+        if (!this.measures) this.tell(scene.pick(event));
+      });
+    });
+    scene.canvas.addEventListener("pointerdown", (event) => (this.pressedAt = [event.clientX, event.clientY]));
+    scene.canvas.addEventListener("click", (event) => {
+      const [x, y] = this.pressedAt;
+      if (Math.hypot(event.clientX - x, event.clientY - y) > clickTolerance_px) return;
+      const picked = scene.pick(event);
+      if (this.measures) this.choose(picked);
+      else this.tell(picked);
+    });
+  }
+
+  private tell(picked: Picked | null): void {
+    if (!picked) {
+      this.told.textContent = "";
+      return;
+    }
+    const value = this.scene.bodies[picked.body].valueOf(picked.vertex);
+    const text = value ? `${value.isBound ? `${words.bound} ` : ""}${value.mm.toFixed(2)} ${words.millimetres}` : words.noValue;
+    this.told.textContent = words.hover(this.names[picked.body], picked.vertex, text);
+  }
+
+  private choose(picked: Picked | null): void {
+    if (!picked) return;
+    if (!this.first) {
+      this.first = picked;
+      this.scene.showDistance(null);
+      this.told.textContent = words.measureSecond;
+      return;
+    }
+    const ends = [this.scene.vertexPoint(this.first), this.scene.vertexPoint(picked)] as const;
+    this.scene.showDistance([...ends]);
+    this.told.textContent = words.measured(ends[0].distanceTo(ends[1]));
+    this.first = null;
+  }
+}

@@ -1,0 +1,52 @@
+import { button, html } from "../dom";
+import { csv, save } from "../save";
+import { words } from "../words";
+
+/// A drawing with a caption, and what is in it as SVG and as CSV.
+export interface Drawing {
+  name: string;
+  caption: string;
+  picture: SVGSVGElement;
+  data: () => (string | number | null)[][];
+}
+
+export function figure({ name, caption, picture, data }: Drawing): HTMLElement {
+  picture.setAttribute("role", "group");
+  picture.setAttribute("aria-label", caption);
+  return html("figure", {},
+    picture,
+    html("figcaption", {}, caption),
+    html("div", { class: "row no-print" },
+      button(words.saveSvg, () => save(`${name}.svg`, "image/svg+xml", standalone(picture))),
+      button(words.saveData, () => save(`${name}.csv`, "text/csv", csv(data())))));
+}
+
+/// The SVG with the styles that the page gives it.
+function standalone(picture: SVGSVGElement): string {
+  const copy = picture.cloneNode(true) as SVGSVGElement;
+  const originals = [picture, ...picture.querySelectorAll<SVGElement>("*")];
+  [copy, ...copy.querySelectorAll<SVGElement>("*")].forEach((element, i) => {
+    const style = getComputedStyle(originals[i]!);
+    for (const property of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family", "text-anchor", "opacity"])
+      element.setAttribute(property, style.getPropertyValue(property));
+    element.removeAttribute("class");
+    element.removeAttribute("tabindex");
+  });
+  copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  return new XMLSerializer().serializeToString(copy);
+}
+
+/// An element of a drawing that is pressed with mouse, finger or keyboard.
+export function pressable<E extends SVGElement>(element: E, label: string, pressed: () => void): E {
+  element.setAttribute("role", "button");
+  element.setAttribute("tabindex", "0");
+  element.setAttribute("aria-label", label);
+  element.classList.add("pressable");
+  element.addEventListener("click", pressed);
+  element.addEventListener("keydown", (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    pressed();
+  });
+  return element;
+}

@@ -1,0 +1,58 @@
+import { scaleLinear } from "d3-scale";
+import { spaced, svg } from "../dom";
+import type { MotionAnswer } from "../report";
+import { words } from "../words";
+import { pressable, type Drawing } from "./figure";
+
+const width = 460, rowHeight = 24, left = 206, right = 44, top = 6, bottom = 30;
+
+export function limitText(motion: MotionAnswer): string {
+  const number = `${motion.limit_deg.toFixed(1)}°`;
+  if (motion.reason === "contact_at_start") return words.reasons.contact_at_start;
+  const band = motion.band ? ` (${motion.band.p5_deg.toFixed(0)} to ${motion.band.p95_deg.toFixed(0)})` : "";
+  return (motion.reason === "end_of_range" ? `over ${number}` : number) + band;
+}
+
+/// A bar for each motion, with band and normal range; one pressed goes to its end.
+export function limitsDrawing(motions: readonly MotionAnswer[], go: (motion: MotionAnswer) => void): Drawing {
+  const height = top + motions.length * rowHeight + bottom;
+  const most = Math.max(10, ...motions.map((m) => Math.max(m.limit_deg, m.band?.p95_deg ?? 0, m.normal_range_deg ?? 0)));
+  const x = scaleLinear([0, most], [left, width - right]).nice();
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" });
+  const axisY = height - bottom;
+  for (const tick of x.ticks(6))
+    picture.append(
+      svg("line", { x1: x(tick), x2: x(tick), y1: top, y2: axisY, class: "grid" }),
+      svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
+  motions.forEach((motion, i) => {
+    const y = top + i * rowHeight, middle = y + rowHeight / 2;
+    const name = spaced(motion.name);
+    const row = svg("g", {},
+      svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
+      svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),
+      svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }));
+    if (motion.band)
+      row.append(
+        svg("line", { x1: x(motion.band.p5_deg), x2: x(motion.band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
+        ...[motion.band.p5_deg, motion.band.p95_deg].map((end) =>
+          svg("line", { x1: x(end), x2: x(end), y1: middle - 5, y2: middle + 5, class: "whisker" })));
+    if (motion.normal_range_deg !== null)
+      row.append(svg("line", {
+        x1: x(motion.normal_range_deg), x2: x(motion.normal_range_deg), y1: y + 2, y2: y + rowHeight - 2, class: "normal",
+      }));
+    row.append(svg("title", {}, `${name}: ${limitText(motion)}`));
+    picture.append(pressable(row, `${words.goThere(name)}: ${limitText(motion)}`, () => go(motion)));
+  });
+  return {
+    name: "limits",
+    caption: words.limitsCaption,
+    picture,
+    data: () => [
+      ["motion", "limit_deg", "reason", "contact_kind", "bearing_contact_deg", "normal_range_deg", "p5_deg", "median_deg", "p95_deg"],
+      ...motions.map((m) => [
+        m.name, m.limit_deg, m.reason, m.contact_kind, m.bearing_contact_deg, m.normal_range_deg, m.band?.p5_deg ?? null,
+        m.band?.median_deg ?? null, m.band?.p95_deg ?? null,
+      ]),
+    ],
+  };
+}

@@ -1,0 +1,187 @@
+import { words } from "./words";
+
+/// What `condyle report` puts into the page; docs/report.md has every key.
+
+export interface ArrayPlace {
+  type: "f64" | "f32" | "u32" | "i16" | "u8";
+  offset: number;
+  length: number;
+  planes?: boolean;
+}
+
+export interface Band {
+  p5_deg: number;
+  median_deg: number;
+  p95_deg: number;
+}
+
+export interface MotionAnswer {
+  name: string;
+  limit_deg: number;
+  reason: "contact" | "end_of_range" | "contact_at_start";
+  contact_kind: string | null;
+  bearing_contact_deg: number | null;
+  contact_point_mm: [number, number, number] | null;
+  clock_hour: number | null;
+  vary: string;
+  sense: "positive" | "negative";
+  range_deg: number;
+  start_deg: Record<string, number>;
+  at_limit_deg: Record<string, number>;
+  normal_range_deg: number | null;
+  band: Band | null;
+}
+
+export interface MeshSource {
+  path: string;
+  bytes: number;
+  sha256: string;
+}
+
+export interface RomAnswer {
+  motions: MotionAnswer[];
+  notes: { code: string; text: string }[];
+  terms: string[];
+  normal_range_source?: string | null;
+  scope: string;
+  provenance?: {
+    version: string;
+    command: string[];
+    joint_file: MeshSource;
+    fixed_mesh: MeshSource | { files: MeshSource[] };
+    mobile_mesh: MeshSource | { files: MeshSource[] };
+  };
+}
+
+export interface MapAxis {
+  angle: string;
+  opposite: string;
+  values_deg: number[];
+}
+
+/// low, high, whether contact ends it there, and there
+export type Interval = [number, number, number, number];
+
+export interface MapAnswer {
+  columns: MapAxis;
+  rows: MapAxis;
+  vary: string;
+  vary_opposite: string;
+  start_deg: number;
+  intervals: Interval[][];
+}
+
+export interface StoredPose {
+  name: string;
+  coordinates_deg: [number, number, number];
+  pose: number[];
+  in_contact: boolean;
+  contact_point_mm: [number, number, number] | null;
+  fixed_gaps: string;
+  mobile_gaps: string;
+}
+
+export interface Recorded {
+  name: string;
+  times_s: string;
+  coordinates_deg: string;
+  coordinates_mm: string;
+  poses: string;
+  curves: { name: string; unit: string; values: string }[];
+}
+
+export interface ReportText {
+  version: string;
+  title: string;
+  joint: {
+    name: string;
+    kind: "ball" | "hinge" | "free";
+    anatomy: "hip" | "knee" | "ankle" | "elbow" | "shoulder";
+    side: "right" | "left";
+    fixed: string;
+    mobile: string;
+  };
+  coordinates: { name: string; opposite: string }[];
+  reference_deg: [number, number, number];
+  reference_mm: [number, number, number];
+  rom: RomAnswer | null;
+  rom_error?: string;
+  map: MapAnswer | null;
+  arrays: Record<string, ArrayPlace>;
+  poses: StoredPose[];
+  recorded: Recorded | null;
+}
+
+/// Damage that the page reports in one line.
+export class ReportError extends Error {}
+
+const headBytes = 16;
+const magic = "CONDYLE\0";
+const elementTypes = {
+  f64: Float64Array, f32: Float32Array, u32: Uint32Array, i16: Int16Array, u8: Uint8Array,
+};
+type Elements = { [T in keyof typeof elementTypes]: InstanceType<(typeof elementTypes)[T]> };
+
+/// The bytes of a text in base 64.
+export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
+  const text = atob(base64.trim());
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+export async function inflated(bytes: Uint8Array<ArrayBuffer>, format: CompressionFormat): Promise<ArrayBuffer> {
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
+}
+
+/// A data block: its text, and arrays by name.
+export class Report {
+  private constructor(readonly text: ReportText, private readonly arrays: ArrayBuffer) {}
+
+  /// Throws ReportError for a block that is damaged.
+  static async read(base64: string): Promise<Report> {
+    let block: ArrayBuffer;
+    try {
+      block = await inflated(bytesOf(base64), "deflate");
+    } catch {
+      throw new ReportError(words.damaged + words.notCompressed);
+    }
+    const bytes = new Uint8Array(block);
+    if (bytes.length < headBytes || new TextDecoder().decode(bytes.subarray(0, magic.length)) !== magic)
+      throw new ReportError(words.damaged + words.wrongMagic);
+    const head = new DataView(block);
+    const version = head.getUint32(8, true);
+    if (version !== 1) throw new ReportError(words.damaged + words.wrongVersion(version));
+    const textEnd = headBytes + head.getUint32(12, true);
+    if (textEnd > bytes.length) throw new ReportError(words.damaged + words.truncated);
+    const text = JSON.parse(new TextDecoder().decode(bytes.subarray(headBytes, textEnd))) as ReportText;
+    const report = new Report(text, block.slice(textEnd));
+    for (const { type, offset, length } of Object.values(text.arrays))
+      if (offset + length * elementTypes[type].BYTES_PER_ELEMENT > report.arrays.byteLength)
+        throw new ReportError(words.damaged + words.truncated);
+    return report;
+  }
+
+  /// The array of that name and type, a copy.
+  array<T extends keyof Elements>(name: string, type: T): Elements[T] {
+    const place = this.text.arrays[name];
+    if (place === undefined || place.type !== type) throw new ReportError(words.damaged + name);
+    const Type = elementTypes[type];
+    const size = Type.BYTES_PER_ELEMENT;
+    const stored = this.arrays.slice(place.offset, place.offset + place.length * size);
+    return new Type(place.planes ? joined(new Uint8Array(stored), size) : stored) as Elements[T];
+  }
+
+  has(name: string): boolean {
+    return name in this.text.arrays;
+  }
+}
+
+/// Elements whose bytes were stored plane by plane: all first bytes, then all second ones.
+function joined(planes: Uint8Array, size: number): ArrayBuffer {
+  const count = planes.length / size;
+  const out = new Uint8Array(planes.length);
+  for (let plane = 0; plane < size; ++plane)
+    for (let i = 0; i < count; ++i) out[i * size + plane] = planes[plane * count + i]!;
+  return out.buffer;
+}

@@ -1,0 +1,69 @@
+import { DataTexture, DoubleSide, LinearFilter, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, UnsignedByteType } from "three";
+import { colourTable, type ColourScale } from "./colour_scale";
+
+const steps = 512;
+
+/// A surface coloured by a value per vertex: values are interpolated, not colours, so that a pixel shows what the scale says. Bounds
+/// are hatched in grey; what is marked is tinted.
+export class BodyMaterial extends MeshLambertMaterial {
+  private readonly shared = {
+    scaleColours: { value: null as DataTexture | null },
+    scaleLow: { value: 0 },
+    scaleHigh: { value: 1 },
+    plainAbove: { value: false },
+    isFlat: { value: false },
+  };
+
+  constructor(bone: string) {
+    super({ color: bone, side: DoubleSide });
+    this.onBeforeCompile = (shader) => {
+      Object.assign(shader.uniforms, this.shared);
+      shader.vertexShader = shader.vertexShader
+        .replace("#include <common>", `#include <common>
+          attribute float shown; attribute float mark; attribute float tint;
+          varying float vShown; varying float vMark; varying float vTint;`)
+        .replace("#include <begin_vertex>", `#include <begin_vertex>
+          vShown = shown; vMark = mark; vTint = tint;`);
+      shader.fragmentShader = shader.fragmentShader
+        .replace("#include <common>", `#include <common>
+          uniform sampler2D scaleColours; uniform float scaleLow; uniform float scaleHigh; uniform bool plainAbove;
+          uniform bool isFlat;
+          varying float vShown; varying float vMark; varying float vTint;`)
+        .replace("#include <color_fragment>", `#include <color_fragment>
+          if (vMark > 0.5 && !(plainAbove && vShown > scaleHigh)) {
+            float along = clamp((vShown - scaleLow) / (scaleHigh - scaleLow), 0.0, 1.0);
+            diffuseColor.rgb = texture2D(scaleColours, vec2(along, 0.5)).rgb;
+            if (vMark > 1.5)
+              diffuseColor.rgb = mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 3.0 ? vec3(0.2) : vec3(0.55);
+          }
+          if (vTint > 1.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.95, 0.45, 0.0), 0.85);
+          else if (vTint > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.1, 0.55, 0.35), 0.35);`)
+        .replace("#include <opaque_fragment>", `if (isFlat) outgoingLight = diffuseColor.rgb;
+          #include <opaque_fragment>`);
+    };
+  }
+
+  setScale(scale: ColourScale): void {
+    const texture = new DataTexture(colourTable(scale, steps), steps, 1, RGBAFormat, UnsignedByteType);
+    texture.colorSpace = SRGBColorSpace;
+    texture.minFilter = texture.magFilter = LinearFilter;
+    texture.needsUpdate = true;
+    this.shared.scaleColours.value?.dispose();
+    this.shared.scaleColours.value = texture;
+    this.shared.scaleLow.value = scale.low;
+    this.shared.scaleHigh.value = scale.high;
+    this.shared.plainAbove.value = scale.plainAbove;
+  }
+
+  setShading(on: boolean): void {
+    this.shared.isFlat.value = !on;
+  }
+
+  setOpacity(opacity: number): void {
+    const transparent = opacity < 1;
+    if (transparent !== this.transparent) this.needsUpdate = true;
+    this.transparent = transparent;
+    this.depthWrite = !transparent;
+    this.opacity = opacity;
+  }
+}

@@ -1,0 +1,42 @@
+import { interpolateInferno, interpolateOrRd, interpolateYlGnBu } from "d3-scale-chromatic";
+import type { Quantity } from "../core/protocol";
+
+/// Colours of a quantity over mm, made of sequential scales that the colour blind tell apart.
+///
+///     gap, distance   -end  dark red ... orange | 0 | dark blue ... pale  end, beyond it plain bone
+///     depth              0  light ... dark  end
+export interface ColourScale {
+  low: number;
+  high: number;
+  /// Values above `high` are nothing to look at: the bone stays plain.
+  plainAbove: boolean;
+  /// CSS colour of a value; values below `low` have its colour.
+  colour(mm: number): string;
+}
+
+export function colourScale(quantity: Exclude<Quantity, "none">, end_mm: number): ColourScale {
+  const share = (mm: number) => Math.min(1, Math.max(0, mm / end_mm));
+  // The lightest of the sequential map is left out: on a light bone it would not be seen.
+  if (quantity === "depth")
+    return { low: 0, high: end_mm, plainAbove: false, colour: (mm) => interpolateInferno(0.85 * (1 - share(mm))) };
+  return {
+    low: -end_mm, high: end_mm, plainAbove: true,
+    colour: (mm) => (mm < 0 ? interpolateOrRd(0.4 + 0.6 * share(-mm)) : interpolateYlGnBu(1 - 0.9 * share(mm))),
+  };
+}
+
+export function rgb(css: string): [number, number, number] {
+  const short = /^#(..)(..)(..)$/.exec(css);
+  if (short) return [1, 2, 3].map((i) => Number.parseInt(short[i]!, 16)) as [number, number, number];
+  return css.match(/\d+/g)!.slice(0, 3).map(Number) as [number, number, number];
+}
+
+/// The scale as RGBA bytes, `steps` of them, from low to high.
+export function colourTable(scale: ColourScale, steps: number): Uint8Array<ArrayBuffer> {
+  const table = new Uint8Array(4 * steps);
+  for (let i = 0; i < steps; ++i) {
+    const mm = scale.low + ((scale.high - scale.low) * i) / (steps - 1);
+    table.set([...rgb(scale.colour(mm)), 255], 4 * i);
+  }
+  return table;
+}

@@ -1,0 +1,208 @@
+import {
+  AmbientLight, Box3, BufferGeometry, DirectionalLight, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera,
+  Plane, Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer, type Intersection,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { ViewHelper } from "three/addons/helpers/ViewHelper.js";
+import type { Surface } from "../core/protocol";
+import { SceneBody } from "./body";
+import type { ColourScale } from "./colour_scale";
+
+/// From where the joint is looked at, in the joint frame: X anterior, Y superior, Z right.
+export const viewDirections = {
+  anterior: [1, 0, 0], posterior: [-1, 0, 0], superior: [0, 1, 0], inferior: [0, -1, 0], right: [0, 0, 1], left: [0, 0, -1],
+} as const;
+export type View = keyof typeof viewDirections;
+
+export type BodyName = "fixed" | "mobile";
+export type ClipAxis = "none" | "x" | "y" | "z";
+
+/// A vertex that was pointed at.
+export interface Picked {
+  body: BodyName;
+  vertex: number;
+  point: Vector3;
+}
+
+const boneColours = { fixed: "#d9cfb8", mobile: "#b9c7d6" };
+
+/// Both bones before a camera. Drawn only when something changed.
+export class JointScene {
+  readonly bodies: Record<BodyName, SceneBody>;
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(30, 1, 1, 5000);
+  private readonly controls: OrbitControls;
+  private readonly gizmo: ViewHelper;
+  private readonly rays = new Raycaster();
+  private readonly contactPoint: Mesh;
+  private measure: Line | null = null;
+  private frameAsked = false;
+  private size = 100;
+  private middle = new Vector3();
+
+  /// Throws where the browser has no WebGL.
+  constructor(private readonly place: HTMLElement, fixed: Surface, mobile: Surface, label: string) {
+    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.localClippingEnabled = true;
+    this.renderer.autoClear = false;
+    this.renderer.setClearColor(0, 0);
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", label);
+    place.append(canvas);
+
+    this.bodies = { fixed: new SceneBody(fixed, boneColours.fixed), mobile: new SceneBody(mobile, boneColours.mobile) };
+    this.bodies.mobile.mesh.matrixAutoUpdate = false;
+    this.contactPoint = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ color: "#ff7f0e", depthTest: false }));
+    this.contactPoint.visible = false;
+    const light = new DirectionalLight("white", 2.2);
+    light.position.set(0.4, 0.7, 1);
+    this.camera.add(light);
+    this.scene.add(this.bodies.fixed.mesh, this.bodies.mobile.mesh, this.contactPoint, this.camera, new AmbientLight("white", 1.1));
+
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.listenToKeyEvents(canvas);
+    this.controls.addEventListener("change", () => this.draw());
+    this.gizmo = new ViewHelper(this.camera, canvas);
+    this.gizmo.setLabels("A", "S", "R");
+    new ResizeObserver(() => this.fit()).observe(place);
+
+    const box = new Box3().setFromObject(this.bodies.mobile.mesh).union(new Box3().setFromObject(this.bodies.fixed.mesh));
+    this.size = box.getSize(new Vector3()).length();
+    box.getCenter(this.middle);
+    this.look("anterior");
+    this.fit();
+  }
+
+  look(view: View): void {
+    const [x, y, z] = viewDirections[view];
+    const distance = (0.55 * this.size) / Math.tan((this.camera.fov / 2) * (Math.PI / 180));
+    this.camera.up.set(0, 1, 0);
+    // Straight above or below "up" would be along the view: a hair aside keeps the front at the bottom.
+    this.camera.position.set(x, y, z).multiplyScalar(distance).add(this.middle);
+    if (x === 0 && z === 0) this.camera.position.x += y * 1e-3 * distance;
+    this.controls.target.copy(this.middle);
+    this.controls.update();
+    this.draw();
+  }
+
+  /// Camera and what it looks at, six numbers.
+  get viewpoint(): number[] {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+  set viewpoint(numbers: number[]) {
+    this.camera.position.fromArray(numbers, 0);
+    this.controls.target.fromArray(numbers, 3);
+    this.controls.update();
+    this.draw();
+  }
+
+  onViewChange(changed: () => void): void {
+    this.controls.addEventListener("end", changed);
+  }
+
+  /// X_FM, 16 numbers row by row.
+  setPose(rows: ArrayLike<number>): void {
+    const mesh = this.bodies.mobile.mesh;
+    mesh.matrix = new Matrix4().fromArray(Array.from(rows)).transpose();
+    mesh.matrixWorldNeedsUpdate = true;
+    this.draw();
+  }
+
+  setScale(scale: ColourScale): void {
+    for (const body of Object.values(this.bodies)) body.mesh.material.setScale(scale);
+    this.draw();
+  }
+
+  setShading(on: boolean): void {
+    for (const body of Object.values(this.bodies)) body.mesh.material.setShading(on);
+    this.draw();
+  }
+
+  setOpacity(name: BodyName, opacity: number): void {
+    const { mesh } = this.bodies[name];
+    mesh.material.setOpacity(opacity);
+    mesh.renderOrder = opacity < 1 ? 1 : 0;
+    this.draw();
+  }
+
+  setVisible(name: BodyName, visible: boolean): void {
+    this.bodies[name].mesh.visible = visible;
+    this.draw();
+  }
+
+  /// Cuts away what lies beyond `at` mm along an axis.
+  clip(axis: ClipAxis, at: number): void {
+    const normal = { x: [-1, 0, 0], y: [0, -1, 0], z: [0, 0, -1] } as const;
+    const planes = axis === "none" ? [] : [new Plane(new Vector3(...normal[axis]), at)];
+    for (const body of Object.values(this.bodies)) body.setClipping(planes);
+    this.draw();
+  }
+
+  showContactPoint(point: readonly [number, number, number] | null): void {
+    this.contactPoint.visible = point !== null;
+    if (point) this.contactPoint.position.set(...point);
+    this.contactPoint.scale.setScalar(this.size / 120);
+    this.draw();
+  }
+
+  showDistance(ends: [Vector3, Vector3] | null): void {
+    if (this.measure) this.scene.remove(this.measure);
+    this.measure = ends
+      ? new Line(new BufferGeometry().setFromPoints(ends), new LineBasicMaterial({ color: "#c2185b", depthTest: false })) : null;
+    if (this.measure) this.scene.add(this.measure);
+    this.draw();
+  }
+
+  /// The vertex next to what is under a point of the page; null where no bone is.
+  pick(event: { clientX: number; clientY: number }): Picked | null {
+    const box = this.renderer.domElement.getBoundingClientRect();
+    this.rays.setFromCamera(new Vector2(
+      ((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2), this.camera);
+    for (const hit of this.rays.intersectObjects([this.bodies.fixed.mesh, this.bodies.mobile.mesh].filter((m) => m.visible))) {
+      const body: BodyName = hit.object === this.bodies.fixed.mesh ? "fixed" : "mobile";
+      const planes = this.bodies[body].mesh.material.clippingPlanes ?? [];
+      if (planes.every((plane) => plane.distanceToPoint(hit.point) >= 0))
+        return { body, vertex: nearestCorner(hit), point: hit.point };
+    }
+    return null;
+  }
+
+  /// Of a vertex, in F.
+  vertexPoint({ body, vertex }: Picked): Vector3 {
+    const { mesh, surface } = this.bodies[body];
+    return new Vector3().fromArray(surface.vertices, 3 * vertex).applyMatrix4(mesh.matrixWorld);
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+
+  draw(): void {
+    if (this.frameAsked) return;
+    this.frameAsked = true;
+    requestAnimationFrame(() => {
+      this.frameAsked = false;
+      this.renderer.clear();
+      this.renderer.render(this.scene, this.camera);
+      this.gizmo.render(this.renderer);
+    });
+  }
+
+  private fit(): void {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}
+
+function nearestCorner({ face, barycoord }: Intersection): number {
+  const corners = [face!.a, face!.b, face!.c], weights = barycoord!.toArray();
+  return corners[weights.indexOf(Math.max(...weights))]!;
+}
