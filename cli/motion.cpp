@@ -18,6 +18,7 @@
 #include "condyle/io/motion_result.hpp"
 #include "contact_options.hpp"
 #include "followed.hpp"
+#include "motion_surfaces.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {
@@ -61,20 +62,7 @@ std::vector<Load> loads_from(const std::string& path, const BalanceGiven& given,
 }
 
 MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
-  const Mesh &fixed = question.surfaces.fixed.mesh, &mobile = question.surfaces.mobile.mesh;
-  const JointContact bodies(fixed, mobile);
-  std::optional<ElasticContact> elastic;
-  std::optional<NormalDepth> depth;
-  SurfaceQuestion surfaces;
-  const BodyRole casting = question.contact.casting == Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
-  if (question.with_pressure) {
-    surfaces =
-        &elastic.emplace(fixed, mobile, elastic_options(question.contact, question.surfaces, question.joint));
-  } else {
-    const bool fixed_casts = casting == BodyRole::fixed;
-    surfaces =
-        &depth.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, question.contact.rays);
-  }
+  const MotionSurfaces surfaces(question);
   MotionAnswer answer;
   std::vector<std::optional<Pose>> X_FM = question.motion.X_FM;
   if (options.balance->any() || !options.loads.empty()) {
@@ -82,7 +70,7 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
                                         ? std::vector<Load>{load_of(*options.balance)}
                                         : loads_from(options.loads, *options.balance, question.motion);
     answer.balanced = followed("balanced frames", [&](const auto& follow, std::stop_token stop) {
-      return balance_along(*elastic, X_FM, loads, balance_options_of(*options.balance),
+      return balance_along(*surfaces.elastic(), X_FM, loads, balance_options_of(*options.balance),
                            {.progress = follow, .stop = stop});
     });
     // What does not carry its load has no contact to tell of.
@@ -99,12 +87,10 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
                                 [](const std::optional<Pose>& X) { return !X || X->translation().isZero(); });
   if (answer.balanced.empty() && question.motion.times.in_seconds && (options.between || held)) {
     answer.between = followed("ways between samples", [&](const auto& follow, std::stop_token stop) {
-      return contact_between_frames(bodies, question.motion, {.progress = follow, .stop = stop});
+      return contact_between_frames(surfaces.bodies(), question.motion, {.progress = follow, .stop = stop});
     });
   }
-  answer.frames = followed("frames", [&](const auto& follow, std::stop_token stop) {
-    return contact_along(bodies, surfaces, X_FM, {.casting = casting, .progress = follow, .stop = stop});
-  });
+  answer.frames = surfaces.frames(X_FM);
   return answer;
 }
 
@@ -114,9 +100,7 @@ void run(const Options& options, const CLI::App& command) {
   for (const std::string& remark : motion.notes) note(remark);
   const bool with_pressure = options.with_pressure || options.balance->any() || !options.loads.empty();
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
-  ContactEntry contact = contact_of(*options.contact, loaded.report.file, with_pressure);
-  // Depths alone have no mean of two castings: the surface that moves casts.
-  if (!with_pressure && contact.casting == Casting::both) contact.casting = Casting::mobile;
+  const ContactEntry contact = motion_contact_of(*options.contact, loaded.report.file, with_pressure);
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
   const MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};

@@ -1,0 +1,113 @@
+#include "range_options.hpp"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "condyle/error.hpp"
+#include "condyle/io/grid_text.hpp"
+#include "condyle/io/pose_text.hpp"
+
+namespace condyle::cli {
+namespace {
+
+/// The angle that is neither.
+JointAngle third_angle(JointAngle a, JointAngle b) {
+  for (const JointAngle angle : all_joint_angles)
+    if (angle != a && angle != b) return angle;
+  return JointAngle::internal_rotation;
+}
+
+/// "count", or a margin in mm.
+BearingOptions parse_bearing(const std::string& text) {
+  BearingOptions bearing;
+  if (text == "count") {
+    bearing.rule = BearingRule::count;
+  } else if (!CLI::detail::lexical_cast(text, bearing.margin_mm.emplace())) {
+    throw UsageError("--bearing: '" + text + "' is neither a margin in mm nor count");
+  }
+  return bearing;
+}
+
+}  // namespace
+
+CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+  auto* map =
+      command
+          .add_option(
+              "--map", given->map,
+              "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
+              "adduction=-40:30:1; the first one runs to the right")
+          ->expected(2);
+  command.add_option("--translation", given->translation,
+                     "Of a free joint: what all motions keep, such as \"x=1.5 y=-0.2 z=0\" in mm; without it "
+                     "that of the reference pose");
+  command.add_option("--vary", given->vary, "The angle that varies in the map: the third one");
+  return map;
+}
+
+CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+  return command.add_option_function<std::string>(
+      "--bearing", [given](const std::string& text) { given->bearing = parse_bearing(text); },
+      "How far outside the head's sphere contact is bearing contact and does not end a motion, in mm; count: "
+      "any "
+      "contact ends a motion. 2 mm, or less where the rim is near, if not given");
+}
+
+CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+  return command.add_flag_callback(
+      "--accept-reference-contact", [given] { given->reference_contact = ReferenceContact::accept; },
+      "Answer although the bodies are in contact in the reference pose: motions that start in contact say "
+      "so");
+}
+
+CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+  auto* band = command.add_flag("--band{200}", given->band_samples,
+                                "Also compute how far each limit moves with what is uncertain: 5 to 95 % of "
+                                "this many displaced joints, 200 if not "
+                                "given (--band=1000)");
+  const auto for_band = [&](CLI::Option* option) { option->needs(band); };
+  for_band(
+      command.add_option("--seed", given->seed, "With --band: seed of the displacements, 1 if not given"));
+  for_band(command.add_option(
+      "--sigma-centre", given->sigma_centre_mm,
+      "With --band: standard deviation of each coordinate of the centre, 0.5 mm if neither this "
+      "nor the joint file says"));
+  for_band(command.add_option("--sigma-axes", given->sigma_axes_deg,
+                              "With --band: of the rotation about each axis, 1 degree if not said"));
+  for_band(command.add_option("--sigma-surface", given->sigma_surface_mm,
+                              "With --band: of each surface along its normals, 0.25 mm if not said"));
+  return band;
+}
+
+std::optional<MapGrid> grid_of(const RangeGiven& given, const Joint& joint) {
+  if (given.map.empty()) {
+    if (!given.vary.empty()) throw UsageError("--vary: is for --map");
+    return std::nullopt;
+  }
+  MapGrid grid;
+  grid.column = parse_grid_axis(given.map[0], joint.anatomy);
+  grid.row = parse_grid_axis(given.map[1], joint.anatomy);
+  grid.vary = given.vary.empty() ? third_angle(grid.column.angle, grid.row.angle)
+                                 : joint_angle_named(given.vary, joint.anatomy);
+  check_grid(grid, joint.kind);
+  return grid;
+}
+
+RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose) {
+  RangeOptions range;
+  range.bearing = given.bearing;
+  range.overlap.reference_pose = reference_pose;
+  range.overlap.reference_contact = given.reference_contact;
+  return range;
+}
+
+BandOptions band_options_of(const RangeGiven& given, const Uncertainty& of_file) {
+  BandOptions band{.sigma = of_file, .samples = given.band_samples, .seed = given.seed};
+  if (given.sigma_centre_mm) band.sigma.centre_mm = *given.sigma_centre_mm;
+  if (given.sigma_axes_deg) band.sigma.axes = Angle::degrees(*given.sigma_axes_deg);
+  if (given.sigma_surface_mm) band.sigma.surface_mm = *given.sigma_surface_mm;
+  return band;
+}
+
+}  // namespace condyle::cli
