@@ -38,3 +38,8 @@ echo "Results are in $out, a folder for each pose: fixed.vtp and mobile.vtp (ope
 echo "pairs.csv and depth.json. Limits and their figures are in $out/range_of_motion. The joint itself is"
 echo "$out/sample/hip.toml."
 echo "Osseous contact only: soft tissue is not modelled. Research software, not a medical device."
+
+"$condyle" report "$out/sample/hip.toml" --band=40 --map flexion=0:120:10 adduction=-30:20:10 \
+  --out "$out/report.html"
+echo
+echo "Open $out/report.html in a browser: the joint, its range of motion, and the same computations live."

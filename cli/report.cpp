@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/error.hpp"
+#include "condyle/held_translation.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/report.hpp"
+#include "motion_surfaces.hpp"
+#include "notes.hpp"
+#include "range.hpp"
+#include "range_options.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string joint, out, motion;
+  std::optional<std::string> title;
+  bool with_pressure = false;
+  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  Strictness strictness = Strictness::notes;
+};
+
+/// The limits, or in one line why there are none: the page shows the joint all the same.
+struct RangeOrError {
+  RangeFound found;
+  std::string error;
+};
+
+RangeOrError range_of(const Options& options, const LoadedJoint& loaded, const Joint& held,
+                      const BandOptions& band) {
+  const std::optional<MapGrid> grid = grid_of(*options.range, held);
+  const RangeOptions asked = range_options_of(*options.range, loaded.report.placement.reference_pose.angles);
+  try {
+    return {exact_range(held, motions_of(loaded), asked, grid, band), {}};
+  } catch (const MeshError& error) {
+    note(fmt::format("no limits: {}", error.what()));
+    return {{}, error.what()};
+  }
+}
+
+/// The frames of a recorded motion. What it consists of refers to the parts before it.
+struct Recorded {
+  Recorded(const Options& options, const LoadedJoint& loaded)
+      : motion(motion_of(loaded, read_motion_table(options.motion))),
+        contact(motion_contact_of({}, loaded.report.file, options.with_pressure)),
+        surfaces(surfaces_of(contact, loaded.joint)),
+        question{loaded, motion, surfaces, contact, options.with_pressure} {
+    for (const std::string& remark : motion.notes) note(remark);
+  }
+  Recorded(const Recorded&) = delete;
+  Recorded& operator=(const Recorded&) = delete;
+
+  JointMotion motion;
+  ContactEntry contact;
+  ContactSurfaces surfaces;
+  MotionQuestion question;
+  MotionAnswer answer;
+};
+
+void run(const Options& options, const CLI::App& command) {
+  const LoadedJoint loaded = read_joint(options.joint);
+  std::optional<Recorded> recorded;
+  if (!options.motion.empty()) recorded.emplace(options, loaded);
+  const std::optional<Vec3> translation = held_translation(options.range->translation, loaded);
+  const Joint held = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
+  const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  // Where the file cannot be written is reported before the work, not after it.
+  check_report_path(options.out);
+
+  if (recorded) recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
+  const BandOptions band = band_options_of(*options.range, loaded.report.file.uncertainty);
+  auto [found, error] = range_of(options, loaded, held, band);
+  if (translation) found.terms.push_back(term_of_held(*translation));
+
+  Provenance from = provenance_of(loaded, words_of(command));
+  if (translation) from.frame = from.frame.of_held(*translation);
+  const RomResult rom{.joint = held,
+                      .limits = found.limits,
+                      .bearing = found.bearing,
+                      .bearing_rule = found.bearing_rule,
+                      .terms = found.terms,
+                      .held_translation_mm = translation,
+                      .notes = notes,
+                      .map = found.map ? &*found.map : nullptr,
+                      .bands = found.bands,
+                      .band_options = band,
+                      .provenance = &from};
+  Report report{.title = options.title.value_or(loaded.joint.name),
+                .joint = loaded.joint,
+                .reference_pose = loaded.report.placement.reference_pose,
+                .rom = error.empty() ? &rom : nullptr,
+                .rom_error = error};
+  if (recorded)
+    report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
+                                           recorded->question, recorded->answer});
+  say_written({write_report(options.out, report)});
+}
+
+}  // namespace
+
+void add_report(CLI::App& app) {
+  auto* command =
+      app.add_subcommand("report", "One HTML file that shows the joint and computes with it in any browser");
+  command->footer(
+      "Example: condyle sample hip --out sample\n"
+      "         condyle report sample/hip.toml --out report.html\n"
+      "         condyle report sample/hip.toml --band --map flexion=0:120:10 adduction=-30:20:10 --out "
+      "report.html\n"
+      "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
+      "why and shows the joint.");
+  auto options = std::make_shared<Options>();
+  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("--out", options->out, "The HTML file to write")->required()->option_text("FILE");
+  command->add_option("--title", options->title, "Heading of the page: the joint's name if not given");
+  auto* motion = command
+                     ->add_option("--motion", options->motion,
+                                  "Also a recorded motion, .mot, .sto or .csv: its frames and their curves")
+                     ->option_text("FILE");
+  command
+      ->add_flag_callback(
+          "--load", [options] { options->with_pressure = true; },
+          "With --motion: pressure, force and moment too, by the layers of the joint file")
+      ->needs(motion);
+  add_map(*command, options->range);
+  add_bearing(*command, options->range);
+  add_accept(*command, options->range);
+  add_band(*command, options->range);
+  add_strict(*command, options->strictness);
+  command->callback([options, command] { run(*options, *command); });
+}
+
+}  // namespace condyle::cli

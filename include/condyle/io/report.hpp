@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "condyle/io/motion_result.hpp"
+#include "condyle/io/rom_result.hpp"
+#include "condyle/joint.hpp"
+
+/// What `condyle report` writes: one HTML file that shows a joint in any browser and computes with it there. It
+/// loads nothing and sends nothing. What it holds, key by key, is in docs/report.md.
+
+namespace condyle {
+
+/// A recorded motion in a report: its frames and their curves.
+struct ReportedMotion {
+  std::string name;
+  const MotionQuestion& question;
+  const MotionAnswer& answer;
+};
+
+/// What a report is made of.
+struct Report {
+  std::string title;  ///< any text; it stays text on the page
+  const Joint& joint;
+  JointCoordinates reference_pose = {};  ///< in which the mobile mesh was given
+  /// The limits of the joint, of a free one where it is held; null where they cannot be answered, and `rom_error`
+  /// says why.
+  const RomResult* rom = nullptr;
+  std::string rom_error = {};
+  std::optional<ReportedMotion> recorded = {};
+};
+
+/// The page. Vertices keep every bit. Radial gaps of all vertices are computed in the reference pose and at the
+/// end of each limit; the rest is linear in meshes, map and frames. The same bytes whatever the threads.
+std::string report_html(const Report& report);
+
+/// Writes it: whole or not at all; a folder that is missing is made. Returns what was written. Throws FileError.
+std::filesystem::path write_report(const std::filesystem::path& path, const Report& report);
+
+/// Throws FileError where write_report() could not put a file there: to be called before long work.
+void check_report_path(const std::filesystem::path& path);
+
+}  // namespace condyle

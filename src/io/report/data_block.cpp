@@ -1,0 +1,304 @@
+#include "io/report/data_block.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "condyle/contact.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/map_result.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/version.hpp"
+#include "io/joint/given_degrees.hpp"
+#include "io/result/json.hpp"
+
+static_assert(std::endian::native == std::endian::little,
+              "arrays are written as the machine has the numbers");
+
+namespace condyle::io {
+namespace {
+
+constexpr std::uint32_t block_version = 1;
+constexpr std::size_t alignment = 8;
+/// So many to a millimetre, in gaps of 16 bits: 0.01 mm is below what a colour shows, and 327 mm above any gap
+/// that matters.
+constexpr double gap_units_per_mm = 100;
+constexpr std::int16_t no_gap = std::numeric_limits<std::int16_t>::max();
+
+template <class Element>
+constexpr std::string_view type_name = "";
+template <>
+constexpr std::string_view type_name<double> = "f64";
+template <>
+constexpr std::string_view type_name<std::uint32_t> = "u32";
+template <>
+constexpr std::string_view type_name<std::int16_t> = "i16";
+template <>
+constexpr std::string_view type_name<std::uint8_t> = "u8";
+
+/// Arrays back to back, and what the JSON says of them.
+class Arrays {
+ public:
+  /// Returns the name.
+  template <class Element>
+  std::string add(std::string name, const std::vector<Element>& elements) {
+    bytes_.resize((bytes_.size() + alignment - 1) / alignment * alignment, '\0');
+    directory_[name] = {{"type", type_name<Element>}, {"offset", bytes_.size()}, {"length", elements.size()}};
+    bytes_.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
+    return name;
+  }
+
+  const Json& directory() const noexcept { return directory_; }
+  const std::string& bytes() const noexcept { return bytes_; }
+
+ private:
+  Json directory_ = Json::object();
+  std::string bytes_;
+};
+
+std::vector<double> interleaved(PointsView points) {
+  std::vector<double> xyz;
+  xyz.reserve(3 * points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    xyz.insert(xyz.end(), {points.x[i], points.y[i], points.z[i]});
+  return xyz;
+}
+
+void add_body(Arrays& arrays, const std::string& role, const Mesh& mesh) {
+  arrays.add(role + "_vertices", interleaved(mesh.vertices().view()));
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * mesh.triangles().size());
+  for (const Triangle& triangle : mesh.triangles())
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  arrays.add(role + "_triangles", corners);
+}
+
+Json parts_json(const Body& body) {
+  Json parts = Json::array();
+  for (const BodyPart& part : body.parts)
+    parts.push_back({{"name", part.name},
+                     {"first_vertex", part.first_vertex},
+                     {"vertices", part.vertices},
+                     {"first_triangle", part.first_triangle},
+                     {"triangles", part.triangles},
+                     {"is_bearing", part.is_bearing}});
+  return parts;
+}
+
+Json joint_json(const Joint& joint) {
+  return {{"name", joint.name},
+          {"kind", name_of(joint.kind)},
+          {"anatomy", name_of(joint.anatomy)},
+          {"side", name_of(joint.side)},
+          {"fixed", joint.fixed.name},
+          {"mobile", joint.mobile.name},
+          {"translation_frame", name_of(joint.translation_frame)}};
+}
+
+Json coordinates_json(Anatomy joint) {
+  Json coordinates = Json::array();
+  for (const AngleNames& names : coordinate_names(joint))
+    coordinates.push_back({{"name", names.positive}, {"opposite", names.negative}});
+  return coordinates;
+}
+
+/// As they were given.
+Json degrees_json(const JointAngles& angles) {
+  Json json = Json::array();
+  for (const JointAngle angle : all_joint_angles) json.push_back(given_degrees(angle_of(angles, angle)));
+  return json;
+}
+
+Json axis_json(const GridAxis& axis, Anatomy joint) {
+  Json values = Json::array();
+  for (std::size_t i = 0; i < axis.count(); ++i) values.push_back(axis.value_deg(i));
+  return {{"angle", name_of(axis.angle, joint)},
+          {"opposite", movement_name(axis.angle, RotationSense::negative, joint)},
+          {"values_deg", std::move(values)}};
+}
+
+Json map_json(const MotionMap& map) {
+  const MapGrid& grid = map.grid;
+  const auto ends_in_contact = [](const Limit& limit) {
+    return limit.reason == LimitReason::end_of_range ? 0 : 1;
+  };
+  Json points = Json::array();
+  for (const FreeAngles& point : map.points) {
+    Json intervals = Json::array();
+    for (const FreeInterval& free : point.intervals)
+      intervals.push_back({(grid.start + free.low).degrees(), (grid.start + free.high).degrees(),
+                           ends_in_contact(free.at_low), ends_in_contact(free.at_high)});
+    points.push_back(std::move(intervals));
+  }
+  return {{"columns", axis_json(grid.column, map.anatomy)},
+          {"rows", axis_json(grid.row, map.anatomy)},
+          {"vary", name_of(grid.vary, map.anatomy)},
+          {"vary_opposite", movement_name(grid.vary, RotationSense::negative, map.anatomy)},
+          {"start_deg", grid.start.degrees()},
+          {"range_deg", {grid.range.negative.degrees(), grid.range.positive.degrees()}},
+          {"intervals", std::move(points)}};
+}
+
+std::vector<double> rows_of(const Pose& X_FM) {
+  std::vector<double> rows;
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column) rows.push_back(X_FM.matrix()(row, column));
+  return rows;
+}
+
+std::vector<std::int16_t> rounded_gaps(const std::vector<double>& gaps_mm) {
+  constexpr double least = std::numeric_limits<std::int16_t>::min(), most = no_gap - 1;
+  std::vector<std::int16_t> rounded;
+  rounded.reserve(gaps_mm.size());
+  for (const double gap : gaps_mm)
+    rounded.push_back(std::isfinite(gap) ? static_cast<std::int16_t>(
+                                               std::clamp(std::round(gap_units_per_mm * gap), least, most))
+                                         : no_gap);
+  return rounded;
+}
+
+/// Poses that the page shows where it cannot compute.
+class StoredPoses {
+ public:
+  StoredPoses(const Joint& joint, Arrays& arrays) : joint_(joint), contact_(joint), arrays_(arrays) {}
+
+  /// Nothing where there are no gaps: a mesh is open, or the centre lies on a surface.
+  void add(const std::string& name, const JointCoordinates& at, const std::optional<Vec3>& contact_point_F) {
+    const Pose X_FM = pose_at(joint_.coordinates(), at, joint_.translation_frame);
+    const RadialContact contact = gaps_at(X_FM);
+    if (!contact.fixed_in_mobile || !contact.mobile_in_fixed) return;
+    Json coordinates = Json::array();
+    for (const JointAngle angle : all_joint_angles)
+      coordinates.push_back(angle_of(at.angles, angle).degrees());
+    const std::string number = "pose_" + std::to_string(poses_.size());
+    const auto add_gaps = [&](const char* role, const RadialResults& results) {
+      return arrays_.add(number + role, rounded_gaps(results.radial_gap_mm));
+    };
+    poses_.push_back({{"name", name},
+                      {"coordinates_deg", std::move(coordinates)},
+                      {"pose", rows_of(X_FM)},
+                      {"in_contact", contact.in_contact},
+                      {"contact_point_mm", contact_point_F ? numbers(*contact_point_F) : Json(nullptr)},
+                      {"fixed_gaps", add_gaps("_fixed_gaps", *contact.fixed_in_mobile)},
+                      {"mobile_gaps", add_gaps("_mobile_gaps", *contact.mobile_in_fixed)}});
+  }
+
+  Json json() && { return std::move(poses_); }
+
+ private:
+  RadialContact gaps_at(const Pose& X_FM) const {
+    try {
+      return contact_.radial(X_FM);
+    } catch (const MeshError&) {
+      return {};
+    }
+  }
+
+  const Joint& joint_;
+  JointContact contact_;
+  Arrays& arrays_;
+  Json poses_ = Json::array();
+};
+
+Json poses_json(const Report& report, Arrays& arrays) {
+  StoredPoses poses(report.joint, arrays);
+  poses.add("reference", report.reference_pose, std::nullopt);
+  if (!report.rom) return std::move(poses).json();
+  const AnswerFrame frame = frame_of(*report.rom);
+  for (const MotionLimit& limit : report.rom->limits) {
+    std::optional<Vec3> point;
+    if (limit.end.contact) point = frame.fixed_point(limit.end.contact->fixed_point);
+    poses.add(limit.motion.name,
+              {limit.angles_at_limit(), report.rom->held_translation_mm.value_or(Vec3::Zero())}, point);
+  }
+  return std::move(poses).json();
+}
+
+/// What a curve's numbers are in, by the end of its name.
+std::string_view unit_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, std::string_view> units[] = {
+      {"_mm2", "mm²"}, {"_nmm", "N mm"}, {"_mpa", "MPa"}, {"_mm", "mm"}, {"_deg", "°"}, {"_n", "N"}};
+  for (const auto& [ending, unit] : units)
+    if (name.ends_with(ending)) return unit;
+  return "";
+}
+
+Json recorded_json(const ReportedMotion& recorded, const Joint& joint, Arrays& arrays) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> degrees, millimetres, poses;
+  for (const std::optional<Pose>& X_FM : recorded.question.motion.X_FM) {
+    if (!X_FM) {
+      degrees.insert(degrees.end(), 3, nothing);
+      millimetres.insert(millimetres.end(), 3, nothing);
+      poses.insert(poses.end(), 16, nothing);
+      continue;
+    }
+    const JointCoordinates at = coordinates_at(joint.coordinates(), *X_FM, joint.translation_frame);
+    for (const JointAngle angle : all_joint_angles) degrees.push_back(angle_of(at.angles, angle).degrees());
+    for (int axis = 0; axis < 3; ++axis) millimetres.push_back(at.translation_mm[axis]);
+    const std::vector<double> rows = rows_of(*X_FM);
+    poses.insert(poses.end(), rows.begin(), rows.end());
+  }
+  const Curves curves = curves_of(recorded.question, recorded.answer);
+  Json json{{"name", recorded.name},
+            {"axis", curves.axis},
+            {"times_s", arrays.add("recorded_times", curves.at)},
+            {"coordinates_deg", arrays.add("recorded_degrees", degrees)},
+            {"coordinates_mm", arrays.add("recorded_millimetres", millimetres)},
+            {"poses", arrays.add("recorded_poses", poses)}};
+  json["curves"] = Json::array();
+  for (std::size_t i = 0; i < curves.names.size(); ++i)
+    json["curves"].push_back({{"name", curves.names[i]},
+                              {"unit", unit_of(curves.names[i])},
+                              {"values", arrays.add("curve_" + std::to_string(i), curves.values[i])}});
+  return json;
+}
+
+void append(std::string& bytes, std::uint32_t number) {
+  char raw[sizeof number];
+  std::memcpy(raw, &number, sizeof number);
+  bytes.append(raw, sizeof number);
+}
+
+}  // namespace
+
+std::string data_block(const Report& report) {
+  const Joint& joint = report.joint;
+  Arrays arrays;
+  add_body(arrays, "fixed", joint.fixed.mesh);
+  add_body(arrays, "mobile", joint.mobile.mesh);
+  if (report.rom && report.rom->bearing.surface)
+    arrays.add("bearing", report.rom->bearing.surface->triangles);
+
+  Json json{{"version", version},
+            {"title", report.title},
+            {"joint", joint_json(joint)},
+            {"coordinates", coordinates_json(joint.anatomy)},
+            {"reference_deg", degrees_json(report.reference_pose.angles)},
+            {"reference_mm", numbers(report.reference_pose.translation_mm)},
+            {"rom", report.rom ? Json::parse(rom_json(*report.rom)) : Json(nullptr)}};
+  if (!report.rom) json["rom_error"] = report.rom_error;
+  json["map"] = report.rom && report.rom->map ? map_json(*report.rom->map) : Json(nullptr);
+  json["parts"] = {{"fixed", parts_json(joint.fixed)}, {"mobile", parts_json(joint.mobile)}};
+  json["poses"] = poses_json(report, arrays);
+  json["recorded"] = report.recorded ? recorded_json(*report.recorded, joint, arrays) : Json(nullptr);
+  json["arrays"] = arrays.directory();
+  drop_negative_zeros(json);
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  text.resize((text.size() + alignment - 1) / alignment * alignment, ' ');
+
+  std::string block("CONDYLE\0", 8);
+  append(block, block_version);
+  append(block, static_cast<std::uint32_t>(text.size()));
+  block.reserve(block.size() + text.size() + arrays.bytes().size());
+  return block.append(text).append(arrays.bytes());
+}
+
+}  // namespace condyle::io

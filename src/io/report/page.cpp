@@ -1,0 +1,100 @@
+#include "io/report/page.hpp"
+
+#include <vtkBase64Utilities.h>
+#include <vtkNew.h>
+#include <vtkZLibDataCompressor.h>
+
+#include <stdexcept>
+
+#include "condyle/error.hpp"
+#include "condyle/io/output_folder.hpp"
+#include "condyle/io/report.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/report/data_block.hpp"
+
+// The assembler reads the file into the program, so that an installed one needs none.
+asm(".pushsection .rodata\n"
+    ".hidden condyle_report_template\n"
+    ".globl condyle_report_template\n"
+    "condyle_report_template:\n"
+    ".incbin \"" CONDYLE_REPORT_TEMPLATE
+    "\"\n"
+    ".hidden condyle_report_template_end\n"
+    ".globl condyle_report_template_end\n"
+    "condyle_report_template_end:\n"
+    ".byte 0\n"
+    ".popsection\n");
+extern "C" {
+extern const char condyle_report_template[];
+extern const char condyle_report_template_end[];
+}
+
+namespace condyle {
+namespace io {
+namespace {
+
+constexpr std::string_view place = "<!--condyle-data-->";
+
+const unsigned char* bytes_of(std::string_view text) {
+  return reinterpret_cast<const unsigned char*>(text.data());
+}
+
+std::string compressed(std::string_view bytes) {
+  vtkNew<vtkZLibDataCompressor> zlib;
+  std::string out(zlib->GetMaximumCompressionSpace(bytes.size()), '\0');
+  out.resize(zlib->Compress(bytes_of(bytes), bytes.size(), reinterpret_cast<unsigned char*>(out.data()),
+                            out.size()));
+  return out;
+}
+
+std::string base64(std::string_view bytes) {
+  std::string out((bytes.size() + 2) / 3 * 4, '\0');
+  out.resize(vtkBase64Utilities::Encode(bytes_of(bytes), bytes.size(),
+                                        reinterpret_cast<unsigned char*>(out.data())));
+  return out;
+}
+
+/// The folder that a file of this name is in.
+std::filesystem::path folder_of(const std::filesystem::path& path) {
+  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+}
+
+}  // namespace
+
+std::string_view report_template() noexcept {
+  return {condyle_report_template,
+          static_cast<std::size_t>(condyle_report_template_end - condyle_report_template)};
+}
+
+std::string page_with(std::string_view page_template, std::string_view block) {
+  const std::size_t at = page_template.find(place);
+  if (at == page_template.npos || page_template.find(place, at + 1) != page_template.npos)
+    throw std::logic_error("the template of the report does not have exactly one place for its data");
+  std::string page(page_template.substr(0, at));
+  page += "<script type=\"application/octet-stream\" id=\"condyle-data\">";
+  page += base64(compressed(block));
+  page += "</script>";
+  return page += page_template.substr(at + place.size());
+}
+
+}  // namespace io
+
+std::string report_html(const Report& report) {
+  return io::page_with(io::report_template(), io::data_block(report));
+}
+
+std::filesystem::path write_report(const std::filesystem::path& path, const Report& report) {
+  const std::string page = report_html(report);
+  OutputFolder out(io::folder_of(path));
+  io::write_whole_file(out.file(path.filename().string()), page);
+  out.commit();
+  return path;
+}
+
+void check_report_path(const std::filesystem::path& path) {
+  if (!path.has_filename() || std::filesystem::is_directory(path))
+    throw FileError(path.string() + ": is a folder, not a file");
+  OutputFolder{io::folder_of(path)};
+}
+
+}  // namespace condyle

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/report_block.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// An arm hanging from the joint centre and a post in front of it.
+class ReportCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
+    write_arm(box({-1, -100, -2}, {1, -10, 2}));
+    write_joint("");
+  }
+  void write_arm(const TriMesh& arm) const { write_mesh(folder / "arm.ply", arm); }
+  void write_joint(const std::string& more) const {
+    folder.file("joint.toml",
+                "condyle = 1\nname = \"arm & <post>\"\nkind = \"ball\"\nside = \"right\"\nunits = \"mm\"\n"
+                "[fixed]\nmesh = \"post.ply\"\n[mobile]\nmesh = \"arm.ply\"\n"
+                "[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" +
+                    more);
+  }
+  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
+  Json answer(const std::string& arguments) const {
+    const Ran ran = run("report joint.toml --out report.html" + arguments);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find("wrote report.html"), ran.err.npos) << ran.err;
+    return report_block(io::read_whole_file(folder / "report.html")).json;
+  }
+  void expect_refused(int exit_code, const std::string& arguments, std::string_view saying) const {
+    expect_refusal(run(arguments), exit_code, saying, arguments);
+    EXPECT_FALSE(fs::exists(folder / "report.html")) << arguments;
+  }
+
+  const TemporaryFolder folder;
+};
+
+/// What both say but for the command line.
+Json without_command(Json rom) {
+  rom["provenance"].erase("command");
+  return rom;
+}
+
+TEST_F(ReportCommand, SaysWhatRomSaysWithTheSameOptions) {
+  const std::string options =
+      " --band=20 --seed 7 --sigma-axes 0.5 --bearing count --map adduction=-10:10:10 "
+      "internal_rotation=-10:10:10 --vary flexion";
+  const Json report = answer(options + " --title 'Ein \"Titel\" & mehr'");
+  const Ran rom = run("rom joint.toml --json" + options);
+  ASSERT_EQ(rom.exit_code, 0) << rom.err;
+  EXPECT_EQ(without_command(report["rom"]), without_command(Json::parse(rom.out)));
+  EXPECT_EQ(report["rom"]["provenance"]["command"][0], "report");
+  EXPECT_EQ(report["title"], "Ein \"Titel\" & mehr");
+  EXPECT_EQ(report["joint"]["name"], "arm & <post>");
+  EXPECT_EQ(report["map"]["intervals"].size(), 9u);
+  EXPECT_EQ(report["recorded"], nullptr);
+}
+
+TEST_F(ReportCommand, IsCalledAfterTheJointAndHasItsOwnMotions) {
+  write_joint("[[motion]]\nname = \"half_way\"\nvary = \"flexion\"\nrange = [0, 10]\n");
+  const Json report = answer("");
+  EXPECT_EQ(report["title"], "arm & <post>");
+  EXPECT_EQ(report["poses"].back()["name"], "half_way");
+  EXPECT_EQ(report["map"], nullptr);
+}
+
+TEST_F(ReportCommand, ShowsBodiesInContactAndSaysWhyThereAreNoLimits) {
+  write_arm(box({-1, -100, -2}, {41, -10, 2}));
+  const Json report = answer("");
+  EXPECT_EQ(report["rom"], nullptr);
+  EXPECT_NE(report["rom_error"].get<std::string>().find("in contact in the reference pose"),
+            std::string::npos);
+  EXPECT_EQ(report["poses"].size(), 1u);
+  EXPECT_EQ(report["poses"][0]["in_contact"], true);
+  EXPECT_EQ(answer(" --accept-reference-contact")["rom"]["motions"][0]["reason"], "contact_at_start");
+}
+
+TEST_F(ReportCommand, PlaysARecordedMotion) {
+  folder.file("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n0.2,\n0.3,30\n");
+  const Ran ran = run("report joint.toml --motion swing.csv --out report.html");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  const Json& recorded = block.json["recorded"];
+  EXPECT_EQ(recorded["name"], "swing.csv");
+  EXPECT_EQ(block.array<double>(recorded["times_s"], "f64"), (std::vector{0.0, 0.1, 0.2, 0.3}));
+  bool found = false;
+  for (const Json& curve : recorded["curves"]) {
+    if (curve["name"] != "in_contact") continue;
+    const auto values = block.array<double>(curve["values"], "f64");
+    EXPECT_EQ(values[1], 0);
+    EXPECT_EQ(values[3], 1);  // past its limit of some 23 degrees
+    found = true;
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(ReportCommand, PressureComesFromLayersOfTheJointFile) {
+  folder.file("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n");
+  expect_refused(2, "report joint.toml --out report.html --motion swing.csv --load", "no layers");
+  write_joint(
+      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
+      "thickness = 6\n");
+  const Json report = answer(" --motion swing.csv --load");
+  bool found = false;
+  for (const Json& curve : report["recorded"]["curves"])
+    found |= curve["name"] == "max_pressure_mpa" && curve["unit"] == "MPa";
+  EXPECT_TRUE(found);
+}
+
+TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
+  expect_refused(2, "report joint.toml", "--out is required");
+  expect_refused(2, "report --out report.html", "JOINT is required");
+  expect_refused(2, "report joint.toml --out report.html --seed 4", "requires --band");
+  expect_refused(2, "report joint.toml --out report.html --load", "requires --motion");
+  expect_refused(2, "report joint.toml --out report.html --vary flexion", "--vary");
+  expect_refused(2, "report joint.toml --out report.html --map tilt=0:1:1 adduction=0:1:1", "'tilt'");
+  expect_refused(2, "report joint.toml --out report.html --translation x=1", "only a free joint");
+  expect_refused(3, "report none.toml --out report.html", "none.toml");
+  expect_refused(3, "report joint.toml --out report.html --motion none.csv", "none.csv");
+  expect_refused(3, "report joint.toml --out .", "is a folder");
+  expect_refused(3, "report joint.toml --out joint.toml/report.html", "cannot be written");
+  write_mesh(folder / "arm.ply", box({-0.1, -10, -0.2}, {0.1, -1, 0.2}));
+  expect_refused(4, "report joint.toml --strict --out report.html", "--strict");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3);
+}
+
+TEST_F(ReportCommand, AnOlderReportStaysWhereANewOneFails) {
+  folder.file("report.html", "an older one");
+  ASSERT_EQ(run("report joint.toml --out report.html --band=3").exit_code, 2);
+  EXPECT_EQ(io::read_whole_file(folder / "report.html"), "an older one");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 4);
+}
+
+TEST_F(ReportCommand, IsTheSameBytesOnOneThreadAndOnTwo) {
+  ASSERT_EQ(run("report joint.toml --threads 1 --band=20 --out one.html").exit_code, 0);
+  ASSERT_EQ(run("report joint.toml --threads 2 --band=20 --out two.html").exit_code, 0);
+  EXPECT_EQ(io::read_whole_file(folder / "one.html"), io::read_whole_file(folder / "two.html"));
+}
+
+}  // namespace
+}  // namespace condyle::test

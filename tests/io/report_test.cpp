@@ -1,0 +1,321 @@
+#include "condyle/io/report.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "condyle/contact.hpp"
+#include "condyle/error.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/report/page.hpp"
+#include "rom_scene.hpp"
+#include "support/report_block.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Equal to the bit, the sign of 0 included.
+void expect_same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a[i]), std::bit_cast<std::uint64_t>(b[i])) << i;
+}
+
+/// Coordinates that no short decimal is equal to.
+Joint odd_joint() {
+  Joint joint = arm_and_post();
+  TriMesh arm = joint.mobile.mesh.arrays();
+  for (std::size_t v = 0; v < arm.vertices.size(); ++v)
+    arm.vertices.set(v, arm.vertices[v] + Vec3(0.1, -1e-17, 1.0 / 3));
+  arm.vertices.z[0] = -0.0;
+  joint.mobile.mesh = arm;
+  joint.mobile.parts = {{"shaft", 0, 4, 0, 6, false}, {"head", 4, 4, 6, 6, true}};
+  return joint;
+}
+
+void expect_is(const ReportBlock& block, const std::string& role, const Mesh& mesh) {
+  std::vector<double> xyz;
+  std::vector<std::uint32_t> corners;
+  for (std::size_t v = 0; v < mesh.vertices().size(); ++v)
+    xyz.insert(xyz.end(), {mesh.vertices().x[v], mesh.vertices().y[v], mesh.vertices().z[v]});
+  for (const Triangle& triangle : mesh.triangles())
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  expect_same_bits(block.array<double>(role + "_vertices", "f64"), xyz);
+  EXPECT_EQ(block.array<std::uint32_t>(role + "_triangles", "u32"), corners);
+}
+
+TEST(Report, HasTheJointToTheBit) {
+  const Joint joint = odd_joint();
+  const JointCoordinates reference{.angles = {Angle::degrees(30), Angle::degrees(-7), {}}};
+  const ReportBlock block =
+      report_block(report_html({.title = "a title", .joint = joint, .reference_pose = reference}));
+  expect_is(block, "fixed", joint.fixed.mesh);
+  expect_is(block, "mobile", joint.mobile.mesh);
+  EXPECT_EQ(block.json["title"], "a title");
+  EXPECT_EQ(block.json["joint"], Json({{"name", "arm and post"},
+                                       {"kind", "ball"},
+                                       {"anatomy", "hip"},
+                                       {"side", "right"},
+                                       {"fixed", "post"},
+                                       {"mobile", "arm"},
+                                       {"translation_frame", "fixed"}}));
+  EXPECT_EQ(block.json["coordinates"][2],
+            Json({{"name", "internal_rotation"}, {"opposite", "external_rotation"}}));
+  EXPECT_EQ(block.json["reference_deg"], (Json{30.0, -7.0, 0.0}));
+  EXPECT_EQ(block.json["parts"]["fixed"], Json::array());
+  EXPECT_EQ(block.json["parts"]["mobile"][1], Json({{"name", "head"},
+                                                    {"first_vertex", 4},
+                                                    {"vertices", 4},
+                                                    {"first_triangle", 6},
+                                                    {"triangles", 6},
+                                                    {"is_bearing", true}}));
+}
+
+/// Limits of the arm, and its map.
+struct Answered {
+  explicit Answered(const Joint& of)
+      : joint(of),
+        range(joint),
+        limits(range.limits(built_in_motions(joint.kind, joint.anatomy))),
+        map(motion_map({.row = {JointAngle::adduction, -10, 10, 5},
+                        .column = {JointAngle::internal_rotation, -20, 20, 10},
+                        .vary = JointAngle::flexion},
+                       range)) {}
+  RomResult rom() const {
+    return {.joint = joint, .limits = limits, .bearing = range.bearing(), .terms = {"a term"}, .map = &map};
+  }
+
+  Joint joint;
+  RangeOfMotion range;
+  std::vector<MotionLimit> limits;
+  MotionMap map;
+};
+
+TEST(Report, SaysOfLimitsWhatRomSays) {
+  const Answered answer(odd_joint());
+  const RomResult rom = answer.rom();
+  const ReportBlock block = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom}));
+  EXPECT_EQ(block.json["rom"], Json::parse(rom_json(rom)));
+  EXPECT_FALSE(block.json.contains("rom_error"));
+  // The bearing surface has an array where it was found, and only there.
+  EXPECT_EQ(block.json["arrays"].contains("bearing"), answer.range.bearing().surface.has_value());
+}
+
+TEST(Report, MarksTheBearingSurface) {
+  const Joint joint = arm_and_post();
+  BearingSurface surface;
+  surface.head = {Vec3::Zero(), 24};
+  surface.triangles = {1, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1};
+  const RomResult rom{.joint = joint, .limits = {}, .bearing = {surface, {}}};
+  const ReportBlock block = report_block(report_html({.title = "", .joint = joint, .rom = &rom}));
+  EXPECT_EQ(block.array<std::uint8_t>("bearing", "u8"), surface.triangles);
+}
+
+TEST(Report, HasAllFreeIntervalsOfAMap) {
+  const Answered answer(arm_and_post());
+  const RomResult rom = answer.rom();
+  const Json map = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom})).json["map"];
+  EXPECT_EQ(map["columns"], Json({{"angle", "internal_rotation"},
+                                  {"opposite", "external_rotation"},
+                                  {"values_deg", {-20.0, -10.0, 0.0, 10.0, 20.0}}}));
+  EXPECT_EQ(map["rows"]["values_deg"], (Json{-10.0, -5.0, 0.0, 5.0, 10.0}));
+  EXPECT_EQ(map["vary"], "flexion");
+  EXPECT_EQ(map["vary_opposite"], "extension");
+  EXPECT_EQ(map["range_deg"], (Json{-180.0, 180.0}));
+  ASSERT_EQ(map["intervals"].size(), answer.map.points.size());
+  bool some_end_by_contact = false;
+  for (std::size_t i = 0; i < answer.map.points.size(); ++i) {
+    const auto& intervals = answer.map.points[i].intervals;
+    ASSERT_EQ(map["intervals"][i].size(), intervals.size());
+    for (std::size_t k = 0; k < intervals.size(); ++k) {
+      const Json& given = map["intervals"][i][k];
+      EXPECT_EQ(given[0], intervals[k].low.degrees());
+      EXPECT_EQ(given[1], intervals[k].high.degrees());
+      EXPECT_EQ(given[2], intervals[k].at_low.reason == LimitReason::contact ? 1 : 0);
+      EXPECT_EQ(given[3], intervals[k].at_high.reason == LimitReason::contact ? 1 : 0);
+      some_end_by_contact |= given[3] == 1;
+    }
+  }
+  EXPECT_TRUE(some_end_by_contact);
+}
+
+TEST(Report, HasRadialGapsInTheReferencePoseAndAtEveryLimit) {
+  const Answered answer(arm_and_post());
+  const RomResult rom = answer.rom();
+  const ReportBlock block = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom}));
+  const Json& poses = block.json["poses"];
+  ASSERT_EQ(poses.size(), 1 + answer.limits.size());
+  EXPECT_EQ(poses[0]["name"], "reference");
+  EXPECT_EQ(poses[0]["pose"], Json::parse("[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"));
+  EXPECT_EQ(poses[0]["in_contact"], false);
+  EXPECT_EQ(poses[0]["contact_point_mm"], nullptr);
+  const JointContact contact(answer.joint);
+  bool some_gap = false, no_gap = false;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const JointAngles angles = i == 0 ? JointAngles{} : answer.limits[i - 1].angles_at_limit();
+    EXPECT_EQ(poses[i]["coordinates_deg"], (Json{angles.flexion.degrees(), angles.adduction.degrees(),
+                                                 angles.internal_rotation.degrees()}));
+    const RadialContact at = contact.radial(pose_at(answer.joint.coordinates(), angles));
+    const auto check = [&](const char* key, const RadialResults& results) {
+      const auto gaps = block.array<std::int16_t>(poses[i][key], "i16");
+      ASSERT_EQ(gaps.size(), results.size());
+      for (std::size_t v = 0; v < gaps.size(); ++v) {
+        const double gap_mm = results.radial_gap_mm[v];
+        if (std::isinf(gap_mm)) {
+          EXPECT_EQ(gaps[v], 32767);
+          no_gap = true;
+        } else {
+          EXPECT_NEAR(gaps[v] / 100.0, std::clamp(gap_mm, -327.68, 327.66), 0.005 + 1e-12) << i << " " << v;
+          some_gap = true;
+        }
+      }
+    };
+    check("fixed_gaps", *at.fixed_in_mobile);
+    check("mobile_gaps", *at.mobile_in_fixed);
+  }
+  EXPECT_TRUE(some_gap && no_gap);
+  EXPECT_EQ(poses[1]["name"], "flexion");
+  EXPECT_EQ(poses[1]["contact_point_mm"], block.json["rom"]["motions"][0]["contact_point_mm"]);
+}
+
+TEST(Report, SaysWhyThereAreNoLimitsAndStoresNoPosesOfOpenMeshes) {
+  Joint joint = arm_and_post();
+  TriMesh post = joint.fixed.mesh.arrays();
+  post.triangles.pop_back();
+  joint.fixed.mesh = post;
+  const ReportBlock block =
+      report_block(report_html({.title = "", .joint = joint, .rom_error = "post: is <open>"}));
+  EXPECT_EQ(block.json["rom"], nullptr);
+  EXPECT_EQ(block.json["map"], nullptr);
+  EXPECT_EQ(block.json["rom_error"], "post: is <open>");
+  EXPECT_EQ(block.json["poses"], Json::array());
+  expect_is(block, "fixed", joint.fixed.mesh);
+}
+
+TEST(Report, StoresNoPosesWhereTheCentreLiesOnASurface) {
+  Joint joint = arm_and_post();
+  joint.mobile.mesh = box({-1, -100, -2}, {1, 0, 2});
+  const ReportBlock block = report_block(report_html({.title = "", .joint = joint}));
+  EXPECT_EQ(block.json["poses"], Json::array());
+  expect_is(block, "mobile", joint.mobile.mesh);
+}
+
+/// The page asks the core, which knows five.
+TEST(Report, NamesTheAnatomyThatAHingeOfNoJointTurnsAs) {
+  Joint joint = arm_and_post();
+  joint.kind = JointKind::hinge;
+  EXPECT_EQ(report_block(report_html({.title = "", .joint = joint})).json["joint"]["anatomy"], "hip");
+}
+
+TEST(Report, HasFramesOfARecordedMotionWithItsGaps) {
+  LoadedJoint loaded{.joint = arm_and_post(), .report = {}};
+  JointMotion motion;
+  motion.times = {.values = {0, 0.1, 0.3}, .in_seconds = true};
+  const Pose bent = pose_at(loaded.joint.coordinates(), JointAngles{Angle::degrees(20), {}, {}});
+  motion.X_FM = {Pose::Identity(), std::nullopt, bent};
+  const ContactSurfaces surfaces{loaded.joint.fixed, loaded.joint.mobile};
+  const MotionQuestion question{.joint = loaded, .motion = motion, .surfaces = surfaces, .contact = {}};
+  MotionAnswer answer;
+  answer.frames = {FrameContact{.X_FM = Pose::Identity(), .smallest_gap_mm = 12.5}, std::nullopt,
+                   FrameContact{.X_FM = bent, .smallest_gap_mm = 1.0 / 3}};
+  const ReportBlock block = report_block(report_html(
+      {.title = "", .joint = loaded.joint, .recorded = ReportedMotion{"walk", question, answer}}));
+  const Json& recorded = block.json["recorded"];
+  EXPECT_EQ(recorded["name"], "walk");
+  EXPECT_EQ(recorded["axis"], "time_s");
+  expect_same_bits(block.array<double>(recorded["times_s"], "f64"), motion.times.values);
+  const auto degrees = block.array<double>(recorded["coordinates_deg"], "f64");
+  const auto poses = block.array<double>(recorded["poses"], "f64");
+  ASSERT_EQ(degrees.size(), 9u);
+  ASSERT_EQ(poses.size(), 48u);
+  EXPECT_TRUE(std::isnan(degrees[4]));
+  EXPECT_NEAR(degrees[6], 20, 1e-13);
+  EXPECT_TRUE(std::isnan(poses[20]));
+  for (std::size_t k = 0; k < 16; ++k)
+    EXPECT_EQ(poses[32 + k], bent.matrix()(static_cast<int>(k / 4), static_cast<int>(k % 4)));
+  EXPECT_EQ(block.array<double>(recorded["coordinates_mm"], "f64").size(), 9u);
+  const Curves curves = curves_of(question, answer);
+  ASSERT_EQ(recorded["curves"].size(), curves.names.size());
+  for (std::size_t i = 0; i < curves.names.size(); ++i) {
+    EXPECT_EQ(recorded["curves"][i]["name"], curves.names[i]);
+    const auto values = block.array<double>(recorded["curves"][i]["values"], "f64");
+    ASSERT_EQ(values.size(), 3u);
+    EXPECT_TRUE(std::isnan(values[1]));
+    if (curves.names[i] == "smallest_gap_mm") {
+      EXPECT_EQ(recorded["curves"][i]["unit"], "mm");
+      EXPECT_EQ(values[2], 1.0 / 3);
+    }
+  }
+}
+
+TEST(Report, AnyTextStaysTextAndNeverBecomesMarkup) {
+  Joint joint = arm_and_post();
+  joint.name = "</script><script>alert(\"1\")</script><!--condyle-data-->";
+  joint.fixed.name = "\xD7\xA2\xD7\xA6\xD7\x9D \xE2\x80\xAE'\"&amp;<b>\t\n\\";
+  joint.mobile.name = std::string(1 << 20, 'M');
+  const std::string html = report_html({.title = joint.name, .joint = joint});
+  const ReportBlock block = report_block(html);
+  EXPECT_EQ(block.json["title"], joint.name);
+  EXPECT_EQ(block.json["joint"]["name"], joint.name);
+  EXPECT_EQ(block.json["joint"]["fixed"], joint.fixed.name);
+  EXPECT_EQ(block.json["joint"]["mobile"], joint.mobile.name);
+  // But for the data the page is the template, to the byte.
+  std::string without = html;
+  const std::string element = data_element(html);
+  without.replace(without.find(element), element.size(), "<!--condyle-data-->");
+  EXPECT_EQ(without, io::read_whole_file(CONDYLE_REPORT_TEMPLATE));
+}
+
+TEST(Report, ReplacesBytesThatAreNoText) {
+  Joint joint = arm_and_post();
+  joint.name = "a\xFFz";
+  EXPECT_EQ(report_block(report_html({.title = "", .joint = joint})).json["joint"]["name"], "a\xEF\xBF\xBDz");
+}
+
+TEST(Report, IsTheSameBytesOnOneThreadAndOnMany) {
+  const Answered answer(arm_and_post());
+  const RomResult rom = answer.rom();
+  const Report report{.title = "", .joint = answer.joint, .rom = &rom};
+  const std::string many = report_html(report);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  EXPECT_EQ(report_html(report), many);
+}
+
+TEST(Report, IsWrittenWholeOrNotAtAll) {
+  const TemporaryFolder folder;
+  const Joint joint = arm_and_post();
+  const Report report{.title = "", .joint = joint};
+  EXPECT_EQ(write_report(folder / "new/deep/report.html", report), folder / "new/deep/report.html");
+  EXPECT_EQ(io::read_whole_file(folder / "new/deep/report.html"), report_html(report));
+  folder.file("file", "in the way");
+  EXPECT_THROW(write_report(folder / "file/report.html", report), FileError);
+  EXPECT_THROW(check_report_path(folder / "file/report.html"), FileError);
+  EXPECT_THROW(check_report_path(folder / "new"), FileError);
+  EXPECT_THROW(check_report_path(""), FileError);
+  check_report_path(folder / "other/report.html");
+  EXPECT_FALSE(std::filesystem::exists(folder / "other"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+}
+
+TEST(ReportPage, NeedsExactlyOnePlaceForTheData) {
+  EXPECT_THROW(io::page_with("<html></html>", "data"), std::logic_error);
+  EXPECT_THROW(io::page_with("<!--condyle-data--><!--condyle-data-->", "data"), std::logic_error);
+  const std::string page = io::page_with("before<!--condyle-data-->after", "data");
+  EXPECT_TRUE(page.starts_with("before<script type=\"application/octet-stream\" id=\"condyle-data\">"));
+  EXPECT_TRUE(page.ends_with("</script>after"));
+}
+
+TEST(ReportPage, TheTemplateInTheProgramIsThatOfTheRepository) {
+  EXPECT_EQ(io::report_template(), io::read_whole_file(CONDYLE_REPORT_TEMPLATE));
+  EXPECT_NE(io::page_with(io::report_template(), ""), "");
+}
+
+}  // namespace
+}  // namespace condyle::test
