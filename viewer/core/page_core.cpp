@@ -204,6 +204,30 @@ const double* condyle_depths(const CondyleJoint* joint) {
   return joint->penetrations.depth_mm.data();
 }
 
+int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed, double answer[2]) {
+  return guarded(-1, [&] {
+    const Pose X_FM = pose_of(pose), X = of_fixed ? inverted(X_FM) : X_FM;
+    const Points& points = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices();
+    Penetrations& found = joint->penetrations;
+    (of_fixed ? joint->bodies.mobile_table() : joint->bodies.fixed_table())
+        .add_ray_to_normal(points, X, found);
+    double deepest = 0, without = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found.state[i] != PointState::inside) continue;
+      const Index v = found.point[i];
+      const DeepestVertex vertex{v, found.depth_mm[i], other_surface(*joint, of_fixed)(X * points[v]),
+                                 found.ray_to_normal[i]};
+      if (vertex.applies() == DepthKind::radial)
+        deepest = std::max(deepest, vertex.depth_mm);
+      else
+        ++without;
+    }
+    answer[0] = deepest;
+    answer[1] = without;
+    return 0;
+  });
+}
+
 int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
                   std::uint8_t* marks) {
   return guarded(-1, [&] {

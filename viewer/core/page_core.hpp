@@ -34,6 +34,10 @@ int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed);
 const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint);
 const double* condyle_depths(const CondyleJoint* joint);
 
+/// Of the last answer, asked again with its pose and body: the largest radial depth that is a depth, 0 where none is, and how many
+/// vertices inside have none.
+int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed, double answer[2]);
+
 /// What every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) shows at a pose, for colours: in `values` mm, in
 /// `marks` 0 for nothing, 1 for the value, 2 for a value that is no more than a bound. `quantity`: 0 the gap along its ray,
 /// negative inside; 1 of vertices inside the depth to read without rotations, their nearest distance marked 2 where the ray's

@@ -40,15 +40,23 @@ export function checkbox(text: string, checked: boolean, changed: (on: boolean) 
 }
 
 export function choice<Key extends string>(
-  text: string, options: Record<Key, string>, chosen: Key, changed: (key: Key) => void): HTMLLabelElement {
-  const select = html("select");
+  text: string, options: Record<Key, string>, chosen: Key, changed: (key: Key) => void): HTMLElement {
+  const id = `choice-${text.toLowerCase().replaceAll(/[^a-z]+/g, "-")}`;
+  const select = html("select", { id });
   for (const [key, name] of Object.entries(options) as [Key, string][])
     select.append(html("option", { value: key, selected: key === chosen }, name));
   select.addEventListener("change", () => changed(select.value as Key));
-  return html("label", {}, text, " ", select);
+  return html("span", {}, html("label", { for: id }, text), " ", select);
 }
 
 /// A name with underscores as words.
 export function spaced(name: string): string {
   return name.replaceAll("_", " ");
+}
+
+const longest = 60;
+
+/// A name that fits into a sentence.
+export function shortened(name: string): string {
+  return name.length > longest ? `${name.slice(0, longest - 1)}…` : name;
 }

@@ -1,8 +1,8 @@
 import { CoreClient } from "./core/client";
 import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
-import { button, choice, html, section, spaced } from "./dom";
+import { button, choice, html, section, shortened, spaced } from "./dom";
 import { DisplayPanel } from "./panels/display";
-import { anglesAt, MotionPanel } from "./panels/motion";
+import { anglesAtEnd, MotionPanel } from "./panels/motion";
 import { numbersPanel } from "./panels/numbers";
 import { PointerPanel } from "./panels/pointer";
 import { RecordedPanel } from "./panels/recorded";
@@ -64,8 +64,8 @@ class Page {
 
   constructor(private readonly report: Report) {
     const { text } = report;
-    const { joint } = text;
-    document.title = `${text.title} – ${words.appName}`;
+    const joint = { ...text.joint, fixed: shortened(text.joint.fixed), mobile: shortened(text.joint.mobile) };
+    document.title = `${shortened(text.title)} – ${words.appName}`;
     found("title").textContent = text.title;
     found("subtitle").textContent = `${joint.side} ${joint.anatomy}: ${joint.mobile} in ${joint.fixed}`;
     const names = { fixed: joint.fixed, mobile: joint.mobile };
@@ -150,7 +150,7 @@ class Page {
     if (recorded)
       made.push(new RecordedPanel(this.report, recorded, (angles, translation) => this.motion.set(angles, translation)).element);
     const go = (motion: MotionAnswer) => {
-      this.motion.goTo(anglesAt(this.report.text, motion.at_limit_deg));
+      this.motion.goTo(anglesAtEnd(this.report.text, motion));
       this.scene?.showContactPoint(motion.contact_point_mm);
     };
     if (rom) {

@@ -62,7 +62,9 @@ export const words = {
   manoeuvres: "Go to the end of",
   inContact: "In contact",
   notInContact: "Not in contact",
-  deepest: (body: string, count: number, mm: string) => `${count} vertices of ${body} inside, deepest ${mm} mm`,
+  inside: (body: string, { count, deepest_mm, without }: { count: number; deepest_mm: number; without: number }) =>
+    `${count} vertices of ${body} inside` + (deepest_mm > 0 ? `, deepest ${deepest_mm.toFixed(2)} mm` : "") +
+    (without > 0 ? `, ${without} of them where the ray tells no depth` : ""),
   pairsCount: (count: number) => `${count} pairs of triangles meet`,
   stepTook: (ms: number) => `computed in ${ms.toFixed(1)} ms`,
   precomputed: "Poses",
@@ -89,6 +91,7 @@ export const words = {
     `How far ${vary} goes at every ${column} and ${row}, from its start. Hatched: not free at the start.`,
   mapPoint: (column: string, row: string, intervals: string) => `${column}, ${row}: ${intervals}`,
   freeFrom: (low: string, high: string) => `free from ${low}° to ${high}°`,
+  orMore: (degrees: number) => `${degrees}° or more`,
   notFree: "nowhere free",
 
   clock: "Contacts on the clock face",

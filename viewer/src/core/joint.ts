@@ -14,7 +14,7 @@ export class CoreJoint {
   private readonly pose: number;
   private readonly three: number;
   private readonly otherThree: number;
-  private readonly limitAnswer: number;
+  private readonly answer: number;
   private readonly mmPlace: number;
   private readonly marksPlace: number;
   private readonly vertices: { fixed: number; mobile: number };
@@ -42,7 +42,7 @@ export class CoreJoint {
     this.pose = core._malloc(poseBytes);
     this.three = core._malloc(3 * 8);
     this.otherThree = core._malloc(3 * 8);
-    this.limitAnswer = core._malloc(7 * 8);
+    this.answer = core._malloc(7 * 8);
     this.mmPlace = core._malloc(4 * most);
     this.marksPlace = core._malloc(Math.max(most, this.mobileTriangles));
   }
@@ -63,8 +63,8 @@ export class CoreJoint {
 
   limit(start: [number, number, number], vary: number, positive: boolean, range_deg: number): LiveLimit {
     this.put(this.three, start);
-    this.checked(this.core._condyle_limit(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.limitAnswer));
-    const [turned_deg, reason, kind, bearing, x, y, z] = this.f64(this.limitAnswer, 7) as unknown as number[];
+    this.checked(this.core._condyle_limit(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.answer));
+    const [turned_deg, reason, kind, bearing, x, y, z] = this.f64(this.answer, 7) as unknown as number[];
     return {
       vary, positive, turned_deg: turned_deg!, reason: reasons[reason!]!, kind: kinds[kind!]!,
       bearing_deg: bearing! < 0 ? null : bearing!, point: Number.isNaN(x!) ? null : [x!, y!, z!],
@@ -97,6 +97,10 @@ export class CoreJoint {
     return found ? this.core.HEAPU8.slice(this.marksPlace, this.marksPlace + this.mobileTriangles) : new Uint8Array(this.mobileTriangles);
   }
 
+  get memory_bytes(): number {
+    return this.core.HEAPU8.length;
+  }
+
   private penetrations(ofFixed: number): Penetrations {
     const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
     return {
@@ -106,8 +110,11 @@ export class CoreJoint {
   }
 
   private inside(ofFixed: number): Inside {
-    const { depths_mm } = this.penetrations(ofFixed);
-    return { count: depths_mm.length, deepest_mm: depths_mm.reduce((most, depth) => Math.max(most, depth), 0) };
+    const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
+    if (count === 0) return { count, deepest_mm: 0, without: 0 };
+    this.checked(this.core._condyle_depth_to_read(this.joint, this.pose, ofFixed, this.answer));
+    const [deepest_mm, without] = this.f64(this.answer, 2) as unknown as [number, number];
+    return { count, deepest_mm, without };
   }
 
   private valuesOf(quantity: keyof typeof quantityNumber, ofFixed: number, count: number): Values {

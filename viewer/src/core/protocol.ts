@@ -32,9 +32,11 @@ export interface Coordinates {
   translation: [number, number, number];
 }
 
+/// Of a body's vertices in the other one: the largest radial depth that is a depth, 0 where none is, and how many have none.
 export interface Inside {
   count: number;
   deepest_mm: number;
+  without: number;
 }
 
 /// What one pose shows.
@@ -89,8 +91,10 @@ export interface LimitQuestion {
 export type Query =
   | { of: "pose"; at: Coordinates }
   | { of: "limit"; limit: LimitQuestion }
-  | { of: "mapPoint"; question: MapQuestion; point: number };
-export type QueryAnswer = Details | LiveLimit | [number, number, number, number][];
+  | { of: "mapPoint"; question: MapQuestion; point: number }
+  /// Bytes that the core has taken.
+  | { of: "memory" };
+export type QueryAnswer = number | Details | LiveLimit | [number, number, number, number][];
 
 export type ToWorker =
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }

@@ -69,6 +69,8 @@ function answerTo(query: Query): QueryAnswer {
       return joint!.limit(query.limit.start, query.limit.vary, query.limit.positive, query.limit.range_deg);
     case "mapPoint":
       return joint!.mapPoint(query.question, query.point);
+    case "memory":
+      return joint!.memory_bytes;
   }
 }
 

@@ -1,5 +1,5 @@
 import { scaleLinear } from "d3-scale";
-import { button, html, section, spaced, svg } from "../dom";
+import { button, html, section, shortened, spaced, svg } from "../dom";
 import type { Coordinates, LiveLimit, Shown } from "../core/protocol";
 import type { MotionAnswer, ReportText } from "../report";
 import { words } from "../words";
@@ -36,7 +36,7 @@ export class MotionPanel {
       html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), number, input, strip, told));
     if (report.joint.kind === "free") rows.push(html("div", { class: "row" }, ...axes.map((axis) => this.translation(axis))));
     const manoeuvres = (report.rom?.motions ?? []).map((motion) =>
-      button(spaced(motion.name), () => this.goTo(anglesAt(report, motion.at_limit_deg)), { class: "manoeuvre" }));
+      button(shortened(spaced(motion.name)), () => this.goTo(anglesAtEnd(report, motion)), { class: "manoeuvre" }));
     this.element = section(words.motion, ...rows, this.answer, this.took,
       html("div", { class: "row no-print" },
         button(words.reset, () => this.goTo([...report.reference_deg])),
@@ -84,10 +84,10 @@ export class MotionPanel {
   }
 
   show(shown: Shown, roundTrip_ms: number): void {
-    const { fixed, mobile } = this.report.joint;
+    const fixed = shortened(this.report.joint.fixed), mobile = shortened(this.report.joint.mobile);
     const inside = ([["mobile", mobile], ["fixed", fixed]] as const)
       .filter(([key]) => shown.inside[key].count > 0)
-      .map(([key, name]) => words.deepest(name, shown.inside[key].count, shown.inside[key].deepest_mm.toFixed(2)));
+      .map(([key, name]) => words.inside(name, shown.inside[key]));
     const text = [
       shown.inContact ? words.inContact : words.notInContact, ...inside,
       ...(shown.pairs.length ? [words.pairsCount(shown.pairs.length / 2)] : []),
@@ -183,7 +183,7 @@ export class MotionPanel {
   }
 }
 
-/// The three angles of a pose that names them.
-export function anglesAt(report: ReportText, named: MotionAnswer["at_limit_deg"]): number[] {
-  return report.coordinates.map(({ name }) => named[name] ?? 0);
+/// Where a motion ends: the angle that varies to its last bit, the others as they were given.
+export function anglesAtEnd(report: ReportText, motion: MotionAnswer): number[] {
+  return report.coordinates.map(({ name }) => (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
 }

@@ -1,4 +1,4 @@
-import { spaced, svg } from "../dom";
+import { shortened, spaced, svg } from "../dom";
 import type { MotionAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -24,14 +24,14 @@ export function clockDrawing(motions: readonly MotionAnswer[], go: (motion: Moti
   sorted.forEach((motion, i) => {
     const before = sorted.slice(0, i).filter((other) => Math.abs(other.clock_hour! - motion.clock_hour!) < 0.5).length;
     const [x, y] = at(motion.clock_hour!, radius + 8 + 13 * before);
-    const name = spaced(motion.name);
+    const name = shortened(spaced(motion.name));
     const toLeft = x < middle;
     const mark = svg("g", {},
       svg("circle", { cx: x, cy: y, r: 5, class: "mark" }),
       svg("text", { x: x + (toLeft ? -8 : 8), y: y + 4, "text-anchor": toLeft ? "end" : "start", class: "small" },
         abbreviated(motion.name)),
       svg("title", {}, `${name}: ${motion.clock_hour!.toFixed(1)}`));
-    picture.append(pressable(mark, `${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, () => go(motion)));
+    picture.append(pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, () => go(motion)));
   });
   return {
     name: "clock",

@@ -1,5 +1,5 @@
 import { scaleLinear } from "d3-scale";
-import { spaced, svg } from "../dom";
+import { shortened, spaced, svg } from "../dom";
 import type { MotionAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -9,7 +9,9 @@ const width = 460, rowHeight = 24, left = 206, right = 44, top = 6, bottom = 30;
 export function limitText(motion: MotionAnswer): string {
   const number = `${motion.limit_deg.toFixed(1)}°`;
   if (motion.reason === "contact_at_start") return words.reasons.contact_at_start;
-  const band = motion.band ? ` (${motion.band.p5_deg.toFixed(0)} to ${motion.band.p95_deg.toFixed(0)})` : "";
+  const ends = [motion.band?.p5_deg, motion.band?.p95_deg].map((end) => end?.toFixed(0));
+  // Where nothing ends a motion in its range, nothing does so in most displaced joints either.
+  const band = motion.band && (motion.reason === "contact" || ends[0] !== ends[1]) ? ` (${ends[0]} to ${ends[1]})` : "";
   return (motion.reason === "end_of_range" ? `over ${number}` : number) + band;
 }
 
@@ -26,7 +28,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: (motion: Mot
       svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
   motions.forEach((motion, i) => {
     const y = top + i * rowHeight, middle = y + rowHeight / 2;
-    const name = spaced(motion.name);
+    const name = shortened(spaced(motion.name));
     const row = svg("g", {},
       svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),

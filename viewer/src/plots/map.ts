@@ -7,6 +7,8 @@ import { figure, pressable } from "./figure";
 
 const width = 460, left = 52, right = 10, top = 8, bottom = 42, stripHeight = 46;
 
+const scaleEnd_deg = 120;
+
 /// The interval that holds the start of a point's rotations.
 function fromStart(intervals: readonly Interval[], start: number): Interval | null {
   return intervals.find(([low, high]) => low <= start && start <= high) ?? null;
@@ -16,7 +18,7 @@ function fromStart(intervals: readonly Interval[], start: number): Interval | nu
 export class MapPlot {
   readonly element: HTMLElement;
   private readonly cells: SVGRectElement[] = [];
-  private readonly strip = svg("svg", { viewBox: `0 0 ${width} ${stripHeight}`, class: "plot", role: "img" });
+  private readonly strip = svg("svg", { viewBox: `0 0 ${width} ${stripHeight}`, class: "plot", "aria-hidden": "true" });
   private readonly told = html("p", { "aria-live": "polite" });
   private readonly colour;
 
@@ -24,7 +26,7 @@ export class MapPlot {
     const { columns, rows } = map;
     const cellsHigh = Math.max(120, Math.min(300, (width - left - right) * (rows.values_deg.length / columns.values_deg.length)));
     const height = top + cellsHigh + bottom;
-    this.colour = scaleSequential(interpolateCividis).domain([0, 120]).clamp(true);
+    this.colour = scaleSequential(interpolateCividis).domain([0, scaleEnd_deg]).clamp(true);
     const x = scaleBand<number>(columns.values_deg.map((_, i) => i), [left, width - right]);
     const y = scaleBand<number>(rows.values_deg.map((_, i) => i), [top + cellsHigh, top]);
     const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" },
@@ -55,7 +57,7 @@ export class MapPlot {
       svg("text", { x: (left + width - right) / 2, y: height - 8, "text-anchor": "middle" }, spaced(columns.angle)),
       svg("text", { transform: `translate(11 ${top + cellsHigh / 2}) rotate(-90)`, "text-anchor": "middle" }, spaced(rows.angle)));
     const caption = words.mapCaption(spaced(map.vary), spaced(columns.angle), spaced(rows.angle));
-    this.element = html("div", {}, figure({ name: "map", caption, picture, data: () => this.data() }), this.strip, this.told);
+    this.element = html("div", {}, figure({ name: "map", caption, picture, data: () => this.data() }), this.legend(), this.strip, this.told);
     map.intervals.forEach((_, point) => this.paint(point));
   }
 
@@ -72,6 +74,16 @@ export class MapPlot {
     cell.setAttribute("fill", !intervals ? "none" : free ? this.colour(free[1] - this.map.start_deg) : "url(#unfree)");
     if (intervals) cell.replaceChildren(svg("title", {}, this.textOf(point)));
     cell.classList.toggle("has-islands", (intervals?.length ?? 0) > 1);
+  }
+
+  private legend(): HTMLElement {
+    const canvas = html("canvas", { id: "map-scale", width: 128, height: 1, "aria-hidden": "true" });
+    const context = canvas.getContext("2d")!;
+    for (let i = 0; i < canvas.width; ++i) {
+      context.fillStyle = this.colour((scaleEnd_deg * i) / (canvas.width - 1));
+      context.fillRect(i, 0, 1, 1);
+    }
+    return html("p", { class: "small" }, "0° ", canvas, ` ${words.orMore(scaleEnd_deg)}`);
   }
 
   private textOf(point: number): string {
@@ -92,7 +104,6 @@ export class MapPlot {
         svg("rect", { x: x(low), y: 9, width: Math.max(1, x(high) - x(low)), height: 14, class: "bar" })),
       ...[-180, -90, 0, 90, 180].map((tick) => svg("text", { x: x(tick), y: 40, "text-anchor": "middle" }, `${tick}°`)));
     const text = `${spaced(this.map.vary)}: ${this.textOf(point)}`;
-    this.strip.setAttribute("aria-label", text);
     this.told.textContent = text;
   }
 

@@ -1,6 +1,6 @@
 import {
   AmbientLight, Box3, BufferGeometry, DirectionalLight, Line, LineBasicMaterial, Matrix4, Mesh, MeshBasicMaterial, PerspectiveCamera,
-  Plane, Raycaster, Scene, SphereGeometry, Vector2, Vector3, WebGLRenderer, type Intersection,
+  Plane, Raycaster, Scene, SphereGeometry, Spherical, Vector2, Vector3, WebGLRenderer, type Intersection,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ViewHelper } from "three/addons/helpers/ViewHelper.js";
@@ -63,7 +63,7 @@ export class JointScene {
     this.scene.add(this.bodies.fixed.mesh, this.bodies.mobile.mesh, this.contactPoint, this.camera, new AmbientLight("white", 1.1));
 
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.listenToKeyEvents(canvas);
+    canvas.addEventListener("keydown", (event) => this.turnByKey(event));
     this.controls.addEventListener("change", () => this.draw());
     this.gizmo = new ViewHelper(this.camera, canvas);
     this.gizmo.setLabels("A", "S", "R");
@@ -188,7 +188,26 @@ export class JointScene {
       this.renderer.clear();
       this.renderer.render(this.scene, this.camera);
       this.gizmo.render(this.renderer);
+      document.documentElement.dataset["drawn"] ??= performance.now().toFixed(0);
     });
+  }
+
+  /// Arrows turn, plus and minus zoom.
+  private turnByKey(event: KeyboardEvent): void {
+    const step = Math.PI / 36, closer = 0.9;
+    const [azimuth, elevation, zoom] = ({
+      ArrowLeft: [-step, 0, 1], ArrowRight: [step, 0, 1], ArrowUp: [0, -step, 1], ArrowDown: [0, step, 1], "+": [0, 0, closer],
+      "-": [0, 0, 1 / closer],
+    } as Record<string, [number, number, number]>)[event.key] ?? [0, 0, 0];
+    if (zoom === 0) return;
+    event.preventDefault();
+    const from = new Spherical().setFromVector3(this.camera.position.clone().sub(this.controls.target));
+    from.theta += azimuth;
+    from.phi += elevation;
+    from.radius *= zoom;
+    this.camera.position.setFromSpherical(from.makeSafe()).add(this.controls.target);
+    this.controls.update();
+    this.controls.dispatchEvent({ type: "end" });
   }
 
   private fit(): void {

@@ -1,0 +1,98 @@
+// What tests of the page share: a real browser without a network, and a report opened in it from disk.
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+export const reports = join(root, "build/page");
+const require = createRequire(join(root, "viewer/package.json"));
+const { chromium } = require("playwright-core");
+export const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+
+const quiet = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+export async function withBrowser(use) {
+  const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: quiet });
+  try {
+    return await use(browser);
+  } finally {
+    await browser.close();
+  }
+}
+
+export function pathOf(name) {
+  return join(reports, `${name}.html`);
+}
+
+export function has(name) {
+  return existsSync(pathOf(name));
+}
+
+/// A page with what it asked of the outside and complained of. `seen` are the requests beyond the file and the worker in it.
+export async function openPage(browser, path, { width = 1280, height = 800, fragment = "", script = null, answers = true, ...options } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, offline: true, ...options });
+  const page = await context.newPage();
+  const complaints = [], requests = [];
+  page.on("console", (message) => {
+    if (["error", "warning"].includes(message.type()) && !/GPU stall|WebGL|GroupMarker/.test(message.text())) complaints.push(message.text());
+  });
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("request", (request) => {
+    if (!request.url().startsWith("blob:") && request.url().split("#")[0] !== pathToFileURL(path).href) requests.push(request.url());
+  });
+  if (script) await page.addInitScript(script);
+  const begun = performance.now();
+  await page.goto(pathToFileURL(path).href + fragment);
+  if (answers) await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
+  return { page, complaints, requests, firstAnswer_ms: performance.now() - begun };
+}
+
+/// Waits until what was asked of the core is answered and drawn.
+export async function settled(page) {
+  await page.waitForFunction(() => globalThis.condyle !== undefined);
+  await page.evaluate(async () => {
+    await condyle.query({ of: "pose", at: { angles: [0, 0, 0], translation: [0, 0, 0] } });
+    await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+  });
+}
+
+/// Turns the joint as typing into the fields does.
+export async function turnTo(page, angles) {
+  for (const [name, degrees] of Object.entries(angles))
+    await page.getByRole("spinbutton", { name: `${name.replaceAll("_", " ")}, degrees`, exact: true }).fill(String(degrees));
+  await settled(page);
+}
+
+/// Red, green, blue and opacity of the scene's pixels, row by row from the top.
+export async function pixels(page) {
+  const { width, height, data } = await page.evaluate(() => {
+    const canvas = document.querySelector("#scene canvas");
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    return { width: copy.width, height: copy.height, data: Array.from(context.getImageData(0, 0, copy.width, copy.height).data) };
+  });
+  return { width, height, at: (x, y) => data.slice(4 * (y * width + x), 4 * (y * width + x) + 4) };
+}
+
+/// Where pixels are that a colour is told by: how many, and their middle in shares of the picture.
+export function region({ width, height, at }, is) {
+  let count = 0, x = 0, y = 0;
+  // The gizmo is in the corner.
+  for (let row = 0; row < height; ++row)
+    for (let column = 0; column < width; ++column) {
+      if (column > width - 150 && row > height - 150) continue;
+      const [r, g, b, a] = at(column, row);
+      if (a < 250 || !is(r, g, b)) continue;
+      ++count, x += column, y += row;
+    }
+  return { count, x: x / count / width, y: y / count / height };
+}
+
+export async function keep(page, name, options = {}) {
+  mkdirSync(join(reports, "seen"), { recursive: true });
+  await page.screenshot({ path: join(reports, "seen", `${name}.png`), ...options });
+}

@@ -1,0 +1,150 @@
+// What the scene shows, pixel by pixel: bones where they should be, colours as the scale says, after slider, clip and hide.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { keep, openPage, pathOf, pixels, region, settled, turnTo, withBrowser } from "./browser.mjs";
+
+let browser, done;
+before(() => new Promise((ready) => {
+  done = withBrowser((opened) => {
+    browser = opened;
+    ready();
+    return new Promise((end) => (browser.ended = end));
+  });
+}));
+after(async () => {
+  browser.ended();
+  await done;
+});
+
+// The hip bone is the colour of sand, the femur bluish; shading changes how bright they are.
+const isHipBone = (r, g, b) => r > b + 12 && r >= g;
+const isFemur = (r, g, b) => b > r + 8;
+
+/// Plain bones, without colours of contact.
+async function plain(page) {
+  await page.getByLabel("Colour", { exact: true }).selectOption("none");
+  await page.getByLabel("Mark triangles in contact").uncheck();
+  await settled(page);
+}
+
+test("bones stand where they should, from the front and from the right", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await plain(page);
+  const front = await pixels(page);
+  const [hip, femur] = [region(front, isHipBone), region(front, isFemur)];
+  assert.ok(hip.count > 5000 && femur.count > 5000, `${hip.count} and ${femur.count}`);
+  assert.ok(hip.y < femur.y - 0.1, "the hip bone is above");
+  assert.ok(hip.x > femur.x + 0.05, "a right femur is lateral: on the left of who looks from the front");
+  await keep(page, "front");
+  await page.getByRole("button", { name: "back", exact: true }).click();
+  await settled(page);
+  const back = await pixels(page);
+  assert.ok(region(back, isHipBone).x < region(back, isFemur).x - 0.05, "and on the right from the back");
+  await page.context().close();
+});
+
+test("flexion brings the femur up and forwards, seen from the right", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await plain(page);
+  await page.getByRole("button", { name: "right", exact: true }).click();
+  await settled(page);
+  const before = region(await pixels(page), isFemur);
+  await turnTo(page, { flexion: 90 });
+  const after = region(await pixels(page), isFemur);
+  assert.ok(after.y < before.y - 0.05, `${before.y} to ${after.y}`);
+  // Anterior is to the right of who looks from the subject's right side.
+  assert.ok(after.x > before.x + 0.05, `${before.x} to ${after.x}`);
+  await keep(page, "flexed_from_the_right");
+  await page.context().close();
+});
+
+test("a hidden bone is not there, a clipped one in part", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await plain(page);
+  const whole = region(await pixels(page), isFemur);
+  await page.getByLabel("Show femur").uncheck();
+  await settled(page);
+  assert.equal(region(await pixels(page), isFemur).count, 0);
+  await page.getByLabel("Show femur").check();
+  await page.getByLabel("Cut away").selectOption("y");
+  await page.getByRole("slider", { name: "Cut at" }).fill("-40");
+  await settled(page);
+  const cut = await pixels(page);
+  assert.equal(region(cut, isHipBone).count < 0.35 * whole.count, true, "most of the hip bone is above");
+  const left = region(cut, isFemur);
+  assert.ok(left.count > 0 && left.count < 0.9 * whole.count, `${left.count} of ${whole.count}`);
+  await keep(page, "clipped");
+  await page.context().close();
+});
+
+test("colours are those of the scale", async (t) => {
+  const { page } = await openPage(browser, pathOf("scenario_3"));
+  await page.getByLabel("Shading").uncheck();
+  await page.getByLabel("Mark triangles in contact").uncheck();
+  await page.getByLabel("Show femur").uncheck();
+  await page.getByRole("button", { name: "right", exact: true }).click();
+  await settled(page);
+  await keep(page, "socket");
+  const scale = await page.evaluate(() => {
+    const canvas = document.querySelector("#legend canvas");
+    const data = Array.from(canvas.getContext("2d").getImageData(0, 0, canvas.width, 1).data);
+    return Array.from({ length: canvas.width }, (_, i) => data.slice(4 * i, 4 * i + 3));
+  });
+  const end = Number(await page.getByLabel("Scale to").inputValue());
+  const nearest = (colour) => {
+    const distance = (other) => Math.hypot(...other.map((value, k) => value - colour[k]));
+    const best = scale.reduce((found, other, i) => (distance(other) < distance(scale[found]) ? i : found), 0);
+    return { mm: -end + (2 * end * best) / (scale.length - 1), off: distance(scale[best]) };
+  };
+  const seen = await pixels(page);
+  const box = await page.locator("#scene canvas").boundingBox();
+  const coloured = [];
+  for (let row = 0; row < seen.height - 150; row += 3)
+    for (let column = 0; column < seen.width; column += 3)
+      if (seen.at(column, row)[3] === 255 && nearest(seen.at(column, row).slice(0, 3)).off < 3) coloured.push([column, row]);
+  let told = 0;
+  for (let i = 0; i < 60; ++i) {
+    const [column, row] = coloured[Math.floor(coloured.length * ((i * 0.618) % 1))];
+    await page.mouse.move(box.x + ((column + 0.5) / seen.width) * box.width, box.y + ((row + 0.5) / seen.height) * box.height);
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+    const value = / (-?[\d.]+) mm$/.exec(await page.locator("#hover").textContent());
+    if (!value || Math.abs(Number(value[1])) > 0.8 * end) continue;
+    const { mm } = nearest(seen.at(column, row).slice(0, 3));
+    // Of the nearest corner of a triangle whose edges are a millimetre or two long, on a socket that opens by as much.
+    assert.ok(Math.abs(mm - Number(value[1])) < 1.5, `${value[1]} mm is shown as ${mm} mm`);
+    ++told;
+  }
+  t.diagnostic(`${told} pixels`);
+  assert.ok(told > 20, `${told} pixels`);
+  await page.context().close();
+});
+
+test("depths that are only bounds are hatched grey, others on the scale", async () => {
+  const { page } = await openPage(browser, pathOf("scenario_3"));
+  await page.getByLabel("Colour", { exact: true }).selectOption("depth");
+  await turnTo(page, { flexion: 110, adduction: 20, internal_rotation: 45 });
+  await page.getByLabel("Shading").uncheck();
+  await page.getByLabel("Mark triangles in contact").uncheck();
+  await page.getByLabel("Show hip bone").uncheck();
+  await settled(page);
+  await keep(page, "depths");
+  const seen = await pixels(page);
+  const grey = region(seen, (r, g, b) => Math.abs(r - g) < 6 && Math.abs(g - b) < 6 && r < 200);
+  assert.ok(grey.count > 0, "hatched");
+  await page.context().close();
+});
+
+test("two picked points have a distance", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await page.getByLabel("Measure between two points").check();
+  const box = await page.locator("#scene canvas").boundingBox();
+  const seen = await pixels(page);
+  await plain(page);
+  const femur = region(await pixels(page), isFemur), hip = region(await pixels(page), isHipBone);
+  for (const { x, y } of [femur, { x: hip.x, y: hip.y - 0.1 }]) await page.mouse.click(box.x + x * box.width, box.y + y * box.height);
+  const text = await page.locator("#hover").textContent();
+  const mm = Number(/Distance ([\d.]+) mm/.exec(text)?.[1]);
+  assert.ok(mm > 30 && mm < 300, text);
+  assert.ok(seen.width > 0);
+  await page.context().close();
+});

@@ -1,0 +1,229 @@
+// What the page answers and says, in a browser: against the command line, damaged, without WebAssembly, with hostile names.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { deflateSync, inflateSync } from "node:zlib";
+import { has, keep, openPage, pathOf, reports, root, settled, turnTo, withBrowser } from "./browser.mjs";
+
+const condyle = join(root, "build/release/condyle");
+let browser, done;
+before(() => new Promise((ready) => {
+  done = withBrowser((opened) => {
+    browser = opened;
+    ready();
+    return new Promise((end) => (browser.ended = end));
+  });
+}));
+after(async () => {
+  browser.ended();
+  await done;
+});
+
+const dataElement = /(<script type="application\/octet-stream" id="condyle-data">)([^<]*)(<\/script>)/;
+
+function textOf(name) {
+  const block = inflateSync(Buffer.from(dataElement.exec(readFileSync(pathOf(name), "utf8"))[2], "base64"));
+  return JSON.parse(block.subarray(16, 16 + block.readUInt32LE(12)));
+}
+
+/// A report whose data block was changed.
+function changed(name, change) {
+  const path = join(reports, `${name}.html`);
+  writeFileSync(path, readFileSync(pathOf("sample"), "utf8").replace(dataElement, (_, before, data, end) =>
+    before + change(Buffer.from(data, "base64")).toString("base64") + end));
+  return path;
+}
+
+/// The same with other text in it; arrays follow the text at a multiple of 8.
+function withText(name, change) {
+  return changed(name, (zipped) => {
+    const block = inflateSync(zipped);
+    const end = 16 + block.readUInt32LE(12);
+    const said = JSON.parse(block.subarray(16, end));
+    change(said);
+    let text = Buffer.from(JSON.stringify(said));
+    text = Buffer.concat([text, Buffer.alloc((8 - (text.length % 8)) % 8, " ")]);
+    const head = Buffer.from(block.subarray(0, 16));
+    head.writeUInt32LE(text.length, 12);
+    return deflateSync(Buffer.concat([head, text, block.subarray(end)]));
+  });
+}
+
+for (const name of ["sample", "scenario_3", "vhf_right", "libhip_left"])
+  test(`${name} opens from disk, asks nothing of any network and complains of nothing`, { skip: !has(name) && "not made" }, async (t) => {
+    const { page, complaints, requests, firstAnswer_ms } = await openPage(browser, pathOf(name));
+    await settled(page);
+    await keep(page, name);
+    assert.deepEqual(requests, []);
+    assert.deepEqual(complaints, []);
+    const drawn_ms = await page.evaluate(() => document.documentElement.dataset.drawn);
+    t.diagnostic(`first picture after ${drawn_ms} ms, first answer after ${firstAnswer_ms.toFixed(0)} ms, ${(statSync(pathOf(name)).size / 1e6).toFixed(2)} MB`);
+    await page.context().close();
+  });
+
+test("the template and a report of scenario 3 are as small as was promised", () => {
+  assert.ok(statSync(join(root, "viewer/report_template.html")).size <= 1.5e6);
+  assert.ok(statSync(pathOf("scenario_3")).size <= 6e6);
+});
+
+test("limits and free angles are those of the command line, within the error bound of limits", async (t) => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  const { coordinates, rom, map } = textOf("sample");
+  const names = coordinates.map(({ name }) => name);
+  // They rest on the sines and arctangents of two C libraries.
+  const bound = Math.max(...rom.motions.map(({ error_bound_deg }) => error_bound_deg));
+  assert.ok(bound < 1e-10);
+  let equal = 0, asked = 0;
+  const one = (a, b) => {
+    assert.ok(Math.abs(a - b) <= bound, `${a} and not ${b}`);
+    equal += a === b;
+    ++asked;
+  };
+  for (const motion of rom.motions) {
+    const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
+      start: names.map((name) => motion.start_deg[name]), vary: names.indexOf(motion.vary), positive: motion.sense === "positive",
+      range_deg: motion.range_deg,
+    });
+    assert.equal(limit.reason, motion.reason);
+    one(limit.turned_deg, motion.limit_deg);
+  }
+  let points = 0;
+  for (const [point, intervals] of map.intervals.entries()) {
+    const found = await page.evaluate((question) => condyle.query(question), {
+      of: "mapPoint", point, question: {
+        columnAngle: names.indexOf(map.columns.angle), rowAngle: names.indexOf(map.rows.angle), vary: names.indexOf(map.vary),
+        columns: map.columns.values_deg, rows: map.rows.values_deg,
+      },
+    });
+    assert.equal(found.length, intervals.length);
+    found.flat().forEach((value, i) => one(value, intervals.flat()[i]));
+    ++points;
+  }
+  t.diagnostic(`${equal} of ${asked} equal to the bit`);
+  assert.equal(points, map.columns.values_deg.length * map.rows.values_deg.length);
+  await page.context().close();
+});
+
+test("depths, pairs and contact are those of condyle depth", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  let inside = 0;
+  for (let i = 0; i < 24; ++i) {
+    const angles = [(37 * i) % 140, ((23 * i) % 90) - 45, ((41 * i) % 130) - 65];
+    const pose = `flexion=${angles[0]} adduction=${angles[1]} internal_rotation=${angles[2]}`;
+    const told = JSON.parse(execFileSync(condyle, ["depth", join(reports, "sample/hip.toml"), "--method", "radial", "--pose", pose, "--json"],
+      { stdio: ["ignore", "pipe", "ignore"] }));
+    const shown = await page.evaluate((at) => condyle.query({ of: "pose", at }), { angles, translation: [0, 0, 0] });
+    assert.equal(shown.inContact, told.in_contact);
+    const flat = (typed) => Object.values(typed);
+    assert.equal(flat(shown.pairs).length / 2, told.triangle_pairs);
+    for (const [body, found] of [["mobile", shown.mobileInFixed], ["fixed", shown.fixedInMobile]]) {
+      const depths = flat(found.depths_mm).filter((depth) => depth > 0);
+      assert.equal(depths.length, told.bodies[body].vertices_inside);
+      assert.equal(depths.length ? Math.max(...depths) : 0, told.bodies[body].max_radial_depth_mm ?? 0);
+      inside += depths.length;
+    }
+  }
+  assert.ok(inside > 100, `${inside} vertices inside`);
+  await page.context().close();
+});
+
+test("a slider turns the joint, the address remembers it, and another page opened there shows the same", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await turnTo(page, { flexion: 110, adduction: 20, internal_rotation: 40 });
+  const answer = await page.locator("#answer").textContent();
+  assert.match(answer, /^In contact/);
+  await page.waitForFunction(() => location.hash.includes("internal_rotation=40"));
+  const fragment = new URL(page.url()).hash;
+  const again = await openPage(browser, pathOf("sample"), { fragment });
+  await settled(again.page);
+  assert.equal(await again.page.locator("#answer").textContent(), answer);
+  await page.context().close();
+  await again.page.context().close();
+});
+
+test("a figure goes where it is pressed", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  const fadir = textOf("sample").rom.motions.find(({ name }) => name === "fadir");
+  await page.getByRole("button", { name: /^Go to the end of fadir/ }).first().click();
+  await settled(page);
+  const turned = await page.getByRole("spinbutton", { name: "internal rotation, degrees" }).inputValue();
+  assert.equal(Number(turned), fadir.at_limit_deg.internal_rotation);
+  await page.getByRole("button", { name: "flexion 60°, adduction 0°" }).click();
+  await settled(page);
+  assert.equal(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue(), "60");
+  await page.context().close();
+});
+
+for (const [what, change, says] of [
+  ["cut short", (zipped) => zipped.subarray(0, zipped.length / 2), /incomplete or was changed/],
+  ["one byte changed", (zipped) => (zipped[Math.floor(zipped.length / 2)] ^= 1, zipped), /cannot be read/],
+  ["not a block", () => deflateSync(Buffer.from("something else that is longer than a head")), /does not begin as a block/],
+  ["of a later version", (zipped) => {
+    const block = inflateSync(zipped);
+    block.writeUInt32LE(2, 8);
+    return deflateSync(block);
+  }, /version is 2/],
+  ["without its arrays", (zipped) => deflateSync(inflateSync(zipped).subarray(0, 16 + inflateSync(zipped).readUInt32LE(12))), /ends before/],
+])
+  test(`a data block ${what} is told in one line`, async () => {
+    const { page, complaints } = await openPage(browser, changed("damaged", change), { answers: false });
+    const warning = page.getByRole("alert");
+    await warning.waitFor();
+    assert.match(await warning.textContent(), says);
+    assert.equal(await warning.count(), 1);
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  });
+
+test("a template without data says so", async () => {
+  const { page } = await openPage(browser, join(root, "viewer/report_template.html"), { answers: false });
+  await page.getByText("This page holds no joint").waitFor();
+  await page.context().close();
+});
+
+test("names stay text: markup, scripts, a megabyte, right to left", async () => {
+  const hostile = '<img src=x onerror="globalThis.broken=1"><script>globalThis.broken=1</script> & "quotes" ‮עברית العربية';
+  const path = withText("hostile", (text) => {
+    text.title = hostile;
+    text.joint.fixed = hostile;
+    text.joint.mobile = "x".repeat(1e6);
+    text.rom.motions[0].name = hostile;
+    text.rom.notes.push({ code: "wrong_side", text: hostile });
+  });
+  const { page, complaints } = await openPage(browser, path);
+  await settled(page);
+  assert.equal(await page.locator("#title").textContent(), hostile);
+  assert.equal(await page.evaluate(() => globalThis.broken), undefined);
+  assert.equal(await page.locator("img").count(), 0);
+  assert.deepEqual(complaints, []);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await keep(page, "hostile");
+  await page.context().close();
+});
+
+test("without WebAssembly there are precomputed poses and a notice", async () => {
+  const { page, complaints } = await openPage(browser, pathOf("sample"), { script: "delete globalThis.WebAssembly", answers: false });
+  await page.getByText("does not run WebAssembly").waitFor();
+  const poses = page.getByRole("combobox", { name: "Poses" });
+  await poses.selectOption({ label: "flexion" });
+  assert.ok(Number(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue()) > 90);
+  assert.deepEqual(complaints, []);
+  await keep(page, "without_webassembly");
+  await page.context().close();
+});
+
+test("ten thousand steps leave memory as it was", async (t) => {
+  const { page } = await openPage(browser, pathOf("scenario_3"));
+  const used = async () => (await page.evaluate(async (steps) => {
+    for (let i = 0; i < steps; ++i) await condyle.query({ of: "pose", at: { angles: [i % 120, (i % 40) - 20, (i % 60) - 30], translation: [0, 0, 0] } });
+    return condyle.query({ of: "memory" });
+  }, 2500));
+  const first = await used();
+  for (let i = 0; i < 3; ++i) await used();
+  const last = await used();
+  t.diagnostic(`module memory ${(first / 1e6).toFixed(1)} MB, after 10,000 more steps ${(last / 1e6).toFixed(1)} MB`);
+  assert.equal(last, first);
+  await page.context().close();
+});
