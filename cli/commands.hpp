@@ -15,6 +15,7 @@ void add_depth(CLI::App& app);
 void add_rom(CLI::App& app);
 void add_load(CLI::App& app);
 void add_motion(CLI::App& app);
+void add_picture(CLI::App& app);
 void add_report(CLI::App& app);
 void add_sample(CLI::App& app);
 

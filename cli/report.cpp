@@ -16,6 +16,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/report.hpp"
+#include "io/file/output_file.hpp"
 #include "motion_surfaces.hpp"
 #include "notes.hpp"
 #include "range.hpp"
@@ -77,7 +78,7 @@ void run(const Options& options, const CLI::App& command) {
   const Joint held = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   // Where the file cannot be written is reported before the work, not after it.
-  check_report_path(options.out);
+  io::check_output_file(options.out);
 
   if (recorded) recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
   const BandOptions band = band_options_of(*options.range, loaded.report.file.uncertainty);
@@ -105,7 +106,8 @@ void run(const Options& options, const CLI::App& command) {
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
                                            recorded->question, recorded->answer});
-  say_written({write_report(options.out, report)});
+  write_report(options.out, report);
+  say_written({options.out});
 }
 
 }  // namespace

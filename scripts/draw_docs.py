@@ -3,10 +3,9 @@
 
 Usage: PYTHONPATH=build/release/python scripts/draw_docs.py [NAME...]
 
-NAME is one or more of hip, deformities, knee and examples; all if none is given. Needs a release build with the example
-`example_deformity_curves`, matplotlib, and for knee and examples python3-vtk9 and the data that CONDYLE_DATA names. The
-picture of two bones, docs/images/impingement.png, is scripts/picture.py's; those of docs/images/bench are made by `make
-bench`.
+NAME is one or more of hip, pictures, deformities, knee and examples; all if none is given. Needs a release build
+with the example `example_deformity_curves`, matplotlib, and for knee and examples python3-vtk9 and the data that
+CONDYLE_DATA names. Those of docs/images/bench are made by `make bench`.
 """
 import os
 import subprocess
@@ -55,6 +54,20 @@ def draw_hip():
     draw(OUT / "map", {"map_internal_rotation": "map_internal_rotation.png"})
 
 
+def draw_pictures():
+    condyle("sample", "hip", "--scenario", 3, "--out", OUT / "sample3")
+    pose = "flexion=110 adduction=15 internal_rotation=35"
+    for name, options in (
+        ("impingement", ["--colour", "none", "--size", "600x560"]),
+        (
+            "impingement_femur",
+            ["--view", "anterior-superior", "--hide", "fixed", "--field", "130", "--size", "700x560"],
+        ),
+    ):
+        condyle("picture", OUT / "sample3/hip.toml", "--pose", pose, *options, "--out", IMAGES / f"{name}.png")
+        print(f"docs/images/{name}.png")
+
+
 def draw_deformities():
     run(ROOT / "build/release/example_deformity_curves", OUT / "deformities")
     axes_of = (("alpha_angle", "alpha angle (°)"), ("lateral_centre_edge_angle", "lateral centre-edge angle (°)"))
@@ -94,7 +107,13 @@ def draw_examples():
         print(f"docs/images/{name}.png")
 
 
-DRAWN = {"hip": draw_hip, "deformities": draw_deformities, "knee": draw_knee, "examples": draw_examples}
+DRAWN = {
+    "hip": draw_hip,
+    "pictures": draw_pictures,
+    "deformities": draw_deformities,
+    "knee": draw_knee,
+    "examples": draw_examples,
+}
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "io/file/output_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/report/page.hpp"
 #include "rom_scene.hpp"
@@ -292,14 +293,14 @@ TEST(Report, IsWrittenWholeOrNotAtAll) {
   const TemporaryFolder folder;
   const Joint joint = arm_and_post();
   const Report report{.title = "", .joint = joint};
-  EXPECT_EQ(write_report(folder / "new/deep/report.html", report), folder / "new/deep/report.html");
+  write_report(folder / "new/deep/report.html", report);
   EXPECT_EQ(io::read_whole_file(folder / "new/deep/report.html"), report_html(report));
   folder.file("file", "in the way");
   EXPECT_THROW(write_report(folder / "file/report.html", report), FileError);
-  EXPECT_THROW(check_report_path(folder / "file/report.html"), FileError);
-  EXPECT_THROW(check_report_path(folder / "new"), FileError);
-  EXPECT_THROW(check_report_path(""), FileError);
-  check_report_path(folder / "other/report.html");
+  EXPECT_THROW(io::check_output_file(folder / "file/report.html"), FileError);
+  EXPECT_THROW(io::check_output_file(folder / "new"), FileError);
+  EXPECT_THROW(io::check_output_file(""), FileError);
+  io::check_output_file(folder / "other/report.html");
   EXPECT_FALSE(std::filesystem::exists(folder / "other"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }

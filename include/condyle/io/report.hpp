@@ -36,10 +36,7 @@ struct Report {
 /// end of each limit; the rest is linear in meshes, map and frames. The same bytes whatever the threads.
 std::string report_html(const Report& report);
 
-/// Writes it: whole or not at all; a folder that is missing is made. Returns what was written. Throws FileError.
-std::filesystem::path write_report(const std::filesystem::path& path, const Report& report);
-
-/// Throws FileError where write_report() could not put a file there: to be called before long work.
-void check_report_path(const std::filesystem::path& path);
+/// Writes it: whole or not at all; a folder that is missing is made. Throws FileError.
+void write_report(const std::filesystem::path& path, const Report& report);
 
 }  // namespace condyle

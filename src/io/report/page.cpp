@@ -6,10 +6,8 @@
 
 #include <stdexcept>
 
-#include "condyle/error.hpp"
-#include "condyle/io/output_folder.hpp"
 #include "condyle/io/report.hpp"
-#include "io/file/whole_file.hpp"
+#include "io/file/output_file.hpp"
 #include "io/report/data_block.hpp"
 
 // The assembler reads the file into the program, so that an installed one needs none.
@@ -54,11 +52,6 @@ std::string base64(std::string_view bytes) {
   return out;
 }
 
-/// The folder that a file of this name is in.
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-}
-
 }  // namespace
 
 std::string_view report_template() noexcept {
@@ -83,18 +76,8 @@ std::string report_html(const Report& report) {
   return io::page_with(io::report_template(), io::data_block(report));
 }
 
-std::filesystem::path write_report(const std::filesystem::path& path, const Report& report) {
-  const std::string page = report_html(report);
-  OutputFolder out(io::folder_of(path));
-  io::write_whole_file(out.file(path.filename().string()), page);
-  out.commit();
-  return path;
-}
-
-void check_report_path(const std::filesystem::path& path) {
-  if (!path.has_filename() || std::filesystem::is_directory(path))
-    throw FileError(path.string() + ": is a folder, not a file");
-  OutputFolder{io::folder_of(path)};
+void write_report(const std::filesystem::path& path, const Report& report) {
+  io::write_output_file(path, report_html(report));
 }
 
 }  // namespace condyle

@@ -1,0 +1,122 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/picture.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "io/file/output_file.hpp"
+#include "notes.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string joint, pose, out;
+  std::string view = "anterior", size = "1200x900";
+  std::optional<BodyRole> hidden, transparent;
+  PictureOptions picture;
+  Strictness strictness = Strictness::notes;
+};
+
+/// Two whole numbers with an x between them.
+void read_size(const std::string& text, PictureOptions& picture) {
+  const std::size_t x = text.find('x');
+  unsigned width = 0, height = 0;
+  if (text.find_first_not_of("0123456789x") != text.npos || x == text.npos ||
+      !CLI::detail::lexical_cast(text.substr(0, x), width) ||
+      !CLI::detail::lexical_cast(text.substr(x + 1), height))
+    throw UsageError("--size: '" + text + "' is not such as 1200x900");
+  picture.width = width, picture.height = height;
+}
+
+BodyLook look_of(BodyRole body, const Options& options) {
+  return options.hidden == body        ? BodyLook::hidden
+         : options.transparent == body ? BodyLook::transparent
+                                       : BodyLook::solid;
+}
+
+void run(const Options& options, const CLI::App& command) {
+  const LoadedJoint loaded = read_joint(options.joint);
+  const Joint& joint = loaded.joint;
+  const GivenPose given = given_pose(options.pose, joint);
+  for (const std::string& remark : given.notes) note("pose: " + remark);
+  PictureOptions picture = options.picture;
+  read_size(options.size, picture);
+  picture.view = view_named(options.view, joint.side);
+  picture.fixed = look_of(BodyRole::fixed, options);
+  picture.mobile = look_of(BodyRole::mobile, options);
+  if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
+  noted(loaded, options.strictness);
+  io::check_output_file(options.out);
+  const Provenance from = provenance_of(loaded, words_of(command));
+  write_png(options.out, draw_joint(joint, given.pose.angles(), given.X_FM, picture), &from);
+  say_written({options.out});
+}
+
+void add_body(CLI::App& command, const char* name, std::optional<BodyRole>& body, const char* what) {
+  command
+      .add_option_function<std::string>(
+          name,
+          [&body](const std::string& role) { body = role == "fixed" ? BodyRole::fixed : BodyRole::mobile; },
+          what)
+      ->check(CLI::IsMember({"fixed", "mobile"}))
+      ->option_text("fixed|mobile");
+}
+
+}  // namespace
+
+void add_picture(CLI::App& app) {
+  auto* command = app.add_subcommand("picture", "A picture of the joint in one pose, without a display");
+  command->footer(
+      "Example: condyle sample hip --out sample\n"
+      "         condyle picture sample/hip.toml --pose \"flexion=110 internal_rotation=35\" --view "
+      "anterior-superior --hide fixed --out deep.png");
+  auto options = std::make_shared<Options>();
+  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option(
+      "--pose", options->pose,
+      "Angles in degrees (and x, y, z in mm of a free joint), or the matrix X_FM, as for condyle depth");
+  command->add_option("--view", options->view, "From where, several with hyphens for a view from between")
+      ->option_text("anterior|posterior|left|right|superior|inferior|medial|lateral (anterior)");
+  command
+      ->add_option_function<std::string>(
+          "--colour",
+          [options](const std::string& name) {
+            options->picture.colour = name == "depth"     ? PictureColour::depth
+                                      : name == "gap"     ? PictureColour::gap
+                                      : name == "nearest" ? PictureColour::nearest
+                                                          : PictureColour::none;
+          },
+          "depth: of what is inside the other bone, as condyle depth tells it; gap: along rays from the "
+          "centre; nearest: "
+          "distance to the nearest point")
+      ->check(CLI::IsMember({"depth", "gap", "nearest", "none"}))
+      ->option_text("depth|gap|nearest|none (depth)");
+  command
+      ->add_option("--range", options->picture.range_mm,
+                   "End of the colours; 8 mm if not given, for depths what holds them all")
+      ->option_text("MM");
+  command
+      ->add_option("--field", options->picture.field_mm,
+                   "Height of what is shown, about the joint centre; all of both bodies if not given")
+      ->option_text("MM");
+  add_body(*command, "--hide", options->hidden, "The body that is not drawn");
+  add_body(*command, "--transparent", options->transparent, "The body that is drawn as glass");
+  command->add_option("--size", options->size, "Pixels, 64 to 8192 either way")
+      ->option_text("WIDTHxHEIGHT (1200x900)");
+  command->add_option("--out", options->out, "The picture to write, .png")->required()->option_text("FILE");
+  add_strict(*command, options->strictness);
+  command->callback([options, command] { run(*options, *command); });
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/io/provenance.hpp"
+#include "condyle/joint.hpp"
+
+/// Pictures of a joint in one pose, drawn without a display: docs/pictures.md.
+
+namespace condyle {
+
+/// What the surfaces are coloured by, mm.
+enum class PictureColour {
+  none,
+  depth,  ///< of each body's part inside the other the depth to read; hatched where only the nearest distance is known
+  gap,      ///< along rays from the joint centre, negative inside
+  nearest,  ///< to the nearest point of the other surface, negative inside
+};
+
+enum class BodyLook { solid, transparent, hidden };
+
+/// Where the viewer is, as seen from the joint, and what points up in the picture: unit vectors in F at a right angle.
+struct ViewDirection {
+  Vec3 towards_viewer = Vec3::UnitX();
+  Vec3 up = Vec3::UnitY();
+};
+
+/// "anterior", "posterior", "left", "right", "superior", "inferior", "medial", "lateral", or several of them with
+/// hyphens for a view from between: "anterior-superior". Superior is up; where one looks along it, anterior is.
+/// Throws UsageError.
+ViewDirection view_named(std::string_view name, Side side);
+
+struct PictureOptions {
+  ViewDirection view = {};
+  PictureColour colour = PictureColour::depth;
+  BodyLook fixed = BodyLook::solid, mobile = BodyLook::solid;
+  std::size_t width = 1200, height = 900;  ///< pixels, 64 to 8192
+  /// End of the colours; where not given 8 mm, for depths the first of 1, 2, 5, 10 ... that holds them.
+  std::optional<double> range_mm = {};
+  /// Height of what is shown, about the joint centre; where not given both bodies fit, hidden or not.
+  std::optional<double> field_mm = {};
+};
+
+/// Red, green, blue of each pixel, row by row from the top left.
+struct Picture {
+  std::size_t width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+};
+
+/// Both bodies at a pose in parallel projection on white, smoothly shaded with the light at the viewer, 16
+/// samples a pixel; under them the scale of the colours. The colours of a surface that faces the viewer are those
+/// of the scale. `at` names the pose for depths along arcs, as reliable_depths() takes them where the mobile
+/// body's centre is held.
+///
+/// Throws UsageError for options out of their domain, MeshError where a depth or a gap is asked of an open mesh.
+/// The same bytes whatever the threads. About half a second for a picture of the usual size, and what the values
+/// cost.
+Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
+                   const PictureOptions& options = {});
+
+/// Writes PNG, with the provenance as texts; whole or not at all, in a folder that is made where it is missing. Throws
+/// FileError.
+void write_png(const std::filesystem::path& path, const Picture& picture, const Provenance* from = nullptr);
+
+}  // namespace condyle

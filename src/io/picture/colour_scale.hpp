@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "condyle/io/picture.hpp"
+
+namespace condyle::io {
+
+/// Red, green, blue, 0 to 255.
+using Rgb = std::array<double, 3>;
+
+inline constexpr Rgb white = {255, 255, 255}, black = {0, 0, 0};
+inline constexpr Rgb fixed_bone = {230, 218, 192}, mobile_bone = {190, 205, 225};
+/// Of hatching, for what is no more than a bound.
+inline constexpr Rgb hatch_dark = {70, 70, 70}, hatch_light = {150, 150, 150};
+
+/// Colours over mm, the same as the page's: of one hue's scale by lightness, for all eyes.
+///
+///     gap, nearest   -range  dark red ... orange | 0 | dark blue ... pale yellow  range, beyond it plain bone
+///     depth               0  yellow ... dark violet  range
+struct ColourScale {
+  PictureColour colour;
+  double range_mm;
+
+  double low_mm() const noexcept { return colour == PictureColour::depth ? 0 : -range_mm; }
+  /// Values below the scale have the colour of its end; empty for those above it that mean nothing to look at.
+  std::optional<Rgb> at(double mm) const noexcept;
+};
+
+}  // namespace condyle::io

@@ -1,0 +1,272 @@
+#include "condyle/io/picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "condyle/error.hpp"
+#include "core/parallel.hpp"
+#include "io/picture/colour_scale.hpp"
+#include "io/picture/legend.hpp"
+#include "io/picture/rasteriser.hpp"
+#include "io/picture/surface_values.hpp"
+
+namespace condyle {
+namespace io {
+namespace {
+
+/// Samples along a pixel's side: their mean is the pixel.
+constexpr std::size_t samples = 4;
+/// Rows of pixels that a thread draws at a time: samples of two bodies stay within some megabytes.
+constexpr std::size_t strip_pixels = 8;
+/// Of the smaller side of the picture, left free around the bodies.
+constexpr double margin = 0.04;
+constexpr double usual_range_mm = 8;
+
+/// How strongly glass covers what is behind it: least where it faces the viewer, more towards its outline.
+double cover_of_glass(double facing) noexcept {
+  return 0.2 + 0.6 * (1 - facing) * (1 - facing);
+}
+
+/// Light from the viewer, and a little more from above: 1 for what faces the viewer.
+double brightness(double facing, double upward) noexcept {
+  return std::clamp(0.4 + 0.6 * facing + 0.1 * upward, 0.0, 1.0);
+}
+
+std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
+  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
+  for (const Triangle& t : mesh.triangles) {
+    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
+    const Vec3 twice_area = (b - a).cross(c - a);
+    for (const Index corner : t) normals[corner] += twice_area;
+  }
+  return normals;
+}
+
+/// Millimetres in the plane of the picture to samples.
+struct Camera {
+  Vec3 right, up, towards_viewer;
+  double samples_per_mm;
+  double origin_x, origin_y;  ///< where the joint centre is, in samples
+
+  FlatMesh laid(const TriMesh& mesh) const {
+    FlatMesh flat{.vertices = Points(mesh.vertices.size()), .triangles = mesh.triangles};
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+      const Vec3 p = mesh.vertices[v];
+      flat.vertices.set(v, {origin_x + samples_per_mm * p.dot(right), origin_y - samples_per_mm * p.dot(up),
+                            samples_per_mm * p.dot(towards_viewer)});
+    }
+    return flat;
+  }
+};
+
+/// Columns and rows of samples, without the legend's.
+Camera camera_of(const PictureOptions& options, const TriMesh& fixed, const TriMesh& mobile, double columns,
+                 double rows) {
+  const auto& [towards_viewer, up] = options.view;
+  Camera camera{.right = up.cross(towards_viewer),
+                .up = up,
+                .towards_viewer = towards_viewer,
+                .samples_per_mm = 1,
+                .origin_x = columns / 2,
+                .origin_y = rows / 2};
+  if (options.field_mm) {
+    camera.samples_per_mm = rows / *options.field_mm;
+    return camera;
+  }
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const TriMesh* mesh : {&fixed, &mobile})
+    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
+      const Vec3 p = mesh->vertices[v], seen{p.dot(camera.right), p.dot(camera.up), 0};
+      low = low.cwiseMin(seen), high = high.cwiseMax(seen);
+    }
+  const double free = margin * std::min(columns, rows);
+  const Vec3 size = high - low;
+  camera.samples_per_mm = std::min((columns - 2 * free) / size.x(), (rows - 2 * free) / size.y());
+  camera.origin_x -= camera.samples_per_mm * (low.x() + high.x()) / 2;
+  camera.origin_y += camera.samples_per_mm * (low.y() + high.y()) / 2;
+  return camera;
+}
+
+/// A body as it is drawn.
+class Surface {
+ public:
+  Surface(const TriMesh& posed_mesh, const SurfaceValues& values, const ColourScale& scale, Rgb bone,
+          BodyLook look, const Camera& camera, std::size_t columns, std::size_t rows)
+      : normals_(vertex_normals(posed_mesh)),
+        values_(values),
+        scale_(scale),
+        bone_(bone),
+        look_(look),
+        camera_(camera),
+        mesh_(camera.laid(posed_mesh)),
+        rasteriser_(mesh_, columns, rows, strip_pixels * samples) {}
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  void draw(std::size_t strip, std::span<Hit> hits) const {
+    if (look_ != BodyLook::hidden) rasteriser_.draw(strip, hits);
+  }
+
+  /// What it lays over the colour behind it at a sample.
+  Rgb over(const Rgb& behind, Index triangle, double x, double y) const {
+    const auto shares = corner_shares(mesh_, triangle, x, y);
+    const Triangle& corners = mesh_.triangles[triangle];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) normal += shares[k] * normals_[corners[k]];
+    const double length = normal.norm();
+    if (length > 0) normal /= length;
+    // What is seen from behind, of an open sheet, is lit as from its front.
+    if (normal.dot(camera_.towards_viewer) < 0) normal = -normal;
+    const double facing = std::min(1.0, normal.dot(camera_.towards_viewer));
+    const double light = brightness(facing, normal.dot(camera_.up));
+    const double cover = look_ == BodyLook::transparent ? cover_of_glass(facing) : 1;
+    Rgb colour = own_colour(corners, shares, x, y);
+    for (std::size_t k = 0; k < 3; ++k) colour[k] = cover * light * colour[k] + (1 - cover) * behind[k];
+    return colour;
+  }
+
+ private:
+  Rgb own_colour(const Triangle& corners, const std::array<double, 3>& shares, double x, double y) const {
+    const auto mean = [&](const std::vector<double>& values) {
+      return shares[0] * values[corners[0]] + shares[1] * values[corners[1]] + shares[2] * values[corners[2]];
+    };
+    if (values_.mm.empty()) return bone_;
+    const double mm = mean(values_.mm);
+    if (!std::isfinite(mm)) return bone_;
+    if (!values_.outside.empty()) {
+      if (mean(values_.outside) >= 0) return bone_;
+      if (mean(values_.is_bound) > 0.5) return hatching(x / samples, y / samples);
+    }
+    return scale_.at(mm).value_or(bone_);
+  }
+
+  std::vector<Vec3> normals_;
+  const SurfaceValues& values_;
+  const ColourScale& scale_;
+  Rgb bone_;
+  BodyLook look_;
+  const Camera& camera_;
+  FlatMesh mesh_;
+  Rasteriser rasteriser_;
+};
+
+void check(const PictureOptions& options) {
+  for (const std::size_t side : {options.width, options.height})
+    if (side < 64 || side > 8192)
+      throw UsageError(
+          fmt::format("a picture of {} x {} pixels: each side is 64 to 8192", options.width, options.height));
+  for (const auto& [length, name] : {std::pair(options.range_mm, "the end of the colours"),
+                                     std::pair(options.field_mm, "the height of the view")})
+    if (length && !(*length > 0 && std::isfinite(*length)))
+      throw UsageError(fmt::format("{}: {:g} mm is not above 0", name, *length));
+}
+
+/// The first of 1, 2, 5, 10, 20 ... mm that holds all depths.
+double range_of_depths(const BothValues& values) {
+  double deepest = 0;
+  for (const SurfaceValues* body : {&values.fixed, &values.mobile})
+    for (std::size_t v = 0; v < body->mm.size(); ++v)
+      if (body->is_bound[v] == 0) deepest = std::max(deepest, body->mm[v]);
+  for (double decade = 1;; decade *= 10)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (step * decade >= deepest) return step * decade;
+}
+
+void draw_strip(const Surface& fixed, const Surface& mobile, std::size_t strip, Picture& picture,
+                std::size_t rows_of_scene) {
+  const std::size_t columns = picture.width * samples;
+  std::vector<Hit> hits_fixed(columns * strip_pixels * samples), hits_mobile(hits_fixed.size());
+  fixed.draw(strip, hits_fixed);
+  mobile.draw(strip, hits_mobile);
+  const std::size_t first = strip * strip_pixels, end = std::min(first + strip_pixels, rows_of_scene);
+  for (std::size_t row = first; row < end; ++row) {
+    for (std::size_t column = 0; column < picture.width; ++column) {
+      Rgb sum = {0, 0, 0};
+      for (std::size_t i = 0; i < samples * samples; ++i) {
+        const std::size_t sample_row = row * samples + i / samples,
+                          sample_column = column * samples + i % samples;
+        const std::size_t at = (sample_row - first * samples) * columns + sample_column;
+        const double x = static_cast<double>(sample_column) + 0.5, y = static_cast<double>(sample_row) + 0.5;
+        Rgb colour = white;
+        const auto add = [&](const Surface& surface, const Hit& hit) {
+          if (hit.triangle != no_index) colour = surface.over(colour, hit.triangle, x, y);
+        };
+        const Hit &of_fixed = hits_fixed[at], &of_mobile = hits_mobile[at];
+        const bool fixed_behind =
+            of_fixed.triangle == no_index || of_mobile.triangle == no_index || of_fixed.z <= of_mobile.z;
+        if (fixed_behind) add(fixed, of_fixed);
+        add(mobile, of_mobile);
+        if (!fixed_behind) add(fixed, of_fixed);
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += colour[k];
+      }
+      set_pixel(picture, column, row,
+                {sum[0] / (samples * samples), sum[1] / (samples * samples), sum[2] / (samples * samples)});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace io
+
+ViewDirection view_named(std::string_view name, Side side) {
+  const double to_right = side == Side::right ? 1 : -1;  // where lateral is
+  const std::pair<std::string_view, Vec3> directions[] = {{"anterior", Vec3::UnitX()},
+                                                          {"posterior", -Vec3::UnitX()},
+                                                          {"superior", Vec3::UnitY()},
+                                                          {"inferior", -Vec3::UnitY()},
+                                                          {"right", Vec3::UnitZ()},
+                                                          {"left", -Vec3::UnitZ()},
+                                                          {"lateral", to_right * Vec3::UnitZ()},
+                                                          {"medial", -to_right * Vec3::UnitZ()}};
+  Vec3 sum = Vec3::Zero();
+  for (std::string_view rest = name; !rest.empty();) {
+    const std::size_t end = std::min(rest.find('-'), rest.size());
+    const auto* found = std::find_if(std::begin(directions), std::end(directions),
+                                     [&](const auto& each) { return each.first == rest.substr(0, end); });
+    if (found == std::end(directions) || end + 1 == rest.size())
+      throw UsageError(fmt::format(
+          "view '{}': there are anterior, posterior, left, right, superior, inferior, medial, lateral, and "
+          "several of them with hyphens",
+          name));
+    sum += found->second;
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (sum.norm() < 0.5) throw UsageError(fmt::format("view '{}': is from no side", name));
+  const Vec3 towards_viewer = sum.normalized();
+  const Vec3 upright = towards_viewer.cwiseAbs() == Vec3::UnitY() ? Vec3(Vec3::UnitX()) : Vec3(Vec3::UnitY());
+  const Vec3 up = (upright - upright.dot(towards_viewer) * towards_viewer).normalized();
+  return {towards_viewer, up};
+}
+
+Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
+                   const PictureOptions& options) {
+  io::check(options);
+  const io::BothValues values = io::surface_values(options.colour, joint, at, X_FM);
+  const io::ColourScale scale{options.colour, options.range_mm ? *options.range_mm
+                                              : options.colour == PictureColour::depth
+                                                  ? io::range_of_depths(values)
+                                                  : io::usual_range_mm};
+  Picture picture{options.width, options.height,
+                  std::vector<std::uint8_t>(3 * options.width * options.height, 255)};
+  const std::size_t rows_of_scene = options.height - io::legend_height(options);
+  const TriMesh &fixed = joint.fixed.mesh.arrays(), mobile = posed(X_FM, joint.mobile.mesh.arrays());
+  const std::size_t columns = options.width * io::samples, rows = rows_of_scene * io::samples;
+  const io::Camera camera =
+      io::camera_of(options, fixed, mobile, static_cast<double>(columns), static_cast<double>(rows));
+  const io::Surface fixed_surface(fixed, values.fixed, scale, io::fixed_bone, options.fixed, camera, columns,
+                                  rows);
+  const io::Surface mobile_surface(mobile, values.mobile, scale, io::mobile_bone, options.mobile, camera,
+                                   columns, rows);
+  const std::size_t strips = (rows_of_scene + io::strip_pixels - 1) / io::strip_pixels;
+  core::parallel_chunks(strips, 1, [&](std::size_t first, std::size_t end) {
+    for (std::size_t strip = first; strip < end; ++strip)
+      io::draw_strip(fixed_surface, mobile_surface, strip, picture, rows_of_scene);
+  });
+  io::draw_legend(picture, options, scale);
+  return picture;
+}
+
+}  // namespace condyle

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "condyle/contact.hpp"
+#include "condyle/io/picture.hpp"
+
+namespace condyle::io {
+
+/// What one body's vertices are coloured by.
+struct SurfaceValues {
+  std::vector<double> mm;       ///< not finite where there is none
+  std::vector<double> outside;  ///< of depths only: the nearest distance, negative inside the other body
+  std::vector<double>
+      is_bound;  ///< of depths only: 1 where `mm` is the nearest distance, for want of a depth
+};
+
+struct BothValues {
+  SurfaceValues fixed, mobile;
+};
+
+/// Of every vertex at this pose. Throws MeshError where a depth or a gap is asked of an open mesh; nearest distances of
+/// vertices that cannot be inside are above 0.
+BothValues surface_values(PictureColour colour, const Joint& joint, const JointAngles& at, const Pose& X_FM);
+
+}  // namespace condyle::io

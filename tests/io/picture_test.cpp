@@ -1,0 +1,316 @@
+#include "condyle/io/picture.hpp"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include <array>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/picture/colour_scale.hpp"
+#include "io/picture/legend.hpp"
+#include "mesh/subdivide.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+using io::Rgb;
+
+/// So that in the middle of a face normals are the face's.
+TriMesh fine_box(const Vec3& low, const Vec3& high) {
+  TriMesh mesh = box(low, high);
+  for (int level = 0; level < 4; ++level) mesh = mesh::subdivided(mesh);
+  return mesh;
+}
+
+Joint joint_of(const TriMesh& fixed, const TriMesh& mobile, Side side = Side::right) {
+  return {"boxes", JointKind::ball, side, {"fixed", fixed}, {"mobile", mobile}};
+}
+
+Rgb pixel(const Picture& picture, std::size_t column, std::size_t row) {
+  Rgb colour;
+  for (std::size_t k = 0; k < 3; ++k) colour[k] = picture.rgb[3 * (row * picture.width + column) + k];
+  return colour;
+}
+
+/// Each channel within this many of 255.
+void expect_colour(const Rgb& is, const Rgb& expected, double within, const std::string& what) {
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(is[k], expected[k], within) << what << ", channel " << k;
+}
+
+constexpr std::size_t side_px = 200;
+constexpr double field_mm = 100;
+
+/// 2 pixels a mm, the joint centre in the middle.
+PictureOptions square_without_legend(std::string_view view, Side side = Side::right) {
+  return {.view = view_named(view, side),
+          .colour = PictureColour::none,
+          .width = side_px,
+          .height = side_px,
+          .field_mm = field_mm};
+}
+
+Rgb at_mm(const Picture& picture, double right, double up) {
+  const double per_mm = side_px / field_mm;
+  return pixel(picture, static_cast<std::size_t>(side_px / 2.0 + per_mm * right),
+               static_cast<std::size_t>(side_px / 2.0 - per_mm * up));
+}
+
+struct ViewedFrom {
+  const char* view;
+  Side side;
+  /// Where X, Y and Z point in the picture: right and up.
+  std::array<double, 3> right, up;
+};
+
+class Views : public ::testing::TestWithParam<ViewedFrom> {};
+
+TEST_P(Views, ShowBonesWhereTheyAre) {
+  const auto& [view, side, right, up] = GetParam();
+  const Vec3 of_fixed(30, 20, 10), of_mobile(-10, -30, -20), half(4, 4, 4);
+  const Joint joint = joint_of(fine_box(of_fixed - half, of_fixed + half),
+                               fine_box(of_mobile - half, of_mobile + half), side);
+  const Picture picture = draw_joint(joint, {}, Pose::Identity(), square_without_legend(view, side));
+  ASSERT_EQ(picture.rgb.size(), 3 * side_px * side_px);
+  const auto place = [](const Vec3& p, const std::array<double, 3>& along) {
+    return p.x() * along[0] + p.y() * along[1] + p.z() * along[2];
+  };
+  for (const double sign : {1.0, -1.0}) {
+    const Rgb fixed = sign > 0 ? io::fixed_bone : io::white, mobile = sign > 0 ? io::mobile_bone : io::white;
+    expect_colour(at_mm(picture, sign * place(of_fixed, right), sign * place(of_fixed, up)), fixed, 1,
+                  "fixed");
+    expect_colour(at_mm(picture, sign * place(of_mobile, right), sign * place(of_mobile, up)), mobile, 1,
+                  "mobile");
+  }
+}
+
+constexpr std::array<double, 3> x = {1, 0, 0}, minus_x = {-1, 0, 0}, y = {0, 1, 0}, z = {0, 0, 1},
+                                minus_z = {0, 0, -1};
+INSTANTIATE_TEST_SUITE_P(
+    Picture, Views,
+    ::testing::Values(ViewedFrom{"anterior", Side::right, minus_z, y},
+                      ViewedFrom{"posterior", Side::right, z, y}, ViewedFrom{"right", Side::right, x, y},
+                      ViewedFrom{"left", Side::right, minus_x, y}, ViewedFrom{"superior", Side::right, z, x},
+                      ViewedFrom{"inferior", Side::right, minus_z, x},
+                      ViewedFrom{"lateral", Side::right, x, y}, ViewedFrom{"medial", Side::right, minus_x, y},
+                      ViewedFrom{"lateral", Side::left, minus_x, y}, ViewedFrom{"medial", Side::left, x, y}));
+
+TEST(PictureView, IsBetweenSeveralDirections) {
+  const ViewDirection view = view_named("anterior-superior", Side::right);
+  EXPECT_NEAR((view.towards_viewer - Vec3(1, 1, 0).normalized()).norm(), 0, 1e-15);
+  EXPECT_NEAR((view.up - Vec3(-1, 1, 0).normalized()).norm(), 0, 1e-15);
+  for (const char* bad :
+       {"", "up", "anterior-", "-anterior", "anterior-posterior", "Anterior", "medial-right-lateral-left"})
+    EXPECT_THROW(view_named(bad, Side::right), UsageError) << bad;
+}
+
+/// A plate 5 mm in front of another one, far from the joint centre so that rays to neighbouring vertices are
+/// parallel to 0.005 mm; and one 3 mm within a block: their distances in closed form.
+Joint plate_before_plate() {
+  return joint_of(fine_box({101, -40, -40}, {102, 40, 40}), fine_box({106, -20, -20}, {107, 20, 20}));
+}
+Joint plate_in_block() {
+  return joint_of(fine_box({-50, -50, -50}, {50, 50, 50}), fine_box({46, -10, -10}, {47, 10, 10}));
+}
+
+enum class Hidden { none, fixed, mobile };
+
+Picture coloured(const Joint& joint, PictureColour colour, std::optional<double> range_mm = std::nullopt,
+                 Hidden hidden = Hidden::none) {
+  PictureOptions options = square_without_legend("anterior");
+  options.colour = colour, options.range_mm = range_mm;
+  if (hidden == Hidden::fixed) options.fixed = BodyLook::hidden;
+  if (hidden == Hidden::mobile) options.mobile = BodyLook::hidden;
+  return draw_joint(joint, {}, Pose::Identity(), options);
+}
+
+/// In the middle of what is above the legend.
+Rgb middle_of(const Picture& picture) {
+  return pixel(picture, picture.width / 2,
+               (picture.height - io::legend_height({.height = picture.height})) / 2);
+}
+
+TEST(PictureColours, AreThoseOfTheScale) {
+  const auto expect = [](const Picture& picture, PictureColour colour, double range_mm, double mm) {
+    expect_colour(middle_of(picture), *io::ColourScale{colour, range_mm}.at(mm), 1, std::to_string(mm));
+  };
+  // The front of the plate at x = 107 is 5 mm from the other's front at x = 102.
+  expect(coloured(plate_before_plate(), PictureColour::nearest), PictureColour::nearest, 8, 5);
+  expect(coloured(plate_before_plate(), PictureColour::nearest, 20), PictureColour::nearest, 20, 5);
+  // Of the plate behind, seen alone, the ray along X goes on from x = 102 to the other one's back at x = 106.
+  expect(coloured(plate_before_plate(), PictureColour::gap, std::nullopt, Hidden::mobile), PictureColour::gap,
+         8, 4);
+  for (const PictureColour colour : {PictureColour::nearest, PictureColour::gap})
+    expect(coloured(plate_in_block(), colour, std::nullopt, Hidden::fixed), colour, 8, -3);
+  // Depths have the first of 1, 2, 5, 10 ... as their end that holds them: 3 mm along rays at the middle, 4 at
+  // the back of the plate, more at its corners, where rays are oblique.
+  expect(coloured(plate_in_block(), PictureColour::depth, std::nullopt, Hidden::fixed), PictureColour::depth,
+         5, 3);
+  expect(coloured(plate_in_block(), PictureColour::depth, 40, Hidden::fixed), PictureColour::depth, 40, 3);
+}
+
+TEST(PictureColours, LeaveBoneWhereThereIsNothingToSay) {
+  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::depth)), io::mobile_bone, 1,
+                "not inside");
+  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::gap)), io::mobile_bone, 1,
+                "no ray meets it");
+  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::gap, 3, Hidden::mobile)),
+                io::fixed_bone, 1, "above the range");
+  expect_colour(middle_of(coloured(plate_before_plate(), PictureColour::none)), io::mobile_bone, 1,
+                "none asked");
+}
+
+TEST(PictureColours, HatchDepthsThatAreOnlyBounds) {
+  // 3 mm under the top of a wide block, 150 mm from the centre: the ray leaves at atan(150 / 47) = 73 degrees.
+  Joint joint =
+      joint_of(fine_box({-200, -50, -200}, {200, 50, 200}), fine_box({140, 46, -10}, {160, 47, 10}));
+  joint.kind = JointKind::free;
+  Pose X_FM = Pose::Identity();
+  X_FM.translation() = Vec3(1e-9, 0, 0);  // so that no arcs are asked for
+  const PictureOptions options{.view = view_named("superior", Side::right),
+                               .fixed = BodyLook::hidden,
+                               .width = 400,
+                               .height = 400,
+                               .field_mm = 400};
+  const Picture picture = draw_joint(joint, {}, X_FM, options);
+  // From above anterior is up: one pixel a mm, roughly, and the plate 150 mm above the middle.
+  const std::size_t rows = 400 - io::legend_height(options);
+  const auto row =
+      static_cast<std::size_t>(static_cast<double>(rows) / 2 - 150 * static_cast<double>(rows) / 400);
+  std::size_t dark = 0, light = 0;
+  for (std::size_t column = 193; column < 207; ++column) {
+    const Rgb colour = pixel(picture, column, row);
+    EXPECT_EQ(colour[0], colour[1]);
+    EXPECT_EQ(colour[1], colour[2]);
+    dark += colour == io::hatch_dark, light += colour == io::hatch_light;
+  }
+  EXPECT_GT(dark, 0u);
+  EXPECT_GT(light, 0u);
+}
+
+std::size_t pixels_like(const Picture& picture, const Rgb& colour) {
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < picture.height; ++row)
+    for (std::size_t column = 0; column < picture.width; ++column)
+      count += pixel(picture, column, row) == colour;
+  return count;
+}
+
+TEST(Picture, LeavesOutWhatIsHiddenAndShowsThroughGlass) {
+  const Joint joint = plate_before_plate();
+  PictureOptions options = square_without_legend("anterior");
+  const auto count = [&](const Rgb& bone) {
+    return pixels_like(draw_joint(joint, {}, Pose::Identity(), options), bone);
+  };
+  EXPECT_GT(count(io::fixed_bone), 1000u);
+  EXPECT_GT(count(io::mobile_bone), 1000u);
+  options.mobile = BodyLook::hidden;
+  EXPECT_EQ(count(io::mobile_bone), 0u);
+  EXPECT_GT(count(io::fixed_bone), 1000u);
+  options.mobile = BodyLook::transparent;
+  const Rgb middle = middle_of(draw_joint(joint, {}, Pose::Identity(), options));
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_LT(std::min(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
+    EXPECT_GT(std::max(io::fixed_bone[k], io::mobile_bone[k]), middle[k]);
+  }
+}
+
+TEST(Picture, FitsBothBodiesWhateverIsHidden) {
+  Joint joint = joint_of(fine_box({-5, 300, -5}, {5, 310, 5}), fine_box({-5, -80, -5}, {5, -70, 5}));
+  PictureOptions options = square_without_legend("anterior");
+  options.field_mm.reset();
+  const Picture both = draw_joint(joint, {}, Pose::Identity(), options);
+  // 390 mm within 92 % of 200 pixels: the boxes are 4.7 pixels high, at either end of the picture's middle column.
+  expect_colour(pixel(both, 100, 10), io::fixed_bone, 1, "fixed");
+  expect_colour(pixel(both, 100, 189), io::mobile_bone, 1, "mobile");
+  options.fixed = BodyLook::hidden;
+  const Picture one = draw_joint(joint, {}, Pose::Identity(), options);
+  expect_colour(pixel(one, 100, 10), io::white, 0, "fixed");
+  expect_colour(pixel(one, 100, 189), io::mobile_bone, 1, "mobile");
+}
+
+TEST(Picture, SmoothsEdges) {
+  // An edge through the middle of pixels: 2 pixels a mm, from z = -10.25 to 10.25.
+  const Joint joint =
+      joint_of(fine_box({0, -10, -10.25}, {5, 10, 10.25}), fine_box({-60, -1, -1}, {-58, 1, 1}));
+  const Picture picture = draw_joint(joint, {}, Pose::Identity(), square_without_legend("anterior"));
+  const double shade = at_mm(picture, 10.1, 0.3)[2], inside = at_mm(picture, 9.6, 0.3)[2];
+  EXPECT_NEAR(shade, (inside + 255) / 2, 8);
+}
+
+TEST(PictureLegend, IsTheScaleWithItsZero) {
+  PictureOptions options{.colour = PictureColour::gap, .width = 400, .height = 300, .range_mm = 4};
+  const Picture picture = draw_joint(plate_before_plate(), {}, Pose::Identity(), options);
+  const std::size_t legend = io::legend_height(options), row = 300 - legend + legend / 4;
+  // The bar reaches from 32 to 68 % of the width.
+  const io::ColourScale scale{PictureColour::gap, 4};
+  for (const std::size_t column : {130u, 160u, 190u, 210u, 240u, 270u})
+    expect_colour(pixel(picture, column, row),
+                  *scale.at(-4 + 8 * (static_cast<double>(column) + 0.5 - 128) / 144), 1,
+                  std::to_string(column));
+  expect_colour(pixel(picture, 200, row + legend / 4), io::black, 0, "the mark of zero");
+  EXPECT_GT(pixels_like(picture, io::black), 200u);
+  EXPECT_EQ(io::legend_height({.colour = PictureColour::none}), 0u);
+}
+
+TEST(Picture, IsTheSameBytesOnOneThreadAndOnTwo) {
+  const Joint joint = joint_of(sphere({0, 0, 0}, 30, 4), sphere({10, 20, -5}, 15, 4));
+  const auto draw = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return draw_joint(joint, {}, Pose::Identity(),
+                      {.fixed = BodyLook::transparent, .width = 300, .height = 200})
+        .rgb;
+  };
+  EXPECT_EQ(draw(1), draw(2));
+}
+
+TEST(Picture, RefusesWhatItCannotDraw) {
+  const Joint joint = plate_before_plate();
+  const auto draw = [&](const PictureOptions& options) {
+    return draw_joint(joint, {}, Pose::Identity(), options);
+  };
+  EXPECT_THROW(draw({.width = 63}), UsageError);
+  EXPECT_THROW(draw({.height = 8193}), UsageError);
+  for (const double bad : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(draw({.range_mm = bad}), UsageError);
+    EXPECT_THROW(draw({.field_mm = bad}), UsageError);
+  }
+  TriMesh open = joint.fixed.mesh.arrays();
+  open.triangles.pop_back();
+  const Joint with_open = joint_of(open, joint.mobile.mesh);
+  for (const PictureColour colour : {PictureColour::depth, PictureColour::gap})
+    EXPECT_THROW(draw_joint(with_open, {}, Pose::Identity(), {.colour = colour}), MeshError);
+  expect_colour(middle_of(coloured(with_open, PictureColour::nearest)),
+                *io::ColourScale{PictureColour::nearest, 8}.at(5), 1, "nearest");
+}
+
+TEST(PicturePng, ReadsBackWithItsProvenance) {
+  const TemporaryFolder folder;
+  const Picture picture = draw_joint(plate_before_plate(), {}, Pose::Identity(), {.width = 80, .height = 64});
+  Provenance from{};
+  from.command = {"picture", "joint.toml"};
+  write_png(folder / "new/p.png", picture, &from);
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName((folder / "new/p.png").c_str());
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  ASSERT_EQ(image.GetDimensions()[0], 80);
+  ASSERT_EQ(image.GetDimensions()[1], 64);
+  for (int row = 0; row < 64; ++row)
+    for (int column = 0; column < 80; ++column)
+      for (int k = 0; k < 3; ++k)
+        ASSERT_EQ(image.GetScalarComponentAsDouble(column, 63 - row, 0, k),
+                  picture.rgb[static_cast<std::size_t>(3 * (row * 80 + column) + k)]);
+  EXPECT_NE(io::read_whole_file(folder / "new/p.png").find("picture joint.toml"), std::string::npos);
+  folder.file("file", "in the way");
+  EXPECT_THROW(write_png(folder / "file/p.png", picture), FileError);
+}
+
+}  // namespace
+}  // namespace condyle::test
