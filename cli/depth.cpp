@@ -57,11 +57,7 @@ DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, 
 }
 
 DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about) {
-  if (const double moved = question.X_FM.translation().norm(); moved > 0)
-    throw UsageError(fmt::format(
-        "--method tangential: turns about the joint centre, and the pose is translated from it by {:.3f} mm; "
-        "--method radial answers there",
-        moved));
+  require_at_centre(question.X_FM, "--method tangential", "--method radial");
   const RotationAxis axis{about, axis_of(about, question.joint.coordinates(), question.pose.angles())};
   const TangentialContact contact = joint.tangential(question.X_FM, axis.direction_F);
   return depth_result(question, measure_contact(joint, question.X_FM, VertexStates(contact)), axis, contact);

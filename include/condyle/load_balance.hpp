@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/make_joint.hpp"
@@ -45,6 +46,9 @@ enum class BalanceOutcome {
   unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
   free_direction,  ///< the contact holds the mobile body in no place along a direction: prescribe it
 };
+
+/// "balanced", "at_jump", "pulled_apart", "over_the_rim", "unstable", "free_direction".
+std::string_view name_of(BalanceOutcome outcome) noexcept;
 
 struct BalancedPose {
   BalanceOutcome outcome;

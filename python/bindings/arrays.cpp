@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "condyle/error.hpp"
 
@@ -62,6 +61,29 @@ std::string fault_of(const Pose& pose) {
   return rotation.determinant() < 0 ? "a reflection is no pose" : "";
 }
 
+/// Of a (4, 4) or (N, 4, 4) array, not looked at.
+PosesIn matrices_in(const py::object& given, std::string_view name) {
+  constexpr std::string_view wanted = "(4, 4) or (N, 4, 4)";
+  py::array array = array_in(given, name, wanted);
+  PosesIn in{{}, array.ndim() == 2};
+  if ((array.ndim() != 2 && array.ndim() != 3) || array.shape(array.ndim() - 1) != 4 ||
+      array.shape(array.ndim() - 2) != 4)
+    throw UsageError(
+        fmt::format("{}: an array of shape {} is needed, not {}", name, wanted, shape_of(array)));
+  array = aligned(as_doubles(in.is_one ? py::array(array.attr("reshape")(1, 4, 4)) : array, name));
+  in.poses.resize(static_cast<std::size_t>(array.shape(0)));
+  const auto entries = array.unchecked<double, 3>();
+  for (std::size_t n = 0; n < in.poses.size(); ++n)
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j) in.poses[n].matrix()(i, j) = entries(static_cast<py::ssize_t>(n), i, j);
+  return in;
+}
+
+void require_rigid(const PosesIn& in, std::size_t n, std::string_view name) {
+  if (const std::string fault = fault_of(in.poses[n]); !fault.empty())
+    throw UsageError(fmt::format("{}{}: {}", name, in.is_one ? "" : fmt::format(": pose {}", n), fault));
+}
+
 }  // namespace
 
 py::array degrees_of(const std::vector<Angle>& angles) {
@@ -93,6 +115,16 @@ py::array array_of(const Pose& pose) {
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) values(i, j) = pose.matrix()(i, j);
   return array;
+}
+
+py::object optional_array(const std::optional<Vec3>& vector) {
+  if (!vector) return py::none();
+  return array_of(*vector);
+}
+
+py::object optional_number(const std::optional<double>& number) {
+  if (!number) return py::none();
+  return py::float_(*number);
 }
 
 py::array array_in(const py::object& given, std::string_view name, std::string_view wanted) {
@@ -154,23 +186,26 @@ Vec3 vector_in(const py::object& given, std::string_view name) {
 }
 
 PosesIn poses_in(const py::object& given, std::string_view name) {
-  constexpr std::string_view wanted = "(4, 4) or (N, 4, 4)";
-  py::array array = array_in(given, name, wanted);
-  PosesIn in{{}, array.ndim() == 2};
-  if ((array.ndim() != 2 && array.ndim() != 3) || array.shape(array.ndim() - 1) != 4 ||
-      array.shape(array.ndim() - 2) != 4)
-    throw UsageError(
-        fmt::format("{}: an array of shape {} is needed, not {}", name, wanted, shape_of(array)));
-  array = aligned(as_doubles(in.is_one ? py::array(array.attr("reshape")(1, 4, 4)) : array, name));
-  in.poses.resize(static_cast<std::size_t>(array.shape(0)));
-  const auto entries = array.unchecked<double, 3>();
-  for (std::size_t n = 0; n < in.poses.size(); ++n) {
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) in.poses[n].matrix()(i, j) = entries(static_cast<py::ssize_t>(n), i, j);
-    if (const std::string fault = fault_of(in.poses[n]); !fault.empty())
-      throw UsageError(fmt::format("{}{}: {}", name, in.is_one ? "" : fmt::format(": pose {}", n), fault));
-  }
+  PosesIn in = matrices_in(given, name);
+  for (std::size_t n = 0; n < in.poses.size(); ++n) require_rigid(in, n, name);
   return in;
+}
+
+Pose one_pose(const py::object& given, std::string_view name) {
+  const PosesIn in = poses_in(given, name);
+  if (!in.is_one) throw UsageError(fmt::format("{}: one pose of shape (4, 4) is needed", name));
+  return in.poses.front();
+}
+
+std::vector<std::optional<Pose>> poses_with_gaps_in(const py::object& given, std::string_view name) {
+  const PosesIn in = matrices_in(given, name);
+  std::vector<std::optional<Pose>> poses(in.poses.size());
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    if (in.poses[n].matrix().array().isNaN().all()) continue;
+    require_rigid(in, n, name);
+    poses[n] = in.poses[n];
+  }
+  return poses;
 }
 
 py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view name,

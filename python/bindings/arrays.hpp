@@ -3,6 +3,7 @@
 #include <pybind11/numpy.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -54,6 +55,10 @@ py::array array_of(const Points& points);
 py::array array_of(const Vec3& vector);
 py::array array_of(const Pose& pose);
 
+/// None where there is none.
+py::object optional_array(const std::optional<Vec3>& vector);
+py::object optional_number(const std::optional<double>& number);
+
 /// An array of numbers; `wanted` is what its shape is called in messages: "(V, 3)".
 py::array array_in(const py::object& given, std::string_view name, std::string_view wanted);
 /// The same of this shape; a size of -1 is any.
@@ -87,6 +92,10 @@ struct PosesIn {
   bool is_one;  ///< a single matrix
 };
 PosesIn poses_in(const py::object& given, std::string_view name);
+/// One of shape (4, 4).
+Pose one_pose(const py::object& given, std::string_view name);
+/// The same as poses_in(), of which those that are NaN throughout are gaps.
+std::vector<std::optional<Pose>> poses_with_gaps_in(const py::object& given, std::string_view name);
 
 /// Integers of an array of this shape. UsageError for other kinds of numbers, and for some beyond what std::int64_t holds.
 py::array_t<std::int64_t> integers_in(const py::object& given, std::string_view name,

@@ -19,8 +19,13 @@ void bind_sample(py::module_& module);
 void bind_range_of_motion(py::module_& module);
 void bind_motion_map(py::module_& module);
 void bind_zones(py::module_& module);
+void bind_first_contact(py::module_& module);
+void bind_depth_range(py::module_& module);
+void bind_clock_face(py::module_& module);
+void bind_surface_contact(py::module_& module);
 void bind_normal_contact(py::module_& module);
 void bind_pressure(py::module_& module);
+void bind_motion_contact(py::module_& module);
 void bind_recorded_motion(py::module_& module);
 
 }  // namespace condyle::python

@@ -1,7 +1,8 @@
 #include "condyle/fit.hpp"
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
+
+#include <numeric>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -22,7 +23,10 @@ py::dict dict_of(SphereFit fit) {
 
 py::dict fit_points(const py::object& given) {
   const PointsIn points(given, "points");
-  return dict_of(fit_sphere(points.view()));
+  return dict_of([&] {
+    const py::gil_scoped_release released;
+    return fit_sphere(points.view());
+  }());
 }
 
 std::optional<Sphere> ball(const py::object& centre, double radius_mm) {
@@ -48,11 +52,51 @@ py::dict find_in(const Mesh& mesh, bool is_head, double smallest_radius, double 
   return dict;
 }
 
+py::dict dict_of(CylinderFit&& fit) {
+  py::dict dict;
+  dict["point"] = array_of(fit.cylinder.point);
+  dict["direction"] = array_of(fit.cylinder.direction);
+  dict["radius"] = fit.cylinder.radius;
+  dict["rms_residual"] = fit.rms_residual;
+  dict["largest_residual"] = fit.largest_residual;
+  dict["vertices"] = array_of(std::move(fit.vertices));
+  dict["coverage"] = fit.coverage;
+  dict["direction_bound_deg"] =
+      fit.direction_bound ? py::object(py::float_(fit.direction_bound->degrees())) : py::none();
+  dict["axis_bound"] = optional_number(fit.axis_bound_mm);
+  return dict;
+}
+
+py::dict fit_cylinder_to(const py::object& given, const py::object& point, const py::object& direction,
+                         double radius) {
+  const PointsIn points(given, "points");
+  const Vec3 along = vector_in(direction, "direction");
+  if (along.norm() == 0) throw UsageError("direction: its length is zero");
+  const Cylinder start{vector_in(point, "point"), along.normalized(), radius};
+  return dict_of([&] {
+    const py::gil_scoped_release released;
+    std::vector<Index> all(points.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    return fit_cylinder(points.view(), all, start);
+  }());
+}
+
+py::dict find_cylinder_in(const Mesh& mesh, double smallest_radius, double largest_radius,
+                          const py::object& within_centre, double within_radius) {
+  const CylinderSearch search{smallest_radius, largest_radius, ball(within_centre, within_radius)};
+  return dict_of([&] {
+    const py::gil_scoped_release released;
+    return find_cylinder(mesh, search);
+  }());
+}
+
 }  // namespace
 
 void bind_fit(py::module_& module) {
   module.def("fit_sphere", &fit_points);
   module.def("find_sphere", &find_in);
+  module.def("fit_cylinder", &fit_cylinder_to);
+  module.def("find_cylinder", &find_cylinder_in);
 }
 
 }  // namespace condyle::python

@@ -1,6 +1,5 @@
 #include "joint.hpp"
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -8,6 +7,7 @@
 #include "bindings.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/io/propose_joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "joint_description.hpp"
 
@@ -90,12 +90,30 @@ AngleNamesList angle_names_of(const std::string& word) {
 py::list parts_of(const Body& body) {
   py::list parts;
   for (const BodyPart& part : body.parts)
-    parts.append(
-        py::make_tuple(part.name, part.first_vertex, part.vertices, part.first_triangle, part.triangles));
+    parts.append(py::make_tuple(part.name, part.first_vertex, part.vertices, part.first_triangle,
+                                part.triangles, part.is_bearing));
   return parts;
 }
 
+/// The text of the file and the keys that it leaves to fill in.
+py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
+                   const std::filesystem::path& joint_file, const std::optional<std::string>& side,
+                   const std::optional<std::string>& units) {
+  ProposalRequest request{fixed, mobile, joint_file};
+  if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
+  if (units) request.units = *units == "mm" ? LengthUnit::millimetres : LengthUnit::metres;
+  const JointProposal proposal = [&] {
+    const py::gil_scoped_release released;
+    return propose_joint(request);
+  }();
+  return py::make_tuple(proposal.toml, proposal.to_fill_in);
+}
+
 }  // namespace
+
+JointAngle angle_numbered(std::size_t number) {
+  return all_joint_angles.at(number);
+}
 
 void bind_joint(py::module_& module) {
   py::class_<JointHandle>(module, "Joint")
@@ -126,9 +144,15 @@ void bind_joint(py::module_& module) {
                                                  translation.y(),
                                                  translation.z()};
                              })
+      .def("part",
+           [](const JointHandle& h, bool of_fixed, const std::string& part) {
+             const py::gil_scoped_release released;
+             return mesh_of_part(of_fixed ? h.joint().fixed : h.joint().mobile, part);
+           })
       .def("poses_at", &poses_at)
       .def("coordinates_of", &coordinates_of)
       .def("checks", &checks_of);
+  module.def("propose_joint", &proposed);
   module.def("angle_names_of", &angle_names_of);
   module.def("read_joint", &read);
   module.def("make_joint", &made);

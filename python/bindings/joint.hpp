@@ -1,7 +1,6 @@
 #pragma once
 
-#include <memory>
-#include <string_view>
+#include <cstddef>
 
 #include "condyle/contact.hpp"
 #include "condyle/io/joint_file.hpp"
@@ -16,5 +15,8 @@ struct JointHandle {
   explicit JointHandle(LoadedJoint from) : loaded(std::move(from)), contact(loaded.joint) {}
   const Joint& joint() const noexcept { return loaded.joint; }
 };
+
+/// Of the three, by its position.
+JointAngle angle_numbered(std::size_t number);
 
 }  // namespace condyle::python

@@ -1,6 +1,5 @@
 #include "joint_description.hpp"
 
-#include <algorithm>
 #include <string>
 
 #include "arrays.hpp"
@@ -85,9 +84,8 @@ JointDescription description_in(const py::dict& given) {
   else
     joint.frame.axes =
         FrameDirections{vector_in(at("anterior"), "anterior"), vector_in(at("superior"), "superior")};
-  if (!at("fixed_in_W").is_none()) joint.fixed_in_W = poses_in(at("fixed_in_W"), "fixed_in_W").poses.at(0);
-  if (!at("mobile_in_W").is_none())
-    joint.mobile_in_W = poses_in(at("mobile_in_W"), "mobile_in_W").poses.at(0);
+  if (!at("fixed_in_W").is_none()) joint.fixed_in_W = one_pose(at("fixed_in_W"), "fixed_in_W");
+  if (!at("mobile_in_W").is_none()) joint.mobile_in_W = one_pose(at("mobile_in_W"), "mobile_in_W");
 
   const Vec3 degrees = vector_in(at("reference_angles_deg"), "reference_pose");
   joint.reference_pose = {

@@ -68,12 +68,14 @@ py::tuple read(const std::filesystem::path& path) {
 py::tuple repaired(const Mesh& mesh, const std::vector<std::string>& names) {
   std::vector<Repair> repairs;
   for (const std::string& name : names) repairs.push_back(repair_named(name));
-  TriMesh arrays = mesh.arrays();
   std::vector<std::string> done;
-  for (const RepairDone& repair : repair_mesh(arrays, repairs)) done.push_back(describe(repair));
-  py::list said;
-  for (const std::string& line : done) said.append(line);
-  return py::make_tuple(Mesh(std::move(arrays)), said);
+  Mesh result = [&] {
+    const py::gil_scoped_release released;
+    TriMesh arrays = mesh.arrays();
+    for (const RepairDone& repair : repair_mesh(arrays, repairs)) done.push_back(describe(repair));
+    return Mesh(std::move(arrays));
+  }();
+  return py::make_tuple(std::move(result), done);
 }
 
 }  // namespace

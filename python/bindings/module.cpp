@@ -17,7 +17,12 @@ PYBIND11_MODULE(_native, module) {
   bind_range_of_motion(module);
   bind_motion_map(module);
   bind_zones(module);
+  bind_first_contact(module);
+  bind_depth_range(module);
+  bind_clock_face(module);
+  bind_surface_contact(module);
   bind_normal_contact(module);
   bind_pressure(module);
+  bind_motion_contact(module);
   bind_recorded_motion(module);
 }

@@ -2,7 +2,10 @@
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include "arrays.hpp"
+#include "condyle/io/rom_result.hpp"
 
 namespace condyle::python {
 namespace {
@@ -18,21 +21,7 @@ py::tuple tuple_of(const Feature& feature) {
   return py::make_tuple(kind, feature.id, feature.other_end);
 }
 
-const char* name_of_reason(LimitReason reason) {
-  constexpr const char* names[] = {"contact", "end_of_range", "contact_at_start"};
-  return names[static_cast<std::size_t>(reason)];
-}
-
-const char* name_of_kind(ContactKind kind) {
-  constexpr const char* names[] = {"unknown", "bearing", "impingement"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
 }  // namespace
-
-JointAngle angle_numbered(std::size_t number) {
-  return all_joint_angles.at(number);
-}
 
 JointAngles angles_in(const py::object& given, std::string_view name) {
   const Vec3 degrees = vector_in(given, name);
@@ -65,14 +54,14 @@ py::object dict_of(const std::optional<ContactWitness>& contact) {
   dict["mobile_feature"] = tuple_of(contact->mobile_feature);
   dict["fixed_point"] = array_of(contact->fixed_point);
   dict["mobile_point"] = array_of(contact->mobile_point);
-  dict["kind"] = name_of_kind(contact->kind);
+  dict["kind"] = name_of(contact->kind);
   return dict;
 }
 
 py::dict dict_of(const Limit& limit) {
   py::dict dict;
   dict["turned_deg"] = limit.turned.degrees();
-  dict["reason"] = name_of_reason(limit.reason);
+  dict["reason"] = name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact);
   dict["error_bound_deg"] = limit.error_bound.degrees();
   dict["bearing_contact_deg"] =
@@ -84,9 +73,21 @@ py::dict dict_of(const MotionLimit& limit) {
   py::dict dict = dict_of(limit.end);
   dict["motion"] = tuple_of(limit.motion);
   dict["angles_deg"] = degrees_of_angles(limit.angles_at_limit());
-  dict["centre_distance_mm"] = limit.head ? py::cast(limit.head->centre_distance_mm) : py::none();
-  dict["joint_space_mm"] = limit.head ? py::cast(limit.head->joint_space_mm) : py::none();
+  dict["centre_distance_mm"] = limit.head ? optional_number(limit.head->centre_distance_mm) : py::none();
+  dict["joint_space_mm"] = limit.head ? optional_number(limit.head->joint_space_mm) : py::none();
   return dict;
+}
+
+void each_limit(const RangeOfMotion& range, std::span<const Motion> motions, const std::stop_token& stop,
+                const std::function<void(MotionLimit&&)>& use) {
+  for (const Motion& motion : motions) check_motion(motion, range.kind());
+  for (std::size_t done = 0; done < motions.size(); done += motions_at_once) {
+    for (MotionLimit& limit :
+         range.limits(motions.subspan(done, std::min(motions_at_once, motions.size() - done)))) {
+      if (stop.stop_requested()) return;
+      use(std::move(limit));
+    }
+  }
 }
 
 }  // namespace condyle::python

@@ -2,8 +2,11 @@
 
 #include <pybind11/pybind11.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stop_token>
 #include <vector>
 
 #include "condyle/limit_band.hpp"
@@ -32,7 +35,12 @@ std::vector<Motion> motions_in(const py::list& given);
 
 /// Three angles in degrees.
 JointAngles angles_in(const py::object& given, std::string_view name);
-JointAngle angle_numbered(std::size_t number);
+
+/// Motions computed at once, between two looks whether it was stopped: some ten milliseconds.
+inline constexpr std::size_t motions_at_once = 16;
+/// Hands on range.limits(motions) one after the other, until it is stopped.
+void each_limit(const RangeOfMotion& range, std::span<const Motion> motions, const std::stop_token& stop,
+                const std::function<void(MotionLimit&&)>& use);
 
 py::dict dict_of(const Limit& limit);
 py::dict dict_of(const MotionLimit& limit);

@@ -40,8 +40,9 @@ py::tuple normal(const JointHandle& handle, const py::object& given, const std::
   }
   py::list answers;
   for (auto& [of_fixed, of_mobile] : found)
-    answers.append(py::make_tuple(of_fixed ? py::object(dict_of(std::move(*of_fixed))) : py::none(),
-                                  of_mobile ? py::object(dict_of(std::move(*of_mobile))) : py::none()));
+    answers.append(py::make_tuple(
+        of_fixed ? py::object(dict_of(std::move(*of_fixed), fixed, rays.rule)) : py::none(),
+        of_mobile ? py::object(dict_of(std::move(*of_mobile), mobile, rays.rule)) : py::none()));
   return py::make_tuple(in.is_one, answers);
 }
 

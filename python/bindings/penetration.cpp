@@ -1,10 +1,8 @@
-#include <tbb/task_arena.h>
-
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
 #include "core/parallel.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
@@ -114,11 +112,7 @@ py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mob
                         dict_of(of_fixed, std::move(fixed), false));
 }
 
-JointAngle angle_numbered(int number) {
-  return all_joint_angles.at(static_cast<std::size_t>(number));
-}
-
-py::tuple tangential(const JointHandle& handle, const py::object& given, int about,
+py::tuple tangential(const JointHandle& handle, const py::object& given, std::size_t about,
                      const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
   const CoordinateSystem system = handle.joint().coordinates();
@@ -129,12 +123,7 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, int abo
     const py::gil_scoped_release released;
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
       const Pose& X_FM = in.poses[n];
-      if (const double moved = X_FM.translation().norm(); moved > 0)
-        throw UsageError(
-            fmt::format("method tangential: turns about the joint centre, and the pose is translated from it "
-                        "by {:.3f} mm; "
-                        "method radial answers there",
-                        moved));
+      require_at_centre(X_FM, "method tangential", "method radial");
       const TangentialContact contact =
           handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
       if (of_mobile) mobile.append(*contact.mobile_in_fixed);

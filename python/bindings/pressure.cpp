@@ -4,9 +4,6 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/error.hpp"
-#include "condyle/load_balance.hpp"
-#include "condyle/motion_contact.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
 #include "surface_contact.hpp"
@@ -48,21 +45,6 @@ std::unique_ptr<ElasticContact> elastic_of_file(const JointHandle& handle) {
                                           elastic_options(*entry, surfaces, handle.loaded));
 }
 
-py::object optional_dict(std::optional<SurfaceContact>& surface) {
-  if (!surface) return py::none();
-  return dict_of(std::move(*surface));
-}
-
-py::dict dict_of_results(ElasticContactResults&& results) {
-  py::dict dict;
-  dict["fixed"] = optional_dict(results.fixed);
-  dict["mobile"] = optional_dict(results.mobile);
-  dict["force_n"] = array_of(results.on_mobile.force_n);
-  dict["moment_nmm"] = array_of(results.on_mobile.moment_nmm);
-  dict["energy_nmm"] = results.energy_nmm;
-  return dict;
-}
-
 py::tuple at(const ElasticContact& contact, const py::object& given, const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
   std::vector<ElasticContactResults> found;
@@ -75,78 +57,8 @@ py::tuple at(const ElasticContact& contact, const py::object& given, const py::o
     }
   }
   py::list answers;
-  for (ElasticContactResults& results : found) answers.append(dict_of_results(std::move(results)));
+  for (ElasticContactResults& results : found) answers.append(dict_of(std::move(results), contact));
   return py::make_tuple(in.is_one, answers);
-}
-
-const char* name_of(BalanceOutcome outcome) {
-  switch (outcome) {
-    case BalanceOutcome::balanced:
-      return "balanced";
-    case BalanceOutcome::at_jump:
-      return "at_jump";
-    case BalanceOutcome::pulled_apart:
-      return "pulled_apart";
-    case BalanceOutcome::over_the_rim:
-      return "over_the_rim";
-    case BalanceOutcome::unstable:
-      return "unstable";
-    case BalanceOutcome::free_direction:
-      break;
-  }
-  return "free_direction";
-}
-
-py::dict dict_of_balance(BalancedPose&& found) {
-  py::dict dict;
-  dict["outcome"] = name_of(found.outcome);
-  dict["reason"] = reason_of(found);
-  dict["X_FM"] = array_of(found.X_FM);
-  dict["residual"] = tuple_of(found.residual);
-  dict["steps"] = found.steps;
-  dict["contact"] = dict_of_results(std::move(found.contact));
-  return dict;
-}
-
-BalanceOptions options_in(const py::object& free_directions, bool free_rotations) {
-  BalanceOptions options;
-  options.free_rotations = free_rotations;
-  const PointsIn directions(free_directions, "free_directions");
-  for (std::size_t i = 0; i < directions.size(); ++i) options.free_directions.push_back(directions.view()[i]);
-  return options;
-}
-
-py::dict balanced(const ElasticContact& contact, const py::object& start, const py::object& force_n,
-                  const py::object& moment_nmm, bool goes_along, const py::object& free_directions,
-                  bool free_rotations) {
-  const PosesIn in = poses_in(start, "start");
-  if (!in.is_one) throw UsageError("start: one pose of shape (4, 4) is needed");
-  const Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")},
-                  goes_along ? BodyRole::mobile : BodyRole::fixed};
-  const BalanceOptions options = options_in(free_directions, free_rotations);
-  return dict_of_balance(followed(py::none(), [&](const auto&, const std::stop_token&) {
-    return balance(contact, in.poses.front(), load, options);
-  }));
-}
-
-/// Forces and moments have a row for all frames, or one for each.
-py::list balanced_along(const ElasticContact& contact, const py::object& poses, const py::object& force_n,
-                        const py::object& moment_nmm, bool goes_along, const py::object& free_directions,
-                        bool free_rotations, const py::object& progress) {
-  const PosesIn in = poses_in(poses, "poses");
-  const PointsIn forces(force_n, "force_n"), moments(moment_nmm, "moment_nmm");
-  if (forces.size() != moments.size()) throw UsageError("moment_nmm: as many rows as force_n has are needed");
-  std::vector<Load> loads;
-  for (std::size_t i = 0; i < forces.size(); ++i)
-    loads.push_back({{forces.view()[i], moments.view()[i]}, goes_along ? BodyRole::mobile : BodyRole::fixed});
-  const BalanceOptions options = options_in(free_directions, free_rotations);
-  const std::vector<std::optional<Pose>> X_FM(in.poses.begin(), in.poses.end());
-  auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    return balance_along(contact, X_FM, loads, options, {.progress = report, .stop = stop});
-  });
-  py::list answers;
-  for (std::optional<BalancedPose>& pose : *found) answers.append(dict_of_balance(std::move(*pose)));
-  return answers;
 }
 
 }  // namespace
@@ -155,14 +67,11 @@ void bind_pressure(py::module_& module) {
   py::class_<ElasticContact>(module, "ElasticContact")
       .def(py::init(&elastic))
       .def("at", &at)
-      .def("balance", &balanced)
-      .def("balance_along", &balanced_along)
       .def("cut_off_by_reach",
            [](const ElasticContact& contact, const py::object& pose) {
-             const PosesIn in = poses_in(pose, "pose");
-             if (!in.is_one) throw UsageError("pose: one pose of shape (4, 4) is needed");
+             const Pose X_FM = one_pose(pose, "pose");
              const py::gil_scoped_release released;
-             return contact.cut_off_by_reach(in.poses.front());
+             return contact.cut_off_by_reach(X_FM);
            })
       .def_property_readonly("fixed", &ElasticContact::fixed)
       .def_property_readonly("mobile", &ElasticContact::mobile);

@@ -6,6 +6,7 @@
 #include "bindings.hpp"
 #include "condyle/error.hpp"
 #include "condyle/held_translation.hpp"
+#include "condyle/io/rom_result.hpp"
 #include "condyle/path_limit.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
@@ -55,8 +56,11 @@ std::unique_ptr<RangeHandle> ready(const JointHandle& handle, const py::object& 
 
 py::list limits(const RangeHandle& handle, const py::list& given) {
   const std::vector<Motion> motions = motions_in(given);
-  const std::vector<MotionLimit> found =
-      followed(py::none(), [&](const auto&, const std::stop_token&) { return handle.range.limits(motions); });
+  const auto found = followed(py::none(), [&](const auto&, const std::stop_token& stop) {
+    std::vector<MotionLimit> done;
+    each_limit(handle.range, motions, stop, [&](MotionLimit&& limit) { done.push_back(std::move(limit)); });
+    return done;
+  });
   py::list list;
   for (const MotionLimit& limit : found) list.append(dict_of(limit));
   return list;
@@ -96,7 +100,8 @@ py::object bearing_of(const RangeHandle& handle) {
   py::dict dict;
   dict["head_centre"] = array_of(surface->head.centre);
   dict["head_radius_mm"] = surface->head.radius;
-  dict["margin_mm"] = surface->margin_mm;
+  dict["margin_mm"] = surface->parts.empty() ? py::object(py::float_(surface->margin_mm)) : py::none();
+  dict["parts"] = surface->parts;
   dict["rim_gap_mm"] = surface->rim_gap_mm;
   dict["triangles"] = array_of(std::vector<std::uint8_t>(surface->triangles));
   return dict;
@@ -114,13 +119,12 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
   const PathLimit limit = followed(py::none(), [&](const auto&, const std::stop_token&) {
     return PathFinder(handle.joint(), range).limit(waypoints, Angle::degrees(tolerance_deg));
   });
-  constexpr const char* reasons[] = {"contact", "end_of_range", "contact_at_start"};
   py::dict dict;
   dict["segment"] = limit.segment;
   dict["fraction"] = limit.fraction;
   dict["angles_deg"] = std::array{limit.at.flexion.degrees(), limit.at.adduction.degrees(),
                                   limit.at.internal_rotation.degrees()};
-  dict["reason"] = reasons[static_cast<std::size_t>(limit.reason)];
+  dict["reason"] = name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact);
   dict["distance_mm"] = limit.distance_mm;
   return dict;

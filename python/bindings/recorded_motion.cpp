@@ -5,9 +5,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/error.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/motion_file.hpp"
+#include "condyle/io/motion_result.hpp"
 #include "condyle/recorded_contact.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
@@ -54,9 +54,8 @@ py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& 
 }
 
 py::dict dict_of_end(const ContactEnd& end) {
-  constexpr const char* kinds[] = {"exact", "bounded", "recording"};
   py::dict dict;
-  dict["kind"] = kinds[static_cast<std::size_t>(end.kind)];
+  dict["kind"] = name_of(end.kind);
   dict["time_s"] = end.time_s;
   dict["uncertainty_s"] = end.uncertainty_s;
   dict["sample"] = end.sample;

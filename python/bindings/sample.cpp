@@ -4,7 +4,6 @@
 #include <string>
 
 #include "bindings.hpp"
-#include "condyle/error.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"

@@ -1,8 +1,9 @@
 #include "surface_contact.hpp"
 
-#include <memory>
+#include <pybind11/stl.h>
 
 #include "arrays.hpp"
+#include "bindings.hpp"
 
 namespace condyle::python {
 namespace {
@@ -22,11 +23,6 @@ py::array centres(const std::vector<FaceContact>& faces, Vec3 FaceContact::*mome
   return array_of(points);
 }
 
-py::object optional_vector(const std::optional<Vec3>& vector) {
-  if (!vector) return py::none();
-  return array_of(*vector);
-}
-
 }  // namespace
 
 py::dict dict_of(const ContactTotals& totals) {
@@ -35,38 +31,72 @@ py::dict dict_of(const ContactTotals& totals) {
   dict["area_mm2"] = totals.area_mm2;
   dict["mean_depth_mm"] = totals.mean_depth_mm;
   dict["max_depth_mm"] = totals.max_depth_mm;
-  dict["centre_of_depth"] = optional_vector(totals.centre_of_depth);
+  dict["centre_of_depth"] = optional_array(totals.centre_of_depth);
   dict["mean_pressure_mpa"] = totals.mean_pressure_mpa;
   dict["max_pressure_mpa"] = totals.max_pressure_mpa;
-  dict["centre_of_pressure"] = optional_vector(totals.centre_of_pressure);
+  dict["centre_of_pressure"] = optional_array(totals.centre_of_pressure);
   dict["force_n"] = array_of(totals.force_n);
   dict["moment_nmm"] = array_of(totals.moment_nmm);
   return dict;
 }
 
-py::dict dict_of(SurfaceContact&& contact) {
+py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule) {
   py::dict dict;
   dict["totals"] = dict_of(contact.totals);
   dict["met_from_front"] = contact.met_from_front;
   dict["rim_faces"] = contact.rim_faces;
-  const auto kept = std::make_shared<std::vector<FaceContact>>(std::move(contact.faces));
-  dict["centre_of_depth"] = centres(*kept, &FaceContact::overlap_moment, &FaceContact::overlap_mm3);
-  const py::capsule owner(new std::shared_ptr<std::vector<FaceContact>>(kept), [](void* pointer) {
-    delete static_cast<std::shared_ptr<std::vector<FaceContact>>*>(pointer);
-  });
+  const py::object owner = py::cast(ContactFaces{std::move(contact.faces), casting, rule});
+  const std::vector<FaceContact>& faces = owner.cast<const ContactFaces&>().faces;
+  dict["_faces"] = owner;
+  dict["centre_of_depth"] = centres(faces, &FaceContact::overlap_moment, &FaceContact::overlap_mm3);
   static const FaceContact none{};
-  const FaceContact& first = kept->empty() ? none : kept->front();
-  dict["face"] = column(&first.face, kept->size(), owner);
-  dict["area_mm2"] = column(&first.area_mm2, kept->size(), owner);
-  dict["max_depth_mm"] = column(&first.max_depth_mm, kept->size(), owner);
-  dict["overlap_mm3"] = column(&first.overlap_mm3, kept->size(), owner);
-  dict["max_pressure_mpa"] = column(&first.max_pressure_mpa, kept->size(), owner);
-  dict["load_n"] = column(&first.load_n, kept->size(), owner);
+  const FaceContact& first = faces.empty() ? none : faces.front();
+  dict["face"] = column(&first.face, faces.size(), owner);
+  dict["area_mm2"] = column(&first.area_mm2, faces.size(), owner);
+  dict["max_depth_mm"] = column(&first.max_depth_mm, faces.size(), owner);
+  dict["overlap_mm3"] = column(&first.overlap_mm3, faces.size(), owner);
+  dict["max_pressure_mpa"] = column(&first.max_pressure_mpa, faces.size(), owner);
+  dict["load_n"] = column(&first.load_n, faces.size(), owner);
+  return dict;
+}
+
+py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces) {
+  const auto of = [&](std::optional<SurfaceContact>& surface, const Mesh& casting) -> py::object {
+    if (!surface) return py::none();
+    return dict_of(std::move(*surface), casting, surfaces.options().rays.rule);
+  };
+  py::dict dict;
+  dict["fixed"] = of(results.fixed, surfaces.fixed());
+  dict["mobile"] = of(results.mobile, surfaces.mobile());
+  dict["force_n"] = array_of(results.on_mobile.force_n);
+  dict["moment_nmm"] = array_of(results.on_mobile.moment_nmm);
+  dict["energy_nmm"] = results.energy_nmm;
   return dict;
 }
 
 py::tuple tuple_of(const Wrench& wrench) {
   return py::make_tuple(array_of(wrench.force_n), array_of(wrench.moment_nmm));
+}
+
+namespace {
+
+/// The faces whose centre is in all half-spaces, each (normal, offset_mm), and what they add up to.
+py::dict within(const ContactFaces& of, const py::list& region) {
+  std::vector<HalfSpace> half_spaces;
+  for (const py::handle& half : region) {
+    const auto [normal, offset_mm] = half.cast<std::pair<py::object, double>>();
+    half_spaces.push_back({vector_in(normal, "region"), offset_mm});
+  }
+  SurfaceContact found;
+  found.faces = faces_within(of.faces, of.casting, half_spaces);
+  found.totals = totals_of(found.faces, of.casting, of.rule);
+  return dict_of(std::move(found), of.casting, of.rule);
+}
+
+}  // namespace
+
+void bind_surface_contact(py::module_& module) {
+  py::class_<ContactFaces>(module, "ContactFaces").def("within", &within);
 }
 
 Casting casting_in(const std::string& word) {

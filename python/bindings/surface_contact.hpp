@@ -2,6 +2,9 @@
 
 #include <pybind11/pybind11.h>
 
+#include <string>
+#include <vector>
+
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 
@@ -9,9 +12,18 @@ namespace condyle::python {
 
 namespace py = pybind11;
 
-/// Faces in contact as columns that keep the list alive, and what they add up to.
-py::dict dict_of(SurfaceContact&& contact);
+/// Faces in contact of a surface, for those within a region to be told.
+struct ContactFaces {
+  std::vector<FaceContact> faces;
+  Mesh casting;
+  FaceRule rule;
+};
+
+/// Faces in contact as columns that keep the list alive, "faces", and what they add up to.
+py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule);
 py::dict dict_of(const ContactTotals& totals);
+/// Of what each body casts.
+py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces);
 py::tuple tuple_of(const Wrench& wrench);
 
 /// By words that were checked in Python.

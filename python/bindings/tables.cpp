@@ -2,12 +2,14 @@
 
 #include <mutex>
 #include <shared_mutex>
+#include <type_traits>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
 #include "condyle/radial.hpp"
 #include "condyle/tangential.hpp"
+#include "vertex_gaps.hpp"
 
 /// The tables themselves, for those who build on the core.
 
@@ -21,18 +23,7 @@ class SharedRadialTable {
 
   py::dict query(const py::object& given) const {
     const PointsIn points(given, "points");
-    RadialResults results = [&] {
-      const py::gil_scoped_release released;
-      const std::shared_lock lock(mutex_);
-      return table_.query(points.view());
-    }();
-    py::dict dict;
-    dict["state"] = bytes_of(results.state);
-    dict["winding"] = array_of(std::move(results.winding));
-    dict["gap_mm"] = array_of(std::move(results.radial_gap_mm));
-    dict["triangle"] = array_of(std::move(results.triangle));
-    dict["ray_to_normal_deg"] = degrees_of(results.ray_to_normal);
-    return dict;
+    return dict_of(read([&](const RadialTable& table) { return table.query(points.view()); }));
   }
 
   void update(const py::object& given) {
@@ -61,13 +52,11 @@ class SharedRadialTable {
   }
 
   Mesh mesh() const {
-    const std::shared_lock lock(mutex_);
-    return Mesh(table_.mesh());
+    return read([](const RadialTable& table) { return Mesh(table.mesh()); });
   }
 
   py::dict size() const {
-    const std::shared_lock lock(mutex_);
-    const RadialTableSize size = table_.table_size();
+    const RadialTableSize size = read([](const RadialTable& table) { return table.table_size(); });
     py::dict dict;
     dict["cells"] = size.cells;
     dict["entries"] = size.entries;
@@ -76,10 +65,19 @@ class SharedRadialTable {
     return dict;
   }
 
-  std::optional<int> winding_at_centre() const { return table_.winding_at_centre(); }
-  bool is_closed() const { return table_.is_closed(); }
+  std::optional<int> winding_at_centre() const {
+    return read([](const RadialTable& table) { return table.winding_at_centre(); });
+  }
 
  private:
+  /// The interpreter's lock is given away before the table's is waited for: other threads go on during an update.
+  template <class Read>
+  std::invoke_result_t<Read, const RadialTable&> read(const Read& from) const {
+    const py::gil_scoped_release released;
+    const std::shared_lock lock(mutex_);
+    return from(table_);
+  }
+
   mutable std::shared_mutex mutex_;
   RadialTable table_;
 };
@@ -116,14 +114,7 @@ py::dict query_rings(const RingTable& table, const py::object& given, bool is_ne
     return table.query(points.view(),
                        is_nearest_arc ? TangentialRule::nearest_arc : TangentialRule::alternating);
   }();
-  py::dict dict;
-  dict["state"] = bytes_of(results.state);
-  dict["winding"] = array_of(std::move(results.winding));
-  dict["gap_mm"] = array_of(std::move(results.arc_gap_mm));
-  dict["gap_deg"] = degrees_of(results.angular_gap);
-  dict["triangle"] = array_of(std::move(results.triangle));
-  dict["rotation_sense"] = bytes_of(results.rotation_sense);
-  return dict;
+  return dict_of(std::move(results));
 }
 
 /// Of all points, point i owning [offset[i], offset[i + 1]).
@@ -165,8 +156,7 @@ void bind_tables(py::module_& module) {
       .def("update_some", &SharedRadialTable::update_some)
       .def_property_readonly("mesh", &SharedRadialTable::mesh)
       .def_property_readonly("size", &SharedRadialTable::size)
-      .def_property_readonly("winding_at_centre", &SharedRadialTable::winding_at_centre)
-      .def_property_readonly("is_closed", &SharedRadialTable::is_closed);
+      .def_property_readonly("winding_at_centre", &SharedRadialTable::winding_at_centre);
   py::class_<RingTable>(module, "RingTable")
       .def(py::init(&ring_table))
       .def("query", &query_rings)

@@ -17,7 +17,7 @@ py::dict zone_dict(BodyZone&& zone) {
   dict["tangential_depth_mm"] = array_of(std::move(zone.tangential_depth_mm));
   dict["triangles"] = array_of(std::move(zone.triangles));
   dict["area_mm2"] = zone.area_mm2;
-  dict["centroid"] = zone.centroid_mm ? py::object(array_of(*zone.centroid_mm)) : py::none();
+  dict["centroid"] = optional_array(zone.centroid_mm);
   return dict;
 }
 
@@ -32,11 +32,10 @@ py::list zones_of(const RangeHandle& handle, const py::list& given, double past_
     const ZoneFinder finder(handle.joint,
                             ZoneOptions{.bearing = handle.options.bearing, .past = Angle::degrees(past_deg)});
     std::vector<std::optional<ImpingementZone>> found;
-    for (const MotionLimit& limit : handle.range.limits(motions)) {
-      if (stop.stop_requested()) break;
+    each_limit(handle.range, motions, stop, [&](MotionLimit&& limit) {
       found.push_back(finder.zone(limit));
       report(found.size(), motions.size());
-    }
+    });
     return found;
   });
   py::list list;

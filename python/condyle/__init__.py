@@ -5,8 +5,11 @@ the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_
 :class:`FileError`, :class:`MeshError` and :class:`UsageError`, each with one line.
 """
 
+from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, neck_clock, sagittal_clock
+from ._depth_range import DeepestPlace, DepthLimit, DepthRange
 from ._errors import FileError, MeshError, ReferenceContactError, UsageError
-from ._fit import SphereFit, find_sphere, fit_sphere
+from ._first_contact import FirstContact, RotationLimits
+from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
 from ._impingement_zone import BodyZone, ImpingementZone
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
@@ -15,27 +18,30 @@ from ._limit_band import LimitBand
 from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._motion import Motion
+from ._motion_contact import FrameContact
 from ._motion_map import MapEnds, MotionMap
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
+from ._pressure import BalancedPose, BalanceOptions, ElasticContact, ElasticContactResults, ElasticLayer
+from ._propose_joint import JointProposal, propose_joint
 from ._range_of_motion import RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
-from ._surface_contact import BalancedPose, ContactTotals, ElasticContact, ElasticContactResults, ElasticLayer
-from ._surface_contact import NormalContact, SurfaceContact, thickness_to
+from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalancedPose", "BodyPart", "BodyZone", "ContactEnd", "ContactInterval", "ContactMeasures", "ContactPatch",
-    "ContactTotals",
-    "ContactWitness", "Depths", "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding",
-    "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
-    "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion",
-    "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
-    "PathLimit", "Penetration", "Penetrations", "REASONS", "RadialTable", "RangeOfMotion", "RecordedContact",
-    "ReferenceContactError", "RingTable", "SampleCartilages", "SampleHip", "SphereFit", "SurfaceContact", "TriMesh",
-    "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__", "find_sphere",
-    "fit_sphere", "inspect", "read_joint", "read_mesh", "read_motion_table", "sample_cartilages", "sample_hip",
-    "thickness_to", "write_mesh",
+    "BalanceOptions", "BalancedPose", "BodyPart", "BodyZone", "ClockFace", "ContactEnd", "ContactInterval",
+    "ContactMeasures", "ContactPatch", "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit",
+    "DepthRange", "Depths", "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding",
+    "FirstContact", "FrameContact", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint",
+    "JointMotion", "JointNote", "JointProposal", "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent", "MeshError",
+    "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX", "NormalContact",
+    "ON_SURFACE", "OUTSIDE", "OccupiedArcs", "PathLimit", "Penetration", "Penetrations", "REASONS", "RadialTable",
+    "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
+    "SampleHip", "SphereFit", "SurfaceContact", "TriMesh", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside",
+    "WAYS", "__version__", "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere",
+    "fit_cylinder", "fit_sphere", "inspect", "neck_clock", "propose_joint", "read_joint", "read_mesh",
+    "read_motion_table", "sagittal_clock", "sample_cartilages", "sample_hip", "thickness_to", "write_mesh",
 ]

@@ -1,4 +1,4 @@
-"""Spheres fitted to points and found in surfaces."""
+"""Spheres and cylinders fitted to points and found in surfaces."""
 
 from __future__ import annotations
 
@@ -76,3 +76,76 @@ def find_sphere(mesh: MeshLike, *, part: str = "head", smallest_radius_mm: float
     if mesh._first is not None:
         found["vertices"] = mesh._first[found["vertices"]]
     return SphereFit(**found)
+
+
+@dataclass(frozen=True)
+class CylinderFit:
+    """A cylinder and how well it fits; lengths in the unit of the points (mm).
+
+    Attributes
+    ----------
+    point : (3,) float64
+        On the axis, nearest the centroid of the points used.
+    direction : (3,) float64
+        Unit; of its two senses the one whose largest component is positive.
+    radius : float
+    rms_residual, largest_residual : float
+        Of the distance to the axis less the radius; the second is a magnitude.
+    vertices : (K,) uint32
+        Those used, ascending.
+    coverage : float
+        The share of a turn about the axis in which there are points.
+    direction_bound_deg, axis_bound : float or None
+        95 % of fits to resampled parts have their direction, and their axis beside `point`, within; given by
+        :func:`find_cylinder`.
+    """
+
+    point: NDArray[np.float64]
+    direction: NDArray[np.float64]
+    radius: float
+    rms_residual: float
+    largest_residual: float
+    vertices: NDArray[np.uint32]
+    coverage: float
+    direction_bound_deg: Optional[float]
+    axis_bound: Optional[float]
+
+    def __repr__(self) -> str:
+        point, direction = (", ".join(f"{value:.6g}" for value in each) for each in (self.point, self.direction))
+        return (f"CylinderFit(axis through ({point}) along ({direction}), radius {self.radius:.6g}, "
+                f"rms residual {self.rms_residual:.3g}, {len(self.vertices)} points)")
+
+
+def fit_cylinder(points: Any, point: Any, direction: Any, radius: float) -> CylinderFit:
+    """The cylinder near a first one that has the smallest sum of squared distances to (N, 3) points.
+
+    `point` (3,) on the first one's axis, `direction` (3,) of any length but zero, `radius` above 0. MeshError where the
+    points leave it open: fewer than five, or all on one line or plane.
+
+    C++: `condyle::fit_cylinder` in condyle/fit.hpp.
+
+    >>> turn = np.linspace(0, 6, 30)
+    >>> fit = fit_cylinder(np.column_stack([2 * np.cos(turn), 2 * np.sin(turn), turn]), [0.1, 0, 0], [0, 0.1, 1], 1.8)
+    >>> (fit.direction.round(9) + 0.0).tolist(), round(fit.radius, 9)
+    ([0.0, 0.0, 1.0], 2.0)
+    """
+    return CylinderFit(**_native.fit_cylinder(points, point, direction, number(radius, "radius", low=0)))
+
+
+def find_cylinder(mesh: MeshLike, *, smallest_radius_mm: float = 5, largest_radius_mm: float = 45,
+                  within: Optional[tuple[Any, float]] = None) -> CylinderFit:
+    """The cylindrical part of a surface with most area for its radius squared, fitted only to that part.
+
+    On a whole long bone that is its shaft: limit the search to the ball `within`, (centre, radius_mm), to get condyles.
+    MeshError where no part of the surface is cylindrical, or its parts do not agree on a direction within 15 degrees.
+
+    C++: `condyle::find_cylinder` in condyle/fit.hpp.
+    """
+    mesh = TriMesh.of(mesh)
+    smallest = number(smallest_radius_mm, "smallest_radius_mm", low=0)
+    largest = number(largest_radius_mm, "largest_radius_mm", low=smallest)
+    centre, radius = (None, 0.0) if within is None else ball(within, "within")
+    found = _native.find_cylinder(mesh._native, smallest, largest, centre, radius)
+    if mesh._first is not None:
+        found["vertices"] = mesh._first[found["vertices"]]
+    return CylinderFit(**found)

@@ -17,8 +17,10 @@ from ._joint_description import description_of
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._motion import MotionLike
+from ._motion_contact import FrameContact, contact_along
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
+from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import normal_contact
@@ -29,13 +31,17 @@ PoseLike = Union[ArrayLike, Mapping[str, float]]
 
 @dataclass(frozen=True)
 class BodyPart:
-    """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many."""
+    """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many.
+
+    `is_bearing`: it slides on the other body, as cartilage does.
+    """
 
     name: str
     first_vertex: int
     vertices: int
     first_triangle: int
     triangles: int
+    is_bearing: bool
 
 
 @dataclass(frozen=True)
@@ -177,6 +183,14 @@ class Joint:
     def mobile_parts(self) -> tuple[BodyPart, ...]:
         """Those of the mobile body."""
         return tuple(BodyPart(*part) for part in self._native.mobile_parts)
+
+    def part(self, name: str, body: str = "mobile") -> TriMesh:
+        """The mesh of one part of a body, in that body's frame. UsageError with the names there are.
+
+        C++: `condyle::mesh_of_part` in condyle/joint.hpp.
+        """
+        is_fixed = word(body, "body", ("mobile", "fixed")) == "fixed"
+        return TriMesh._of_native(self._native.part(is_fixed, text_of(name, "name")))
 
     @property
     def translation_frame(self) -> str:
@@ -387,6 +401,24 @@ class Joint:
         True
         """
         return normal_contact(self, pose, casting, rule, reach_mm, progress)
+
+    def contact_along(self, poses: ArrayLike, surfaces: Optional[ElasticContact] = None, *, casting: str = "mobile",
+                      rule: str = "cut_faces", reach_mm: float = 20, progress: Progress = None
+                      ) -> list[Optional[FrameContact]]:
+        """Contact in each frame of a motion, (N, 4, 4) poses, on all threads; None for those of NaN, gaps.
+
+        With `surfaces` their pressure, and their own casting, rule and reach; else depths along normals as
+        :meth:`normal_contact` has them, one body casting.
+
+        C++: `condyle::contact_along` in condyle/motion_contact.hpp; `condyle motion`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(scenario=1)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> [frame.in_contact for frame in joint.contact_along(joint.pose(flexion_deg=[0, 145]))]
+        [False, True]
+        """
+        return contact_along(self, poses, surfaces, casting, rule, reach_mm, progress)
 
     def motion(self, path: Path) -> JointMotion:
         """The recorded motion of a file, by the joint file's [recorded_motion] or columns such as flexion_deg, x_mm.

@@ -185,8 +185,11 @@ class RangeOfMotion:
 
     @property
     def bearing(self) -> Optional[Mapping[str, Any]]:
-        """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `margin_mm`, `rim_gap_mm`, `triangles`
-        (T,)."""
+        """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `rim_gap_mm`, `triangles` (T,) uint8.
+
+        Told by `margin_mm` around the head; or by `parts`, names of meshes that are called bearing, and then the margin
+        is None.
+        """
         found: Optional[Mapping[str, Any]] = self._native.bearing
         return found
 

@@ -1,9 +1,9 @@
-"""Depth along normals, pressure and loads of surfaces in contact."""
+"""Faces of surfaces in contact, with depths along their normals."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional, Union
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Optional, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,7 @@ from . import _native
 from ._answer import Columns, html_of
 from ._errors import UsageError
 from ._mesh import MeshLike, TriMesh
-from ._words import Progress, array, number, progress_of, word
+from ._words import Progress, number, progress_of, word
 
 if TYPE_CHECKING:
     from ._joint import Joint, PoseLike
@@ -69,6 +69,7 @@ class SurfaceContact(Columns):
     totals: ContactTotals
     met_from_front: int
     rim_faces: int
+    _faces: Optional[_native.ContactFaces] = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.face)
@@ -83,6 +84,34 @@ class SurfaceContact(Columns):
         """(K,) mean over each face's part in contact."""
         return self.load_n / self.area_mm2
 
+    def within(self, *region: tuple[ArrayLike, float]) -> SurfaceContact:
+        """The faces whose centre is in all half-spaces, and what they add up to: a compartment, say.
+
+        Each is (normal, offset_mm): the points p with normal.p > offset_mm in the casting body's frame. Numbers of
+        rays and of rim faces stay those of the whole. UsageError for copies, which know no mesh.
+
+        C++: `condyle::faces_within` and `totals_of` in condyle/normal_depth.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> faces = joint.normal_contact({"flexion_deg": 140}, casting="fixed").fixed
+        >>> anterior = faces.within(([1, 0, 0], 0.0))
+        >>> 0 < len(anterior) <= len(faces)
+        True
+        """
+        if self._faces is None:
+            raise UsageError("within: for faces as the joint gave them, not for a copy of them")
+        checked = [_half_space(each) for each in region]
+        found = self._faces.within(checked)
+        found["met_from_front"], found["rim_faces"] = self.met_from_front, self.rim_faces
+        part = surface_of(found)
+        assert part is not None
+        return part
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_faces": None}  # columns are copied and pickled, the mesh they are of is not
+
     def __repr__(self) -> str:
         pressure = self.totals.max_pressure_mpa
         loaded = f", up to {pressure:.6g} MPa" if pressure else ""
@@ -90,6 +119,12 @@ class SurfaceContact(Columns):
                 f"{self.totals.max_depth_mm:.6g} mm{loaded})")
 
     _dimension = "face_in_contact"
+
+
+def _half_space(given: Any) -> tuple[Any, float]:
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise UsageError(f"region: a normal and an offset are needed, not {type(given).__name__}")
+    return given[0], number(given[1], "region")
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,200 +139,11 @@ class NormalContact:
                                                  ("mobile casts", repr(self.mobile))])
 
 
-@dataclass(frozen=True)
-class ElasticLayer:
-    """A layer on a body: Young's modulus above 0, Poisson's ratio above -1 and below 0.5, thickness above 0.
-
-    `thickness_mm` is one number, or one for each vertex of the layer's mesh, (V,).
-    """
-
-    youngs_modulus_mpa: float
-    poisson_ratio: float
-    thickness_mm: Union[float, NDArray[np.float64]]
-
-    def _checked(self, mesh: TriMesh) -> dict[str, Any]:
-        thickness: Any = self.thickness_mm
-        if not isinstance(thickness, (list, tuple)) and getattr(thickness, "ndim", 0) == 0:
-            thickness = number(thickness, "thickness_mm")
-        elif mesh._first is not None:
-            thickness = array(thickness, "thickness_mm", "a number for each vertex")
-            if thickness.shape != mesh.vertices.shape[:1]:
-                raise UsageError(f"thickness_mm: an array of shape ({len(mesh.vertices)},) is needed")
-            thickness = thickness[mesh._first]
-        return {"youngs_modulus_mpa": number(self.youngs_modulus_mpa, "youngs_modulus_mpa"),
-                "poisson_ratio": number(self.poisson_ratio, "poisson_ratio"), "thickness_mm": thickness}
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class ElasticContactResults:
-    """What one pose shows.
-
-    `fixed` and `mobile` are the :class:`SurfaceContact` of those that cast; `force_n` and `moment_nmm` (3,) what the
-    fixed body exerts on the mobile one, in F, about the origin of M; `energy_nmm` stored in the layers.
-    """
-
-    fixed: Optional[SurfaceContact]
-    mobile: Optional[SurfaceContact]
-    force_n: NDArray[np.float64]
-    moment_nmm: NDArray[np.float64]
-    energy_nmm: float
-
-    def __repr__(self) -> str:
-        return (f"ElasticContactResults(force {np.linalg.norm(self.force_n):.6g} N, energy {self.energy_nmm:.6g} N mm; "
-                f"fixed={self.fixed!r}, mobile={self.mobile!r})")
-
-
-@dataclass(frozen=True, eq=False)
-class BalancedPose:
-    """The pose in which the contact carries a load, or why there is none.
-
-    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and next to `X_FM` the force jumps over
-    what is left), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
-    there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
-    `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose.
-    """
-
-    outcome: str
-    reason: str
-    X_FM: NDArray[np.float64]
-    residual_force_n: NDArray[np.float64]
-    residual_moment_nmm: NDArray[np.float64]
-    steps: int
-    contact: ElasticContactResults
-
-    @property
-    def carries_load(self) -> bool:
-        """Whether the contact carries the load at `X_FM`: balanced, unstable, or at a jump up to the residual."""
-        return self.outcome in ("balanced", "unstable", "at_jump")
-
-
-class ElasticContact:
-    """Two surfaces with their layers, ready to be asked at any pose. Any number of threads may ask.
-
-    Parameters
-    ----------
-    fixed, mobile : mesh
-        Surfaces in their bodies' frames, mm; open ones too.
-    fixed_layer, mobile_layer : ElasticLayer, optional
-        At least one; a body without one is rigid.
-    casting : "both", "fixed" or "mobile"
-        Whose surface is cast along its normals; with "both" the load is the mean of the two.
-    rule : "cut_faces" or "face_centre"
-    reach_mm : float
-        How far rays go.
-    law : "linear" or "logarithmic"
-
-    C++: `condyle::ElasticContact` in condyle/pressure.hpp; `condyle load`.
-
-    >>> import condyle
-    >>> layers = condyle.sample_cartilages(clearance_mm=0)
-    >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral,
-    ...                                  mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
-    >>> pressed = contact.balance([0, 800, 0])
-    >>> pressed.outcome, (pressed.contact.force_n.round(3) + 0.0).tolist()
-    ('balanced', [0.0, -800.0, 0.0])
-    """
-
-    __slots__ = ("_native", "_fixed", "_mobile", "__weakref__")
-
-    def __init__(self, fixed: MeshLike, mobile: MeshLike, *, fixed_layer: Optional[ElasticLayer] = None,
-                 mobile_layer: Optional[ElasticLayer] = None, casting: str = "both", rule: str = "cut_faces",
-                 reach_mm: float = 20, law: str = "linear") -> None:
-        self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
-        for layer, what in ((fixed_layer, "fixed_layer"), (mobile_layer, "mobile_layer")):
-            if layer is not None and not isinstance(layer, ElasticLayer):
-                raise UsageError(f"{what}: an ElasticLayer is needed, not {type(layer).__name__}")
-        self._native = _native.ElasticContact(
-            self._fixed._native, self._mobile._native,
-            None if fixed_layer is None else fixed_layer._checked(self._fixed),
-            None if mobile_layer is None else mobile_layer._checked(self._mobile),
-            word(casting, "casting", ("both", "fixed", "mobile")), word(rule, "rule", ("cut_faces", "face_centre")),
-            number(reach_mm, "reach_mm"), word(law, "law", ("linear", "logarithmic")) == "logarithmic")
-
-    @classmethod
-    def of_file(cls, joint: Joint) -> ElasticContact:
-        """With the surfaces, layers and rays that the table [contact] of the joint's file says."""
-        native = _native.elastic_of_file(joint._native)
-        if native is None:
-            raise UsageError("joint: its file has no table [contact]")
-        contact = cls.__new__(cls)
-        contact._native = native
-        contact._fixed, contact._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
-        return contact
-
-    def at(self, pose: ArrayLike, *, progress: Progress = None) -> Any:
-        """:class:`ElasticContactResults` of X_FM, (4, 4); of (N, 4, 4) a list of N.
-
-        MeshError with the logarithmic law where the overlap reaches the thickness.
-        """
-        is_one, found = self._native.at(pose, progress_of(progress))
-        results = [results_of(each) for each in found]
-        return results[0] if is_one else results
-
-    def balance(self, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0), start: Optional[ArrayLike] = None,
-                frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False) -> BalancedPose:
-        """The pose near `start` (the identity if not given) in which the contact carries a load on the mobile body.
-
-        `force_n` and `moment_nmm` about the origin of M are held in F, or with `frame="mobile"` go along with M.
-        Directions (K, 3) in F along which the body may be translated, all if none are given; with `free_rotations` its
-        rotations are unknowns too. UsageError where the load is zero along what is free.
-
-        C++: `condyle::balance` in condyle/load_balance.hpp.
-        """
-        return _balanced(self._native.balance(
-            np.eye(4) if start is None else start, force_n, moment_nmm,
-            word(frame, "frame", ("fixed", "mobile")) == "mobile", _directions(free_directions),
-            bool(free_rotations)))
-
-    def balance_along(self, poses: ArrayLike, force_n: ArrayLike, *, moment_nmm: Optional[ArrayLike] = None,
-                      frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
-                      progress: Progress = None) -> list[BalancedPose]:
-        """The poses that balance a load, frame after frame of a motion, (N, 4, 4).
-
-        Rotations are the given ones; each frame starts from its translation as the last frame that carries its load has
-        moved its own. `force_n` and `moment_nmm` (3,) for all frames, or (N, 3) one for each; the rest as
-        :meth:`balance` takes it. UsageError where there are neither one nor N loads.
-
-        C++: `condyle::balance_along` in condyle/motion_contact.hpp.
-        """
-        forces = _rows(force_n, "force_n")
-        moments = np.zeros_like(forces, dtype=np.float64) if moment_nmm is None else _rows(moment_nmm, "moment_nmm")
-        return [_balanced(found) for found in self._native.balance_along(
-            poses, forces, moments, word(frame, "frame", ("fixed", "mobile")) == "mobile",
-            _directions(free_directions), bool(free_rotations), progress_of(progress))]
-
-    def __repr__(self) -> str:
-        return f"ElasticContact(fixed={self._fixed!r}, mobile={self._mobile!r})"
-
-
-def _rows(given: ArrayLike, name: str) -> NDArray[Any]:
-    try:
-        rows: NDArray[Any] = np.atleast_2d(np.asarray(given))
-        return rows
-    except ValueError:
-        raise UsageError(f"{name}: numbers of shape (3,) or (N, 3) are needed") from None
-
-
-def _directions(given: ArrayLike) -> ArrayLike:
-    return np.empty((0, 3)) if isinstance(given, (tuple, list)) and not given else given
-
-
-def _balanced(found: dict[str, Any]) -> BalancedPose:
-    found["residual_force_n"], found["residual_moment_nmm"] = found.pop("residual")
-    found["contact"] = results_of(found["contact"])
-    return BalancedPose(**found)
-
-
 def surface_of(found: Optional[dict[str, Any]]) -> Optional[SurfaceContact]:
     if found is None:
         return None
     found["totals"] = ContactTotals(**found["totals"])
     return SurfaceContact(**found)
-
-
-def results_of(found: dict[str, Any]) -> ElasticContactResults:
-    found["fixed"], found["mobile"] = surface_of(found["fixed"]), surface_of(found["mobile"])
-    return ElasticContactResults(**found)
 
 
 def normal_contact(joint: Joint, pose: PoseLike, casting: str, rule: str, reach_mm: float, progress: Progress) -> Any:

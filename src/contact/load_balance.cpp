@@ -241,6 +241,24 @@ bool BalancedPose::carries_load() const noexcept {
          outcome == BalanceOutcome::at_jump;
 }
 
+std::string_view name_of(BalanceOutcome outcome) noexcept {
+  switch (outcome) {
+    case BalanceOutcome::balanced:
+      return "balanced";
+    case BalanceOutcome::at_jump:
+      return "at_jump";
+    case BalanceOutcome::pulled_apart:
+      return "pulled_apart";
+    case BalanceOutcome::over_the_rim:
+      return "over_the_rim";
+    case BalanceOutcome::unstable:
+      return "unstable";
+    case BalanceOutcome::free_direction:
+      return "free_direction";
+  }
+  return "";
+}
+
 std::string reason_of(const BalancedPose& pose) {
   const Vec3& d = pose.direction;
   switch (pose.outcome) {

@@ -16,7 +16,8 @@
 /// What C++ answers at the poses of a file, as doubles, for the tests of the Python module to compare with:
 ///
 ///     python_reference JOINT POSES ANSWERS      POSES: 16 doubles each, row by row
-///     python_reference --times JOINT POSES      median seconds of all poses, and of one with the bodies apart
+///     python_reference --times JOINT POSES      median seconds of all poses, one after the other on one core, without and with
+///                                               keeping the answers, and of one pose with the bodies apart
 ///
 /// For each pose, each list with its length before it: vertices and depths of the mobile body, of the fixed body, pairs; and
 /// at every tenth pose the radial gaps of both bodies, their tangential gaps about flexion, and areas and depths of the faces
@@ -123,8 +124,15 @@ void print_times(const char* joint_file, const char* poses_file) {
   const double all = median_seconds(15, [&] {
     for (const Pose& X_FM : poses) ask(X_FM);
   });
+  std::vector<Penetrations> mobile(poses.size()), fixed(poses.size());
+  const double kept = median_seconds(15, [&] {
+    for (std::size_t n = 0; n < poses.size(); ++n) {
+      joint.mobile_in_fixed(poses[n], mobile[n]);
+      joint.fixed_in_mobile(poses[n], fixed[n]);
+    }
+  });
   const double apart = median_seconds(5000, [&] { ask(Pose::Identity()); });
-  std::printf("{\"poses_s\": %.9g, \"apart_s\": %.9g}\n", all, apart);
+  std::printf("{\"poses_s\": %.9g, \"kept_s\": %.9g, \"apart_s\": %.9g}\n", all, kept, apart);
 }
 
 }  // namespace

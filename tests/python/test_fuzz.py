@@ -186,3 +186,27 @@ def test_files_spheres_and_samples(path, number):
     refused_in_one_line(lambda: condyle.fit_sphere(path))
     refused_in_one_line(lambda: condyle.find_sphere(joint().mobile, within=path, smallest_radius_mm=number))
     refused_in_one_line(lambda: condyle.sample_hip(triangles=path, head_radius_mm=number))
+
+
+@fuzz
+@given(st.one_of(reals((9, 3)), points), st.one_of(reals(3), anything), st.one_of(reals(3), anything),
+       st.one_of(st.floats(0, 100), anything))
+def test_cylinders_and_clocks(given, point, direction, radius):
+    refused_in_one_line(lambda: condyle.fit_cylinder(given, point, direction, radius))
+    refused_in_one_line(lambda: condyle.find_cylinder(joint().mobile, within=(point, radius)))
+    refused_in_one_line(lambda: condyle.clock_face(direction).hour_of(given))
+    refused_in_one_line(lambda: condyle.neck_clock(direction).angle_deg_of(point))
+    refused_in_one_line(lambda: condyle.find_rim_clock(joint().fixed, (point, radius)))
+    refused_in_one_line(lambda: condyle.find_neck_axis(joint().mobile, radius))
+
+
+@fuzz
+@given(any_pose, st.one_of(reals(3), anything), st.one_of(reals(3), anything), st.one_of(numbers, anything),
+       st.one_of(reals(3), anything))
+def test_first_contacts_depths_and_frames(pose, point, direction, number, normal):
+    refused_in_one_line(lambda: condyle.FirstContact(joint().fixed, joint().mobile, point, direction).limits(
+        pose, positive_deg=number))
+    refused_in_one_line(lambda: condyle.DepthRange(joint(), number).deepest({"flexion": number}))
+    refused_in_one_line(lambda: joint().contact_along(pose, reach_mm=number))
+    faces = joint().normal_contact({"flexion_deg": 140}, casting="mobile").mobile
+    refused_in_one_line(lambda: faces.within((normal, number)))

@@ -1,5 +1,8 @@
 """What a joint says of itself, and slices of what many poses show."""
 
+import pickle
+import subprocess
+
 import numpy as np
 import pytest
 
@@ -50,4 +53,66 @@ def test_parts_of_a_body_are_told_by_name(layered):
     assert (bone.name, cartilage.name) == ("bone", "cartilage")
     assert bone.first_vertex == 0 and cartilage.first_vertex == bone.vertices == len(meshes["femur"].vertices)
     assert cartilage.triangles == len(meshes["cartilage"].triangles)
+    assert (bone.is_bearing, cartilage.is_bearing) == (False, True)
+    assert joint.part("cartilage") == meshes["cartilage"] and joint.part("bone", "mobile") == meshes["femur"]
+    with pytest.raises(condyle.UsageError, match="cartilage"):
+        joint.part("labrum")
     assert joint.translation_frame == "fixed"
+
+
+def test_a_bearing_surface_is_told_by_its_margin_or_by_parts_that_are_called_so(layered, hip):
+    joint, _ = layered
+    bearing = joint.range_of_motion([]).bearing
+    assert bearing["parts"] == ["cartilage"] and bearing["margin_mm"] is None
+    assert bearing["triangles"].sum() == joint.mobile_parts[1].triangles
+    plain = hip.range_of_motion([]).bearing
+    assert plain["parts"] == [] and plain["margin_mm"] > 0
+
+
+def test_a_joint_is_proposed_as_the_command_does(command, hip_file):
+    fixed, mobile, to = hip_file.parent / "hip_bone.ply", hip_file.parent / "femur.ply", hip_file.parent / "new.toml"
+    subprocess.run([command, "init", fixed, mobile, "--side", "right", "-o", to], check=True, capture_output=True)
+    proposal = condyle.propose_joint(fixed, mobile, to, side="right")
+    assert proposal.toml == to.read_text() and proposal.to_fill_in == ()
+    with pytest.raises(condyle.FileError, match="nowhere.stl"):
+        condyle.propose_joint("nowhere.stl", mobile, to)
+
+
+def test_frames_of_a_motion_show_what_their_poses_show(hip):
+    poses = hip.pose(flexion_deg=[0, 140, 0, 150])
+    poses[2] = np.nan
+    seen = []
+    frames = hip.contact_along(poses, progress=lambda *now: seen.append(now))
+    assert frames[2] is None and seen[-1] == (4, 4)
+    for n in (0, 1, 3):
+        alone = hip.normal_contact(poses[n], casting="mobile").mobile
+        np.testing.assert_array_equal(frames[n].surface.area_mm2, alone.area_mm2)
+        assert frames[n].surface.totals.max_depth_mm == alone.totals.max_depth_mm
+        assert frames[n].in_contact == hip.in_contact(poses[n])
+        assert frames[n].intersecting_pairs == len(hip.pairs(poses[n]))
+        assert frames[n].smallest_gap_mm == hip.contact_measures(poses[n]).smallest_gap_mm
+    with pytest.raises(condyle.UsageError, match="pose 1: the rotation is not orthonormal"):
+        hip.contact_along([np.eye(4), 2 * np.eye(4) - np.diag([0, 0, 0, 1])])
+
+
+def test_faces_within_a_region_and_outside_of_it_are_all(hip):
+    faces = hip.normal_contact({"flexion_deg": 145}, casting="fixed").fixed
+    centres = hip.fixed.vertices[hip.fixed.triangles[faces.face]].mean(axis=1)
+    offset = float(np.median(centres[:, 0]))
+    inner, outer = faces.within(([1, 0, 0], offset)), faces.within(([-1, 0, 0], -offset), ([0, 1, 0], -1e9))
+    assert set(inner.face) == set(faces.face[centres[:, 0] > offset]) and len(inner) > 0 < len(outer)
+    assert not set(inner.face) & set(outer.face)
+    assert inner.totals.area_mm2 == pytest.approx(inner.area_mm2.sum(), rel=1e-12)
+    np.testing.assert_array_equal(faces.within().overlap_mm3, faces.overlap_mm3)
+    for wrong in (3, ([1, 0], 0.0), ([1, 0, 0], "far")):
+        with pytest.raises(condyle.UsageError, match="region"):
+            faces.within(wrong)
+
+
+def test_faces_in_contact_are_copied_without_their_mesh(hip):
+    faces = hip.normal_contact({"flexion_deg": 145}, casting="fixed").fixed
+    copied = pickle.loads(pickle.dumps(faces))
+    np.testing.assert_array_equal(copied.area_mm2, faces.area_mm2)
+    assert copied.totals.area_mm2 == faces.totals.area_mm2
+    with pytest.raises(condyle.UsageError, match="not for a copy"):
+        copied.within(([1, 0, 0], 0.0))

@@ -159,6 +159,26 @@ def test_a_sphere_is_fitted_where_the_points_lie():
     assert fit.radius == pytest.approx(24, abs=1e-12)
 
 
+def test_a_cylinder_is_found_and_fitted_where_it_is():
+    turn, along = np.meshgrid(np.linspace(0, 2 * np.pi, 73)[:-1], np.linspace(-30, 30, 31))
+    points = np.column_stack([12 * np.cos(turn.ravel()), 12 * np.sin(turn.ravel()), along.ravel()]) + [1, 2, 3]
+    fit = condyle.fit_cylinder(points, [0, 0, 0], [0, 0.1, 2], 10)
+    np.testing.assert_allclose(fit.direction, [0, 0, 1], atol=1e-9)
+    np.testing.assert_allclose(fit.point, [1, 2, 3], atol=1e-9)
+    assert fit.radius == pytest.approx(12, abs=1e-9) and fit.coverage > 0.9 and fit.direction_bound_deg is None
+    corner = np.arange(72 * 30).reshape(30, 72)
+    right, up = (corner // 72) * 72 + (corner + 1) % 72, corner + 72
+    quads = np.stack([corner, right, right + 72, up], axis=-1).reshape(-1, 4)
+    tube = condyle.TriMesh(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+    found = condyle.find_cylinder(tube)
+    assert found.radius == pytest.approx(12, abs=0.05) and found.direction_bound_deg < 1
+    np.testing.assert_allclose(found.direction, [0, 0, 1], atol=0.01)
+    with pytest.raises(condyle.MeshError):
+        condyle.fit_cylinder(points[:4], [0, 0, 0], [0, 0, 1], 10)
+    with pytest.raises(condyle.UsageError, match="direction"):
+        condyle.fit_cylinder(points, [0, 0, 0], [0, 0, 0], 10)
+
+
 def test_the_head_of_the_sample_femur_is_found():
     fit = condyle.find_sphere(condyle.sample_hip(head_radius_mm=22).femur)
     # A vertex of the mesh lies on the head to rounding, the fit's patch may reach a little past it.

@@ -55,6 +55,46 @@ def test_frames_are_balanced_where_the_closed_form_says() -> None:
     assert [-pose.X_FM[1, 3] for pose in one_load] == pytest.approx([0.5, 0.5], abs=1e-9)
 
 
+def test_one_force_with_moments_of_each_frame_and_the_reverse_are_balanced() -> None:
+    contact, free = on_the_plane(), {"free_directions": [[0, 1, 0]]}
+    expected = contact.balance_along([lowered(0.1)] * 2, [[0, -300, 0]] * 2, moment_nmm=[[0, 0, 1]] * 2, **free)
+    for force, moment in (([0, -300, 0], [[0, 0, 1]] * 2), ([[0, -300, 0]] * 2, [0, 0, 1]),
+                          ([[0, -300, 0]], [0, 0, 1])):
+        found = contact.balance_along([lowered(0.1)] * 2, force, moment_nmm=moment, **free)
+        assert [pose.X_FM.tolist() for pose in found] == [pose.X_FM.tolist() for pose in expected]
+    with pytest.raises(condyle.UsageError, match="3 moments for 2 forces"):
+        contact.balance_along([lowered(0.1)] * 2, [[0, -300, 0]] * 2, moment_nmm=[[0, 0, 1]] * 3, **free)
+
+
+def test_gaps_of_a_motion_stay_gaps() -> None:
+    contact, free = on_the_plane(), {"free_directions": [[0, 1, 0]]}
+    gap = np.full((4, 4), np.nan)
+    found = contact.balance_along([lowered(0.1), gap, lowered(0.1)], [0, -300, 0], **free)
+    assert found[1] is None and [pose.outcome for pose in (found[0], found[2])] == ["balanced"] * 2
+    torn = lowered(0.1)
+    torn[0, 0] = np.nan
+    with pytest.raises(condyle.UsageError, match="pose 1: finite numbers are needed"):
+        contact.balance_along([lowered(0.1), torn], [0, -300, 0], **free)
+
+
+def test_a_search_for_balance_ends_where_its_options_say() -> None:
+    contact, free = on_the_plane(), {"free_directions": [[0, 1, 0]]}
+    near = contact.balance([0, -300, 0], start=lowered(-3), options=condyle.BalanceOptions(farthest_mm=1), **free)
+    assert near.outcome == "pulled_apart"
+    assert contact.balance([0, -300, 0], start=lowered(-3), **free).outcome == "balanced"
+    jump = on_the_plane(reach_mm=0.5)
+    strict = condyle.BalanceOptions(most_left_at_jump=0.001)
+    assert jump.balance([0, -303, 0], start=lowered(0.3), options=strict, **free).outcome == "over_the_rim"
+    for wrong in ({"farthest_mm": -1}, {"most_steps": 1.5}, {"most_left_at_jump": 2}):
+        with pytest.raises(condyle.UsageError):
+            contact.balance([0, -300, 0], options=condyle.BalanceOptions(**wrong), **free)
+
+
+def test_rays_cut_off_by_the_reach_are_counted() -> None:
+    assert on_the_plane().cut_off_by_reach(lowered(0.3)) == 0
+    assert on_the_plane(reach_mm=0.2).cut_off_by_reach(lowered(0.3)) > 0
+
+
 def test_a_load_that_no_pose_carries_is_told() -> None:
     pulled = on_the_plane().balance([0, 10, 0], start=lowered(0.1), free_directions=[[0, 1, 0]])
     assert pulled.outcome == "pulled_apart" and not pulled.carries_load and "pulls the bodies apart" in pulled.reason

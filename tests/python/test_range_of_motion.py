@@ -15,8 +15,14 @@ def rom(hip):
     return hip.range_of_motion()
 
 
-def test_limits_are_those_of_the_command(rom, command, hip_file):
-    said = json.loads(subprocess.run([command, "rom", hip_file, "--json"], check=True, capture_output=True).stdout)
+@pytest.fixture(scope="module")
+def said(command, hip_file):
+    """What the command says of all motions, hours on the clock of the rim."""
+    return json.loads(subprocess.run([command, "rom", hip_file, "--clock", "rim", "--json"], check=True,
+                                     capture_output=True).stdout)
+
+
+def test_limits_are_those_of_the_command(rom, said):
     assert len(said["motions"]) == len(rom.limits) == 12
     for theirs, ours in zip(said["motions"], rom.limits):
         assert theirs["name"] == ours.motion.name
@@ -131,7 +137,8 @@ def test_soups_give_the_limits_and_features_of_the_joined_mesh(hip):
 
 def test_areas_of_rows_add_up_to_the_volume(rom):
     found = rom.map({"flexion": (0, 60, 30)}, {"adduction": (-20, 20, 20)})
-    np.testing.assert_allclose(found.row_area_deg2, np.trapz(found.free_width_deg, found.column_deg, axis=1), rtol=1e-12)
+    np.testing.assert_allclose(found.row_area_deg2, np.trapz(found.free_width_deg, found.column_deg, axis=1),
+                               rtol=1e-12)
     assert np.trapz(found.row_area_deg2, found.row_deg) == pytest.approx(found.free_volume_deg3, rel=1e-12)
 
 
@@ -142,3 +149,55 @@ def test_what_touches_in_the_reference_pose_is_left_out_by_number(hip):
     pairs = bones.pairs(bones.pose())
     assert (fixed, mobile) == (len(set(pairs[:, 0])), len(set(pairs[:, 1]))) and fixed > 0
     assert hip.range_of_motion([]).left_out == (0, 0)
+
+
+def test_hours_on_the_clock_are_those_of_the_command(hip, rom, said):
+    bearing = rom.bearing
+    rim = condyle.find_rim_clock(hip.fixed, (bearing["head_centre"], bearing["head_radius_mm"]))
+    assert said["clock_plane"] == "rim"
+    touching = [(theirs, ours) for theirs, ours in zip(said["motions"], rom) if theirs["clock_hour"] is not None]
+    assert len(touching) > 5
+    for theirs, ours in touching:
+        assert theirs["clock_hour"] == rim.hour_of(ours.contact.fixed_point)
+
+
+def test_clock_faces_have_twelve_up_and_three_in_front(hip, rom):
+    face = condyle.clock_face([0, 0, -2])
+    assert (face.twelve.tolist(), face.three.tolist()) == ([0, 1, 0], [1, 0, 0])
+    sagittal = condyle.sagittal_clock()
+    around = [[0, 1, 0], [1, 0, 0], [0, -1, 0], [-1, 0, 0]]
+    assert sagittal.hour_of(around).tolist() == [0, 3, 6, 9] and sagittal.angle_deg_of(around[3]) == 270
+    axis = condyle.find_neck_axis(hip.mobile, rom.bearing["head_radius_mm"])
+    assert np.linalg.norm(axis) == pytest.approx(1, abs=1e-12) and axis[1] < 0, "the neck goes down from the head"
+    assert abs(condyle.neck_clock(axis).three @ axis) < 1e-12
+    assert condyle.find_neck_axis(hip.fixed, 1e-3) is None
+    with pytest.raises(condyle.UsageError):
+        condyle.clock_face([0, 1, 0])
+
+
+def test_depth_limits_are_those_of_the_command(hip, command, hip_file):
+    said = json.loads(subprocess.run([command, "rom", hip_file, "--motion", "flexion", "--allow-depth", "1", "--json"],
+                                     check=True, capture_output=True).stdout)
+    allowed = condyle.DepthRange(hip, 1.0)
+    seen = []
+    deep, = allowed.limits(["flexion"], progress=lambda *now: seen.append(now))
+    assert deep.limit.turned_deg == said["motions"][0]["limit_deg"] and seen == [(1, 1)]
+    assert 0 < deep.at_limit.depth_mm <= 1 and deep.start_depth_mm == 0
+    at = allowed.deepest({"flexion": deep.limit.turned_deg})
+    assert at.depth_mm == deep.at_limit.depth_mm == hip.penetration({"flexion_deg": deep.limit.turned_deg}).max_depth_mm
+    for wrong in ({"allowed_depth_mm": -1}, {"allowed_depth_mm": 1, "step_deg": 0}, {"allowed_depth_mm": "deep"}):
+        with pytest.raises(condyle.UsageError):
+            condyle.DepthRange(hip, **wrong)
+
+
+def test_first_contact_about_the_axis_of_flexion_is_the_limit_of_flexion(hip):
+    counted = hip.range_of_motion(["flexion", "extension"], bearing="count")
+    found = condyle.FirstContact(hip.fixed, hip.mobile, [0, 0, 0], [0, 0, 1])
+    limits = found.limits()
+    assert limits.free_at_start
+    assert limits.positive.turned_deg == counted["flexion"].turned_deg
+    assert found.limits(positive_deg=10).positive.reason == "end_of_range"
+    assert not found.limits(hip.pose(flexion_deg=145)).free_at_start
+    for pose, degrees in ((np.eye(3), 10), (np.eye(4), 400), ([np.eye(4)] * 2, 10)):
+        with pytest.raises(condyle.UsageError):
+            found.limits(pose, positive_deg=degrees)

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/io/contact_entry.hpp"
@@ -36,6 +37,9 @@ struct MotionAnswer {
   /// Contact between the samples too, where that was asked for; samples are numbered as the frames.
   std::optional<RecordedContact> between = {};
 };
+
+/// "exact", "bounded", "recording".
+std::string_view name_of(ContactEndKind kind) noexcept;
 
 /// contact_between() over frames with gaps: each run of frames without one is a recording of its own. Empty where it was
 /// stopped. UsageError where times are not in seconds.

@@ -40,23 +40,6 @@ std::string_view name_of(FaceRule rule) noexcept {
 std::string_view name_of(PressureLaw law) noexcept {
   return law == PressureLaw::linear ? "linear" : "logarithmic";
 }
-std::string_view name_of(BalanceOutcome outcome) noexcept {
-  switch (outcome) {
-    case BalanceOutcome::balanced:
-      return "balanced";
-    case BalanceOutcome::at_jump:
-      return "at_jump";
-    case BalanceOutcome::pulled_apart:
-      return "pulled_apart";
-    case BalanceOutcome::over_the_rim:
-      return "over_the_rim";
-    case BalanceOutcome::unstable:
-      return "unstable";
-    case BalanceOutcome::free_direction:
-      return "free_direction";
-  }
-  return "";
-}
 
 Json contact_terms(const ContactEntry& entry, bool with_pressure) {
   Json json{{"casting", name_of(entry.casting)},

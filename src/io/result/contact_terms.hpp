@@ -3,7 +3,6 @@
 #include <string>
 
 #include "condyle/io/contact_entry.hpp"
-#include "condyle/load_balance.hpp"
 #include "io/result/json.hpp"
 
 /// What depths and pressures of surfaces in contact rest on, as every answer says it.
@@ -18,12 +17,12 @@ inline constexpr const char* foundation_note =
 std::string_view name_of(Casting casting) noexcept;
 std::string_view name_of(FaceRule rule) noexcept;
 std::string_view name_of(PressureLaw law) noexcept;
-std::string_view name_of(BalanceOutcome outcome) noexcept;
 
 /// casting, rule, reach, and with pressure law, layers and whose moment is told.
 Json contact_terms(const ContactEntry& entry, bool with_pressure);
 /// The same as one line.
-std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces, bool with_pressure);
+std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
+                               bool with_pressure);
 
 Json totals_json(const ContactTotals& totals, bool with_pressure);
 

@@ -112,7 +112,7 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
                     answer.X_FM.matrix()(r, 3)});
   json["X_FM"] = std::move(rows);
   if (answer.balanced) {
-    json["balance"] = {{"outcome", io::name_of(answer.balanced->outcome)},
+    json["balance"] = {{"outcome", name_of(answer.balanced->outcome)},
                        {"reason", reason_of(*answer.balanced)},
                        {"steps", answer.balanced->steps},
                        {"load", wrench_json(question.load->on_mobile)},

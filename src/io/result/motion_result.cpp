@@ -53,10 +53,6 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
   return summary;
 }
 
-const char* name_of(ContactEndKind kind) {
-  return kind == ContactEndKind::exact ? "exact" : kind == ContactEndKind::bounded ? "bounded" : "recording";
-}
-
 Json end_json(const ContactEnd& end) {
   return {{"time_s", end.time_s},
           {"kind", name_of(end.kind)},
@@ -102,6 +98,10 @@ std::string between_text(const RecordedContact& between) {
 }
 
 }  // namespace
+
+std::string_view name_of(ContactEndKind kind) noexcept {
+  return kind == ContactEndKind::exact ? "exact" : kind == ContactEndKind::bounded ? "bounded" : "recording";
+}
 
 std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const JointMotion& motion,
                                                       const RecordedContactControl& control) {
@@ -204,7 +204,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
     for (std::size_t i = 0; i < answer.balanced.size(); ++i)
       if (answer.balanced[i] && answer.balanced[i]->outcome != BalanceOutcome::balanced)
         without.push_back({{axis, times.values[i]},
-                           {"outcome", io::name_of(answer.balanced[i]->outcome)},
+                           {"outcome", name_of(answer.balanced[i]->outcome)},
                            {"carries_load", answer.balanced[i]->carries_load()},
                            {"reason", reason_of(*answer.balanced[i])}});
     json["without_balance"] = without;

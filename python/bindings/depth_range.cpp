@@ -1,0 +1,67 @@
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/depth_limit.hpp"
+#include "interrupts.hpp"
+#include "motion.hpp"
+
+namespace condyle::python {
+namespace {
+
+std::unique_ptr<DepthRange> depth_range(const JointHandle& handle, double depth_mm, double step_deg,
+                                        double tolerance_deg) {
+  const AllowedDepth allowed{depth_mm, Angle::degrees(step_deg), Angle::degrees(tolerance_deg)};
+  const py::gil_scoped_release released;
+  return std::make_unique<DepthRange>(handle.joint(), allowed);
+}
+
+py::dict place_dict(const DeepestPlace& place) {
+  py::dict dict;
+  dict["depth_mm"] = place.depth_mm;
+  dict["contact"] = dict_of(place.contact);
+  dict["ray_to_normal_deg"] = place.ray_to_normal.degrees();
+  return dict;
+}
+
+py::dict deepest(const DepthRange& range, const py::object& angles_deg) {
+  const JointAngles at = angles_in(angles_deg, "angles");
+  return place_dict([&] {
+    const py::gil_scoped_release released;
+    return range.deepest(at);
+  }());
+}
+
+py::list limits(const DepthRange& range, const py::list& given, const py::object& progress) {
+  const std::vector<Motion> motions = motions_in(given);
+  const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    std::vector<DepthLimit> done;
+    for (const Motion& motion : motions) {
+      if (stop.stop_requested()) break;
+      done.push_back(range.limit(motion));
+      report(done.size(), motions.size());
+    }
+    return done;
+  });
+  py::list list;
+  for (const DepthLimit& limit : found) {
+    py::dict dict;
+    dict["limit"] = dict_of(limit.limit);
+    dict["at_limit"] = place_dict(limit.at_limit);
+    dict["start_depth_mm"] = limit.start_depth_mm;
+    dict["depth_grows"] = limit.depth_grows;
+    list.append(dict);
+  }
+  return list;
+}
+
+}  // namespace
+
+void bind_depth_range(py::module_& module) {
+  py::class_<DepthRange>(module, "DepthRange")
+      .def(py::init(&depth_range))
+      .def("deepest", &deepest)
+      .def("limits", &limits);
+}
+
+}  // namespace condyle::python

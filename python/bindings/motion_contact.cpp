@@ -1,0 +1,124 @@
+#include "condyle/motion_contact.hpp"
+
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "interrupts.hpp"
+#include "joint.hpp"
+#include "mesh/require_solid.hpp"
+#include "surface_contact.hpp"
+
+/// Poses that balance loads, and contact along a motion.
+
+namespace condyle::python {
+namespace {
+
+py::dict balance_dict(BalancedPose&& found, const ElasticContact& surfaces) {
+  py::dict dict;
+  dict["outcome"] = name_of(found.outcome);
+  dict["reason"] = reason_of(found);
+  dict["X_FM"] = array_of(found.X_FM);
+  dict["residual"] = tuple_of(found.residual);
+  dict["steps"] = found.steps;
+  dict["contact"] = dict_of(std::move(found.contact), surfaces);
+  return dict;
+}
+
+BalanceOptions options_in(const py::dict& given) {
+  BalanceOptions options{.free_rotations = given["free_rotations"].cast<bool>(),
+                         .force_tolerance_n = given["force_tolerance_n"].cast<double>(),
+                         .moment_tolerance_nmm = given["moment_tolerance_nmm"].cast<double>(),
+                         .farthest_mm = given["farthest_mm"].cast<double>(),
+                         .most_steps = given["most_steps"].cast<int>(),
+                         .most_left_at_jump = given["most_left_at_jump"].cast<double>()};
+  const PointsIn directions(given["free_directions"], "free_directions");
+  for (std::size_t i = 0; i < directions.size(); ++i) options.free_directions.push_back(directions.view()[i]);
+  return options;
+}
+
+BodyRole frame_in(const py::dict& given) {
+  return given["goes_along"].cast<bool>() ? BodyRole::mobile : BodyRole::fixed;
+}
+
+py::dict balanced(const ElasticContact& surfaces, const py::object& start, const py::object& force_n,
+                  const py::object& moment_nmm, const py::dict& given) {
+  const Pose X_FM = one_pose(start, "start");
+  const Load load{{vector_in(force_n, "force_n"), vector_in(moment_nmm, "moment_nmm")}, frame_in(given)};
+  const BalanceOptions options = options_in(given);
+  BalancedPose found = [&] {
+    const py::gil_scoped_release released;
+    return balance(surfaces, X_FM, load, options);
+  }();
+  return balance_dict(std::move(found), surfaces);
+}
+
+/// Forces and moments have a row for all frames, or one for each; None for gaps.
+py::list balanced_along(const ElasticContact& surfaces, const py::object& poses, const py::object& force_n,
+                        const py::object& moment_nmm, const py::dict& given, const py::object& progress) {
+  const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
+  const PointsIn forces(force_n, "force_n"), moments(moment_nmm, "moment_nmm");
+  std::vector<Load> loads;
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    loads.push_back({{forces.view()[i], moments.view()[i]}, frame_in(given)});
+  const BalanceOptions options = options_in(given);
+  auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return balance_along(surfaces, X_FM, loads, options, {.progress = report, .stop = stop});
+  });
+  py::list answers;
+  for (std::optional<BalancedPose>& pose : *found)
+    answers.append(pose ? py::object(balance_dict(std::move(*pose), surfaces)) : py::none());
+  return answers;
+}
+
+/// Frames of a motion with the surfaces of an ElasticContact, or else of rays that `casting` sends; None for gaps.
+py::list along(const JointHandle& handle, const py::object& poses, const ElasticContact* elastic,
+               const std::string& casting, const std::string& rule, double reach_mm,
+               const py::object& progress) {
+  const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
+  const Mesh &fixed = handle.contact.fixed(), &mobile = handle.contact.mobile();
+  const bool fixed_casts = casting_in(casting) == Casting::fixed;
+  const NormalDepthOptions rays = elastic ? elastic->options().rays : rays_in(rule, reach_mm);
+  const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    std::optional<NormalDepth> depths;
+    if (!elastic) {
+      mesh::require_oriented(fixed, handle.joint().fixed.name);
+      mesh::require_oriented(mobile, handle.joint().mobile.name);
+      depths.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, rays);
+    }
+    const SurfaceQuestion question = elastic ? SurfaceQuestion(elastic) : SurfaceQuestion(&*depths);
+    return contact_along(
+        handle.contact, question, X_FM,
+        {.casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile, .progress = report, .stop = stop});
+  });
+  const bool casts_fixed = elastic ? elastic->options().casting == Casting::fixed : fixed_casts;
+  const Mesh& caster =
+      elastic ? (casts_fixed ? elastic->fixed() : elastic->mobile()) : (casts_fixed ? fixed : mobile);
+  py::list answers;
+  for (const std::optional<FrameContact>& frame : *found) {
+    if (!frame) {
+      answers.append(py::none());
+      continue;
+    }
+    py::dict dict;
+    dict["X_FM"] = array_of(frame->X_FM);
+    dict["in_contact"] = frame->in_contact;
+    dict["intersecting_pairs"] = frame->intersecting_pairs;
+    dict["smallest_gap_mm"] = frame->smallest_gap_mm;
+    dict["surface"] = dict_of(SurfaceContact(frame->surface), caster, rays.rule);
+    dict["force_n"] = array_of(frame->on_mobile.force_n);
+    dict["moment_nmm"] = array_of(frame->on_mobile.moment_nmm);
+    answers.append(dict);
+  }
+  return answers;
+}
+
+}  // namespace
+
+void bind_motion_contact(py::module_& module) {
+  module.def("balance", &balanced);
+  module.def("balance_along", &balanced_along);
+  module.def("contact_along", &along);
+}
+
+}  // namespace condyle::python

@@ -1,0 +1,63 @@
+"""Contact in every frame of a motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._errors import UsageError
+from ._pressure import ElasticContact
+from ._surface_contact import SurfaceContact, surface_of
+from ._words import Progress, number, progress_of, word
+
+if TYPE_CHECKING:
+    from ._joint import Joint
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FrameContact:
+    """Contact of one frame.
+
+    Attributes
+    ----------
+    X_FM : (4, 4) float64
+    in_contact : bool
+        The surfaces meet, or one body is inside the other.
+    intersecting_pairs : int
+        Pairs of triangles that meet.
+    smallest_gap_mm : float
+        Between the surfaces; 0 where they meet.
+    surface : SurfaceContact
+        Of the surface that casts, in its body's frame: the mobile one's where both are cast.
+    force_n, moment_nmm : (3,) float64
+        By the fixed body on the mobile one, in F, about the origin of M; 0 where no pressure was asked for.
+    """
+
+    X_FM: NDArray[np.float64]
+    in_contact: bool
+    intersecting_pairs: int
+    smallest_gap_mm: float
+    surface: SurfaceContact
+    force_n: NDArray[np.float64]
+    moment_nmm: NDArray[np.float64]
+
+    def __repr__(self) -> str:
+        return f"FrameContact({'in contact' if self.in_contact else 'apart'}; {self.surface!r})"
+
+
+def contact_along(joint: Joint, poses: ArrayLike, surfaces: Optional[ElasticContact], casting: str, rule: str,
+                  reach_mm: float, progress: Progress) -> list[Optional[FrameContact]]:
+    if surfaces is not None and not isinstance(surfaces, ElasticContact):
+        raise UsageError(f"surfaces: an ElasticContact is needed, not {type(surfaces).__name__}")
+    found = _native.contact_along(
+        joint._native, poses, None if surfaces is None else surfaces._native,
+        word(casting, "casting", ("fixed", "mobile")), word(rule, "rule", ("cut_faces", "face_centre")),
+        number(reach_mm, "reach_mm"), progress_of(progress))
+    for frame in found:
+        if frame is not None:
+            frame["surface"] = surface_of(frame["surface"])
+    return [None if frame is None else FrameContact(**frame) for frame in found]

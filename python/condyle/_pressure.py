@@ -1,0 +1,249 @@
+"""Pressure of surfaces with layers, and the poses in which it carries loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _native
+from ._errors import UsageError
+from ._mesh import MeshLike, TriMesh
+from ._surface_contact import SurfaceContact, surface_of
+from ._words import Progress, array, count, number, progress_of, word
+
+if TYPE_CHECKING:
+    from ._joint import Joint
+
+
+@dataclass(frozen=True)
+class ElasticLayer:
+    """A layer on a body: Young's modulus above 0, Poisson's ratio above -1 and below 0.5, thickness above 0.
+
+    `thickness_mm` is one number, or one for each vertex of the layer's mesh, (V,).
+    """
+
+    youngs_modulus_mpa: float
+    poisson_ratio: float
+    thickness_mm: Union[float, NDArray[np.float64]]
+
+    def _checked(self, mesh: TriMesh) -> dict[str, Any]:
+        thickness: Any = self.thickness_mm
+        if not isinstance(thickness, (list, tuple)) and getattr(thickness, "ndim", 0) == 0:
+            thickness = number(thickness, "thickness_mm")
+        elif mesh._first is not None:
+            thickness = array(thickness, "thickness_mm", "a number for each vertex")
+            if thickness.shape != mesh.vertices.shape[:1]:
+                raise UsageError(f"thickness_mm: an array of shape ({len(mesh.vertices)},) is needed")
+            thickness = thickness[mesh._first]
+        return {"youngs_modulus_mpa": number(self.youngs_modulus_mpa, "youngs_modulus_mpa"),
+                "poisson_ratio": number(self.poisson_ratio, "poisson_ratio"), "thickness_mm": thickness}
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ElasticContactResults:
+    """What one pose shows.
+
+    `fixed` and `mobile` are the :class:`SurfaceContact` of those that cast; `force_n` and `moment_nmm` (3,) what the
+    fixed body exerts on the mobile one, in F, about the origin of M; `energy_nmm` stored in the layers.
+    """
+
+    fixed: Optional[SurfaceContact]
+    mobile: Optional[SurfaceContact]
+    force_n: NDArray[np.float64]
+    moment_nmm: NDArray[np.float64]
+    energy_nmm: float
+
+    def __repr__(self) -> str:
+        return (f"ElasticContactResults(force {np.linalg.norm(self.force_n):.6g} N, energy {self.energy_nmm:.6g} N mm; "
+                f"fixed={self.fixed!r}, mobile={self.mobile!r})")
+
+
+@dataclass(frozen=True)
+class BalanceOptions:
+    """How a balance is searched for.
+
+    Attributes
+    ----------
+    force_tolerance_n, moment_tolerance_nmm : float
+        What is left of the force and of the moment in a balanced pose.
+    farthest_mm : float
+        How far the mobile body may go from where it starts.
+    most_steps : int
+    most_left_at_jump : float
+        Of the load, the share that may be left where the contact's force jumps: outcome "at_jump".
+    """
+
+    force_tolerance_n: float = 1e-6
+    moment_tolerance_nmm: float = 1e-4
+    farthest_mm: float = 20
+    most_steps: int = 100
+    most_left_at_jump: float = 0.02
+
+    def _checked(self) -> dict[str, Any]:
+        return {"force_tolerance_n": number(self.force_tolerance_n, "force_tolerance_n", low=0),
+                "moment_tolerance_nmm": number(self.moment_tolerance_nmm, "moment_tolerance_nmm", low=0),
+                "farthest_mm": number(self.farthest_mm, "farthest_mm", low=0),
+                "most_steps": count(self.most_steps, "most_steps", high=1_000_000),
+                "most_left_at_jump": number(self.most_left_at_jump, "most_left_at_jump", 0, 1)}
+
+
+@dataclass(frozen=True, eq=False)
+class BalancedPose:
+    """The pose in which the contact carries a load, or why there is none.
+
+    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and next to `X_FM` the force jumps over
+    what is left), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
+    there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
+    `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose.
+    """
+
+    outcome: str
+    reason: str
+    X_FM: NDArray[np.float64]
+    residual_force_n: NDArray[np.float64]
+    residual_moment_nmm: NDArray[np.float64]
+    steps: int
+    contact: ElasticContactResults
+
+    @property
+    def carries_load(self) -> bool:
+        """Whether the contact carries the load at `X_FM`: balanced, unstable, or at a jump up to the residual."""
+        return self.outcome in ("balanced", "unstable", "at_jump")
+
+
+class ElasticContact:
+    """Two surfaces with their layers, ready to be asked at any pose. Any number of threads may ask.
+
+    Parameters
+    ----------
+    fixed, mobile : mesh
+        Surfaces in their bodies' frames, mm; open ones too.
+    fixed_layer, mobile_layer : ElasticLayer, optional
+        At least one; a body without one is rigid.
+    casting : "both", "fixed" or "mobile"
+        Whose surface is cast along its normals; with "both" the load is the mean of the two.
+    rule : "cut_faces" or "face_centre"
+    reach_mm : float
+        How far rays go.
+    law : "linear" or "logarithmic"
+
+    C++: `condyle::ElasticContact` in condyle/pressure.hpp; `condyle load`.
+
+    >>> import condyle
+    >>> layers = condyle.sample_cartilages(clearance_mm=0)
+    >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral,
+    ...                                  mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+    >>> pressed = contact.balance([0, 800, 0])
+    >>> pressed.outcome, (pressed.contact.force_n.round(3) + 0.0).tolist()
+    ('balanced', [0.0, -800.0, 0.0])
+    """
+
+    __slots__ = ("_native", "_fixed", "_mobile", "__weakref__")
+
+    def __init__(self, fixed: MeshLike, mobile: MeshLike, *, fixed_layer: Optional[ElasticLayer] = None,
+                 mobile_layer: Optional[ElasticLayer] = None, casting: str = "both", rule: str = "cut_faces",
+                 reach_mm: float = 20, law: str = "linear") -> None:
+        self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
+        for layer, what in ((fixed_layer, "fixed_layer"), (mobile_layer, "mobile_layer")):
+            if layer is not None and not isinstance(layer, ElasticLayer):
+                raise UsageError(f"{what}: an ElasticLayer is needed, not {type(layer).__name__}")
+        self._native = _native.ElasticContact(
+            self._fixed._native, self._mobile._native,
+            None if fixed_layer is None else fixed_layer._checked(self._fixed),
+            None if mobile_layer is None else mobile_layer._checked(self._mobile),
+            word(casting, "casting", ("both", "fixed", "mobile")), word(rule, "rule", ("cut_faces", "face_centre")),
+            number(reach_mm, "reach_mm"), word(law, "law", ("linear", "logarithmic")) == "logarithmic")
+
+    @classmethod
+    def of_file(cls, joint: Joint) -> ElasticContact:
+        """With the surfaces, layers and rays that the table [contact] of the joint's file says."""
+        native = _native.elastic_of_file(joint._native)
+        if native is None:
+            raise UsageError("joint: its file has no table [contact]")
+        contact = cls.__new__(cls)
+        contact._native = native
+        contact._fixed, contact._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
+        return contact
+
+    def at(self, pose: ArrayLike, *, progress: Progress = None) -> Any:
+        """:class:`ElasticContactResults` of X_FM, (4, 4); of (N, 4, 4) a list of N.
+
+        MeshError with the logarithmic law where the overlap reaches the thickness.
+        """
+        is_one, found = self._native.at(pose, progress_of(progress))
+        results = [results_of(each) for each in found]
+        return results[0] if is_one else results
+
+    def cut_off_by_reach(self, pose: ArrayLike) -> int:
+        """How many rays of this pose meet the other surface only beyond the reach, up to twice of it."""
+        return self._native.cut_off_by_reach(pose)
+
+    def balance(self, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0), start: Optional[ArrayLike] = None,
+                frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
+                options: BalanceOptions = BalanceOptions()) -> BalancedPose:
+        """The pose near `start` (the identity if not given) in which the contact carries a load on the mobile body.
+
+        `force_n` and `moment_nmm` about the origin of M are held in F, or with `frame="mobile"` go along with M.
+        Directions (K, 3) in F along which the body may be translated, all if none are given; with `free_rotations` its
+        rotations are unknowns too. UsageError where the load is zero along what is free. Not ended by Ctrl-C.
+
+        C++: `condyle::balance` in condyle/load_balance.hpp.
+        """
+        return balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,
+                                        _terms(options, frame, free_directions, free_rotations)))
+
+    def balance_along(self, poses: ArrayLike, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0),
+                      frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
+                      options: BalanceOptions = BalanceOptions(), progress: Progress = None
+                      ) -> list[Optional[BalancedPose]]:
+        """The poses that balance a load, frame after frame of a motion, (N, 4, 4); None for those of NaN, gaps.
+
+        Rotations are the given ones; each frame starts from its translation as the last frame that carries its load has
+        moved its own. `force_n` and `moment_nmm` are each (3,) for all frames, or (N, 3); the rest as :meth:`balance`
+        takes it. UsageError where there are neither one nor N loads.
+
+        C++: `condyle::balance_along` in condyle/motion_contact.hpp.
+        """
+        forces, moments = _loads(force_n, moment_nmm)
+        found = _native.balance_along(self._native, poses, forces, moments,
+                                      _terms(options, frame, free_directions, free_rotations), progress_of(progress))
+        return [None if pose is None else balanced(pose) for pose in found]
+
+    def __repr__(self) -> str:
+        return f"ElasticContact(fixed={self._fixed!r}, mobile={self._mobile!r})"
+
+
+def _loads(force_n: ArrayLike, moment_nmm: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
+    """A row of both for all frames, or one for each."""
+    wanted = "an array of shape (3,) or (N, 3)"
+    forces = np.atleast_2d(array(force_n, "force_n", wanted))
+    moments = np.atleast_2d(array(moment_nmm, "moment_nmm", wanted))
+    if forces.ndim == moments.ndim == 2 and len(forces) != len(moments):
+        if 1 not in (len(forces), len(moments)):
+            raise UsageError(f"moment_nmm: {len(moments)} moments for {len(forces)} forces")
+        frames = max(len(forces), len(moments)) if min(len(forces), len(moments)) else 0
+        forces, moments = (np.broadcast_to(each, (frames, *each.shape[1:])) for each in (forces, moments))
+    return forces, moments
+
+
+def _terms(options: BalanceOptions, frame: str, free_directions: ArrayLike, free_rotations: bool) -> dict[str, Any]:
+    if not isinstance(options, BalanceOptions):
+        raise UsageError(f"options: BalanceOptions are needed, not {type(options).__name__}")
+    is_empty = isinstance(free_directions, (tuple, list)) and not free_directions
+    return {**options._checked(), "goes_along": word(frame, "frame", ("fixed", "mobile")) == "mobile",
+            "free_directions": np.empty((0, 3)) if is_empty else free_directions,
+            "free_rotations": bool(free_rotations)}
+
+
+def balanced(found: dict[str, Any]) -> BalancedPose:
+    found["residual_force_n"], found["residual_moment_nmm"] = found.pop("residual")
+    found["contact"] = results_of(found["contact"])
+    return BalancedPose(**found)
+
+
+def results_of(found: dict[str, Any]) -> ElasticContactResults:
+    found["fixed"], found["mobile"] = surface_of(found["fixed"]), surface_of(found["mobile"])
+    return ElasticContactResults(**found)

@@ -1,0 +1,33 @@
+"""Joint files proposed for two meshes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Optional
+
+from . import _native
+from ._words import Path, path_of, word
+
+
+@dataclass(frozen=True)
+class JointProposal:
+    """A joint file as text, with the evidence for what it says, and the keys in it that are left to fill in."""
+
+    toml: str
+    to_fill_in: tuple[str, ...]
+
+
+def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, side: Optional[str] = None,
+                  units: Optional[str] = None) -> JointProposal:
+    """Proposes a joint file for two mesh files: kind, centre, axes, side and units. Nothing is written.
+
+    `joint_file` is where it is to lie, for meshes are named from its folder; `side` "right" or "left" and `units` "mm"
+    or "m" are told by the bones where not given. FileError where a mesh cannot be read.
+
+    C++: `condyle::propose_joint` in condyle/io/propose_joint.hpp; `condyle init`.
+    """
+    toml, to_fill_in = _native.propose_joint(
+        path_of(fixed, "fixed"), path_of(mobile, "mobile"), path_of(joint_file, "joint_file"),
+        None if side is None else word(side, "side", ("right", "left")),
+        None if units is None else word(units, "units", ("mm", "m")))
+    return JointProposal(toml, tuple(to_fill_in))
