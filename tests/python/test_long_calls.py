@@ -16,14 +16,13 @@ import condyle
 GRID = {"flexion": (0, 120, 4)}, {"adduction": (-40, 40, 4)}
 
 
-def test_other_threads_advance_while_a_map_runs(hip):
-    rom = hip.range_of_motion([])
+def advanced_during_a_map(rom):
     counted, stop = [0], threading.Event()
 
     def count():
         while not stop.is_set():
             counted[0] += 1
-            time.sleep(0.001)
+            time.sleep(0)
 
     thread = threading.Thread(target=count)
     thread.start()
@@ -32,7 +31,13 @@ def test_other_threads_advance_while_a_map_runs(hip):
     advanced = counted[0] - before
     stop.set()
     thread.join()
-    assert advanced >= 3
+    return advanced
+
+
+def test_other_threads_advance_while_a_map_runs(hip):
+    # Were the lock held, another thread would get it at most once between the reading of the count and the map.
+    rom = hip.range_of_motion([])
+    assert any(advanced_during_a_map(rom) >= 3 for _ in range(20))
 
 
 def test_many_threads_get_the_answers_of_one(hip):
@@ -58,26 +63,59 @@ def test_many_threads_get_the_answers_of_one(hip):
     assert not wrong
 
 
-@pytest.mark.parametrize("call", [
-    "joint.range_of_motion([]).map({'flexion': (0, 120, 0.5)}, {'adduction': (-40, 40, 0.5)})",
-    "joint.range_of_motion().bands(samples=100000)",
-    "joint.penetration(np.tile(joint.pose(flexion_deg=140), (3000000, 1, 1)))",
-    "joint.pairs(np.tile(joint.pose(flexion_deg=145), (300000, 1, 1)))",
-    "joint.recorded_contact(np.arange(200001), joint.pose(flexion_deg=np.arange(200001) % 2 + 138))",
-], ids=["map", "bands", "penetration", "pairs", "recorded"])
-def test_ctrl_c_ends_a_long_call(call, tmp_path):
-    script = ("import condyle, numpy as np, os, signal, threading, time\n"
-              "bones = condyle.sample_hip()\n"
-              "joint = condyle.Joint(bones.hip_bone, bones.femur)\n"
-              "joint.penetration(joint.pose(flexion_deg=140)); joint.pairs(joint.pose())\n"
-              "at = []\n"
-              "def interrupt():\n"
-              "    at.append(time.perf_counter()); os.kill(os.getpid(), signal.SIGINT)\n"
-              "threading.Timer(1.5, interrupt).start()\n"
-              f"try:\n    {call}\n"
-              "except KeyboardInterrupt:\n    print('interrupted after', time.perf_counter() - at[0])\n")
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=300)
-    assert done.returncode == 0 and done.stdout.startswith("interrupted after"), done.stdout + done.stderr
+# Each takes many times as long as the wait for the signal.
+INTERRUPTED = """
+import os, signal, threading
+import numpy as np
+import condyle
+
+bones = condyle.sample_hip()
+joint = condyle.Joint(bones.hip_bone, bones.femur)
+rom = joint.range_of_motion([])
+deep = np.tile(joint.pose(flexion_deg=145), (200_000, 1, 1))
+moving = joint.pose(flexion_deg=np.arange(200_001) % 2 + 138)
+contact = condyle.ElasticContact(joint.fixed, joint.mobile, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.65))
+own = [condyle.Motion("mine", "flexion", 170, {"adduction": n * 1e-3}) for n in range(20_000)]
+
+calls = {
+    "map": lambda progress: rom.map({"flexion": (0, 120, 0.5)}, {"adduction": (-40, 40, 0.5)}, progress=progress),
+    "bands": lambda progress: joint.range_of_motion().bands(samples=100_000, progress=progress),
+    "penetration": lambda progress: joint.penetration(deep, progress=progress),
+    "pairs": lambda progress: joint.pairs(deep, progress=progress),
+    "recorded": lambda progress: joint.recorded_contact(np.arange(200_001), moving, progress=progress),
+    "normal": lambda progress: joint.normal_contact(deep[:20_000], progress=progress),
+    "along": lambda progress: joint.contact_along(deep[:20_000], progress=progress),
+    "pressure": lambda progress: contact.at(deep[:20_000], progress=progress),
+    "zones": lambda progress: rom.zones(own, progress=progress),
+    "depths": lambda progress: condyle.DepthRange(joint, 1.0).limits(own, progress=progress),
+}
+for name, call in calls.items():
+    seen = []
+    def progress(done, total):
+        # Sent while the library works, not while this runs: that would be an exception of the callback.
+        if not seen:
+            threading.Timer(0.02, os.kill, (os.getpid(), signal.SIGINT)).start()
+        seen.append((done, total))
+    try:
+        call(progress)
+        print(name, "came to its end")
+    except KeyboardInterrupt:
+        print(name, "interrupted" if seen[-1][0] < seen[-1][1] else "at its end")
+
+threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+try:
+    joint.range_of_motion(own)
+    print("limits came to their end")
+except KeyboardInterrupt:
+    print("limits interrupted")
+"""
+
+
+def test_ctrl_c_ends_long_calls():
+    done = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, timeout=600)
+    lines = done.stdout.splitlines()
+    assert done.returncode == 0 and len(lines) == 11, done.stdout + done.stderr
+    assert all(line.endswith(" interrupted") for line in lines), done.stdout
 
 
 def test_what_a_callback_raises_ends_the_call(hip):
@@ -121,9 +159,13 @@ def test_memory_does_not_grow_over_ten_thousand_calls():
             except condyle.UsageError:
                 pass
 
+    def growth():
+        gc.collect()
+        before = resident_bytes()
+        calls(10_000)
+        gc.collect()
+        return resident_bytes() - before
+
     calls(2500)
-    gc.collect()
-    before = resident_bytes()
-    calls(10_000)
-    gc.collect()
-    assert resident_bytes() - before < 1_000_000
+    # What leaks grows each time; what other reasons have for more memory comes once.
+    assert any(growth() < 1_000_000 for _ in range(4))
