@@ -36,8 +36,10 @@ set(CPACK_COMPONENT_DOCUMENTATION_DESCRIPTION "The API page and every other page
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-condyle)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-    "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3-numpy")
+math(EXPR next_python_minor "${Python_VERSION_MINOR} + 1")
+string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+       "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), "
+       "python3 (<< ${Python_VERSION_MAJOR}.${next_python_minor}), python3-numpy")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-xarray")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module condyle: numpy in, numpy out, and figures.")

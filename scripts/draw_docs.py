@@ -105,6 +105,8 @@ def draw_examples():
     for name in ("cam_and_internal_rotation", "knee_over_motion"):
         run("/usr/bin/python3", f"examples/python/{name}.py", IMAGES / f"{name}.png")
         print(f"docs/images/{name}.png")
+    run("/usr/bin/python3", "examples/python/deformable_cartilage.py", IMAGES / "python")
+    print("docs/images/python")
 
 
 DRAWN = {

@@ -16,7 +16,8 @@ packages=(
   libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there, and a peer
   pybind11-dev python3-dev python3-numpy             # the Python module
   python3-pytest python3-hypothesis mypy             # its tests
-  python3-matplotlib python3-pandas python3-xarray   # its figures; tables and arrays that it gives where these are there
+  python3-matplotlib python3-vtk9                    # its figures, and those of surfaces in .vtp files
+  python3-pandas python3-xarray                      # tables and arrays that it gives where these are there
 )
 
 for group in "$@"; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs a build, as it is, into an empty prefix; configures, builds and runs the consumer against it, and its main
-# program once more by pkg-config alone.
+# program once more by pkg-config alone. Imports the Python module, where the build has one, from the prefix.
 # Usage: installed.sh BUILD_FOLDER COMPILER BUILD_TYPE WORK_FOLDER
 set -euo pipefail
 build=$1 compiler=$2 build_type=$3 work=$4
@@ -35,3 +35,22 @@ export PKG_CONFIG_PATH
 # shellcheck disable=SC2046,SC2086
 "$compiler" ${CONSUMER_FLAGS:-} main.cpp -o by_pkg_config $(pkg-config --cflags --libs condyle)
 says ./by_pkg_config "flexion ends at 30.000 degrees"
+
+in_cache() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
+if [ "$(in_cache CONDYLE_PYTHON)" = ON ]; then
+  cmake --install "$build" --prefix prefix --component python >/dev/null
+  module=$(find "$PWD/prefix" -type d -path '*/*-packages/condyle')
+  if [ -n "${CONSUMER_FLAGS:-}" ]; then
+    LD_PRELOAD=$("$compiler" -print-file-name=libasan.so) ASAN_OPTIONS=detect_leaks=0
+    export LD_PRELOAD ASAN_OPTIONS
+  fi
+  cat >import.py <<'EOF'
+import sys
+import condyle
+assert condyle.__file__.startswith(sys.argv[1]), condyle.__file__
+mesh = condyle.sample_hip(scenario=1).femur
+print(len(mesh.vertices), "vertices in Python")
+EOF
+  imported() { PYTHONPATH=$(dirname "$module") "$(in_cache Python_EXECUTABLE)" import.py "$module"; }
+  says imported "773 vertices in Python"
+fi
