@@ -78,7 +78,7 @@ TEST_F(PictureCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(2, "picture hip.toml --out p.png --size 10x10", "64 to 8192");
   expect_refused(2, "picture hip.toml --out p.png --size 100x-100", "--size");
   expect_refused(2, "picture hip.toml --out p.png --range 0", "not above 0");
-  expect_refused(2, "picture hip.toml --out p.png --field nan", "not above 0");
+  expect_refused(2, "picture hip.toml --out p.png --field nan", "not 0.1 to 100000");
   expect_refused(2, "picture hip.toml --out p.png --pose tilt=3", "tilt");
   expect_refused(3, "picture none.toml --out p.png", "none.toml");
   expect_refused(3, "picture hip.toml --out hip.toml/p.png", "cannot be written");

@@ -43,7 +43,7 @@ struct PictureOptions {
   std::size_t width = 1200, height = 900;  ///< pixels, 64 to 8192
   /// End of the colours; where not given 8 mm, for depths the first of 1, 2, 5, 10 ... that holds them.
   std::optional<double> range_mm = {};
-  /// Height of what is shown, about the joint centre; where not given both bodies fit, hidden or not.
+  /// Height of what is shown, about the joint centre, 0.1 mm to 100 m; where not given both bodies fit, hidden or not.
   std::optional<double> field_mm = {};
 };
 

@@ -61,18 +61,17 @@ class Text {
       flat.vertices.set(
           v, {samples * mesh_.vertices.x[v], samples * (mesh_.vertices.y[v] - static_cast<double>(top)), 0});
     const std::size_t columns = samples * picture.width, rows = samples * (picture.height - top);
-    std::vector<Hit> hits(columns * rows);
-    Rasteriser(flat, columns, rows, rows).draw(0, hits);
-    for (std::size_t row = 0; row < rows / samples; ++row) {
+    const Rasteriser letters(flat, columns, rows, samples);
+    for (std::size_t row = top; row < picture.height; ++row) {
+      std::vector<Hit> hits(columns * samples);
+      letters.draw(row - top, hits);
       for (std::size_t column = 0; column < picture.width; ++column) {
         std::size_t covered = 0;
         for (std::size_t i = 0; i < samples * samples; ++i)
-          covered +=
-              hits[(row * samples + i / samples) * columns + column * samples + i % samples].triangle !=
-              no_index;
+          covered += hits[i / samples * columns + column * samples + i % samples].triangle != no_index;
         if (covered == 0) continue;
         const double behind = 255.0 * static_cast<double>(samples * samples - covered) / (samples * samples);
-        set_pixel(picture, column, top + row, {behind, behind, behind});
+        set_pixel(picture, column, row, {behind, behind, behind});
       }
     }
   }

@@ -24,6 +24,9 @@ constexpr std::size_t strip_pixels = 8;
 /// Of the smaller side of the picture, left free around the bodies.
 constexpr double margin = 0.04;
 constexpr double usual_range_mm = 8;
+/// What is seen from its edge is shown as if it were this large.
+constexpr double smallest_size_mm = 0.1;
+constexpr double largest_field_mm = 100'000;
 
 /// How strongly glass covers what is behind it: least where it faces the viewer, more towards its outline.
 double cover_of_glass(double facing) noexcept {
@@ -83,7 +86,7 @@ Camera camera_of(const PictureOptions& options, const TriMesh& fixed, const TriM
       low = low.cwiseMin(seen), high = high.cwiseMax(seen);
     }
   const double free = margin * std::min(columns, rows);
-  const Vec3 size = high - low;
+  const Vec3 size = (high - low).cwiseMax(smallest_size_mm);
   camera.samples_per_mm = std::min((columns - 2 * free) / size.x(), (rows - 2 * free) / size.y());
   camera.origin_x -= camera.samples_per_mm * (low.x() + high.x()) / 2;
   camera.origin_y += camera.samples_per_mm * (low.y() + high.y()) / 2;
@@ -158,10 +161,11 @@ void check(const PictureOptions& options) {
     if (side < 64 || side > 8192)
       throw UsageError(
           fmt::format("a picture of {} x {} pixels: each side is 64 to 8192", options.width, options.height));
-  for (const auto& [length, name] : {std::pair(options.range_mm, "the end of the colours"),
-                                     std::pair(options.field_mm, "the height of the view")})
-    if (length && !(*length > 0 && std::isfinite(*length)))
-      throw UsageError(fmt::format("{}: {:g} mm is not above 0", name, *length));
+  if (options.range_mm && !(*options.range_mm > 0 && std::isfinite(*options.range_mm)))
+    throw UsageError(fmt::format("the end of the colours: {:g} mm is not above 0", *options.range_mm));
+  if (options.field_mm && !(*options.field_mm >= smallest_size_mm && *options.field_mm <= largest_field_mm))
+    throw UsageError(fmt::format("the height of the view: {:g} mm is not {:g} to {:g}", *options.field_mm,
+                                 smallest_size_mm, largest_field_mm));
 }
 
 /// The first of 1, 2, 5, 10, 20 ... mm that holds all depths.

@@ -17,8 +17,9 @@ struct EdgeFunction {
 
 /// Samples whose middles lie in [low, high], of `count`: first and one past the last.
 std::array<std::size_t, 2> samples_between(double low, double high, std::size_t count) noexcept {
+  // What is not a number, of places beyond all numbers, is before the first.
   const auto clamped = [&](double value) {
-    return static_cast<std::size_t>(std::clamp(value, 0.0, static_cast<double>(count)));
+    return value > 0 ? static_cast<std::size_t>(std::min(value, static_cast<double>(count))) : 0;
   };
   return {clamped(std::ceil(low - 0.5)), clamped(std::floor(high - 0.5) + 1)};
 }
