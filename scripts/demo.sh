@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the built-in sample hip and asks it a handful of poses. Results go to out/demo.
+# Makes the built-in sample hip, asks it a handful of poses, and writes a report of it. Results go to out/demo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 condyle=build/release/condyle
