@@ -88,7 +88,8 @@ class Search {
   ContactStretch& stretch_from(double from) {
     auto& contacts = found_.contacts;
     if (contacts.empty() || from - contacts.back().exit >= resolution_) {
-      contacts.push_back({.entry = from, .exit = from});
+      contacts.emplace_back().entry = from;
+      contacts.back().exit = from;
     } else {
       contacts.back().undecided += from - contacts.back().exit;
     }
