@@ -73,7 +73,7 @@ def _ball_in_mm(given: Any, to_mm: float) -> tuple[NDArray[np.float64], float]:
 def _pose_in_mm(given: Any, to_mm: float, name: str) -> Optional[NDArray[np.float64]]:
     if given is None:
         return None
-    pose = np.array(number_array(given, name, "an array of shape (4, 4)"))
+    pose = np.array(number_array(given, name, "numbers of shape (4, 4)"))
     if pose.shape != (4, 4):
         raise UsageError(f"{name}: an array of shape (4, 4) is needed, not {pose.shape}")
     pose[:3, 3] *= to_mm

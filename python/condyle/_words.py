@@ -87,8 +87,11 @@ def array(given: ArrayLike, name: str, wanted: str) -> NDArray[Any]:
 def number_array(given: Any, name: str, wanted: str) -> NDArray[np.float64]:
     """As doubles, of whatever shape; `wanted` is what is asked for: "three numbers"."""
     try:
-        return np.asarray(given, float)
-    except (TypeError, ValueError, OverflowError):
+        values = np.asarray(given)
+        if values.dtype.kind not in "fiu":  # complex numbers and texts would be cast
+            raise TypeError
+        return values.astype(float)
+    except (TypeError, ValueError):
         raise UsageError(f"{name}: {wanted} are needed, not {type(given).__name__}") from None
 
 

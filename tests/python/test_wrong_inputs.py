@@ -55,6 +55,8 @@ CASES = {
                                              r"vertices: an array of shape \(12, 3\) is needed"),
     "samples beyond memory": (lambda hip: hip.range_of_motion([]).bands(samples=2**31 - 1), condyle.UsageError,
                               "samples: 2147483647 is not in 20 to 100000"),
+    "a complex centre": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, centre=[1j, 0, 0]), condyle.UsageError,
+                         "centre: three numbers are needed"),
     "a ball of one number": (lambda hip: condyle.find_sphere(hip.mobile, within=3), condyle.UsageError,
                              "within: a centre and a radius are needed"),
     "a frame of two poses": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, fixed_in_W=[np.eye(4)] * 2),
