@@ -37,7 +37,7 @@ class SampleCartilages:
 def _parameters(given: dict[str, Any]) -> dict[str, float]:
     for name in given:
         if name not in HIP_PARAMETERS:
-            raise UsageError(f"{name[:60]}: no measure of the hip; there are {', '.join(HIP_PARAMETERS)}")
+            raise UsageError(f"{name[:60]!r}: no measure of the hip; there are {', '.join(HIP_PARAMETERS)}")
     return {name: number(value, name) for name, value in given.items()}
 
 
