@@ -29,9 +29,9 @@ class RotationLimits:
 class FirstContact:
     """Two bodies made ready for rotations of the mobile one about one axis that stays in the fixed one.
 
-    `point` (3,), mm, and `direction` (3,), of any length but zero, are in the frame of the fixed body. Limits are exact:
-    never past a contact, short of one by at most `error_bound_deg`. Any number of threads may ask. UsageError for an
-    axis without direction.
+    `point` (3,), mm, and `direction` (3,), of any length but zero, are in the frame of the fixed body. Limits are
+    exact: never past a contact, short of one by at most `error_bound_deg`. Any number of threads may ask. UsageError
+    for an axis without direction.
 
     C++: `condyle::FirstContact` in condyle/first_contact.hpp.
 

@@ -41,7 +41,8 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
         "fit_within": None if fit_within is None else _ball_in_mm(fit_within, to_mm),
         "anterior": anterior, "superior": superior,
         "landmarks": None if landmarks is None else {
-            str(point): _point_in_mm(place, to_mm, f"landmarks: {str(point)[:60]!r}") for point, place in landmarks.items()},
+            str(point): _point_in_mm(place, to_mm, f"landmarks: {str(point)[:60]!r}")
+            for point, place in landmarks.items()},
         "fixed_in_W": _pose_in_mm(fixed_in_W, to_mm, "fixed_in_W"),
         "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm, "mobile_in_W"),
         "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
