@@ -1,7 +1,7 @@
 // What the page answers and says, in a browser: against the command line, damaged, without WebAssembly, with hostile names.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, statSync, writeFileSync } from "node:fs";
+import { readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
@@ -177,9 +177,59 @@ for (const [what, change, says] of [
     await page.context().close();
   });
 
-test("a template without data says so", async () => {
-  const { page } = await openPage(browser, join(root, "viewer/report_template.html"), { answers: false });
+const empty = join(root, "viewer/report_template.html");
+
+test("two meshes dropped on the empty page answer as the same files do on the command line", async (t) => {
+  const { page, complaints, requests } = await openPage(browser, empty, { answers: false });
   await page.getByText("This page holds no joint").waitFor();
+  const files = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name));
+  await page.locator("#files").setInputFiles(files);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
+  await settled(page);
+  const joint = join(reports, "dropped.toml");
+  const run = (...words) => execFileSync(condyle, words, { stdio: ["ignore", "pipe", "ignore"] });
+  rmSync(joint, { force: true });
+  run("init", ...files, "--out", joint);
+  const { motions } = JSON.parse(run("rom", joint, "--json"));
+  const bound = Math.max(...motions.map(({ error_bound_deg }) => error_bound_deg));
+  let equal = 0;
+  for (const [i, motion] of motions.entries()) {
+    const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
+      start: Object.values(motion.start_deg), vary: Object.keys(motion.start_deg).indexOf(motion.vary),
+      positive: motion.sense === "positive", range_deg: motion.range_deg,
+    });
+    assert.ok(Math.abs(limit.turned_deg - motion.limit_deg) <= bound, `${motion.name}: ${limit.turned_deg} and not ${motion.limit_deg}`);
+    equal += limit.turned_deg === motion.limit_deg;
+    const row = await page.locator(".plot title").nth(i).textContent();
+    assert.ok(row.includes(motion.limit_deg.toFixed(1)), row);
+  }
+  t.diagnostic(`${equal} of ${motions.length} limits equal to the bit`);
+  await keep(page, "dropped");
+  assert.deepEqual(complaints, []);
+  assert.deepEqual(requests, []);
+  await page.context().close();
+});
+
+test("a wrong dropped file is told as on the command line, and the page takes another", async () => {
+  const path = join(reports, "broken.ply");
+  writeFileSync(path, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n0 0\n1 0\n0 1\n");
+  let told = "";
+  try {
+    execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
+  } catch (error) {
+    told = String(error.stderr).trim().replace(`condyle: ${path}`, "broken.ply");
+  }
+  assert.match(told, /^broken.ply: /);
+  const { page } = await openPage(browser, empty, { answers: false });
+  const files = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name));
+  await page.locator("#files").setInputFiles([path, files[1]]);
+  await page.getByRole("alert").waitFor();
+  assert.equal(await page.getByRole("alert").textContent(), told);
+  await page.locator("#files").setInputFiles([files[0]]);
+  await page.getByText("now the one that moves").waitFor();
+  await page.locator("#files").setInputFiles([files[1]]);
+  await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
+  assert.equal(await page.getByRole("alert").count(), 0);
   await page.context().close();
 });
 

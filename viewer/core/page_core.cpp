@@ -9,43 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "condyle/contact.hpp"
-#include "condyle/range_of_motion.hpp"
 #include "condyle/reliable_depth.hpp"
-#include "mesh/surface_distance.hpp"
+#include "page_joint.hpp"
 
 using namespace condyle;
 
-struct CondyleJoint {
-  Joint joint;
-  JointContact bodies;
-  std::optional<RangeOfMotion> range = {};
-  Penetrations penetrations = {};
-  std::vector<std::uint32_t> pair_triangles = {};
-  std::vector<double> intervals = {};
-  /// Of the pose that was last shown.
-  Pose shown_at = Pose::Identity();
-  std::optional<RadialContact> shown = {};
-  std::optional<mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
-};
-
 namespace {
-
-std::string& last_error() {
-  static std::string error;
-  return error;
-}
-
-/// What `answer` returns, or `failed` with the error's line kept.
-template <class Result, class Answer>
-Result guarded(Result failed, const Answer& answer) {
-  try {
-    return answer();
-  } catch (const std::exception& error) {
-    last_error() = error.what();
-  }
-  return failed;
-}
 
 Mesh mesh_of(const double* vertices, int vertex_count, const std::uint32_t* triangles, int triangle_count) {
   TriMesh mesh;
@@ -110,15 +79,6 @@ ShownValue shown_value(Shown quantity, const RadialResults& radial, Index v, con
   return {};
 }
 
-RangeOfMotion& range_of(CondyleJoint& joint) {
-  if (!joint.range) {
-    RangeOptions options;
-    options.overlap.reference_contact = ReferenceContact::accept;
-    joint.range.emplace(joint.joint, options);
-  }
-  return *joint.range;
-}
-
 int number_of(LimitReason reason) {
   switch (reason) {
     case LimitReason::contact:
@@ -144,6 +104,20 @@ int number_of(ContactKind kind) {
 }
 
 }  // namespace
+
+RangeOfMotion& range_of(CondyleJoint& joint) {
+  if (!joint.range) {
+    RangeOptions options;
+    options.overlap.reference_contact = ReferenceContact::accept;
+    joint.range.emplace(joint.joint, options);
+  }
+  return *joint.range;
+}
+
+std::string& last_error() {
+  static std::string error;
+  return error;
+}
 
 const char* condyle_error() {
   return last_error().c_str();

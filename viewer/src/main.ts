@@ -2,6 +2,7 @@ import { CoreClient } from "./core/client";
 import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
 import { button, choice, html, section, shortened, spaced } from "./dom";
 import { DisplayPanel } from "./panels/display";
+import { dropPanel } from "./panels/drop";
 import { anglesAtEnd, MotionPanel } from "./panels/motion";
 import { numbersPanel } from "./panels/numbers";
 import { PointerPanel } from "./panels/pointer";
@@ -10,7 +11,9 @@ import { clockDrawing } from "./plots/clock";
 import { figure } from "./plots/figure";
 import { limitsDrawing } from "./plots/limits";
 import { MapPlot } from "./plots/map";
-import { bytesOf, inflated, Report, ReportError, type MapAnswer, type MotionAnswer, type StoredPose } from "./report";
+import {
+  bytesOf, inflated, Report, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
+} from "./report";
 import { JointScene } from "./scene/scene";
 import { readViewState, writeViewState } from "./view_state";
 import { words } from "./words";
@@ -57,20 +60,18 @@ class Page {
   private readonly scene: JointScene | null;
   private readonly display: DisplayPanel;
   private readonly motion: MotionPanel;
-  private readonly arrays: JointArrays;
   private core: CoreClient | null = null;
   private mapPlot: MapPlot | null = null;
   private fragmentTimer = 0;
 
-  constructor(private readonly report: Report) {
-    const { text } = report;
+  /// `report` holds the arrays of figures and poses that a joint dropped on the page has not.
+  constructor(private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null) {
     const joint = { ...text.joint, fixed: shortened(text.joint.fixed), mobile: shortened(text.joint.mobile) };
     document.title = `${shortened(text.title)} – ${words.appName}`;
     found("title").textContent = text.title;
     found("subtitle").textContent = `${joint.side} ${joint.anatomy}: ${joint.mobile} in ${joint.fixed}`;
     const names = { fixed: joint.fixed, mobile: joint.mobile };
-    this.arrays = arraysOf(report);
-    this.scene = sceneOf(this.arrays, words.sceneLabel(joint.fixed, joint.mobile));
+    this.scene = sceneOf(arrays, words.sceneLabel(joint.fixed, joint.mobile));
     const state = readViewState(location.hash, this.coordinateNames());
     const quantity = quantities.find((key) => key === state.colour) ?? "gap";
     this.motion = new MotionPanel(text, (at) => this.moved(at));
@@ -87,10 +88,8 @@ class Page {
     this.motion.set(angles, translation);
   }
 
-  /// Makes the joint ready in the worker; poses are answered from then on.
-  async compute(wasm: ArrayBuffer): Promise<void> {
-    const copies = structuredClone(this.arrays);
-    const core = await CoreClient.open(wasm, copies);
+  /// The joint is ready in the worker; poses are answered from now on.
+  compute(core: CoreClient): void {
     core.listen({
       shown: (_, shown, roundTrip_ms) => {
         this.scene?.setPose(shown.pose);
@@ -122,7 +121,7 @@ class Page {
   /// For browsers without WebAssembly: poses that the report holds.
   useStoredPoses(): void {
     warn(words.noWebAssembly);
-    const poses = this.report.text.poses;
+    const poses = this.text.poses;
     if (poses.length === 0) return;
     const options = Object.fromEntries(poses.map((pose, i) => [String(i), spaced(pose.name)]));
     found("panels").prepend(section(words.precomputed,
@@ -138,19 +137,19 @@ class Page {
   }
 
   private storedGaps(name: string): Values {
-    const hundredths = this.report.array(name, "i16"), none = 32767;
+    const hundredths = this.report!.array(name, "i16"), none = 32767;
     return {
       mm: Float32Array.from(hundredths, (gap) => gap / 100), marks: Uint8Array.from(hundredths, (gap) => (gap === none ? 0 : 1)),
     };
   }
 
   private plots(): HTMLElement[] {
-    const { rom, map, recorded } = this.report.text;
+    const { rom, map, recorded } = this.text;
     const made: HTMLElement[] = [];
-    if (recorded)
+    if (recorded && this.report)
       made.push(new RecordedPanel(this.report, recorded, (angles, translation) => this.motion.set(angles, translation)).element);
     const go = (motion: MotionAnswer) => {
-      this.motion.goTo(anglesAtEnd(this.report.text, motion));
+      this.motion.goTo(anglesAtEnd(this.text, motion));
       this.scene?.showContactPoint(motion.contact_point_mm);
     };
     if (rom) {
@@ -158,7 +157,7 @@ class Page {
       const clock = clockDrawing(rom.motions, go);
       if (clock) made.push(section(words.clock, figure(clock)));
     }
-    if (this.report.text.joint.kind !== "hinge") made.push(this.mapSection(map));
+    if (this.text.joint.kind !== "hinge") made.push(this.mapSection(map));
     return made;
   }
 
@@ -166,7 +165,7 @@ class Page {
   private mapSection(map: MapAnswer | null): HTMLElement {
     const place = section(words.map);
     const showMap = (answer: MapAnswer) => {
-      const angle = (name: string) => this.report.text.coordinates.findIndex((c) => c.name === name);
+      const angle = (name: string) => this.text.coordinates.findIndex((c) => c.name === name);
       this.mapPlot = new MapPlot(answer, (column, row) => {
         const angles: number[] = [0, 0, 0];
         angles[angle(answer.columns.angle)] = column;
@@ -184,7 +183,7 @@ class Page {
       if (!this.core) return;
       ask.remove();
       const question = coarseMap();
-      const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.report.text.coordinates[i]!);
+      const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.text.coordinates[i]!);
       showMap({
         columns: { angle: column!.name, opposite: column!.opposite, values_deg: question.columns },
         rows: { angle: row!.name, opposite: row!.opposite, values_deg: question.rows },
@@ -203,7 +202,7 @@ class Page {
   }
 
   private coordinateNames(): string[] {
-    return [...this.report.text.coordinates.map(({ name }) => name), ...translationNames];
+    return [...this.text.coordinates.map(({ name }) => name), ...translationNames];
   }
 
   /// Browsers refuse an address that changes at every frame.
@@ -231,16 +230,40 @@ function coarseMap(): MapQuestion {
   return { columnAngle: 0, rowAngle: 1, vary: 2, columns: every10(-20, 120), rows: every10(-40, 30) };
 }
 
+function wasmBytes(): Promise<ArrayBuffer> {
+  return inflated(bytesOf(textOf("core") ?? ""), "gzip");
+}
+
+/// The page without a joint takes one from files.
+function openEmpty(): void {
+  if (typeof WebAssembly === "undefined") return warn(words.noWebAssembly);
+  found("subtitle").textContent = words.noData;
+  const panel = dropPanel(async (fixed, mobile) => {
+    found("messages").replaceChildren();
+    try {
+      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixed, mobile);
+      panel.remove();
+      const text = textOfProposal(proposal, fixed.name, mobile.name);
+      new Page(text, proposal.joint, null).compute(core);
+    } catch (error) {
+      warn(error instanceof Error ? error.message : String(error));
+    }
+  });
+  found("panels").append(panel);
+}
+
 async function open(): Promise<void> {
   found("licences").textContent = textOf("licence-texts") ?? "";
   found("scope").textContent = words.scope;
   const data = textOf("condyle-data");
-  if (data === null) return warn(words.noData);
-  const page = new Page(await Report.read(data));
+  if (data === null) return openEmpty();
+  const report = await Report.read(data);
+  const arrays = arraysOf(report);
+  const page = new Page(report.text, arrays, report);
   if (typeof WebAssembly === "undefined") return page.useStoredPoses();
-  await page.compute(await inflated(bytesOf(textOf("core") ?? ""), "gzip"));
+  page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
 }
 
 open().catch((error: unknown) => {
-  warn(error instanceof ReportError || error instanceof Error ? error.message : String(error));
+  warn(error instanceof Error ? error.message : String(error));
 });

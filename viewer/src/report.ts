@@ -1,3 +1,4 @@
+import type { Proposal } from "./core/protocol";
 import { words } from "./words";
 
 /// What `condyle report` puts into the page; docs/report.md has every key.
@@ -175,6 +176,21 @@ export class Report {
   has(name: string): boolean {
     return name in this.text.arrays;
   }
+}
+
+/// The text of a joint that was dropped on the page, as a report would have it.
+export function textOfProposal(proposal: Proposal, fixed: string, mobile: string): ReportText {
+  const side = proposal.joint.side === 0 ? "right" : "left";
+  return {
+    version: "", title: words.dropped(fixed, mobile), joint: { name: words.dropped(fixed, mobile), kind: "ball", anatomy: "hip", side, fixed, mobile },
+    coordinates: [
+      { name: "flexion", opposite: "extension" }, { name: "adduction", opposite: "abduction" },
+      { name: "internal_rotation", opposite: "external_rotation" },
+    ],
+    reference_deg: [0, 0, 0], reference_mm: [0, 0, 0],
+    rom: { motions: proposal.motions, notes: proposal.notes, terms: proposal.told, scope: words.scope },
+    map: null, arrays: {}, poses: [], recorded: null,
+  };
 }
 
 /// Elements whose bytes were stored plane by plane: all first bytes, then all second ones.

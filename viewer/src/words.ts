@@ -104,7 +104,11 @@ export const words = {
   time: "Time, s",
 
   drop: "Drop your own",
-  dropHere: "Drop two meshes here, or choose them: the fixed bone first (STL, OBJ, PLY).",
+  dropHere:
+    "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). They stay " +
+    "on this computer.",
+  dropSecond: (name: string) => `${name} is the bone that stays; now the one that moves.`,
+  dropped: (fixed: string, mobile: string) => `${mobile} in ${fixed}`,
   saveSvg: "Save as SVG",
   saveData: "Save data",
 

@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -16,51 +15,13 @@
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "kinematics/hip_axes.hpp"
 
 namespace condyle {
 namespace {
 
-/// Axes that segmentations and models come in, in the frame of the meshes.
-struct KnownAxes {
-  std::string_view name;
-  FrameDirections directions;
-
-  const Vec3& anterior() const { return directions.anterior; }
-  const Vec3& superior() const { return directions.superior; }
-  Vec3 right() const { return anterior().cross(superior()); }
-};
-
-const std::array known_axes{KnownAxes{"RAS (x right, y anterior, z superior)", ras_axes},
-                            KnownAxes{"LPS (x left, y posterior, z superior)", lps_axes},
-                            KnownAxes{"joint axes (x anterior, y superior, z right)", {}}};
-
-/// Least cosines, for what a hip's bones do whoever they belong to: the femur hangs within 45 degrees of straight down,
-/// the hip bone lies at least 17 degrees to the midline, the socket opens at least 17 degrees to the side and 3 forwards.
-constexpr double hangs = 0.7, to_midline = 0.3, opens_to_side = 0.3, opens_forwards = 0.05;
-
 double degrees(double cosine) {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
-}
-
-bool agrees(const kinematics::HipAnatomy& hip, const KnownAxes& axes, Side side) {
-  const Vec3 lateral = side == Side::right ? axes.right() : Vec3(-axes.right());
-  return hip.towards_femur.dot(axes.superior()) < -hangs && hip.towards_pelvis.dot(lateral) < -to_midline &&
-         (!hip.opening ||
-          (hip.opening->dot(lateral) > opens_to_side && hip.opening->dot(axes.anterior()) > opens_forwards));
-}
-
-struct Found {
-  const KnownAxes* axes;
-  Side side;
-};
-
-/// Frames and sides that agree with the bones; without a socket's opening front and back are not told apart.
-std::vector<Found> agreeing(const kinematics::HipAnatomy& hip, const std::optional<Side>& given) {
-  std::vector<Found> found;
-  for (const KnownAxes& axes : known_axes)
-    for (const Side side : {Side::right, Side::left})
-      if ((!given || *given == side) && agrees(hip, axes, side)) found.push_back({&axes, side});
-  return found;
 }
 
 /// As TOML writes it, whatever it holds.
@@ -146,7 +107,7 @@ JointProposal propose_joint(const ProposalRequest& request) {
     lines.missing("kind", "\"ball\" or \"hinge\"", "no head was found on the mobile body near the fixed one");
   }
 
-  const auto found = hip ? agreeing(*hip, request.side) : std::vector<Found>{};
+  const auto found = hip ? kinematics::agreeing_axes(*hip, request.side) : std::vector<kinematics::AgreeingAxes>{};
   if (request.side)
     lines.key("side", toml_text(name_of(*request.side)), "given");
   else if (found.size() == 1)

@@ -7,7 +7,6 @@
 
 #include "condyle/error.hpp"
 #include "condyle/repair.hpp"
-#include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle {
@@ -78,12 +77,6 @@ MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view n
   MeshFile file{checked(read_raw(source, format), source), 0};
   if (format == MeshFormat::stl) file.welded_vertices = weld_exactly(file.mesh);
   return file;
-}
-
-MeshFile read_mesh(const std::filesystem::path& path) {
-  io::check_is_file(path);
-  const auto format = mesh_format_of(path);
-  return read_mesh(io::read_whole_file(path), format, path.string());
 }
 
 }  // namespace condyle

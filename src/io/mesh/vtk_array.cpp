@@ -1,14 +1,10 @@
 #include "io/mesh/vtk_array.hpp"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-#include <vtkZLibDataCompressor.h>
-
 #include <algorithm>
 #include <limits>
+#include <span>
+
+#include "io/mesh/uncompress.hpp"
 
 namespace condyle::io {
 namespace {
@@ -91,22 +87,6 @@ class Bytes {
   std::string decoded_;
 };
 
-/// Undoes one block. VTK's compressors check their output's size, and they print unless somebody listens.
-bool uncompress(Compressor compressor, const std::string& block, char* out, std::size_t size) {
-  vtkSmartPointer<vtkDataCompressor> codec;
-  if (compressor == Compressor::zlib) {
-    codec = vtkSmartPointer<vtkZLibDataCompressor>::New();
-  } else {
-    codec = vtkSmartPointer<vtkLZ4DataCompressor>::New();
-  }
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  codec->AddObserver(vtkCommand::ErrorEvent, silence);
-  codec->AddObserver(vtkCommand::WarningEvent, silence);
-  return codec->Uncompress(reinterpret_cast<const unsigned char*>(block.data()), block.size(),
-                           reinterpret_cast<unsigned char*>(out), size) == size;
-}
-
 /// Lengths first: number of blocks, size of a block and of the last one if that is smaller, compressed size
 /// of each.
 std::string uncompressed_bytes(Bytes& bytes, const VtkArray& array, const VtkEncoding& encoding,
@@ -132,7 +112,7 @@ std::string uncompressed_bytes(Bytes& bytes, const VtkArray& array, const VtkEnc
   std::size_t at = 0;
   for (std::size_t b = 0; b < blocks; ++b) {
     const std::size_t expected = b < full_blocks ? block_size : last_size;
-    if (!uncompress(encoding.compressor, bytes.take(compressed[b]), out.data() + at, expected)) {
+    if (!uncompress(encoding.compressor, bytes.take(compressed[b]), std::span(out).subspan(at, expected))) {
       fail(source, array, fmt::format("block {} cannot be uncompressed", b));
     }
     at += expected;

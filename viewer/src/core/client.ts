@@ -1,5 +1,5 @@
 import type {
-  BothValues, Coordinates, FromWorker, JointArrays, LiveLimit, MapQuestion, Quantity, Query, QueryAnswer, Shown, ToWorker,
+  BothValues, Coordinates, DroppedFile, FromWorker, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
 declare const workerSource: string;
@@ -34,17 +34,33 @@ export class CoreClient {
   }
 
   /// Rejects with the core's own line where the joint cannot be made.
-  static open(wasm: ArrayBuffer, joint: JointArrays): Promise<CoreClient> {
+  static async open(wasm: ArrayBuffer, joint: JointArrays): Promise<CoreClient> {
     const client = new CoreClient();
+    await client.first({ type: "open", wasm, joint }, [wasm]);
+    return client;
+  }
+
+  /// The same for two files of which a joint is proposed.
+  static async propose(wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile): Promise<{ core: CoreClient; proposal: Proposal }> {
+    const core = new CoreClient();
+    const answer = await core.first({ type: "propose", wasm, fixed, mobile }, [wasm]);
+    if (answer.type !== "proposed") throw new Error(answer.type);
+    return { core, proposal: answer.proposal };
+  }
+
+  /// The answer to the first message; all later ones are heard by those who listen.
+  private first(message: ToWorker, transfer: Transferable[]): Promise<FromWorker> {
     return new Promise((resolve, reject) => {
-      client.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
-        if (data.type === "failed") reject(new Error(data.message));
-        if (data.type !== "ready") return;
-        client.worker.onmessage = (event: MessageEvent<FromWorker>) => client.hear(event.data);
-        resolve(client);
+      this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+        if (data.type === "failed") {
+          this.close();
+          return reject(new Error(data.message));
+        }
+        this.worker.onmessage = (event: MessageEvent<FromWorker>) => this.hear(event.data);
+        resolve(data);
       };
-      client.worker.onerror = (event) => reject(new Error(event.message));
-      client.say({ type: "open", wasm, joint }, [wasm]);
+      this.worker.onerror = (event) => reject(new Error(event.message));
+      this.say(message, transfer);
     });
   }
 
@@ -124,6 +140,7 @@ export class CoreClient {
         this.send();
         return;
       case "ready":
+      case "proposed":
         return;
     }
   }

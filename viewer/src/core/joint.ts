@@ -1,7 +1,7 @@
 import pageCore, { type PageCore } from "page-core";
 import {
-  quantityNumber, type BothValues, type Coordinates, type Details, type Inside, type JointArrays, type LiveLimit, type MapQuestion, type Penetrations,
-  type Shown, type Surface, type Values,
+  quantityNumber, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside, type JointArrays, type LiveLimit, type MapQuestion, type Penetrations,
+  type Proposal, type Shown, type Surface, type Values,
 } from "./protocol";
 
 const poseBytes = 16 * 8;
@@ -10,7 +10,6 @@ const kinds = ["unknown", "bearing", "impingement"] as const;
 
 /// A joint in the module's memory. Everything it answers is copied out of there.
 export class CoreJoint {
-  private readonly joint: number;
   private readonly pose: number;
   private readonly three: number;
   private readonly otherThree: number;
@@ -21,23 +20,49 @@ export class CoreJoint {
   private readonly mobileTriangles: number;
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
-    return new CoreJoint(await pageCore({ wasmBinary: wasm }), arrays);
+    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
+    const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) => ({
+      vertices: memory.copied(vertices), triangles: memory.copied(triangles), vertexCount: vertices.length / 3,
+      count: triangles.length / 3,
+    }));
+    const [fixed, mobile] = [placed[0]!, placed[1]!];
+    const joint = memory.core._condyle_joint(
+      arrays.kind, arrays.anatomy, arrays.side, fixed.vertices, fixed.vertexCount, fixed.triangles, fixed.count, mobile.vertices,
+      mobile.vertexCount, mobile.triangles, mobile.count);
+    for (const { vertices, triangles } of placed) memory.free(vertices, triangles);
+    return new CoreJoint(memory, joint);
   }
 
-  private constructor(private readonly core: PageCore, arrays: JointArrays) {
-    this.vertices = { fixed: arrays.fixed.vertices.length / 3, mobile: arrays.mobile.vertices.length / 3 };
-    this.mobileTriangles = arrays.mobile.triangles.length / 3;
-    const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) =>
-      ({ vertices: this.copied(vertices), triangles: this.copied(triangles), count: triangles.length / 3 }));
-    const [fixed, mobile] = [placed[0]!, placed[1]!];
-    this.joint = core._condyle_joint(
-      arrays.kind, arrays.anatomy, arrays.side, fixed.vertices, this.vertices.fixed, fixed.triangles, fixed.count,
-      mobile.vertices, this.vertices.mobile, mobile.triangles, mobile.count);
-    for (const { vertices, triangles } of placed) {
-      core._free(vertices);
-      core._free(triangles);
-    }
-    if (!this.joint) throw this.error();
+  /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
+  static async propose(wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile): Promise<{ joint: CoreJoint; proposal: Proposal }> {
+    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
+    const { core } = memory;
+    const meshes = [fixed, mobile].map(({ name, bytes }) => {
+      const namePlace = memory.copied(new TextEncoder().encode(`${name}\0`)), bytesPlace = memory.copied(new Uint8Array(bytes));
+      const mesh = core._condyle_read_mesh(namePlace, bytesPlace, bytes.byteLength);
+      memory.free(namePlace, bytesPlace);
+      if (!mesh) throw memory.error();
+      return mesh;
+    });
+    const side = -1;  // the bones tell it
+    const joint = new CoreJoint(memory, core._condyle_propose(meshes[0]!, meshes[1]!, side));
+    meshes.forEach((mesh) => core._condyle_free_mesh(mesh));
+    const description = core._condyle_description(joint.joint);
+    if (!description) throw memory.error();
+    return {
+      joint,
+      proposal: {
+        joint: { kind: 0, anatomy: 0, side: core._condyle_side(joint.joint), fixed: joint.surface(1), mobile: joint.surface(0) },
+        ...(JSON.parse(core.UTF8ToString(description)) as Omit<Proposal, "joint">),
+      },
+    };
+  }
+
+  private constructor(private readonly memory: Memory, private readonly joint: number) {
+    const { core } = memory;
+    if (!joint) throw memory.error();
+    this.vertices = { fixed: core._condyle_vertex_count(joint, 1), mobile: core._condyle_vertex_count(joint, 0) };
+    this.mobileTriangles = core._condyle_triangle_count(joint, 0);
     const most = Math.max(this.vertices.fixed, this.vertices.mobile);
     this.pose = core._malloc(poseBytes);
     this.three = core._malloc(3 * 8);
@@ -125,16 +150,28 @@ export class CoreJoint {
     };
   }
 
+  private surface(ofFixed: number): Surface {
+    const { core } = this.memory;
+    const vertexCount = core._condyle_vertex_count(this.joint, ofFixed), count = core._condyle_triangle_count(this.joint, ofFixed);
+    const vertices = core._malloc(24 * vertexCount), triangles = core._malloc(12 * count);
+    core._condyle_mesh(this.joint, ofFixed, vertices, triangles);
+    const surface = { vertices: this.f64(vertices, 3 * vertexCount), triangles: this.u32(triangles, 3 * count) };
+    this.memory.free(vertices, triangles);
+    return surface;
+  }
+
   private place({ angles, translation }: Coordinates): void {
     this.put(this.three, angles);
     this.put(this.otherThree, translation);
     this.checked(this.core._condyle_pose(this.joint, this.three, this.otherThree, this.pose));
   }
 
+  private get core(): PageCore {
+    return this.memory.core;
+  }
   private put(pointer: number, numbers: readonly number[]): void {
     new Float64Array(this.core.HEAPU8.buffer, pointer, numbers.length).set(numbers);
   }
-
   private bytes(pointer: number, count: number): ArrayBuffer {
     return this.core.HEAPU8.slice(pointer, pointer + count).buffer as ArrayBuffer;
   }
@@ -144,18 +181,25 @@ export class CoreJoint {
   private u32(pointer: number, count: number): Uint32Array {
     return new Uint32Array(this.bytes(pointer, 4 * count));
   }
+  private checked(answer: number): number {
+    if (answer < 0) throw this.memory.error();
+    return answer;
+  }
+}
 
-  private copied(array: Float64Array | Uint32Array): number {
+/// The module's memory.
+class Memory {
+  constructor(readonly core: PageCore) {}
+
+  copied(array: Float64Array | Uint32Array | Uint8Array): number {
     const pointer = this.core._malloc(array.byteLength);
     this.core.HEAPU8.set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), pointer);
     return pointer;
   }
-
-  private checked(answer: number): number {
-    if (answer < 0) throw this.error();
-    return answer;
+  free(...pointers: number[]): void {
+    for (const pointer of pointers) this.core._free(pointer);
   }
-  private error(): Error {
+  error(): Error {
     return new Error(this.core.UTF8ToString(this.core._condyle_error()));
   }
 }

@@ -1,3 +1,5 @@
+import type { MotionAnswer } from "../report";
+
 /// What page and worker say to each other.
 
 export type Quantity = "gap" | "depth" | "nearest" | "none";
@@ -96,7 +98,23 @@ export type Query =
   | { of: "memory" };
 export type QueryAnswer = number | Details | LiveLimit | [number, number, number, number][];
 
+/// A mesh file and its name, whose ending tells the format.
+export interface DroppedFile {
+  name: string;
+  bytes: ArrayBuffer;
+}
+
+/// The joint that was proposed for two files.
+export interface Proposal {
+  joint: JointArrays;
+  /// What told it, what looks wrong with it, and where its motions end.
+  told: string[];
+  notes: { code: string; text: string }[];
+  motions: MotionAnswer[];
+}
+
 export type ToWorker =
+  | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile }
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
   | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
   | { type: "query"; id: number; query: Query }
@@ -105,6 +123,7 @@ export type ToWorker =
 
 export type FromWorker =
   | { type: "ready" }
+  | { type: "proposed"; proposal: Proposal }
   | { type: "failed"; message: string }
   | { type: "shown"; id: number; shown: Shown }
   | { type: "values"; id: number; values: BothValues }

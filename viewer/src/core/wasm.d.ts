@@ -25,6 +25,14 @@ declare module "page-core" {
     _condyle_free_angles(joint: number, vary: number, start: number, back: number, forth: number): number;
     _condyle_intervals(joint: number): number;
     _condyle_bearing(joint: number, triangles: number): number;
+    _condyle_read_mesh(name: number, bytes: number, count: number): number;
+    _condyle_free_mesh(mesh: number): void;
+    _condyle_propose(fixed: number, mobile: number, side: number): number;
+    _condyle_side(joint: number): number;
+    _condyle_vertex_count(joint: number, ofFixed: number): number;
+    _condyle_triangle_count(joint: number, ofFixed: number): number;
+    _condyle_mesh(joint: number, ofFixed: number, vertices: number, triangles: number): void;
+    _condyle_description(joint: number): number;
   }
   const pageCore: (options: { wasmBinary: ArrayBuffer }) => Promise<PageCore>;
   export default pageCore;

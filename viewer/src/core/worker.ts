@@ -94,6 +94,15 @@ self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
         say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
       }
       return;
+    case "propose":
+      try {
+        const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile);
+        joint = opened.joint;
+        say({ type: "proposed", proposal: opened.proposal });
+      } catch (error) {
+        say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
+      }
+      return;
     case "pose":
       latest = data;
       break;
