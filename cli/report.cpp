@@ -25,7 +25,10 @@
 namespace condyle::cli {
 namespace {
 
+enum class Content { joint, nothing };
+
 struct Options {
+  Content content = Content::joint;
   std::string joint, out, motion;
   std::optional<std::string> title;
   bool with_pressure = false;
@@ -70,7 +73,18 @@ struct Recorded {
   MotionAnswer answer;
 };
 
+/// The page without a joint; every option but --out is for one with a joint.
+void write_empty(const Options& options, const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->count() > 0 && option->get_name() != "--out" && option->get_name() != "--empty")
+      throw UsageError(option->get_name() + ": is for a report of a joint, not for --empty");
+  write_empty_report(options.out);
+  say_written({options.out});
+}
+
 void run(const Options& options, const CLI::App& command) {
+  if (options.content == Content::nothing) return write_empty(options, command);
+  if (options.joint.empty()) throw UsageError("report: JOINT is required, or --empty");
   const LoadedJoint loaded = read_joint(options.joint);
   std::optional<Recorded> recorded;
   if (!options.motion.empty()) recorded.emplace(options, loaded);
@@ -120,10 +134,14 @@ void add_report(CLI::App& app) {
       "         condyle report sample/hip.toml --out report.html\n"
       "         condyle report sample/hip.toml --band --map flexion=0:120:10 adduction=-30:20:10 --out "
       "report.html\n"
+      "         condyle report --empty --out drop_a_hip.html\n"
       "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
       "why and shows the joint.");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("JOINT", options->joint, "Joint file (TOML)");
+  command->add_flag_callback(
+      "--empty", [options] { options->content = Content::nothing; },
+      "A page without a joint: it takes the meshes of a hip that are dropped on it");
   command->add_option("--out", options->out, "The HTML file to write")->required()->option_text("FILE");
   command->add_option("--title", options->title, "Heading of the page: the joint's name if not given");
   auto* motion = command

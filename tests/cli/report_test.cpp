@@ -121,6 +121,17 @@ TEST_F(ReportCommand, PressureComesFromLayersOfTheJointFile) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(ReportCommand, WithoutAJointIsThePageThatTakesOne) {
+  const Ran ran = run("report --empty --out report.html");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const std::string page = io::read_whole_file(folder / "report.html");
+  EXPECT_NE(page.find("<!--condyle-data-->"), page.npos);
+  EXPECT_EQ(page.find("id=\"condyle-data\""), page.npos);
+  fs::remove(folder / "report.html");
+  expect_refused(2, "report joint.toml --empty --out report.html", "JOINT: is for a report of a joint");
+  expect_refused(2, "report --empty --title x --out report.html", "--title: is for a report of a joint");
+}
+
 TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(2, "report joint.toml", "--out is required");
   expect_refused(2, "report --out report.html", "JOINT is required");

@@ -39,4 +39,9 @@ std::string report_html(const Report& report);
 /// Writes it: whole or not at all; a folder that is missing is made. Throws FileError.
 void write_report(const std::filesystem::path& path, const Report& report);
 
+/// The page without a joint: it takes two mesh files that are dropped on it, in any browser.
+std::string empty_report_html();
+/// Writes it; as write_report().
+void write_empty_report(const std::filesystem::path& path);
+
 }  // namespace condyle

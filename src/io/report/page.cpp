@@ -80,4 +80,12 @@ void write_report(const std::filesystem::path& path, const Report& report) {
   io::write_output_file(path, report_html(report));
 }
 
+std::string empty_report_html() {
+  return std::string(io::report_template());
+}
+
+void write_empty_report(const std::filesystem::path& path) {
+  io::write_output_file(path, empty_report_html());
+}
+
 }  // namespace condyle
