@@ -20,6 +20,11 @@ real_hip() {
 if [ -d "$data/hip_vhf_right" ]; then
   real_hip vhf_right hip_vhf_right
   real_hip libhip_left hip_libhip_m1_left
+  {
+    cat "$out/vhf_right.toml"
+    printf '[recorded_motion]\nflexion = "hip_flexion_r"\nadduction = "hip_adduction_r"\ninternal_rotation = "hip_rotation_r"\n'
+  } >"$out/walk.toml"
+  "$condyle" report "$out/walk.toml" --motion "$data/motion_gait2354_walk/subject01_walk1_ik.mot" --out "$out/walk.html"
 else
   echo "real hips are skipped: $data/hip_vhf_right is not there" >&2
 fi

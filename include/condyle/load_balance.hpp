@@ -34,13 +34,13 @@ struct BalanceOptions {
   /// How far the mobile body may go from where it starts.
   double farthest_mm = 20;
   int most_steps = 100;
-  /// Of the load, what may be left where the contact's force jumps: BalanceOutcome::at_jump.
+  /// Of the load, what may be left where no step leaves less, 0 to 1: BalanceOutcome::at_jump.
   double most_left_at_jump = 0.02;
 };
 
 enum class BalanceOutcome {
   balanced,
-  at_jump,  ///< all but a little of the load is carried, and next to X_FM the force jumps over what is left
+  at_jump,  ///< all but a little of the load is carried, and no step was found that leaves less: as where the force jumps
   pulled_apart,  ///< along the load the bodies do not meet, or they part
   over_the_rim,  ///< in contact, and nowhere near was a pose found in which the contact carries the load
   unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
@@ -70,9 +70,9 @@ std::string reason_of(const BalancedPose& pose);
 /// halved while they leave more of the load, or store more energy than the load gives. A start without contact is moved along the load to
 /// where the contact carries that part of it. What is called balanced is stable: the contact pushes back whichever way the
 /// body is moved. The contact's force jumps where a ray begins or ceases to meet the other surface, at a rim or a side wall: a
-/// load within such a jump is told with what is left of it.
+/// load of which no step leaves less, and little is left, is taken to lie within such a jump, and told with what is left.
 ///
-/// UsageError where the load is zero or not finite along what is free, or directions depend on each other. Some ten times
+/// UsageError where a share is not from 0 to 1, the load is zero or not finite along what is free, or directions depend on each other. Some ten times
 /// the cost of a pose.
 BalancedPose balance(const ElasticContact& contact, const Pose& start, const Load& load,
                      const BalanceOptions& options = {});

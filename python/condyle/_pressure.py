@@ -73,7 +73,7 @@ class BalanceOptions:
         How far the mobile body may go from where it starts.
     most_steps : int
     most_left_at_jump : float
-        Of the load, the share that may be left where the contact's force jumps: outcome "at_jump".
+        Of the load, the share that may be left where no step leaves less: outcome "at_jump".
     """
 
     force_tolerance_n: float = 1e-6
@@ -94,7 +94,7 @@ class BalanceOptions:
 class BalancedPose:
     """The pose in which the contact carries a load, or why there is none.
 
-    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and next to `X_FM` the force jumps over
+    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and no step was found that leaves less than
     what is left), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
     there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
     `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose.

@@ -65,6 +65,8 @@ class Search {
       : contact_(contact), options_(options), load_(load), start_(start), free_(free_motions(options)) {
     if (!load.on_mobile.force_n.allFinite() || !load.on_mobile.moment_nmm.allFinite())
       throw UsageError("the load is not finite");
+    if (!(options.most_left_at_jump >= 0 && options.most_left_at_jump <= 1))
+      throw UsageError("most_left_at_jump: what may be left of the load is a share from 0 to 1");
     if ((free_.transpose() * load_at(start)).norm() == 0)
       throw UsageError("the load is zero along what is free");
     out_.X_FM = start;
@@ -260,23 +262,27 @@ std::string_view name_of(BalanceOutcome outcome) noexcept {
 }
 
 std::string reason_of(const BalancedPose& pose) {
+  // Of the moment nothing is left to tell where rotations are held.
+  const auto what_is_left = [](const BalancedPose& of) {
+    const double moment = of.residual.moment_nmm.norm();
+    return core::formatted("%.3g N", of.residual.force_n.norm()) +
+           (moment > 0 ? core::formatted(" and %.3g N mm are", moment) : std::string(" are"));
+  };
   const Vec3& d = pose.direction;
   switch (pose.outcome) {
     case BalanceOutcome::balanced:
       return "";
     case BalanceOutcome::at_jump:
-      return core::formatted(
-          "the contact's force jumps there, as rays begin or cease to meet the other surface: %.3g N are "
-          "left",
-          pose.residual.force_n.norm());
+      return what_is_left(pose) +
+             " left, and no step was found that leaves less: as where rays begin or cease to meet the other "
+             "surface";
     case BalanceOutcome::pulled_apart:
       return "the load pulls the bodies apart: along it they do not meet";
     case BalanceOutcome::over_the_rim:
       return core::formatted(
           "no pose nearby in which the contact carries the load: it leads over the rim, or to where the "
-          "contact's "
-          "force jumps; %.3g N are left",
-          pose.residual.force_n.norm());
+          "contact's force jumps; %s left",
+          what_is_left(pose).c_str());
     case BalanceOutcome::unstable:
       return core::formatted(
           "the contact balances the load and does not keep it: moved along (%.3f, %.3f, %.3f) the mobile "

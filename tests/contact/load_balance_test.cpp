@@ -178,7 +178,10 @@ TEST(LoadBalance, StopsWhereTheForceJumps) {
   const double left = one_percent_more.residual.force_n.norm();
   EXPECT_GE(left, 3);
   EXPECT_LE(left, 303 * along_y.most_left_at_jump);
-  EXPECT_NE(reason_of(one_percent_more).find("jumps there"), std::string::npos);
+  EXPECT_NE(reason_of(one_percent_more).find(" N are left, and no step"), std::string::npos)
+      << reason_of(one_percent_more);
+  const BalanceOptions no_share{.free_directions = {Vec3::UnitY()}, .most_left_at_jump = 1.5};
+  EXPECT_THROW(balance(contact, translated({0, -0.3, 0}), down(303), no_share), UsageError);
   const auto a_tenth_more = balance(contact, translated({0, -0.3, 0}), down(330), along_y);
   EXPECT_EQ(a_tenth_more.outcome, BalanceOutcome::over_the_rim) << reason_of(a_tenth_more);
   EXPECT_FALSE(a_tenth_more.carries_load());

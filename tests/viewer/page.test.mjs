@@ -156,6 +156,24 @@ test("a figure goes where it is pressed", async () => {
   await page.context().close();
 });
 
+test("a recorded motion plays, with a cursor in its curves", { skip: !has("walk") && "not made" }, async () => {
+  const { page } = await openPage(browser, pathOf("walk"));
+  await settled(page);
+  const frame = page.getByRole("slider", { name: "Frame" });
+  const flexion = async () => Number(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue());
+  await frame.fill("0");
+  // As the file has it in its first row.
+  assert.ok(Math.abs((await flexion()) - 19.56730088) < 1e-9, String(await flexion()));
+  const cursor = page.locator(".cursor").first();
+  const before = Number(await cursor.getAttribute("x1"));
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => Number(document.querySelector("input[aria-label=Frame]").value) > 10);
+  assert.ok(Number(await cursor.getAttribute("x1")) > before);
+  assert.notEqual(await flexion(), 19.56730088);
+  await keep(page, "walk");
+  await page.context().close();
+});
+
 for (const [what, change, says] of [
   ["cut short", (zipped) => zipped.subarray(0, zipped.length / 2), /incomplete or was changed/],
   ["one byte changed", (zipped) => (zipped[Math.floor(zipped.length / 2)] ^= 1, zipped), /cannot be read/],

@@ -5,6 +5,9 @@ import type { Drawing } from "./figure";
 
 const width = 460, height = 130, left = 52, right = 8, top = 18, bottom = 26;
 
+/// Where all of a curve is 0 its axis ends somewhere.
+const nothing = 1e-3;
+
 /// A curve over the frames of a motion, with a cursor; pressed, it goes to the nearest frame.
 export class CurvePlot {
   readonly drawing: Drawing;
@@ -14,9 +17,10 @@ export class CurvePlot {
   constructor(name: string, unit: string, times: Float64Array, values: Float64Array, go: (frame: number) => void) {
     const finite = Array.from(values).filter(Number.isFinite);
     this.x = scaleLinear([times[0]!, times[times.length - 1]!], [left, width - right]);
-    const y = scaleLinear([Math.min(0, ...finite), Math.max(...finite, 1e-9)], [height - bottom, top]).nice();
+    const y = scaleLinear([Math.min(0, ...finite), Math.max(...finite, nothing)], [height - bottom, top]).nice();
     const path = line<number>((_, i) => this.x(times[i]!)).y((value) => y(value)).defined(Number.isFinite);
-    const title = unit ? `${spaced(name)}, ${unit}` : spaced(name);
+    // Names of columns end in their units, letters and digits only.
+    const title = unit ? `${spaced(name.replace(/_(mm2|mm3|mm|deg|nmm|n|mpa|mj)$/, ""))}, ${unit}` : spaced(name);
     const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" },
       svg("text", { x: left, y: 11, class: "small" }, title),
       ...y.ticks(4).flatMap((tick) => [

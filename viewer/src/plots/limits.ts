@@ -22,7 +22,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: (motion: Mot
   const x = scaleLinear([0, most], [left, width - right]).nice();
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" });
   const axisY = height - bottom;
-  for (const tick of x.ticks(6))
+  for (const tick of x.ticks(5))
     picture.append(
       svg("line", { x1: x(tick), x2: x(tick), y1: top, y2: axisY, class: "grid" }),
       svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
