@@ -241,11 +241,11 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
                   double limit[7]) {
   return guarded(-1, [&] {
-    const Motion motion{.vary = all_joint_angles.at(static_cast<std::size_t>(vary)),
-                        .sense = positive ? RotationSense::positive : RotationSense::negative,
-                        .start = angles_of(start_deg),
-                        .range = Angle::degrees(range_deg)};
-    const Limit end = range_of(*joint).limit(motion).end;
+    const Angle range = Angle::degrees(range_deg);
+    const RotationLimits ends = range_of(*joint).both_limits(
+        all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
+        {positive ? Angle() : -range, positive ? range : Angle()});
+    const Limit& end = positive ? ends.positive : ends.negative;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Vec3 point = end.contact ? end.contact->fixed_point : Vec3(none, none, none);
     limit[0] = end.turned.degrees();
