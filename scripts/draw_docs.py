@@ -64,7 +64,8 @@ def draw_pictures():
             ["--view", "anterior-superior", "--hide", "fixed", "--field", "130", "--size", "700x560"],
         ),
     ):
-        condyle("picture", OUT / "sample3/hip.toml", "--pose", pose, *options, "--out", IMAGES / f"{name}.png")
+        # A picture names its joint: from the repository's folder, wherever that is.
+        condyle("picture", "out/docs/sample3/hip.toml", "--pose", pose, *options, "--out", IMAGES / f"{name}.png")
         print(f"docs/images/{name}.png")
 
 
