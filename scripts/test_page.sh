@@ -28,4 +28,4 @@ if [ -d "$data/hip_vhf_right" ]; then
 else
   echo "real hips are skipped: $data/hip_vhf_right is not there" >&2
 fi
-node --test --test-concurrency=1 tests/viewer/
+node --test --test-concurrency=1 tests/viewer/*.test.mjs
