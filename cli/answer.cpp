@@ -1,9 +1,10 @@
 #include "answer.hpp"
 
-#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include "condyle/error.hpp"
+#include "io/file/failure.hpp"
 
 namespace condyle::cli {
 
@@ -13,9 +14,7 @@ void print(std::string_view answer) {
 }
 
 void note(std::string remark) {
-  std::replace_if(
-      remark.begin(), remark.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  std::fprintf(stderr, "condyle: note: %s\n", remark.c_str());
+  std::fprintf(stderr, "condyle: note: %s\n", io::one_line(std::move(remark)).c_str());
 }
 
 void say_written(const std::vector<std::filesystem::path>& files) {

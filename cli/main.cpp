@@ -9,32 +9,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
 #include "answer.hpp"
 #include "commands.hpp"
-#include "condyle/error.hpp"
-#include "condyle/overlap_options.hpp"
 #include "condyle/version.hpp"
 #include "core/near_name.hpp"
 #include "help_formatter.hpp"
 #include "interrupt.hpp"
+#include "io/file/failure.hpp"
 
 namespace {
 
 namespace cli = condyle::cli;
-
-enum ExitCode {
-  answered = 0,
-  bad_usage = 2,
-  bad_file = 3,
-  unfit_mesh = 4,
-  internal_error = 5,
-  reference_contact = 6,
-  interrupted = 130
-};
 
 constexpr const char* exit_codes =
     "Exit codes: 0 answered, 2 wrong usage, 3 bad file, 4 mesh unfit for the question, 5 internal error, "
@@ -48,12 +36,10 @@ void hold_standard_streams() {
       if (::open("/dev/null", O_RDONLY) == -1) return;
 }
 
-/// One line on standard error, whatever a file or its name holds.
-int fail(ExitCode code, std::string message) {
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  std::fprintf(stderr, "condyle: %s\n", message.c_str());
-  return code;
+/// One line on standard error.
+int fail(const condyle::io::Failure& failure) {
+  std::fprintf(stderr, "condyle: %s\n", failure.message.c_str());
+  return failure.exit_code;
 }
 
 /// What is wrong with the command line, with the commands there are where none was given.
@@ -135,9 +121,9 @@ int run(int argc, char** argv) {
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
     cli::print(version ? app.version() + "\n" : app.help());
   } catch (const CLI::ParseError& error) {
-    return fail(bad_usage, describe(error, app));
+    return fail({condyle::io::bad_usage, condyle::io::one_line(describe(error, app))});
   }
-  return answered;
+  return condyle::io::answered;
 }
 
 }  // namespace
@@ -146,19 +132,9 @@ int main(int argc, char** argv) {
   hold_standard_streams();
   try {
     return run(argc, argv);
-  } catch (const condyle::UsageError& error) {
-    return fail(bad_usage, error.what());
-  } catch (const condyle::FileError& error) {
-    return fail(bad_file, error.what());
-  } catch (const condyle::ReferenceContactError& error) {
-    return fail(reference_contact, error.what());
-  } catch (const condyle::MeshError& error) {
-    return fail(unfit_mesh, error.what());
   } catch (const cli::Interrupted& stopped) {
-    return fail(interrupted, stopped.what());
-  } catch (const std::bad_alloc&) {
-    return fail(internal_error, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(internal_error, fmt::format("internal error: {}", error.what()));
+    return fail({condyle::io::interrupted, stopped.what()});
+  } catch (...) {
+    return fail(condyle::io::failure_of_current_exception());
   }
 }

@@ -7,6 +7,7 @@
 #include "condyle/mesh.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
+#include "condyle/sample/hip_measures.hpp"
 
 namespace condyle::python {
 namespace {
@@ -14,19 +15,8 @@ namespace {
 /// By the names that sample_hip() of Python has checked; angles in degrees.
 HipParameters hip_parameters(const std::map<std::string, double>& given) {
   HipParameters hip;
-  for (const auto& [name, value] : given) {
-    if (name == "head_radius_mm") hip.head_radius_mm = value;
-    if (name == "joint_space_mm") hip.joint_space_mm = value;
-    if (name == "neck_shaft_angle_deg") hip.neck_shaft_angle = Angle::degrees(value);
-    if (name == "femoral_anteversion_deg") hip.femoral_anteversion = Angle::degrees(value);
-    if (name == "neck_radius_mm") hip.neck_radius_mm = value;
-    if (name == "neck_length_mm") hip.neck_length_mm = value;
-    if (name == "shaft_length_mm") hip.shaft_length_mm = value;
-    if (name == "alpha_angle_deg") hip.alpha_angle = Angle::degrees(value);
-    if (name == "acetabular_inclination_deg") hip.acetabular_inclination = Angle::degrees(value);
-    if (name == "acetabular_version_deg") hip.acetabular_version = Angle::degrees(value);
-    if (name == "lateral_centre_edge_angle_deg") hip.lateral_centre_edge_angle = Angle::degrees(value);
-  }
+  for (const auto& [name, value] : given)
+    if (const HipMeasure* measure = hip_measure_named(name)) measure->set(hip, value);
   return hip;
 }
 

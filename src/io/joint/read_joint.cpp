@@ -7,6 +7,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/repair_text.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/joint/load_joint.hpp"
 
 namespace condyle {
 namespace {
@@ -115,14 +116,17 @@ std::vector<std::string> notes_on(const JointReport& report) {
 
 }  // namespace
 
-LoadedJoint read_joint(const std::filesystem::path& path) {
-  JointFile file = read_joint_file(path);
+LoadedJoint io::load_joint(JointFile file) {
   LoadedBody fixed = load(file.fixed, "fixed", file.path), mobile = load(file.mobile, "mobile", file.path);
   PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
   JointReport report{
       std::move(file), std::move(fixed.reports), std::move(mobile.reports), std::move(made.placement), {}};
   report.notes = notes_on(report);
   return {std::move(made.joint), std::move(report)};
+}
+
+LoadedJoint read_joint(const std::filesystem::path& path) {
+  return io::load_joint(read_joint_file(path));
 }
 
 }  // namespace condyle

@@ -1,29 +1,10 @@
 #include <fmt/format.h>
 
+#include "io/file/csv_fields.hpp"
 #include "io/motion/table_builder.hpp"
 
 namespace condyle::io {
 namespace {
-
-/// The fields of a line (RFC 4180), quotes taken off and blanks around them too; no field goes over a line's end.
-std::vector<std::string> fields_of(std::string_view line, std::size_t number, const Source& source) {
-  std::vector<std::string> fields(1);
-  bool in_quotes = false;
-  for (std::size_t at = 0; at < line.size(); ++at) {
-    const char c = line[at];
-    if (c == '"' && in_quotes && line.substr(at + 1).starts_with('"'))
-      fields.back() += line[++at];
-    else if (c == '"')
-      in_quotes = !in_quotes;
-    else if (c == ',' && !in_quotes)
-      fields.emplace_back();
-    else
-      fields.back() += c;
-  }
-  if (in_quotes) source.fail(fmt::format("line {}: a quote is not closed", number));
-  for (std::string& field : fields) field = trimmed(field);
-  return fields;
-}
 
 /// XMALab names the sixteen columns of a body R11 R12 R13 01 R21 R22 R23 02 R31 R32 R33 03 TX TY TY 1: the second TY is
 /// a slip of the program for TZ (saveRigidBodyTransformations in its src/core/Trial.cpp).
@@ -55,7 +36,7 @@ MotionTable read_csv_table(const Source& source) {
       continue;
     }
     if (empty_line != 0) source.fail(fmt::format("line {}: is empty, and rows follow", empty_line));
-    std::vector<std::string> fields = fields_of(text, line, source);
+    std::vector<std::string> fields = csv_fields(text, line, source);
     if (table.columns.empty()) {
       if (fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos)
         source.fail(

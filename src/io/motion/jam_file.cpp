@@ -1,7 +1,6 @@
 #include "condyle/io/jam_file.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <cassert>
@@ -11,6 +10,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "io/file/h5_image.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
 
@@ -19,90 +19,6 @@
 
 namespace condyle {
 namespace {
-
-/// HDF5 prints its errors unless it is told not to.
-class Silence {
- public:
-  Silence() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Silence(const Silence&) = delete;
-  Silence& operator=(const Silence&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-/// Something of HDF5's that has to be closed.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw FileError("HDF5 failed");
-  }
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  hid_t id() const noexcept { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void require(bool done) {
-  if (!done) throw FileError("HDF5 failed");
-}
-
-/// A file in memory, since one that fills the disk halfway must not keep the name.
-class H5Image {
- public:
-  H5Image() : file_(created(), H5Fclose) {}
-
-  void group(const std::string& path) {
-    const Handle properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-    require(H5Pset_obj_track_times(properties.id(), false) >= 0);
-    const Handle made(H5Gcreate2(file_.id(), path.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
-                      H5Gclose);
-  }
-
-  /// Doubles, in an array of one length (`columns` 0) or of rows and columns, row by row.
-  void numbers(const std::string& path, const std::vector<double>& values, std::size_t rows,
-               std::size_t columns) {
-    assert(values.size() == rows * std::max<std::size_t>(columns, 1));
-    const hsize_t lengths[2] = {rows, columns};
-    const Handle space(H5Screate_simple(columns == 0 ? 1 : 2, lengths, nullptr), H5Sclose);
-    const Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    // The time of writing would make two files of one answer differ.
-    require(H5Pset_obj_track_times(properties.id(), false) >= 0);
-    const Handle set(H5Dcreate2(file_.id(), path.c_str(), H5T_IEEE_F64LE, space.id(), H5P_DEFAULT,
-                                properties.id(), H5P_DEFAULT),
-                     H5Dclose);
-    require(H5Dwrite(set.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
-  }
-
-  std::string bytes() const {
-    require(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) >= 0);
-    const ssize_t size = H5Fget_file_image(file_.id(), nullptr, 0);
-    require(size >= 0);
-    std::string image(static_cast<std::size_t>(size), '\0');
-    require(H5Fget_file_image(file_.id(), image.data(), image.size()) == size);
-    return image;
-  }
-
- private:
-  static hid_t created() {
-    constexpr std::size_t step = 1 << 20;  // bytes: memory grows by so much
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    require(H5Pset_fapl_core(access.id(), step, false) >= 0);
-    return H5Fcreate("jam.h5", H5F_ACC_TRUNC, H5P_DEFAULT,
-                     access.id());  // in memory only: no such file is made
-  }
-
-  Handle file_;
-};
 
 /// What JAM's scripts (jam_analysis.m) can take as the name of a field.
 bool is_field_name(std::string_view name) {
@@ -128,14 +44,14 @@ void check_names(const std::filesystem::path& path, std::span<const JamContact> 
   }
 }
 
-void add(H5Image& file, const std::string& path, double JamFrame::*member,
+void add(io::H5Image& file, const std::string& path, double JamFrame::*member,
          const std::vector<JamFrame>& frames) {
   std::vector<double> values;
   for (const JamFrame& frame : frames) values.push_back(frame.*member);
   file.numbers(path, values, frames.size(), 0);
 }
 
-void add(H5Image& file, const std::string& path, Vec3 JamFrame::*member,
+void add(io::H5Image& file, const std::string& path, Vec3 JamFrame::*member,
          const std::vector<JamFrame>& frames) {
   std::vector<double> values;
   for (const JamFrame& frame : frames)
@@ -143,7 +59,7 @@ void add(H5Image& file, const std::string& path, Vec3 JamFrame::*member,
   file.numbers(path, values, frames.size(), 3);
 }
 
-void add(H5Image& file, const std::string& path, std::vector<double> JamFrame::*member,
+void add(io::H5Image& file, const std::string& path, std::vector<double> JamFrame::*member,
          const std::vector<JamFrame>& frames) {
   const std::size_t triangles = (frames.front().*member).size();
   std::vector<double> values;
@@ -152,7 +68,7 @@ void add(H5Image& file, const std::string& path, std::vector<double> JamFrame::*
   if (triangles > 0) file.numbers(path, values, frames.size(), triangles);
 }
 
-void add_surface(H5Image& file, const std::string& contact, const JamSurface& surface) {
+void add_surface(io::H5Image& file, const std::string& contact, const JamSurface& surface) {
   const std::string group = contact + "/" + surface.mesh;
   file.group(group);
   if (surface.frames.empty()) return;
@@ -173,7 +89,7 @@ void add_surface(H5Image& file, const std::string& contact, const JamSurface& su
 }
 
 std::string jam_bytes(std::span<const double> times_s, std::span<const JamContact> contacts) {
-  H5Image file;
+  io::H5Image file;
   file.numbers("/time", {times_s.begin(), times_s.end()}, times_s.size(), 0);
   const std::string forces = "/model/forceset/Smith2018ArticularContactForce";
   for (const char* group : {"/model", "/model/forceset", forces.c_str()}) file.group(group);
@@ -192,7 +108,6 @@ std::string jam_bytes(std::span<const double> times_s, std::span<const JamContac
 void write_jam_file(const std::filesystem::path& path, std::span<const double> times_s,
                     std::span<const JamContact> contacts) {
   check_names(path, contacts);
-  const Silence silence;
   std::string bytes;
   try {
     bytes = jam_bytes(times_s, contacts);

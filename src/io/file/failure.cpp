@@ -1,0 +1,36 @@
+#include "io/file/failure.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "condyle/error.hpp"
+#include "condyle/overlap_options.hpp"
+
+namespace condyle::io {
+
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
+Failure failure_of_current_exception() {
+  try {
+    throw;
+  } catch (const UsageError& error) {
+    return {bad_usage, one_line(error.what())};
+  } catch (const FileError& error) {
+    return {bad_file, one_line(error.what())};
+  } catch (const ReferenceContactError& error) {
+    return {reference_contact, one_line(error.what())};
+  } catch (const MeshError& error) {
+    return {unfit_mesh, one_line(error.what())};
+  } catch (const std::bad_alloc&) {
+    return {internal_error, "out of memory"};
+  } catch (const std::exception& error) {
+    return {internal_error, one_line(std::string("internal error: ") + error.what())};
+  }
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/error.hpp"
+
+namespace condyle::io {
+
+/// HDF5 prints its errors unless it is told not to.
+class H5Silence {
+ public:
+  H5Silence();
+  ~H5Silence();
+  H5Silence(const H5Silence&) = delete;
+  H5Silence& operator=(const H5Silence&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+/// Something of HDF5's that has to be closed.
+class H5Handle {
+ public:
+  H5Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id < 0) throw FileError("HDF5 failed");
+  }
+  ~H5Handle() { close_(id_); }
+  H5Handle(const H5Handle&) = delete;
+  H5Handle& operator=(const H5Handle&) = delete;
+  hid_t id() const noexcept { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// An HDF5 file in memory, since one that fills the disk halfway must not keep the name. Without times of writing: two files
+/// of one answer are the same bytes. HDF5's library takes one thread at a time. Raises FileError.
+class H5Image {
+ public:
+  H5Image();
+
+  void group(const std::string& path);
+
+  /// Doubles, in an array of one length (`columns` 0) or of rows and columns, row by row.
+  void numbers(const std::string& path, const std::vector<double>& values, std::size_t rows,
+               std::size_t columns);
+
+  /// Texts in UTF-8, each as long as the longest, filled up with zeros.
+  void texts(const std::string& path, std::span<const std::string> values);
+
+  /// A text that a data set has beside its values.
+  void attribute(const std::string& path, const std::string& name, const std::string& text);
+
+  std::string bytes() const;
+
+ private:
+  H5Silence silence_;
+  H5Handle file_;
+};
+
+}  // namespace condyle::io
