@@ -18,5 +18,7 @@ void add_motion(CLI::App& app);
 void add_picture(CLI::App& app);
 void add_report(CLI::App& app);
 void add_sample(CLI::App& app);
+void add_study(CLI::App& app);
+void add_merge(CLI::App& app);
 
 }  // namespace condyle::cli

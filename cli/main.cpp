@@ -114,6 +114,8 @@ int run(int argc, char** argv) {
   cli::add_picture(app);
   cli::add_report(app);
   cli::add_sample(app);
+  cli::add_study(app);
+  cli::add_merge(app);
 
   try {
     app.parse(arguments(argc, argv));

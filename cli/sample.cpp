@@ -4,11 +4,13 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <stop_token>
 #include <string>
 
 #include "answer.hpp"
 #include "commands.hpp"
 #include "condyle/io/sample_files.hpp"
+#include "followed.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -169,6 +171,42 @@ void add_cartilages(CLI::App& sample) {
   command->callback([options] { run(*options); });
 }
 
+struct CohortOptions {
+  SampleCohort cohort;
+  int scenario = 1;
+  std::string out;
+};
+
+void run(const CohortOptions& options) {
+  SampleCohort cohort = options.cohort;
+  cohort.scenario = static_cast<Scenario>(options.scenario);
+  const auto written = followed("hips", [&](const auto& follow, std::stop_token stop) {
+    return write_sample_cohort(options.out, cohort, {follow, stop});
+  });
+  say_written(written);
+  print(fmt::format("{} hips, for condyle study {}\n", cohort.n, written.front().string()));
+}
+
+void add_cohort(CLI::App& sample) {
+  auto* command =
+      sample.add_subcommand("cohort", "Hips with measures drawn at random: a table for condyle study");
+  command->footer(
+      "Example: condyle sample cohort --n 4 --seed 1 --out cohort\n"
+      "         condyle study cohort/cohort.csv --out study\n"
+      "Distributions stand in cohort.json. Hip k of a seed is the same whatever n.");
+  auto options = std::make_shared<CohortOptions>();
+  command->add_option("--out", options->out, "Folder for cohort.csv and cohort.json")->required();
+  command->add_option("--n", options->cohort.n, "How many hips")->required();
+  command->add_option("--seed", options->cohort.seed, "Of the draws, 1 if not given");
+  command->add_option("--scenario", options->scenario, "Resolution of each hip, as of condyle sample hip")
+      ->check(CLI::Range(1, 4))
+      ->option_text("1..4 (1)");
+  command->add_flag_callback(
+      "--meshes", [options] { options->cohort.meshes = CohortMeshes::in_files; },
+      "Write meshes and joint file of each hip too; without, a study makes each hip of its measures");
+  command->callback([options] { run(*options); });
+}
+
 }  // namespace
 
 void add_sample(CLI::App& app) {
@@ -176,6 +214,7 @@ void add_sample(CLI::App& app) {
   sample->require_subcommand(1);
   add_hip(*sample);
   add_cartilages(*sample);
+  add_cohort(*sample);
 }
 
 }  // namespace condyle::cli

@@ -184,8 +184,8 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
 }
 
 TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
-  for (const char* command :
-       {"", "inspect", "frame", "depth", "rom", "sample", "sample hip", "sample cartilages"}) {
+  for (const char* command : {"", "inspect", "frame", "depth", "rom", "sample", "sample hip",
+                              "sample cartilages", "sample cohort", "study", "merge"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
     bool has_example = false;
@@ -210,7 +210,7 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
 
 /// The examples in the help of every command, run as they stand.
 TEST_F(Command, TheExamplesOfHelpWork) {
-  for (const char* command : {"inspect", "frame"}) {
+  for (const char* command : {"inspect", "frame", "study"}) {
     const std::string help = run(std::string(command) + " --help").out;
     std::size_t examples = 0;
     for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;

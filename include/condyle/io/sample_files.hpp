@@ -1,8 +1,17 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
 #include "condyle/io/output_folder.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/cartilages.hpp"
+#include "condyle/sample/cohort.hpp"
 #include "condyle/sample/hip.hpp"
 
 namespace condyle {
@@ -14,5 +23,34 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side);
 /// The same for the cartilages: acetabular_cartilage.ply, which is fixed, femoral_cartilage.ply and
 /// cartilages.toml.
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side);
+
+/// Where a study gets the hips of a cohort from.
+enum class CohortMeshes {
+  of_measures,  ///< it makes them of the measures in the table: no mesh is stored
+  in_files,     ///< a folder with meshes and joint file for each
+};
+
+/// A cohort that is to be written: hips 1 to n of a seed.
+struct SampleCohort {
+  std::size_t n = 0;
+  std::uint64_t seed = 1;
+  Scenario scenario = Scenario::one;
+  CohortMeshes meshes = CohortMeshes::of_measures;
+};
+
+/// How the making of meshes is followed and ended, as a map's computation.
+struct CohortControl {
+  std::function<void(std::size_t done, std::size_t total)> progress =
+      {};  ///< one call at a time, growing counts
+  std::stop_token stop = {};
+};
+
+/// Writes cohort.csv, a table for a study, and cohort.json, what it was drawn from; with meshes hips/000001/ and so on before,
+/// on all threads. A hip whose measures cannot be made has no folder then, and is a failure of the study. Some microseconds a
+/// hip, with meshes a second or more. Throws UsageError for no hip or more than 10 million, FileError. Empty where it was
+/// stopped: then there is no table.
+std::optional<std::vector<std::filesystem::path>> write_sample_cohort(const std::filesystem::path& folder,
+                                                                      const SampleCohort& cohort,
+                                                                      const CohortControl& control = {});
 
 }  // namespace condyle

@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <string>
+
+#include "answer.hpp"
+#include "commands.hpp"
+#include "condyle/io/study.hpp"
+
+namespace condyle::cli {
+
+void add_merge(CLI::App& app) {
+  auto* command = app.add_subcommand("merge", "Put the shards of a study together");
+  command->footer(
+      "Example: condyle merge study\n"
+      "The tables are those of a run of the whole table, byte for byte.\n"
+      "Exit code 3: a shard is missing or not whole, or is of another table, other options or another "
+      "version.");
+  auto folder = std::make_shared<std::string>();
+  command->add_option("DIR", *folder, "What condyle study --shard was given as --out")->required();
+  command->callback([folder] {
+    const StudyDone done = merge_study(*folder);
+    say_written(done.written);
+    print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
+  });
+}
+
+}  // namespace condyle::cli

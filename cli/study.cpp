@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <string>
+
+#include "answer.hpp"
+#include "commands.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/study.hpp"
+#include "prompt_stop.hpp"
+#include "range_options.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string table, out, anatomy = "hip", shard, depth;
+  std::vector<std::string> motions;
+  bool leaves_out_reference_contacts = false;
+  BadJoint bad_joint = BadJoint::is_a_row;
+  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+};
+
+Anatomy anatomy_named(std::string_view name) {
+  for (const Anatomy anatomy : all_anatomies)
+    if (name_of(anatomy) == name) return anatomy;
+  throw UsageError("--anatomy: there are hip, knee, ankle, elbow and shoulder");
+}
+
+StudyOptions study_options(const Options& given) {
+  const RangeGiven& range = *given.range;
+  StudyOptions options;
+  options.anatomy = anatomy_named(given.anatomy);
+  for (const std::string& list : given.motions)
+    for (const std::string& name : CLI::detail::split(list, ',')) options.motions.push_back(name);
+  options.bearing = range.bearing;
+  options.reference_contact = range.reference_contact;
+  if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
+  // Of the joint only its kind and which one it is are asked.
+  options.map =
+      grid_of(range, {"", JointKind::ball, Side::right, {"", TriMesh()}, {"", TriMesh()}, options.anatomy});
+  if (range.band_samples > 0)
+    options.bands = {range.band_samples,
+                     range.seed,
+                     {range.sigma_centre_mm, range.sigma_axes_deg, range.sigma_surface_mm}};
+  if (!given.depth.empty()) options.depth_at = parse_pose(given.depth, JointKind::ball, options.anatomy);
+  return options;
+}
+
+void run(const Options& given) {
+  Study study{given.table, given.out, study_options(given), {}, given.bad_joint};
+  if (!given.shard.empty()) study.shard = Shard::parse(given.shard);
+  const StudyDone done = stopped_promptly("joints", [&](const auto& follow, std::stop_token stop) {
+    return run_study(study, {follow, stop});
+  });
+  if (done.was_there)
+    note("is there already, of the same inputs, options and version");
+  else
+    say_written(done.written);
+  print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
+}
+
+}  // namespace
+
+void add_study(CLI::App& app) {
+  auto* command = app.add_subcommand("study", "The limits of many joints: a table in, tables out");
+  command->footer(
+      "Example: condyle sample cohort --n 4 --out cohort\n"
+      "         condyle study cohort/cohort.csv --out study --shard 1/2\n"
+      "         condyle study cohort/cohort.csv --out study --shard 2/2\n"
+      "         condyle merge study\n"
+      "A joint that cannot be answered is a row of failures.csv with its exit code and why; the study "
+      "answers the "
+      "others and ends with exit code 0. What was done before with the same inputs, options and version is "
+      "not done again.");
+  auto options = std::make_shared<Options>();
+  command
+      ->add_option(
+          "TABLE", options->table,
+          "CSV with a row per joint: id, then joint (a joint file), or fixed and mobile (meshes) with side, "
+          "units and axes, or sample (1 to 4) with measures; other columns go into the results")
+      ->required();
+  command
+      ->add_option("--out", options->out,
+                   "Folder for limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and study.json")
+      ->required();
+  command
+      ->add_option("--shard", options->shard,
+                   "Only part i of N of the table, into OUT/shards; condyle merge puts them together")
+      ->option_text("i/N");
+  command
+      ->add_option("--motion", options->motions,
+                   "A motion by its name, or several parted by commas; all if not given")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--anatomy", options->anatomy, "Of all joints of the table")
+      ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
+      ->option_text("hip|knee|ankle|elbow|shoulder (hip)");
+  add_map(*command, options->range);
+  add_bearing(*command, options->range);
+  command->add_flag("--exclude-reference-contacts", options->leaves_out_reference_contacts,
+                    "Leave out what is in contact in the reference pose");
+  add_accept(*command, options->range);
+  add_band(*command, options->range);
+  command->add_option("--depth", options->depth,
+                      "Also how deep the bodies are in each other in this pose, such as \"flexion=90 "
+                      "internal_rotation=30\"");
+  command->add_flag_callback(
+      "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
+      "A joint that cannot be answered ends the run with its exit code; nothing is written");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace condyle::cli

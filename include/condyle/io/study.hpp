@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/io/pose_text.hpp"
+#include "condyle/limit_band.hpp"
+#include "condyle/motion_map.hpp"
+#include "condyle/range_of_motion.hpp"
+
+/// Many joints of one table: `condyle study` and `condyle merge`. Every column of the table and of what is written is in
+/// docs/cohort.md.
+
+namespace condyle {
+
+/// Standard deviations that hold for all joints; those left empty are as the joint's file says, else as is usual.
+struct StudyUncertainty {
+  std::optional<double> centre_mm = {}, axes_deg = {}, surface_mm = {};
+};
+
+struct StudyBands {
+  std::size_t samples = 200;
+  std::uint64_t seed = 1;
+  StudyUncertainty sigma = {};
+};
+
+/// What is asked of every joint of a study: its limits, and what else is set.
+struct StudyOptions {
+  Anatomy anatomy = Anatomy::hip;         ///< of all of them; one of another is a failure
+  std::vector<std::string> motions = {};  ///< by their names; all that a joint has where empty
+  BearingOptions bearing = {};
+  ReferenceContact reference_contact = ReferenceContact::refuse;
+  std::optional<LeaveOutReferenceContacts> leave_out_reference_contacts = {};
+  std::optional<MapGrid> map = {};
+  std::optional<StudyBands> bands = {};
+  std::optional<PoseDegrees> depth_at = {};  ///< how deep the bodies are in each other in this pose
+};
+
+/// A part of the table: of n rows shard i of N has those after (i-1) n / N, up to i n / N, both rounded down.
+struct Shard {
+  std::size_t number = 1, of = 1;  ///< 1 <= number <= of
+
+  /// As "3/7"; throws UsageError.
+  static Shard parse(std::string_view text);
+  bool is_whole() const noexcept { return of == 1; }
+};
+
+/// What a joint that cannot be answered does to a study.
+enum class BadJoint {
+  is_a_row,  ///< of failures.csv
+  ends_run,  ///< with its own error; that of the lowest row where there are several
+};
+
+/// What to run, and where to.
+struct Study {
+  std::filesystem::path table, folder;
+  StudyOptions options = {};
+  std::optional<Shard> shard =
+      {};  ///< one shard, into a folder of its own below `folder`; all rows where empty
+  BadJoint bad_joint = BadJoint::is_a_row;
+};
+
+/// How a study is followed and ended, as a map's computation.
+struct StudyControl {
+  std::function<void(std::size_t done, std::size_t total)> progress =
+      {};  ///< one call at a time, growing counts
+  std::stop_token stop = {};
+};
+
+/// What a study came to.
+struct StudyDone {
+  std::size_t joints = 0, failures = 0;
+  bool was_there = false;  ///< with the same key, and nothing was done
+  std::vector<std::filesystem::path> written;
+};
+
+/// Answers for every row of the table, on all threads, and writes limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and
+/// study.json: all or nothing, the last one last. What lies there with the same key (the rows, the contents of the files they
+/// name, the options and the version) and whole is left. The same bytes whatever the threads; several runs may write the same
+/// folder at a time.
+///
+/// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
+/// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty where it was stopped: nothing is written.
+std::optional<StudyDone> run_study(const Study& study, const StudyControl& control = {});
+
+/// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError where
+/// a shard is missing, or is of another table, other options or another version than the first, or was changed. Reads all tables
+/// into memory.
+StudyDone merge_study(const std::filesystem::path& folder);
+
+}  // namespace condyle

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "condyle/error.hpp"
+#include "condyle/io/study.hpp"
+#include "condyle/version.hpp"
+#include "core/parallel_tasks.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/mesh/parse.hpp"
+#include "io/study/study_answer.hpp"
+#include "io/study/study_files.hpp"
+#include "io/study/study_joint.hpp"
+#include "io/study/study_options.hpp"
+
+namespace condyle {
+namespace {
+
+using io::StudyAnswer;
+using io::StudyRow;
+using io::StudyTable;
+using Rows = std::span<const StudyRow>;
+
+Rows rows_of(const StudyTable& table, const Shard& shard) {
+  const std::size_t rows = table.rows.size();
+  const auto before = [&](std::size_t number) { return number * rows / shard.of; };
+  return Rows(table.rows).subspan(before(shard.number - 1), before(shard.number) - before(shard.number - 1));
+}
+
+std::string sha256_of(const nlohmann::json& json) {
+  return digest_of(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).sha256;
+}
+
+/// What stands in study.json before the tables are known.
+io::StudyRecord record_of(const Study& study, const StudyTable& table) {
+  io::StudyRecord record;
+  record.version = version;
+  record.options = io::options_json(study.options);
+  record.table = table.path.string();
+  record.table_digest = table.digest;
+  record.table_rows = table.rows.size();
+  record.shard = study.shard.value_or(Shard{});
+  record.family = sha256_of({record.version, record.options, table.digest.sha256, record.shard.of});
+  return record;
+}
+
+/// `inputs` of each row in their order.
+std::string key_of(const io::StudyRecord& record, const std::string& columns,
+                   const std::vector<std::string>& inputs) {
+  return sha256_of({record.version, record.options, columns, inputs});
+}
+
+std::vector<std::string> inputs_of(const StudyTable& table, Rows rows) {
+  std::vector<std::string> inputs(rows.size());
+  core::parallel_tasks(rows.size(), [&](std::size_t i) { inputs[i] = io::inputs_sha256(table, rows[i]); });
+  return inputs;
+}
+
+/// The answers of all rows, as they come about.
+class Answers {
+ public:
+  Answers(const Study& study, const StudyTable& table, Rows rows, const StudyControl& control)
+      : study_(study),
+        table_(table),
+        rows_(rows),
+        control_(control),
+        answers_(rows.size()),
+        errors_(rows.size()) {}
+
+  /// Empty where it was stopped. Throws what ends the run, of the lowest row.
+  std::optional<std::vector<StudyAnswer>> all() {
+    core::parallel_tasks(rows_.size(), [&](std::size_t i) { answer(i); });
+    for (const std::exception_ptr& error : errors_)
+      if (error) std::rethrow_exception(error);
+    if (was_stopped_) return std::nullopt;
+    return std::move(answers_);
+  }
+
+ private:
+  void answer(std::size_t i) {
+    if (i > last_) return;
+    if (control_.stop.stop_requested()) {
+      was_stopped_ = true;
+      return;
+    }
+    try {
+      auto answer = io::answer_of(table_, rows_[i], study_.options, control_.stop);
+      if (answer)
+        answers_[i] = std::move(*answer);
+      else
+        was_stopped_ = true;
+    } catch (...) {
+      fail(i);
+    }
+    const std::lock_guard lock(mutex_);
+    if (control_.progress) control_.progress(++done_, rows_.size());
+  }
+
+  /// The row is a failure, unless what is wrong is not its joint.
+  void fail(std::size_t i) {
+    try {
+      throw;
+    } catch (const UsageError&) {  // the options do not fit this joint
+      end_with(i);
+    } catch (const std::bad_alloc&) {  // another machine may answer
+      end_with(i);
+    } catch (...) {
+      if (study_.bad_joint == BadJoint::ends_run)
+        end_with(i);
+      else
+        answers_[i] = io::failure_of(table_, rows_[i]);
+    }
+  }
+
+  /// Rows before this one are answered all the same, so that the lowest such row is the same on any number of threads.
+  void end_with(std::size_t i) {
+    errors_[i] = std::current_exception();
+    std::size_t last = last_;
+    while (i < last && !last_.compare_exchange_weak(last, i)) {
+    }
+  }
+
+  const Study& study_;
+  const StudyTable& table_;
+  Rows rows_;
+  const StudyControl& control_;
+  std::vector<StudyAnswer> answers_;
+  std::vector<std::exception_ptr> errors_;
+  std::atomic<bool> was_stopped_ = false;
+  std::atomic<std::size_t> last_ = static_cast<std::size_t>(-1);  ///< the lowest row that ends the run
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+};
+
+io::StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const io::StudyColumns& columns) {
+  io::StudyTexts texts{header_of(columns.limits), header_of(columns.hips), header_of(columns.failures)};
+  for (const StudyAnswer& answer : answers) {
+    texts.limits += answer.limits;
+    texts.hips += answer.hip;
+    texts.failures += answer.failure;
+  }
+  return texts;
+}
+
+/// What lies in the folder, where it is what this run would write.
+std::optional<StudyDone> done_before(const std::filesystem::path& folder, const io::StudyRecord& asked,
+                                     const std::string& columns, const StudyTable& table, Rows rows) {
+  const auto there = io::read_study_record(folder);
+  if (!there || there->key != key_of(asked, columns, inputs_of(table, rows))) return std::nullopt;
+  // Other rows of the table may have changed: then the shard belongs to the new table as it is.
+  if (there->family != asked.family) {
+    io::StudyResults results = io::read_study(folder);
+    results.record = asked;
+    results.record.key = there->key;
+    results.record.joints = there->joints;
+    results.record.failures = there->failures;
+    io::write_study(folder, results);
+  }
+  return StudyDone{there->joints, there->failures, true, {}};
+}
+
+}  // namespace
+
+Shard Shard::parse(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  Shard shard;
+  if (slash == text.npos || !io::parse_number(text.substr(0, slash), shard.number) ||
+      !io::parse_number(text.substr(slash + 1), shard.of) || shard.number < 1 || shard.number > shard.of ||
+      shard.of > 1'000'000)
+    throw UsageError(
+        fmt::format("shard: {} is not a number and how many there are, such as 3/7", io::in_quotes(text)));
+  return shard;
+}
+
+std::optional<StudyDone> run_study(const Study& study, const StudyControl& control) {
+  const StudyTable table = io::read_study_table(study.table);
+  const Rows rows = rows_of(table, study.shard.value_or(Shard{}));
+  const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;
+  const io::StudyColumns columns = io::study_columns(table, study.options);
+  io::StudyResults results{record_of(study, table), io::columns_csv(columns), {}};
+  // A folder that cannot be written to is reported before the work, not after it.
+  io::prepare_study_folder(folder);
+  if (const auto done = done_before(folder, results.record, results.columns, table, rows)) return done;
+
+  const auto answers = Answers(study, table, rows, control).all();
+  if (!answers) return std::nullopt;
+  std::vector<std::string> inputs;
+  for (const StudyAnswer& answer : *answers) {
+    inputs.push_back(answer.inputs_sha256);
+    results.record.failures += !answer.failure.empty();
+  }
+  results.record.joints = rows.size() - results.record.failures;
+  results.record.key = key_of(results.record, results.columns, inputs);
+  results.texts = texts_of(*answers, columns);
+  return StudyDone{results.record.joints, results.record.failures, false, io::write_study(folder, results)};
+}
+
+}  // namespace condyle

@@ -1,0 +1,204 @@
+#include "io/study/study_answer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "condyle/contact_measures.hpp"
+#include "condyle/error.hpp"
+#include "condyle/reliable_depth.hpp"
+#include "io/file/failure.hpp"
+#include "io/result/csv_field.hpp"
+#include "io/result/map_summary.hpp"
+#include "io/result/rom_columns.hpp"
+#include "io/study/study_columns.hpp"
+#include "io/study/study_joint.hpp"
+
+namespace condyle::io {
+namespace {
+
+using Fields = std::vector<std::string>;
+
+template <class Value>
+std::string text_of(const std::optional<Value>& value) {
+  return value ? fmt::format("{}", *value) : std::string();
+}
+
+/// What each line of this row begins with.
+Fields row_fields(const StudyTable& table, const StudyRow& row) {
+  Fields fields = {csv_field(table.id(row)), fmt::format("{}", row.number)};
+  for (std::string& field : table.carried_fields(row)) fields.push_back(std::move(field));
+  return fields;
+}
+
+std::string line_of(Fields fields, const Fields& more) {
+  fields.insert(fields.end(), more.begin(), more.end());
+  return csv_line(fields);
+}
+
+void check_anatomy(const LoadedJoint& loaded, const StudyOptions& options) {
+  const Joint& joint = loaded.joint;
+  const std::string file = loaded.report.file.path.string();
+  if (joint.anatomy != options.anatomy)
+    throw FileError(fmt::format("{}: is of a {}, and this study of the {}", file, name_of(joint.anatomy),
+                                name_of(options.anatomy)));
+  if (joint.kind == JointKind::free)
+    throw FileError(fmt::format("{}: is a free joint, and a study takes ball joints and hinges", file));
+}
+
+std::vector<Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& options) {
+  std::vector<Motion> known =
+      with_own_motions(built_in_motions(loaded.joint.kind, loaded.joint.anatomy), loaded.report.file.motions);
+  if (options.motions.empty()) return known;
+  std::vector<Motion> chosen;
+  for (const std::string& name : options.motions) chosen.push_back(motion_named(known, name));
+  return chosen;
+}
+
+RangeOptions range_options_of(const LoadedJoint& loaded, const StudyOptions& options) {
+  RangeOptions range;
+  range.bearing = options.bearing;
+  range.overlap = {loaded.report.placement.reference_pose.angles, options.reference_contact,
+                   options.leave_out_reference_contacts};
+  return range;
+}
+
+BandOptions band_options_of(const LoadedJoint& loaded, const StudyBands& bands) {
+  BandOptions options{loaded.report.file.uncertainty, bands.samples, bands.seed};
+  if (bands.sigma.centre_mm) options.sigma.centre_mm = *bands.sigma.centre_mm;
+  if (bands.sigma.axes_deg) options.sigma.axes = Angle::degrees(*bands.sigma.axes_deg);
+  if (bands.sigma.surface_mm) options.sigma.surface_mm = *bands.sigma.surface_mm;
+  return options;
+}
+
+/// Those columns of `condyle rom` that a study has, by their places there.
+std::vector<std::size_t> places_in_rom(const StudyOptions& options, Anatomy joint) {
+  const Fields of_rom = rom_columns(joint);
+  std::vector<std::size_t> places;
+  for (const StudyColumn& column : limit_columns(options))
+    places.push_back(
+        static_cast<std::size_t>(std::find(of_rom.begin(), of_rom.end(), column.name) - of_rom.begin()));
+  return places;
+}
+
+std::string limit_lines(const Fields& row, const RomResult& result, const StudyOptions& options) {
+  const std::vector<std::size_t> places = places_in_rom(options, result.joint.anatomy);
+  std::string lines;
+  for (std::size_t i = 0; i < result.limits.size(); ++i) {
+    const Fields all = rom_fields(result, i);
+    Fields chosen;
+    for (const std::size_t place : places) chosen.push_back(all.at(place));
+    lines += line_of(row, chosen);
+  }
+  return lines;
+}
+
+void add_map(Fields& fields, const MotionMap& map) {
+  const MapSummary summary = summarise(map);
+  const auto add = [&](auto value) { fields.push_back(fmt::format("{}", value)); };
+  add(map.points.size());
+  add(summary.volume.plain_deg3);
+  add(summary.volume.weighted_deg3);
+  for (const ReasonCounts* ends : {&summary.negative_ends, &summary.positive_ends})
+    for (const LimitReason reason :
+         {LimitReason::contact, LimitReason::end_of_range, LimitReason::contact_at_start})
+      add((*ends)[reason]);
+  add(summary.free_elsewhere);
+  add(summary.with_islands);
+}
+
+std::string name_of_way(DepthWay way, Anatomy joint) {
+  switch (way) {
+    case DepthWay::flexion:
+      return std::string(name_of(JointAngle::flexion, joint));
+    case DepthWay::adduction:
+      return std::string(name_of(JointAngle::adduction, joint));
+    case DepthWay::internal_rotation:
+      return std::string(name_of(JointAngle::internal_rotation, joint));
+    case DepthWay::radial:
+      return "radial";
+    default:
+      return "";
+  }
+}
+
+void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {
+  const JointContact bodies(joint);
+  const Pose X_FM = pose_at(joint.coordinates(), at.angles());
+  const RadialContact contact = bodies.radial(X_FM);
+  const ContactMeasures measures = measure_contact(bodies, X_FM, VertexStates(contact));
+  const ReliableContact depths =
+      reliable_depths(bodies, joint.kind, joint.coordinates(), at.angles(), contact, measures.distances);
+  const DeepestReliable* deepest = nullptr;
+  for (const auto* body : {&depths.mobile, &depths.fixed})
+    if (*body && (*body)->deepest && (!deepest || (*body)->deepest->depth_mm > deepest->depth_mm))
+      deepest = &*(*body)->deepest;
+  fields.push_back(contact.in_contact ? "1" : "0");
+  fields.push_back(deepest ? fmt::format("{}", deepest->depth_mm) : "");
+  fields.push_back(deepest ? name_of_way(deepest->way, joint.anatomy) : "");
+  fields.push_back(text_of(measures.volume_mm3));
+  fields.push_back(fmt::format("{}", measures.nearest.distance_mm));
+}
+
+Fields hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std::string_view notes,
+                  std::string_view inputs) {
+  const auto& surface = bearing.surface;
+  return {std::string(name_of(loaded.joint.side)), surface ? fmt::format("{}", surface->head.radius) : "",
+          surface ? fmt::format("{}", surface->margin_mm) : "", std::string(notes), std::string(inputs)};
+}
+
+/// Of a joint that was read; a sample hip is as it was made.
+std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded) {
+  std::string codes;
+  if (is_sample(table, row)) return codes;
+  for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement))
+    codes += (codes.empty() ? "" : " ") + std::string(name_of(note.code));
+  return codes;
+}
+
+}  // namespace
+
+std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row,
+                                     const StudyOptions& options, std::stop_token stop) {
+  const LoadedJoint loaded = load_joint(table, row);
+  check_anatomy(loaded, options);
+  const Joint& joint = loaded.joint;
+  const std::vector<Motion> motions = motions_of(loaded, options);
+  const RangeOptions asked = range_options_of(loaded, options);
+  const RangeOfMotion range(joint, asked);
+  const std::vector<MotionLimit> limits = range.limits(motions);
+  RomResult result{.joint = joint, .limits = limits};
+  result.bearing = range.bearing();
+  result.bearing_rule = range.bearing_rule();
+
+  std::vector<LimitBand> bands;
+  if (options.bands) {
+    RangeOptions again = asked;
+    again.bearing.surface = range.bearing().surface;
+    auto found = limit_bands(joint, motions, again, band_options_of(loaded, *options.bands), {{}, stop});
+    if (!found) return std::nullopt;
+    bands = std::move(*found);
+    result.bands = bands;
+  }
+  const Fields of_row = row_fields(table, row);
+  const std::string inputs = inputs_sha256(row, loaded);
+  Fields of_hip = hip_fields(loaded, range.bearing(), notes_on(table, row, loaded), inputs);
+  if (options.map) {
+    const auto map = motion_map(*options.map, range, {{}, stop});
+    if (!map) return std::nullopt;
+    add_map(of_hip, *map);
+  }
+  if (options.depth_at) add_depth(of_hip, joint, *options.depth_at);
+  return StudyAnswer{limit_lines(of_row, result, options), line_of(of_row, of_hip), {}, inputs};
+}
+
+StudyAnswer failure_of(const StudyTable& table, const StudyRow& row) {
+  const Failure failure = failure_of_current_exception();
+  const std::string inputs = inputs_sha256(table, row);
+  const Fields why = {fmt::format("{}", static_cast<int>(failure.exit_code)), csv_field(failure.message),
+                      inputs};
+  return {{}, {}, line_of(row_fields(table, row), why), inputs};
+}
+
+}  // namespace condyle::io

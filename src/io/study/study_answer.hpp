@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "condyle/io/study.hpp"
+#include "io/study/study_table.hpp"
+
+namespace condyle::io {
+
+/// What became of one row: lines of limits.csv and one of hips.csv, or one of failures.csv.
+struct StudyAnswer {
+  std::string limits, hip, failure;
+  std::string inputs_sha256;
+};
+
+/// The lines of an answer. Throws where there is none; empty where it was stopped.
+std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row,
+                                     const StudyOptions& options, std::stop_token stop);
+
+/// The line of the exception that is being handled.
+StudyAnswer failure_of(const StudyTable& table, const StudyRow& row);
+
+}  // namespace condyle::io

@@ -1,0 +1,162 @@
+#include "io/study/study_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "condyle/sample/hip_measures.hpp"
+#include "io/file/csv_fields.hpp"
+#include "io/result/csv_field.hpp"
+#include "io/result/rom_columns.hpp"
+#include "io/study/study_table.hpp"
+
+namespace condyle::io {
+namespace {
+
+constexpr ColumnKind text = ColumnKind::text, number = ColumnKind::number;
+using Columns = std::vector<StudyColumn>;
+
+Columns id_columns() {
+  return {{"id", "", text, "of the row of the table"},
+          {"table_row", "", number, "number of the row, 1 for the first one"}};
+}
+
+Columns band_columns() {
+  return {{"band_median_deg", "deg", number, "median of the limits of the displaced joints"},
+          {"band_p5_deg", "deg", number, "5 % of them are below"},
+          {"band_p95_deg", "deg", number, "5 % of them are above"},
+          {"band_share_without_contact", "", number, "share that reaches the end of the range, 0 to 1"}};
+}
+
+Columns map_columns() {
+  Columns columns = {
+      {"map_points", "", number, "grid points of the map"},
+      {"map_free_volume_deg3", "deg^3", number, "of the free angles"},
+      {"map_free_volume_weighted_deg3", "deg^3", number, "weighted by the invariant measure of rotations"}};
+  for (const char* end : {"lower", "upper"})
+    for (const char* reason : {"contact", "end_of_range", "contact_at_start"})
+      columns.push_back({fmt::format("map_{}_{}_points", end, reason), "", number,
+                         fmt::format("points whose {} end has this reason", end)});
+  columns.push_back(
+      {"map_free_elsewhere_points", "", number, "in contact at the start, free at other angles"});
+  columns.push_back({"map_island_points", "", number, "free again beyond contact"});
+  return columns;
+}
+
+Columns depth_columns() {
+  return {
+      {"depth_in_contact", "", number, "1 where the bodies meet in the pose, else 0"},
+      {"depth_mm", "mm", number, "of the deepest vertex of either body; empty where none is inside"},
+      {"depth_way", "", text, "along which way it is a depth: radial, or the arc of this angle"},
+      {"depth_volume_mm3", "mm^3", number, "of the space inside both; empty where a mesh is open"},
+      {"depth_nearest_distance_mm", "mm", number, "smallest distance of the surfaces, 0 where they meet"}};
+}
+
+Columns hip_columns() {
+  return {
+      {"side", "", text, "right or left"},
+      {"bearing_radius_mm", "mm", number, "radius of the sphere of the bearing surface; empty: none known"},
+      {"bearing_margin_mm", "mm", number, "how far outside it contact is bearing contact"},
+      {"notes", "", text, "codes of what looks wrong with the joint, with blanks between"},
+      {"inputs_sha256", "", text, "of the row and of the contents of the files it names"}};
+}
+
+void append(Columns& columns, const Columns& more) {
+  columns.insert(columns.end(), more.begin(), more.end());
+}
+
+/// Name, unit and meaning of what is carried.
+Columns carried_columns(const StudyTable& table) {
+  Columns columns;
+  for (const auto& [column, name, is_number] : table.carried) {
+    const HipMeasure* measure = hip_measure_named(table.columns[column]);
+    columns.push_back({name, measure ? std::string(measure->unit) : "", is_number ? number : text,
+                       measure ? fmt::format("from the table: {}", measure->meaning) : "from the table"});
+  }
+  return columns;
+}
+
+Columns failure_columns() {
+  return {{"exit_code", "", number, "of condyle rom for this joint"},
+          {"message", "", text, "one line: file, element, what is wrong"},
+          {"inputs_sha256", "", text, "of the row and of the contents of the files it names"}};
+}
+
+}  // namespace
+
+std::vector<StudyColumn> limit_columns(const StudyOptions& options) {
+  Columns columns = {
+      {"motion", "", text, "by its name"},
+      {"limit_deg", "deg", number, "how far the joint turns from the motion's start"},
+      {"reason", "", text, "contact, end_of_range or contact_at_start"},
+      {"contact_kind", "", text, "impingement, bearing or unknown; empty without contact"},
+      {"bearing_contact_deg", "deg", number, "first bearing contact on the way; empty: none"},
+      {"centre_distance_mm", "mm", number, "between head and socket at the limit"},
+      {"joint_space_mm", "mm", number, "smallest distance of the bearing surface there"},
+      {"error_bound_deg", "deg", number, "by which the limit may be short of the exact one"},
+      {"contact_x_mm", "mm", number, "contact on the fixed body, joint frame, anterior"},
+      {"contact_y_mm", "mm", number, "superior"},
+      {"contact_z_mm", "mm", number, "to the subject's right"},
+      {"clock_hour", "h", number, "of the contact on the socket, 12 superior, 3 anterior, sagittal plane"}};
+  if (options.bands) append(columns, band_columns());
+  return columns;
+}
+
+StudyColumns study_columns(const StudyTable& table, const StudyOptions& options) {
+  const Columns carried = carried_columns(table);
+  StudyColumns columns{id_columns(), id_columns(), id_columns()};
+  for (Columns* each : {&columns.limits, &columns.hips, &columns.failures}) append(*each, carried);
+  append(columns.limits, limit_columns(options));
+  append(columns.hips, hip_columns());
+  if (options.map) append(columns.hips, map_columns());
+  if (options.depth_at) append(columns.hips, depth_columns());
+  append(columns.failures, failure_columns());
+  return columns;
+}
+
+bool is_result_column(std::string_view name) {
+  StudyOptions everything;
+  everything.bands.emplace();
+  for (const Columns& columns : {id_columns(), limit_columns(everything), hip_columns(), map_columns(),
+                                 depth_columns(), failure_columns()})
+    if (std::any_of(columns.begin(), columns.end(), [&](const auto& each) { return each.name == name; }))
+      return true;
+  return false;
+}
+
+std::string header_of(const std::vector<StudyColumn>& columns) {
+  std::vector<std::string> names;
+  for (const StudyColumn& column : columns) names.push_back(csv_field(column.name));
+  return csv_line(names);
+}
+
+std::string columns_csv(const StudyColumns& columns) {
+  std::string lines = "table,column,unit,kind,meaning\n";
+  const auto add = [&](const char* table, const Columns& of_table) {
+    for (const auto& [name, unit, kind, meaning] : of_table)
+      lines += csv_line({table, csv_field(name), unit, kind == text ? "text" : "number", csv_field(meaning)});
+  };
+  add("limits", columns.limits);
+  add("hips", columns.hips);
+  add("failures", columns.failures);
+  return lines;
+}
+
+StudyColumns read_columns_csv(std::string_view bytes, std::string_view name) {
+  const Source source{bytes, name};
+  TextCursor cursor(source);
+  cursor.rest_of_line();
+  StudyColumns columns;
+  while (!cursor.at_end()) {
+    const std::size_t line = cursor.line();
+    const std::vector<std::string> fields = csv_fields(cursor.rest_of_line(), line, source);
+    if (fields.size() != 5) source.fail(fmt::format("line {}: five fields are needed", line));
+    Columns& table = fields[0] == "limits" ? columns.limits
+                     : fields[0] == "hips" ? columns.hips
+                                           : columns.failures;
+    table.push_back({fields[1], fields[2], fields[3] == "text" ? text : number, fields[4]});
+  }
+  return columns;
+}
+
+}  // namespace condyle::io

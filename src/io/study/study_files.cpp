@@ -1,0 +1,118 @@
+#include "io/study/study_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "condyle/error.hpp"
+#include "condyle/io/output_folder.hpp"
+#include "io/file/format_version.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/result/json.hpp"
+
+namespace condyle::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* record_name = "study.json";
+
+Json digest_json(const FileDigest& digest) {
+  return {{"bytes", digest.bytes}, {"sha256", digest.sha256}};
+}
+
+struct NamedFile {
+  const char* name;
+  std::string_view contents;
+};
+
+Json record_json(const StudyRecord& record, const std::vector<NamedFile>& files) {
+  Json json{{"condyle", record.version}, {"format", format_version}};
+  json["key"] = record.key.empty() ? Json(nullptr) : Json(record.key);
+  json["family"] = record.family;
+  json["table"] = {{"path", record.table}};
+  json["table"].update(digest_json(record.table_digest));
+  json["table"]["rows"] = record.table_rows;
+  json["options"] = Json::parse(record.options);
+  json["shard"] = {{"number", record.shard.number}, {"of", record.shard.of}};
+  json["merged"] = record.is_merged;
+  json["joints"] = record.joints;
+  json["failures"] = record.failures;
+  for (const NamedFile& file : files) json["files"][file.name] = digest_json(digest_of(file.contents));
+  json["scope"] = scope_note;
+  return json;
+}
+
+StudyRecord record_of(const Json& json) {
+  StudyRecord record;
+  record.version = json.at("condyle");
+  record.key = json.at("key").is_null() ? "" : json.at("key").get<std::string>();
+  record.family = json.at("family");
+  record.table = json.at("table").at("path");
+  record.table_digest = {json.at("table").at("bytes"), json.at("table").at("sha256")};
+  record.table_rows = json.at("table").at("rows");
+  record.options = json.at("options").dump();
+  record.shard = {json.at("shard").at("number"), json.at("shard").at("of")};
+  record.is_merged = json.at("merged");
+  record.joints = json.at("joints");
+  record.failures = json.at("failures");
+  return record;
+}
+
+bool is_of_study(std::string_view name) {
+  static constexpr std::string_view names[] = {"limits.csv",  "hips.csv", "failures.csv",
+                                               "columns.csv", "study.h5", record_name};
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+}
+
+}  // namespace
+
+fs::path shard_folder(const fs::path& folder, const Shard& shard) {
+  return folder / "shards" / fmt::format("{}_of_{}", shard.number, shard.of);
+}
+
+void prepare_study_folder(const fs::path& folder) {
+  // Other shards make folders on the same way at the same time; one that was made is never taken away.
+  std::error_code error;
+  fs::create_directories(folder, error);
+  OutputFolder{folder};
+}
+
+std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& results) {
+  const StudyTexts& texts = results.texts;
+  const std::string h5 = study_h5(read_columns_csv(results.columns, "columns.csv"), texts);
+  const std::vector<NamedFile> files = {{"limits.csv", texts.limits},
+                                        {"hips.csv", texts.hips},
+                                        {"failures.csv", texts.failures},
+                                        {"columns.csv", results.columns},
+                                        {"study.h5", h5}};
+  OutputFolder out(folder, is_of_study);
+  for (const auto& [name, contents] : files) write_whole_file(out.file(name), contents);
+  write_whole_file(out.file(record_name), document(record_json(results.record, files)));
+  return out.commit();
+}
+
+std::optional<StudyRecord> read_study_record(const fs::path& folder) {
+  try {
+    const Json json = Json::parse(read_whole_file(folder / record_name));
+    if (json.at("format") != format_version) return std::nullopt;
+    for (const auto& [name, digest] : json.at("files").items())
+      if (digest_json(digest_of(read_whole_file(folder / name))) != digest) return std::nullopt;
+    return record_of(json);
+  } catch (const FileError&) {
+    return std::nullopt;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+StudyResults read_study(const fs::path& folder) {
+  const std::optional<StudyRecord> record = read_study_record(folder);
+  if (!record) throw FileError(fmt::format("{}: is not whole: run it again", folder.string()));
+  return {*record,
+          read_whole_file(folder / "columns.csv"),
+          {read_whole_file(folder / "limits.csv"), read_whole_file(folder / "hips.csv"),
+           read_whole_file(folder / "failures.csv")}};
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/io/study.hpp"
+#include "io/study/study_h5.hpp"
+#include "io/study/study_table.hpp"
+
+namespace condyle::io {
+
+/// What study.json says of the tables beside it.
+struct StudyRecord {
+  std::string version;
+  /// SHA-256 of what the tables depend on: rows, contents of the files they name, options, version. Empty of merged tables.
+  std::string key;
+  /// The same in all shards of one table: SHA-256 of the table, options, version and number of shards.
+  std::string family;
+  std::string options;  ///< JSON
+  std::string table;
+  FileDigest table_digest;
+  std::size_t table_rows = 0;
+  Shard shard;
+  bool is_merged = false;
+  std::size_t joints = 0, failures = 0;
+};
+
+/// A study's results in memory.
+struct StudyResults {
+  StudyRecord record;
+  std::string columns;  ///< columns.csv
+  StudyTexts texts;
+};
+
+/// Where a shard's results lie: "DIR/shards/3_of_7".
+std::filesystem::path shard_folder(const std::filesystem::path& folder, const Shard& shard);
+
+/// Makes the folder, which stays, and makes sure that files can be put there. Throws FileError.
+void prepare_study_folder(const std::filesystem::path& folder);
+
+/// Writes all files, study.json last. Returns what was written. Throws FileError.
+std::vector<std::filesystem::path> write_study(const std::filesystem::path& folder,
+                                               const StudyResults& results);
+
+/// What study.json says; empty where there is none that can be read, or where a file beside it is not the one that it was
+/// written with, as when a run was killed between two files.
+std::optional<StudyRecord> read_study_record(const std::filesystem::path& folder);
+
+/// All of it. Throws FileError where read_study_record() is empty.
+StudyResults read_study(const std::filesystem::path& folder);
+
+}  // namespace condyle::io

@@ -1,0 +1,163 @@
+#include "io/study/study_joint.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/sample/hip.hpp"
+#include "condyle/sample/hip_measures.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/joint/load_joint.hpp"
+#include "io/mesh/parse.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// Where a row's joint comes from.
+enum class JointSource { joint_file, meshes, sample };
+
+JointSource source_of(const StudyTable& table, const StudyRow& row) {
+  const bool joint = !table.field(row, "joint").empty(), sample = !table.field(row, "sample").empty();
+  const bool fixed = !table.field(row, "fixed").empty(), mobile = !table.field(row, "mobile").empty();
+  if (joint && !fixed && !mobile && !sample) return JointSource::joint_file;
+  if (fixed && mobile && !joint && !sample) return JointSource::meshes;
+  if (sample && !joint && !fixed && !mobile) return JointSource::sample;
+  throw FileError(
+      fmt::format("{}: line {}: a row needs joint, or fixed and mobile, or sample, and only one of them",
+                  table.path.string(), row.line));
+}
+
+std::filesystem::path path_in(const StudyTable& table, const StudyRow& row, std::string_view column) {
+  return table.path.parent_path() / std::filesystem::path(table.field(row, column));
+}
+
+/// The value that goes with a word; the first one where the field is empty.
+template <class Value, std::size_t count>
+Value one_of(const StudyTable& table, const StudyRow& row, std::string_view column,
+             const std::pair<std::string_view, Value> (&choices)[count]) {
+  const std::string_view word = table.field(row, column);
+  if (word.empty()) return choices[0].second;
+  std::string names;
+  for (const auto& [name, value] : choices) {
+    if (name == word) return value;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw FileError(fmt::format("{}: {} is none of {}", table.place(row, column), in_quotes(word), names));
+}
+
+Side side_of(const StudyTable& table, const StudyRow& row) {
+  static constexpr std::pair<std::string_view, Side> sides[] = {{"right", Side::right}, {"left", Side::left}};
+  return one_of(table, row, "side", sides);
+}
+
+/// What the row says in place of a joint file.
+JointFile described(const StudyTable& table, const StudyRow& row) {
+  static constexpr std::pair<std::string_view, LengthUnit> units[] = {{"mm", LengthUnit::millimetres},
+                                                                      {"m", LengthUnit::metres}};
+  static const std::pair<std::string_view, FrameDirections> axes[] = {
+      {"joint", {}}, {"ras", ras_axes}, {"lps", lps_axes}};
+  if (table.field(row, "side").empty())
+    throw FileError(fmt::format("{}: right or left is needed beside meshes", table.place(row, "side")));
+  JointFile file{.path = table.path, .joint = {}, .fixed = {}, .mobile = {}, .motions = {}};
+  file.joint.name = table.id(row);
+  file.joint.side = side_of(table, row);
+  file.joint.units = one_of(table, row, "units", units);
+  file.joint.frame.centre = CentreFit{};
+  file.joint.frame.axes = one_of(table, row, "axes", axes);
+  file.fixed = {"fixed", {{"", path_in(table, row, "fixed"), {}}}};
+  file.mobile = {"mobile", {{"", path_in(table, row, "mobile"), {}}}};
+  return file;
+}
+
+double measure_in(const StudyTable& table, const StudyRow& row, std::string_view column) {
+  double value;
+  if (!parse_number(table.field(row, column), value))
+    throw FileError(
+        fmt::format("{}: {} is no number", table.place(row, column), in_quotes(table.field(row, column))));
+  return value;
+}
+
+LoadedJoint made(const StudyTable& table, const StudyRow& row) {
+  static constexpr std::pair<std::string_view, Scenario> scenarios[] = {
+      {"1", Scenario::one}, {"2", Scenario::two}, {"3", Scenario::three}, {"4", Scenario::four}};
+  const Scenario scenario = one_of(table, row, "sample", scenarios);
+  HipParameters measures;
+  for (const HipMeasure& measure : hip_measures())
+    if (!table.field(row, measure.name).empty()) measure.set(measures, measure_in(table, row, measure.name));
+  JointFile file{.path = table.path, .joint = {}, .fixed = {}, .mobile = {}, .motions = {}};
+  file.joint.name = table.id(row);
+  file.joint.side = side_of(table, row);
+  try {
+    SampleHip hip = sample_hip(measures, scenario);
+    if (file.joint.side == Side::left) hip = mirrored(hip);
+    PlacedJoint placed =
+        make_joint(file.joint, {"hip bone", std::move(hip.hip_bone)}, {"femur", std::move(hip.femur)});
+    return {std::move(placed.joint), {std::move(file), {}, {}, std::move(placed.placement), {}}};
+  } catch (const UsageError& error) {
+    throw FileError(fmt::format("{}: line {}: {}", table.path.string(), row.line, error.what()));
+  }
+}
+
+std::string sha256_of(const StudyRow& row, const std::vector<std::string>& files) {
+  const nlohmann::json inputs = {row.fields, files};
+  return digest_of(inputs.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).sha256;
+}
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  try {
+    return digest_of(read_whole_file(path)).sha256;
+  } catch (const FileError&) {
+    return "";
+  }
+}
+
+void add_files(const JointFile& file, std::vector<std::string>& files) {
+  for (const BodyEntry* body : {&file.fixed, &file.mobile})
+    for (const MeshEntry& mesh : body->meshes) files.push_back(sha256_of_file(mesh.mesh));
+}
+
+}  // namespace
+
+LoadedJoint load_joint(const StudyTable& table, const StudyRow& row) {
+  switch (source_of(table, row)) {
+    case JointSource::joint_file:
+      return read_joint(path_in(table, row, "joint"));
+    case JointSource::meshes:
+      return load_joint(described(table, row));
+    case JointSource::sample:
+      break;
+  }
+  return made(table, row);
+}
+
+bool is_sample(const StudyTable& table, const StudyRow& row) {
+  return source_of(table, row) == JointSource::sample;
+}
+
+std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint) {
+  std::vector<std::string> files;
+  if (!joint.report.file.digest.sha256.empty()) files.push_back(joint.report.file.digest.sha256);
+  for (const auto* meshes : {&joint.report.fixed, &joint.report.mobile})
+    for (const BodyMeshReport& mesh : *meshes) files.push_back(mesh.digest.sha256);
+  return sha256_of(row, files);
+}
+
+std::string inputs_sha256(const StudyTable& table, const StudyRow& row) {
+  std::vector<std::string> files;
+  try {
+    const JointSource source = source_of(table, row);
+    if (source == JointSource::meshes) add_files(described(table, row), files);
+    if (source == JointSource::joint_file) {
+      files.push_back(sha256_of_file(path_in(table, row, "joint")));
+      add_files(read_joint_file(path_in(table, row, "joint")), files);
+    }
+  } catch (const FileError&) {
+    // What was found until here is what the row's failure depends on.
+  }
+  return sha256_of(row, files);
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "condyle/io/joint_file.hpp"
+#include "io/study/study_table.hpp"
+
+namespace condyle::io {
+
+/// The joint of a row: of its joint file, of its two meshes, or a sample hip of its measures. Throws what read_joint() does;
+/// FileError where the row does not say which, or a field is not what it must be.
+LoadedJoint load_joint(const StudyTable& table, const StudyRow& row);
+
+/// Whether the row's joint is made, not read.
+bool is_sample(const StudyTable& table, const StudyRow& row);
+
+/// SHA-256 of the row and of the contents of the files it names, those that the joint was made of.
+std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint);
+/// The same of the files as they are now, which need not be there.
+std::string inputs_sha256(const StudyTable& table, const StudyRow& row);
+
+}  // namespace condyle::io

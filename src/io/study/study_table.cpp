@@ -1,0 +1,123 @@
+#include "io/study/study_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "io/file/csv_fields.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/motion/table_builder.hpp"
+#include "io/result/csv_field.hpp"
+#include "io/study/study_columns.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// What says where a joint comes from; not carried.
+constexpr std::string_view source_columns[] = {"id",   "joint", "fixed", "mobile",
+                                               "side", "units", "axes",  "sample"};
+
+bool is_source(std::string_view name) {
+  return std::find(std::begin(source_columns), std::end(source_columns), name) != std::end(source_columns);
+}
+
+std::string carried_name(const std::string& name) {
+  return !is_source(name) && is_result_column(name) ? "table_" + name : name;
+}
+
+void check_columns(const StudyTable& table, std::size_t line, const Source& source) {
+  const auto fail = [&](std::string_view what) { source.fail(fmt::format("line {}: {}", line, what)); };
+  if (table.columns.size() == 1 && table.columns[0].find_first_of(";\t") != std::string::npos)
+    fail(fmt::format("{}: columns must be separated by commas", in_quotes(table.columns[0])));
+  std::set<std::string> known;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string& name = table.columns[c];
+    if (name.empty()) fail(fmt::format("column {} has no name", c + 1));
+    if (name == "." || name.find_first_of("/\\") != name.npos)
+      fail(fmt::format("column {}: a name is no point and has no slash", in_quotes(name)));
+    if (!known.insert(carried_name(name)).second)
+      fail(fmt::format("column {} is there twice", in_quotes(name)));
+  }
+  if (!known.contains("id")) fail("there is no column 'id'");
+}
+
+void check_ids(const StudyTable& table, const Source& source) {
+  std::map<std::string_view, std::size_t> line_of;
+  for (const StudyRow& row : table.rows) {
+    const std::string& id = table.id(row);
+    if (id.empty()) source.fail(fmt::format("line {}: id is empty", row.line));
+    const auto [first, is_new] = line_of.emplace(id, row.line);
+    if (!is_new)
+      source.fail(fmt::format("line {}: id {} is that of line {}", row.line, in_quotes(id), first->second));
+  }
+}
+
+bool is_number_or_empty(const std::string& field) {
+  double number;
+  return field.empty() || parse_number(field, number);
+}
+
+std::vector<CarriedColumn> carried_of(const StudyTable& table) {
+  std::vector<CarriedColumn> carried;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    if (is_source(table.columns[c])) continue;
+    const bool numbers = std::all_of(table.rows.begin(), table.rows.end(),
+                                     [&](const StudyRow& row) { return is_number_or_empty(row.fields[c]); });
+    carried.push_back({c, carried_name(table.columns[c]), numbers});
+  }
+  return carried;
+}
+
+}  // namespace
+
+std::string_view StudyTable::field(const StudyRow& row, std::string_view column) const noexcept {
+  const auto found = std::find(columns.begin(), columns.end(), column);
+  return found == columns.end() ? std::string_view()
+                                : row.fields[static_cast<std::size_t>(found - columns.begin())];
+}
+
+std::vector<std::string> StudyTable::carried_fields(const StudyRow& row) const {
+  std::vector<std::string> fields;
+  for (const CarriedColumn& each : carried) fields.push_back(csv_field(row.fields[each.column]));
+  return fields;
+}
+
+std::string StudyTable::place(const StudyRow& row, std::string_view column) const {
+  return fmt::format("{}: line {}: column '{}'", path.string(), row.line, column);
+}
+
+StudyTable read_study_table(const std::filesystem::path& path) {
+  const std::string bytes = read_whole_file(path), name = path.string();
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  Source source{bytes, name};
+  if (source.bytes.starts_with(byte_order_mark)) source.bytes.remove_prefix(byte_order_mark.size());
+  StudyTable table{path, digest_of(bytes), {}, {}, {}};
+  TextCursor cursor(source);
+  while (!cursor.at_end()) {
+    const std::size_t line = cursor.line();
+    const std::string_view text = cursor.rest_of_line();
+    if (trimmed(text).empty() || trimmed(text).starts_with('#')) continue;
+    std::vector<std::string> fields = csv_fields(text, line, source);
+    if (table.columns.empty()) {
+      table.columns = std::move(fields);
+      check_columns(table, line, source);
+      continue;
+    }
+    if (fields.size() != table.columns.size())
+      source.fail(fmt::format("line {}: {} fields where there are {} columns", line, fields.size(),
+                              table.columns.size()));
+    table.rows.push_back({table.rows.size() + 1, line, std::move(fields)});
+  }
+  if (table.columns.empty()) source.fail("has no names of columns");
+  if (table.rows.empty()) source.fail("has no row");
+  table.id_column = static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), "id") -
+                                             table.columns.begin());
+  check_ids(table, source);
+  table.carried = carried_of(table);
+  return table;
+}
+
+}  // namespace condyle::io

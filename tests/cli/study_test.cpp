@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <random>
+#include <thread>
+
+#include "command.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/small_cohort.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* tables[] = {"limits.csv",  "hips.csv", "failures.csv",
+                                  "columns.csv", "study.h5", "study.json"};
+
+class StudyCommand : public ::testing::Test {
+ protected:
+  Ran run(const std::string& arguments) const { return run_condyle(here, arguments); }
+  void expect_same_tables(const std::string& a, const std::string& b) const {
+    for (const char* name : tables)
+      EXPECT_EQ(io::read_whole_file(here / a / name), io::read_whole_file(here / b / name)) << name;
+  }
+
+  const TemporaryFolder folder;
+  const fs::path here = folder / "in";
+  const SmallCohort cohort{here, 12};
+};
+
+TEST_F(StudyCommand, AnswersWithFailuresInTheirTable) {
+  const Ran ran = run("study table.csv --out out");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(ran.out, "12 answered, 4 failed\n");
+  EXPECT_TRUE(ran.err.starts_with("condyle: note: wrote out/limits.csv, ")) << ran.err;
+  const Ran again = run("study table.csv --out out --threads 1");
+  EXPECT_EQ(again.out, ran.out);
+  EXPECT_EQ(again.err, "condyle: note: is there already, of the same inputs, options and version\n");
+}
+
+TEST_F(StudyCommand, EndsAtABadJointWithItsExitCodeWhereThatIsAskedFor) {
+  expect_refusal(run("study table.csv --out out --strict"), 3, "nothere.toml: no such file", "--strict");
+  std::ofstream(here / "contact.csv") << "id,joint\na,hip1.toml\nb,in_contact.toml\nc,nothere.toml\n";
+  for (const char* threads : {"1", "7"})
+    expect_refusal(run(std::string("study contact.csv --out out --strict --threads ") + threads), 6,
+                   "in contact in the reference pose", "--strict");
+  EXPECT_FALSE(fs::exists(here / "out/limits.csv"));
+}
+
+TEST_F(StudyCommand, OfShardsMergedIsTheWholeStudy) {
+  ASSERT_EQ(run("study table.csv --out whole --band=20 --motion flexion").exit_code, 0);
+  for (int i = 7; i >= 1; --i) {
+    if (i == 3)
+      expect_refusal(run("merge out"), 3, "3 of 7 shards are missing or not whole: 1, 2, 3", "merge");
+    ASSERT_EQ(
+        run(fmt::format("study table.csv --out out --band=20 --motion flexion --shard {}/7", i)).exit_code,
+        0);
+  }
+  const Ran merged = run("merge out");
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(merged.out, "12 answered, 4 failed\n");
+  for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"})
+    EXPECT_EQ(io::read_whole_file(here / "whole" / name), io::read_whole_file(here / "out" / name)) << name;
+}
+
+TEST_F(StudyCommand, RefusesWhatCannotBe) {
+  for (const char* shard : {"0/3", "4/3", "1", "a/b", "1/0", "1/2/3", "-1/3"})
+    expect_refusal(run(std::string("study table.csv --out out --shard=") + shard), 2, "such as 3/7", shard);
+  expect_refusal(run("study nothere.csv --out out"), 3, "nothere.csv: no such file", "no table");
+  expect_refusal(run("study table.csv --out out --motion flexoin"), 2, "flexoin", "motion");
+  expect_refusal(run("study table.csv --out out --map flexion=0:10:1 flexion=0:10:1"), 2, "one is named twice",
+                 "map");
+  expect_refusal(run("study table.csv --out out --depth yaw=3"), 2, "yaw", "depth");
+  expect_refusal(run("merge nothere"), 3, "nothere: there is no shard", "merge");
+  std::ofstream(here / "file") << "x";
+  expect_refusal(run("study table.csv --out file/out"), 3, "file/out: cannot be written to", "out");
+}
+
+/// Begins `condyle study table.csv --out OUT MORE` and returns its process.
+pid_t begin(const fs::path& folder, const std::string& arguments, const fs::path& err) {
+  const std::string command = "cd '" + folder.string() + "' && exec '" CONDYLE_COMMAND "' " + arguments +
+                              " >/dev/null 2>'" + err.string() + "'";
+  const char* words[] = {"sh", "-c", command.c_str(), nullptr};
+  pid_t process;
+  if (posix_spawn(&process, "/bin/sh", nullptr, nullptr, const_cast<char**>(words), environ) != 0) return -1;
+  return process;
+}
+
+int exit_code_of(pid_t process) {
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+/// Of a folder that a killed run left: every file is whole, or not there.
+void expect_no_half_file(const fs::path& left, const fs::path& whole) {
+  for (const char* name : tables) {
+    if (!fs::exists(left / name)) continue;
+    EXPECT_EQ(io::read_whole_file(left / name), io::read_whole_file(whole / name)) << name;
+  }
+}
+
+TEST_F(StudyCommand, KilledAtAnyMomentIsResumedToTheSameBytes) {
+  const auto began = Clock::now();
+  ASSERT_EQ(run("study table.csv --out whole --band=100").exit_code, 0);
+  const auto whole_run = Clock::now() - began;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0, 1.1);
+  for (int kill_number = 0; kill_number < 8; ++kill_number) {
+    const pid_t process = begin(here, "study table.csv --out killed --band=100", folder / "err");
+    std::this_thread::sleep_for(whole_run * share(random));
+    ::kill(process, SIGKILL);
+    exit_code_of(process);
+    expect_no_half_file(here / "killed", here / "whole");
+    // The next kill, too, is to meet a run that has something to do.
+    if (fs::exists(here / "killed/study.json")) fs::remove_all(here / "killed");
+  }
+  ASSERT_EQ(run("study table.csv --out killed --band=100").exit_code, 0);
+  expect_same_tables("whole", "killed");
+}
+
+TEST_F(StudyCommand, RunTwiceAtATimeWritesWhatOneRunWrites) {
+  ASSERT_EQ(run("study table.csv --out whole --band=20").exit_code, 0);
+  for (int round = 0; round < 3; ++round) {
+    std::vector<pid_t> processes;
+    for (int i = 0; i < 3; ++i)
+      processes.push_back(
+          begin(here, fmt::format("study table.csv --out at_once{} --band=20", round), folder / "err"));
+    for (const pid_t process : processes) EXPECT_EQ(exit_code_of(process), 0);
+    expect_same_tables("whole", fmt::format("at_once{}", round));
+  }
+}
+
+TEST_F(StudyCommand, EndsWithinASecondOfAnInterruption) {
+  // Maps of some hundred thousand points each: not done in any time that this test waits.
+  const pid_t process =
+      begin(here, "study table.csv --out out --map adduction=-30:30:0.1 internal_rotation=-30:30:0.1",
+            folder / "err");
+  std::this_thread::sleep_for(300ms);
+  const auto interrupted = Clock::now();
+  ::kill(process, SIGINT);
+  EXPECT_EQ(exit_code_of(process), 130);
+  EXPECT_LT(Clock::now() - interrupted, 1s);
+  const std::string said = io::read_whole_file(folder / "err");
+  EXPECT_NE(said.find("; nothing is written\n"), said.npos) << said;
+  EXPECT_FALSE(fs::exists(here / "out/limits.csv"));
+}
+
+TEST_F(StudyCommand, DrawsACohortThatItThenAnswersFor) {
+  const Ran drawn = run("sample cohort --n 2 --seed 5 --out drawn");
+  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  EXPECT_EQ(drawn.out, "2 hips, for condyle study drawn/cohort.csv\n");
+  EXPECT_EQ(run("study drawn/cohort.csv --out out --motion flexion").out, "2 answered, 0 failed\n");
+  run("sample cohort --n 40 --seed 5 --out more");
+  const std::string few = io::read_whole_file(here / "drawn/cohort.csv");
+  EXPECT_TRUE(io::read_whole_file(here / "more/cohort.csv").starts_with(few));
+  expect_refusal(run("sample cohort --n 0 --out none"), 2, "1 to 10000000 hips", "--n 0");
+}
+
+}  // namespace
+}  // namespace condyle::test

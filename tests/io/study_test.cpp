@@ -1,0 +1,401 @@
+#include "condyle/io/study.hpp"
+
+#include <gtest/gtest.h>
+#include <hdf5.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <sstream>
+
+#include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/sample_files.hpp"
+#include "io/file/csv_fields.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/small_cohort.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using io::read_whole_file;
+
+constexpr const char* tables[] = {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"};
+
+/// A table by its header: one map per row.
+std::vector<std::map<std::string, std::string>> rows_of(const fs::path& path) {
+  const std::string text = read_whole_file(path), name = path.string();
+  const io::Source source{text, name};
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = io::csv_fields(line, 1, source);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> fields = io::csv_fields(line, rows.size() + 2, source);
+    EXPECT_EQ(fields.size(), header.size()) << path << ": " << line;
+    rows.emplace_back();
+    for (std::size_t c = 0; c < header.size(); ++c) rows.back()[header[c]] = fields[c];
+  }
+  return rows;
+}
+
+class StudyOfArms : public ::testing::Test {
+ protected:
+  StudyDone run(const Study& study) const { return *run_study(study); }
+  Study study(const std::string& out) const { return {cohort.table(), folder / out, flexion_only()}; }
+  Study shard(const std::string& out, std::size_t number, std::size_t of) const {
+    Study one = study(out);
+    one.shard = {number, of};
+    return one;
+  }
+  static StudyOptions flexion_only() {
+    StudyOptions options;
+    options.motions = {"flexion", "extension"};
+    return options;
+  }
+  void expect_same_tables(const std::string& a, const std::string& b) const {
+    for (const char* name : tables)
+      EXPECT_EQ(read_whole_file(folder / a / name), read_whole_file(folder / b / name)) << name;
+  }
+  template <class Error, class Run>
+  static std::string message_of(const Run& run) {
+    try {
+      run();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+  }
+
+  const TemporaryFolder folder;
+  const SmallCohort cohort{folder.path(), 9};
+};
+
+TEST_F(StudyOfArms, HasARowForEveryJointAndMotionOrAFailure) {
+  const StudyDone done = run(study("out"));
+  EXPECT_EQ(done.joints, 9u);
+  EXPECT_EQ(done.failures, 4u);
+  const auto limits = rows_of(folder / "out/limits.csv");
+  ASSERT_EQ(limits.size(), 18u);
+  for (std::size_t k = 1; k <= 9; ++k) {
+    const auto& row = limits[2 * (k - 1)];
+    EXPECT_EQ(row.at("id"), fmt::format("h{}", k));
+    EXPECT_EQ(row.at("table_row"), fmt::format("{}", k));
+    EXPECT_EQ(row.at("group"), k % 2 ? "a, x" : "b, x");
+    EXPECT_EQ(row.at("motion"), "flexion");
+    // The arm's lower front edge, (1, -100), meets the post's wall; limits are within 3e-10 degrees of the truth.
+    const double wall = SmallCohort::wall_mm(k);
+    const double limit = std::asin(wall / std::hypot(1, 100)) - std::atan2(1, 100);
+    EXPECT_NEAR(std::stod(row.at("limit_deg")), limit * 180 / std::numbers::pi, 3e-10);
+    EXPECT_NEAR(std::stod(row.at("contact_x_mm")), wall, 1e-9);
+    EXPECT_EQ(limits[2 * k - 1].at("motion"), "extension");
+  }
+  EXPECT_EQ(rows_of(folder / "out/hips.csv").size(), 9u);
+}
+
+TEST_F(StudyOfArms, SaysOfEveryFailureItsExitCodeAndWhy) {
+  run(study("out"));
+  const auto failures = rows_of(folder / "out/failures.csv");
+  ASSERT_EQ(failures.size(), 4u);
+  const auto expect = [&](std::size_t i, const char* id, const char* code, std::string_view saying) {
+    EXPECT_EQ(failures[i].at("id"), id);
+    EXPECT_EQ(failures[i].at("table_row"), fmt::format("{}", 10 + i));
+    EXPECT_EQ(failures[i].at("exit_code"), code);
+    EXPECT_NE(failures[i].at("message").find(saying), std::string::npos) << failures[i].at("message");
+  };
+  expect(0, "gone", "3", "nothere.toml: no such file");
+  expect(1, "open", "3", "mobile.mesh: there is no file");
+  expect(2, "contact", "6", "in contact in the reference pose");
+  expect(3, "empty", "3", "line 14: a row needs joint, or fixed and mobile, or sample");
+}
+
+TEST_F(StudyOfArms, OfShardsMergedIsTheStudyOfTheWholeTableByteForByte) {
+  run(study("whole"));
+  for (const std::size_t of : {1u, 7u, 20u}) {
+    const std::string out = fmt::format("in{}", of);
+    for (std::size_t number = of; number >= 1; --number) run(shard(out, number, of));
+    const StudyDone merged = merge_study(folder / out);
+    EXPECT_EQ(merged.joints, 9u);
+    EXPECT_EQ(merged.failures, 4u);
+    expect_same_tables("whole", out);
+  }
+}
+
+TEST_F(StudyOfArms, IsTheSameOnAnyNumberOfThreads) {
+  Study banded = study("one");
+  banded.options.bands.emplace().samples = 20;
+  for (const auto& [out, threads] : {std::pair("one", 1u), {"seven", 7u}}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    banded.folder = folder / out;
+    run(banded);
+  }
+  expect_same_tables("one", "seven");
+}
+
+TEST_F(StudyOfArms, IsNotDoneAgainForTheSameInputs) {
+  EXPECT_FALSE(run(study("out")).was_there);
+  const auto written = fs::last_write_time(folder / "out/study.json");
+  const StudyDone again = run(study("out"));
+  EXPECT_TRUE(again.was_there);
+  EXPECT_EQ(again.joints, 9u);
+  EXPECT_EQ(again.failures, 4u);
+  EXPECT_EQ(fs::last_write_time(folder / "out/study.json"), written);
+}
+
+TEST_F(StudyOfArms, IsDoneAgainForOtherMeshesOtherOptionsAndFilesThatWereChanged) {
+  run(study("out"));
+  cohort.write_post(3, 90);
+  EXPECT_FALSE(run(study("out")).was_there);
+  Study all_motions = study("out");
+  all_motions.options.motions.clear();
+  EXPECT_FALSE(run(all_motions).was_there);
+  EXPECT_TRUE(run(all_motions).was_there);
+  std::ofstream(folder / "out/limits.csv", std::ios::app) << "more\n";
+  EXPECT_FALSE(run(all_motions).was_there);
+  // A file that was missing and is there now.
+  std::ofstream(folder / "nothere.toml") << read_whole_file(folder / "hip1.toml");
+  const StudyDone found = run(all_motions);
+  EXPECT_FALSE(found.was_there);
+  EXPECT_EQ(found.failures, 3u);
+}
+
+TEST_F(StudyOfArms, KeepsShardsWhoseRowsDidNotChange) {
+  for (std::size_t number = 1; number <= 3; ++number) run(shard("out", number, 3));
+  cohort.write_table("open.toml", "c");
+  EXPECT_NE(message_of<FileError>([&] {
+              EXPECT_TRUE(run(shard("out", 1, 3)).was_there);
+              merge_study(folder / "out");
+            }).find("2_of_3: is of another table"),
+            std::string::npos);
+  EXPECT_TRUE(run(shard("out", 2, 3)).was_there);
+  EXPECT_FALSE(run(shard("out", 3, 3)).was_there);
+  merge_study(folder / "out");
+  run(study("whole"));
+  expect_same_tables("whole", "out");
+}
+
+TEST_F(StudyOfArms, IsMergedOnlyWhereAllShardsAreThereAndWhole) {
+  EXPECT_NE(message_of<FileError>([&] { merge_study(folder / "out"); }).find("there is no shard"),
+            std::string::npos);
+  for (const std::size_t number : {1u, 2u, 4u}) run(shard("out", number, 5));
+  EXPECT_NE(message_of<FileError>([&] {
+              merge_study(folder / "out");
+            }).find("2 of 5 shards are missing or not whole: 3, 5"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
+  for (const std::size_t number : {3u, 5u}) run(shard("out", number, 5));
+  std::ofstream(folder / "out/shards/4_of_5/failures.csv", std::ios::app) << "x\n";
+  EXPECT_NE(message_of<FileError>([&] {
+              merge_study(folder / "out");
+            }).find("1 of 5 shards is missing or not whole: 4"),
+            std::string::npos);
+  run(shard("out", 4, 5));
+  Study other = shard("out", 5, 5);
+  other.options.motions = {"flexion"};
+  run(other);
+  EXPECT_NE(message_of<FileError>([&] { merge_study(folder / "out"); }).find("other options"),
+            std::string::npos);
+  run(shard("out", 1, 2));
+  EXPECT_NE(message_of<FileError>([&] { merge_study(folder / "out"); }).find("shards of 2 and of 5"),
+            std::string::npos);
+}
+
+TEST_F(StudyOfArms, EndsWithItsLowestBadJointWhereThatIsAskedFor) {
+  Study strict = study("out");
+  strict.bad_joint = BadJoint::ends_run;
+  EXPECT_NE(message_of<FileError>([&] { run(strict); }).find("nothere.toml"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
+}
+
+TEST_F(StudyOfArms, EndsWhereItsOptionsDoNotFit) {
+  Study wrong = study("out");
+  wrong.options.motions = {"flexoin"};
+  EXPECT_NE(message_of<UsageError>([&] { run(wrong); }).find("flexoin"), std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
+}
+
+TEST_F(StudyOfArms, WritesNothingWhereItIsStopped) {
+  std::stop_source stop;
+  StudyControl control;
+  control.stop = stop.get_token();
+  control.progress = [&](std::size_t, std::size_t) { stop.request_stop(); };
+  EXPECT_FALSE(run_study(study("out"), control));
+  EXPECT_EQ(count_entries(folder / "out"), 0u);
+}
+
+TEST_F(StudyOfArms, HasBandsMapAndDepthWhereTheyAreAskedFor) {
+  Study full = study("out");
+  full.options.bands.emplace().samples = 20;
+  MapGrid grid;
+  grid.column = {JointAngle::adduction, -10, 10, 10};
+  grid.row = {JointAngle::internal_rotation, -10, 10, 5};
+  grid.vary = JointAngle::flexion;
+  full.options.map = grid;
+  full.options.depth_at = PoseDegrees{.flexion = 35};
+  run(full);
+  const auto limit = rows_of(folder / "out/limits.csv")[0];
+  EXPECT_LT(std::stod(limit.at("band_p5_deg")), std::stod(limit.at("band_median_deg")));
+  EXPECT_LT(std::stod(limit.at("band_median_deg")), std::stod(limit.at("band_p95_deg")));
+  const auto hips = rows_of(folder / "out/hips.csv");
+  EXPECT_EQ(hips[0].at("map_points"), "15");
+  EXPECT_EQ(std::stod(hips[0].at("map_upper_contact_points")), 15);
+  // A post 20 mm thick whose wall is nearer than the arm's end at 35 degrees, and not all before it.
+  const auto limits = rows_of(folder / "out/limits.csv");
+  for (std::size_t k = 1; k <= 9; ++k) {
+    if (SmallCohort::wall_mm(k) <= 40) continue;
+    const bool meets = std::stod(limits[2 * (k - 1)].at("limit_deg")) < 35;
+    EXPECT_EQ(hips[k - 1].at("depth_in_contact"), meets ? "1" : "0") << k;
+  }
+  run(study("plain"));
+  EXPECT_FALSE(rows_of(folder / "plain/limits.csv")[0].contains("band_p5_deg"));
+  EXPECT_FALSE(rows_of(folder / "plain/hips.csv")[0].contains("map_points"));
+}
+
+/// A data set of texts or of numbers, as texts.
+std::vector<double> h5_numbers(hid_t file, const std::string& path) {
+  const hid_t set = H5Dopen2(file, path.c_str(), H5P_DEFAULT), space = H5Dget_space(set);
+  std::vector<double> values(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  EXPECT_GE(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0) << path;
+  H5Sclose(space);
+  H5Dclose(set);
+  return values;
+}
+
+TEST_F(StudyOfArms, HasTheSameNumbersInItsHdf5File) {
+  run(study("out"));
+  const hid_t file = H5Fopen((folder / "out/study.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  const auto rows = rows_of(folder / "out/limits.csv");
+  for (const char* column : {"limit_deg", "weight_kg", "contact_x_mm", "table_row", "clock_hour"}) {
+    const std::vector<double> values = h5_numbers(file, std::string("/limits/") + column);
+    ASSERT_EQ(values.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows[i].at(column).empty())
+        EXPECT_TRUE(std::isnan(values[i]));
+      else
+        EXPECT_EQ(values[i], std::stod(rows[i].at(column))) << column;
+    }
+  }
+  EXPECT_EQ(h5_numbers(file, "/failures/exit_code"), (std::vector<double>{3, 3, 6, 3}));
+  H5Fclose(file);
+}
+
+TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
+  run(study("out"));
+  std::map<std::string, std::vector<std::string>> names;
+  for (const auto& row : rows_of(folder / "out/columns.csv")) {
+    names[row.at("table")].push_back(row.at("column"));
+    EXPECT_FALSE(row.at("meaning").empty()) << row.at("column");
+  }
+  for (const char* table : {"limits", "hips", "failures"}) {
+    const std::string text = read_whole_file(folder / "out" / (std::string(table) + ".csv"));
+    std::string header;
+    for (const std::string& name : names[table]) header += (header.empty() ? "" : ",") + name;
+    EXPECT_EQ(text.substr(0, text.find('\n')), header);
+  }
+}
+
+TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
+  const TemporaryFolder folder;
+  const auto expect = [&](std::string_view text, std::string_view saying) {
+    const fs::path table = folder.file("table.csv", text);
+    try {
+      run_study({table, folder / "out"});
+      ADD_FAILURE() << text;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string_view(error.what()).find(saying), std::string_view::npos) << error.what();
+      EXPECT_NE(std::string_view(error.what()).find("table.csv"), std::string_view::npos) << error.what();
+    }
+    EXPECT_FALSE(fs::exists(folder / "out")) << text;
+  };
+  expect("", "has no names of columns");
+  expect("id,joint\n", "has no row");
+  expect("joint\na.toml\n", "line 1: there is no column 'id'");
+  expect("id,joint,joint\na,b,c\n", "line 1: column 'joint' is there twice");
+  expect("id,joint,\na,b,c\n", "line 1: column 3 has no name");
+  expect("id;joint\na;b\n", "columns must be separated by commas");
+  expect("id,joint\na,b\n\nc\n", "line 4: 1 fields where there are 2 columns");
+  expect("id,joint\na,b\n,c\n", "line 3: id is empty");
+  expect("id,joint\na,b\nc,d\na,e\n", "line 4: id 'a' is that of line 2");
+  expect("id,joint\n\"a,b\n", "line 2: a quote is not closed");
+  expect("id,joint,a/b\nx,y,z\n", "line 1: column 'a/b'");
+  expect("id,joint,limit_deg,table_limit_deg\nx,y,1,2\n", "line 1: column 'table_limit_deg' is there twice");
+}
+
+TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {
+  const TemporaryFolder folder;
+  const SmallCohort cohort(folder.path(), 1);
+  const fs::path table =
+      folder.file("other.csv", "\xEF\xBB\xBF# a remark\r\nid,joint,reason\r\nh1,hip1.toml,why not\r\n");
+  EXPECT_EQ(run_study({table, folder / "out"})->joints, 1u);
+  const auto rows = rows_of(folder / "out/limits.csv");
+  EXPECT_EQ(rows[0].at("table_reason"), "why not");
+  EXPECT_EQ(rows[0].at("reason"), "contact");
+}
+
+TEST(StudyOfSamples, GivesTheSameOfMeasuresAndOfMeshesInFiles) {
+  const TemporaryFolder folder;
+  SampleCohort cohort{.n = 2, .seed = 7};
+  write_sample_cohort(folder / "measures", cohort);
+  cohort.meshes = CohortMeshes::in_files;
+  write_sample_cohort(folder / "files", cohort);
+  Study study;
+  study.options.motions = {"flexion", "internal_rotation_at_90_flexion"};
+  for (const char* source : {"measures", "files"}) {
+    study.table = folder / source / "cohort.csv";
+    study.folder = folder / (std::string("of_") + source);
+    EXPECT_EQ(run_study(study)->joints, 2u);
+  }
+  EXPECT_EQ(read_whole_file(folder / "of_measures/limits.csv"),
+            read_whole_file(folder / "of_files/limits.csv"));
+}
+
+TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
+  const TemporaryFolder folder;
+  const SampleHip hip = sample_hip({}, Scenario::one);
+  {
+    OutputFolder out(folder / "hip");
+    write_sample_hip(out, hip, Side::right);
+    out.commit();
+  }
+  TriMesh bone = hip.hip_bone, femur = hip.femur;
+  // In metres, X to the right, Y anterior, Z superior.
+  for (TriMesh* mesh : {&bone, &femur})
+    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
+      const Vec3 p = mesh->vertices[v];
+      mesh->vertices.set(v, Vec3(p.z(), p.x(), p.y()) / 1000);
+    }
+  write_mesh(folder / "bone_ras.ply", bone);
+  write_mesh(folder / "femur_ras.ply", femur);
+  folder.file("table.csv",
+              "id,joint,fixed,mobile,side,units,axes\n"
+              "a,hip/hip.toml,,,,,\n"
+              "b,,bone_ras.ply,femur_ras.ply,right,m,ras\n"
+              "c,,bone_ras.ply,femur_ras.ply,,m,ras\n"
+              "d,,bone_ras.ply,femur_ras.ply,right,cm,ras\n"
+              "e,hip/hip.toml,bone_ras.ply,femur_ras.ply,right,m,ras\n");
+  Study study{folder / "table.csv", folder / "out"};
+  study.options.motions = {"flexion", "fadir"};
+  run_study(study);
+  const auto limits = rows_of(folder / "out/limits.csv");
+  ASSERT_EQ(limits.size(), 4u);
+  // The centre of b is fitted to the head: within what triangles sag below the sphere.
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(std::stod(limits[i].at("limit_deg")), std::stod(limits[i + 2].at("limit_deg")), 0.5);
+  const auto failures = rows_of(folder / "out/failures.csv");
+  ASSERT_EQ(failures.size(), 3u);
+  EXPECT_NE(failures[0].at("message").find("line 4: column 'side': right or left is needed"),
+            std::string::npos);
+  EXPECT_NE(failures[1].at("message").find("line 5: column 'units': 'cm' is none of mm, m"),
+            std::string::npos);
+  EXPECT_NE(failures[2].at("message").find("line 6: a row needs"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle::test
