@@ -6,6 +6,7 @@
 #   install_dependencies.sh docs      and for make docs and make package
 #   install_dependencies.sh page      and for make page-core, make page and make page-template
 #   install_dependencies.sh package-test   and for make package-test
+#   install_dependencies.sh workflow  and for the test of workflow/
 set -euo pipefail
 
 packages=(
@@ -35,8 +36,9 @@ for group in "$@"; do
       command -v npm >/dev/null || packages+=(npm)
       ;;
     package-test) packages+=(debootstrap) ;;
+    workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page and package-test" >&2
+      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page, package-test and workflow" >&2
       exit 2
       ;;
   esac
