@@ -53,6 +53,11 @@ struct RomResult {
 };
 
 /// "contact", "end_of_range", "contact_at_start".
+/// What an answer found with these options must be read with, a sentence each.
+std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMotion& range);
+/// The same of a free joint that keeps a translation.
+std::string term_of_held(const Vec3& translation_mm);
+
 std::string_view name_of(LimitReason reason) noexcept;
 /// "unknown", "bearing", "impingement".
 std::string_view name_of(ContactKind kind) noexcept;

@@ -34,10 +34,6 @@ toml::table parsed(std::string_view text, const std::filesystem::path& path) {
   }
 }
 
-double mm_per(LengthUnit unit) {
-  return unit == LengthUnit::metres ? 1000 : 1;
-}
-
 /// Points of the file in mm.
 class Lengths {
  public:

@@ -16,6 +16,7 @@
 #include "io/file/format_version.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
+#include "mesh/scale.hpp"
 
 namespace condyle {
 namespace {
@@ -65,11 +66,6 @@ LoadedMesh load(const std::filesystem::path& path) {
   return loaded;
 }
 
-void scale(TriMesh& mesh, double factor) {
-  for (auto* coordinates : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z})
-    for (double& value : *coordinates) value *= factor;
-}
-
 void add_body(Lines& lines, std::string_view role, const std::filesystem::path& mesh,
               const std::filesystem::path& joint_file) {
   const auto folder = std::filesystem::absolute(joint_file).parent_path();
@@ -94,7 +90,8 @@ JointProposal propose_joint(const ProposalRequest& request) {
   const bool same_unit = mobile.unit.unit && fixed.unit.unit == mobile.unit.unit;
   const LengthUnit units = request.units.value_or(mobile.unit.unit.value_or(LengthUnit::millimetres));
   const std::string unit_text = units == LengthUnit::metres ? "\"m\"" : "\"mm\"";
-  if (units == LengthUnit::metres) scale(fixed.mesh, 1000), scale(mobile.mesh, 1000);
+  mesh::scale(fixed.mesh, mm_per(units));
+  mesh::scale(mobile.mesh, mm_per(units));
   const auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
   if (hip) {
     lines.key("kind", "\"ball\"",
@@ -107,7 +104,8 @@ JointProposal propose_joint(const ProposalRequest& request) {
     lines.missing("kind", "\"ball\" or \"hinge\"", "no head was found on the mobile body near the fixed one");
   }
 
-  const auto found = hip ? kinematics::agreeing_axes(*hip, request.side) : std::vector<kinematics::AgreeingAxes>{};
+  const auto found =
+      hip ? kinematics::agreeing_axes(*hip, request.side) : std::vector<kinematics::AgreeingAxes>{};
   if (request.side)
     lines.key("side", toml_text(name_of(*request.side)), "given");
   else if (found.size() == 1)

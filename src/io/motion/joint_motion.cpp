@@ -68,9 +68,8 @@ JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
 
 /// Where a mesh file's frame lies in the body's joint frame, its lengths in mm.
 Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
-  const double mm = unit == LengthUnit::metres ? 1000 : 1;
   Pose X = Pose::Identity();
-  X.linear() = origin.joint_from_source.linear() / mm;
+  X.linear() = origin.joint_from_source.linear() / mm_per(unit);
   X.translation() = origin.joint_from_source.translation();
   return X;
 }

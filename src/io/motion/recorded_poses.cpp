@@ -172,7 +172,6 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
     out.notes.push_back(
         "no matrix has a translation: the names of the columns say which way its rotations are meant");
 
-  const double to_mm = mapping.unit == LengthUnit::metres ? 1000.0 : 1.0;
   WorstRotation worst;
   const auto pose = [&](const BodyColumns& columns, std::size_t row) -> std::optional<Pose> {
     auto matrix = matrix_of(table, columns, row);
@@ -182,7 +181,7 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
     if (stands == Translation::last_row) matrix->transposeInPlace();
     Pose X = Pose::Identity();
     X.linear() = nearest_rotation(table, matrix->topLeftCorner<3, 3>(), row, columns.body, worst);
-    X.translation() = to_mm * matrix->topRightCorner<3, 1>();
+    X.translation() = mm_per(mapping.unit) * matrix->topRightCorner<3, 1>();
     return X;
   };
   for (std::size_t row = 0; row < table.rows; ++row) {

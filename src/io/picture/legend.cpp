@@ -13,9 +13,6 @@
 namespace condyle::io {
 namespace {
 
-/// Samples along a pixel's side, of letters.
-constexpr std::size_t samples = 4;
-
 /// Where the parts of a legend are, in pixels.
 struct Layout {
   double top, height, width;

@@ -12,13 +12,12 @@
 #include "io/picture/legend.hpp"
 #include "io/picture/rasteriser.hpp"
 #include "io/picture/surface_values.hpp"
+#include "mesh/vertex_normals.hpp"
 
 namespace condyle {
 namespace io {
 namespace {
 
-/// Samples along a pixel's side: their mean is the pixel.
-constexpr std::size_t samples = 4;
 /// Rows of pixels that a thread draws at a time: samples of two bodies stay within some megabytes.
 constexpr std::size_t strip_pixels = 8;
 /// Of the smaller side of the picture, left free around the bodies.
@@ -36,16 +35,6 @@ double cover_of_glass(double facing) noexcept {
 /// Light from the viewer, and a little more from above: 1 for what faces the viewer.
 double brightness(double facing, double upward) noexcept {
   return std::clamp(0.4 + 0.6 * facing + 0.1 * upward, 0.0, 1.0);
-}
-
-std::vector<Vec3> vertex_normals(const TriMesh& mesh) {
-  std::vector<Vec3> normals(mesh.vertices.size(), Vec3::Zero());
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
-    const Vec3 twice_area = (b - a).cross(c - a);
-    for (const Index corner : t) normals[corner] += twice_area;
-  }
-  return normals;
 }
 
 /// Millimetres in the plane of the picture to samples.
@@ -98,7 +87,7 @@ class Surface {
  public:
   Surface(const TriMesh& posed_mesh, const SurfaceValues& values, const ColourScale& scale, Rgb bone,
           BodyLook look, const Camera& camera, std::size_t columns, std::size_t rows)
-      : normals_(vertex_normals(posed_mesh)),
+      : normals_(mesh::area_normals(posed_mesh)),
         values_(values),
         scale_(scale),
         bone_(bone),
@@ -146,7 +135,7 @@ class Surface {
     return scale_.at(mm).value_or(bone_);
   }
 
-  std::vector<Vec3> normals_;
+  Points normals_;
   const SurfaceValues& values_;
   const ColourScale& scale_;
   Rgb bone_;
@@ -179,6 +168,21 @@ double range_of_depths(const BothValues& values) {
       if (step * decade >= deepest) return step * decade;
 }
 
+/// What is seen at a sample: the nearer body over the other one over white.
+Rgb seen_at(const Surface& fixed, const Hit& of_fixed, const Surface& mobile, const Hit& of_mobile, double x,
+            double y) {
+  Rgb colour = white;
+  const auto add = [&](const Surface& surface, const Hit& hit) {
+    if (hit.triangle != no_index) colour = surface.over(colour, hit.triangle, x, y);
+  };
+  const bool fixed_behind =
+      of_fixed.triangle == no_index || of_mobile.triangle == no_index || of_fixed.z <= of_mobile.z;
+  if (fixed_behind) add(fixed, of_fixed);
+  add(mobile, of_mobile);
+  if (!fixed_behind) add(fixed, of_fixed);
+  return colour;
+}
+
 void draw_strip(const Surface& fixed, const Surface& mobile, std::size_t strip, Picture& picture,
                 std::size_t rows_of_scene) {
   const std::size_t columns = picture.width * samples;
@@ -193,17 +197,9 @@ void draw_strip(const Surface& fixed, const Surface& mobile, std::size_t strip, 
         const std::size_t sample_row = row * samples + i / samples,
                           sample_column = column * samples + i % samples;
         const std::size_t at = (sample_row - first * samples) * columns + sample_column;
-        const double x = static_cast<double>(sample_column) + 0.5, y = static_cast<double>(sample_row) + 0.5;
-        Rgb colour = white;
-        const auto add = [&](const Surface& surface, const Hit& hit) {
-          if (hit.triangle != no_index) colour = surface.over(colour, hit.triangle, x, y);
-        };
-        const Hit &of_fixed = hits_fixed[at], &of_mobile = hits_mobile[at];
-        const bool fixed_behind =
-            of_fixed.triangle == no_index || of_mobile.triangle == no_index || of_fixed.z <= of_mobile.z;
-        if (fixed_behind) add(fixed, of_fixed);
-        add(mobile, of_mobile);
-        if (!fixed_behind) add(fixed, of_fixed);
+        const Rgb colour =
+            seen_at(fixed, hits_fixed[at], mobile, hits_mobile[at], static_cast<double>(sample_column) + 0.5,
+                    static_cast<double>(sample_row) + 0.5);
         for (std::size_t k = 0; k < 3; ++k) sum[k] += colour[k];
       }
       set_pixel(picture, column, row,

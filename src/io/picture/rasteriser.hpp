@@ -9,6 +9,9 @@
 
 namespace condyle::io {
 
+/// Samples along a pixel's side: their mean is the pixel.
+inline constexpr std::size_t samples = 4;
+
 /// A mesh laid on a grid of samples: x to the right, y down, both in samples, z towards the viewer.
 struct FlatMesh {
   Points vertices;

@@ -31,30 +31,6 @@ std::string text_of(const Feature& feature) {
 
 }  // namespace io
 
-std::string_view name_of(LimitReason reason) noexcept {
-  switch (reason) {
-    case LimitReason::contact:
-      return "contact";
-    case LimitReason::end_of_range:
-      return "end_of_range";
-    case LimitReason::contact_at_start:
-      return "contact_at_start";
-  }
-  return "contact";
-}
-
-std::string_view name_of(ContactKind kind) noexcept {
-  switch (kind) {
-    case ContactKind::unknown:
-      return "unknown";
-    case ContactKind::bearing:
-      return "bearing";
-    case ContactKind::impingement:
-      return "impingement";
-  }
-  return "unknown";
-}
-
 std::string guarantee_text(const MotionLimit& limit) {
   switch (limit.end.reason) {
     case LimitReason::contact:
