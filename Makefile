@@ -70,7 +70,7 @@ page-core: dependencies build/release/build.ninja
 	@emcmake cmake -S viewer/core -B build/page_core -G Ninja >/dev/null
 	@NODE_PATH=/usr/share/nodejs cmake --build build/page_core
 	@mkdir -p build/page_core/test
-	@build/release/page_core_answers build/page_core/test
+	@build/release/page_core_answers --sample build/page_core/test
 	@node tests/viewer/same_bits.mjs build/page_core/page_core.js build/page_core/test
 
 # The page of condyle report, made anew: its committed template has to be what its sources make. Then in a real browser.

@@ -6,28 +6,10 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "condyle/io/rom_result.hpp"
 #include "followed.hpp"
 
 namespace condyle::cli {
-namespace {
-
-std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMotion& range) {
-  std::vector<std::string> terms;
-  const OverlapOptions& overlap = options.overlap;
-  if (overlap.leave_out_reference_contacts)
-    terms.push_back(
-        fmt::format("left out: triangles in contact in the reference pose and {} rings of neighbours, {} of "
-                    "the fixed body and {} "
-                    "of the mobile one",
-                    overlap.leave_out_reference_contacts->rings, range.left_out().fixed_triangles,
-                    range.left_out().mobile_triangles));
-  if (overlap.reference_contact == ReferenceContact::accept)
-    terms.emplace_back("contact in the reference pose is accepted: motions that start in contact say so");
-  return terms;
-}
-
-}  // namespace
-
 std::vector<Motion> motions_of(const LoadedJoint& loaded) {
   return with_own_motions(built_in_motions(loaded.joint.kind, loaded.joint.anatomy),
                           loaded.report.file.motions);
@@ -50,10 +32,12 @@ std::optional<Vec3> held_translation(const std::string& given, const LoadedJoint
   return held;
 }
 
-std::string term_of_held(const Vec3& translation_mm) {
-  return fmt::format(
-      "translation held at x {:g}, y {:g}, z {:g} mm: the mobile body turns about its own origin",
-      translation_mm.x(), translation_mm.y(), translation_mm.z());
+std::vector<std::optional<ImpingementZone>> zones_of(const std::optional<ZoneFinder>& finder,
+                                                     std::span<const MotionLimit> limits) {
+  std::vector<std::optional<ImpingementZone>> zones;
+  if (finder)
+    for (const MotionLimit& limit : limits) zones.push_back(finder->zone(limit));
+  return zones;
 }
 
 RangeFound exact_range(const Joint& joint, std::span<const Motion> motions, const RangeOptions& asked,

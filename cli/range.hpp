@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/depth_limit.hpp"
+#include "condyle/impingement_zone.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
@@ -31,8 +32,10 @@ std::vector<Motion> motions_of(const LoadedJoint& loaded);
 /// The translation that a free joint keeps in all its motions: that of its reference pose unless `given` as for a pose.
 /// Empty for joints that do not translate. Throws UsageError.
 std::optional<Vec3> held_translation(const std::string& given, const LoadedJoint& loaded);
-/// What the answer about a joint so held must be read with.
-std::string term_of_held(const Vec3& translation_mm);
+
+/// Of each limit its zone, where it has one; none where `finder` is nothing.
+std::vector<std::optional<ImpingementZone>> zones_of(const std::optional<ZoneFinder>& finder,
+                                                     std::span<const MotionLimit> limits);
 
 /// Exact limits, a map where there is a grid, and bands where there are samples. Throws ReferenceContactError
 /// where the bodies are in contact in the reference pose, Interrupted on SIGINT or SIGTERM.

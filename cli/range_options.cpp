@@ -80,6 +80,16 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& give
   return band;
 }
 
+CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
+  return command.add_option("--past", given->past_deg,
+                            "Also find the impingement zones this many degrees past each limit");
+}
+
+std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint) {
+  if (!given.past_deg) return std::nullopt;
+  return ZoneFinder(joint, {.bearing = given.bearing, .past = Angle::degrees(*given.past_deg)});
+}
+
 std::optional<MapGrid> grid_of(const RangeGiven& given, const Joint& joint) {
   if (given.map.empty()) {
     if (!given.vary.empty()) throw UsageError("--vary: is for --map");

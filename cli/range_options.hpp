@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/impingement_zone.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
 
@@ -25,6 +26,7 @@ struct RangeGiven {
   ReferenceContact reference_contact = ReferenceContact::refuse;
   std::size_t band_samples = 0;  ///< 0: no bands
   std::uint64_t seed = 1;
+  std::optional<double> past_deg;  ///< nothing: no impingement zones
   std::optional<double> sigma_centre_mm, sigma_axes_deg, sigma_surface_mm;
 };
 
@@ -33,9 +35,12 @@ CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given
 CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
+CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 
 /// Nothing where no map was asked for. Throws UsageError.
 std::optional<MapGrid> grid_of(const RangeGiven& given, const Joint& joint);
+/// Nothing where no zones were asked for. Throws UsageError.
+std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint);
 RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose);
 /// What was given, else what the joint file says, else what is usual.
 BandOptions band_options_of(const RangeGiven& given, const Uncertainty& of_file);

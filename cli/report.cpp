@@ -95,10 +95,12 @@ void run(const Options& options, const CLI::App& command) {
   io::check_output_file(options.out);
 
   if (recorded) recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
+  const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, held);
   const BandOptions band = band_options_of(*options.range, loaded.report.file.uncertainty);
   auto [found, error] = range_of(options, loaded, held, band);
   if (translation) found.terms.push_back(term_of_held(*translation));
 
+  const std::vector<std::optional<ImpingementZone>> zones = zones_of(finder, found.limits);
   Provenance from = provenance_of(loaded, words_of(command));
   if (translation) from.frame = from.frame.of_held(*translation);
   const RomResult rom{.joint = held,
@@ -108,6 +110,7 @@ void run(const Options& options, const CLI::App& command) {
                       .terms = found.terms,
                       .held_translation_mm = translation,
                       .notes = notes,
+                      .zones = zones,
                       .map = found.map ? &*found.map : nullptr,
                       .bands = found.bands,
                       .band_options = band,
@@ -117,6 +120,12 @@ void run(const Options& options, const CLI::App& command) {
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = error.empty() ? &rom : nullptr,
                 .rom_error = error};
+  ContactEntry contact;
+  if (options.with_pressure) {
+    contact = contact_of({}, loaded.report.file, true);
+    report.layers.emplace(
+        ReportedLayers{contact, elastic_options(contact, surfaces_of(contact, loaded.joint), loaded)});
+  }
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
                                            recorded->question, recorded->answer});
@@ -144,16 +153,16 @@ void add_report(CLI::App& app) {
       "A page without a joint: it takes the meshes of a hip that are dropped on it");
   command->add_option("--out", options->out, "The HTML file to write")->required()->option_text("FILE");
   command->add_option("--title", options->title, "Heading of the page: the joint's name if not given");
-  auto* motion = command
-                     ->add_option("--motion", options->motion,
-                                  "Also a recorded motion, .mot, .sto or .csv: its frames and their curves")
-                     ->option_text("FILE");
   command
-      ->add_flag_callback(
-          "--load", [options] { options->with_pressure = true; },
-          "With --motion: pressure, force and moment too, by the layers of the joint file")
-      ->needs(motion);
+      ->add_option("--motion", options->motion,
+                   "Also a recorded motion, .mot, .sto or .csv: its frames and their curves")
+      ->option_text("FILE");
+  command->add_flag_callback(
+      "--load", [options] { options->with_pressure = true; },
+      "Pressure too, by the layers of the joint file: as a colour in any pose, and with --motion in its "
+      "curves");
   add_map(*command, options->range);
+  add_past(*command, options->range);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);
   add_band(*command, options->range);

@@ -15,7 +15,6 @@
 #include "condyle/depth_limit.hpp"
 #include "condyle/error.hpp"
 #include "condyle/held_translation.hpp"
-#include "condyle/impingement_zone.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -36,7 +35,7 @@ enum class ReferenceContacts { count, leave_out };
 struct Options {
   std::string joint, out;
   std::vector<std::string> motions;
-  std::optional<double> allow_depth_mm, past_deg;
+  std::optional<double> allow_depth_mm;
   ReferenceContacts reference_contacts = ReferenceContacts::count;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
   Task task = Task::limits;
@@ -124,10 +123,7 @@ void run(const Options& options, const CLI::App& command) {
   const std::optional<MapGrid> grid = grid_of(*options.range, joint);
   const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose.angles);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  std::optional<ZoneFinder> finder;
-  if (options.past_deg)
-    finder.emplace(joint,
-                   ZoneOptions{.bearing = options.range->bearing, .past = Angle::degrees(*options.past_deg)});
+  const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, joint);
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
@@ -135,9 +131,7 @@ void run(const Options& options, const CLI::App& command) {
   RangeFound found = options.allow_depth_mm ? depth_limits(options, joint, motions)
                                             : exact_limits(joint, motions, asked, grid, band);
   if (translation) found.terms.push_back(term_of_held(*translation));
-  std::vector<std::optional<ImpingementZone>> zones;
-  if (finder)
-    for (const MotionLimit& limit : found.limits) zones.push_back(finder->zone(limit));
+  const std::vector<std::optional<ImpingementZone>> zones = zones_of(finder, found.limits);
 
   Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   if (translation) from.frame = from.frame.of_held(*translation);
@@ -181,8 +175,7 @@ void add_rom(CLI::App& app) {
       "--list-motions", [options] { options->task = Task::list_motions; },
       "Say which motions there are, degrees from where to where, and end");
   auto* map = add_map(*command, options->range);
-  command->add_option("--past", options->past_deg,
-                      "Also find the impingement zones this many degrees past each limit");
+  add_past(*command, options->range);
   auto* bearing = add_bearing(*command, options->range);
   auto* contacts = command->add_flag_callback(
       "--exclude-reference-contacts",

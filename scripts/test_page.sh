@@ -10,6 +10,15 @@ mkdir -p "$out/seen"
 
 "$condyle" sample hip --out "$out/sample" >/dev/null
 "$condyle" report "$out/sample/hip.toml" --band=20 --map flexion=0:120:20 adduction=-30:20:10 --out "$out/sample.html"
+# Turned about a point beside the head's centre, head and socket touch before the rim does.
+sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/shifted.toml"
+"$condyle" report "$out/sample/shifted.toml" --out "$out/shifted.html"
+"$condyle" report "$out/sample/shifted.toml" --bearing count --out "$out/counted.html"
+"$condyle" report "$out/sample/hip.toml" --past 5 --out "$out/zones.html"
+"$condyle" sample cartilages --scenario 5 --out "$out/cartilages" >/dev/null
+sed -e 's|^mesh = "femur.ply"|meshes = [{ name = "bone", mesh = "femur.ply" }, { name = "cartilage", mesh = "../cartilages/femoral_cartilage.ply", bearing = true }]|' \
+  "$out/sample/hip.toml" >"$out/sample/parts.toml"
+"$condyle" report "$out/sample/parts.toml" --out "$out/parts.html"
 "$condyle" sample hip --scenario 3 --out "$out/scenario_3" >/dev/null
 "$condyle" report "$out/scenario_3/hip.toml" --out "$out/scenario_3.html"
 real_hip() {
@@ -27,5 +36,12 @@ if [ -d "$data/hip_vhf_right" ]; then
   "$condyle" report "$out/walk.toml" --motion "$data/motion_gait2354_walk/subject01_walk1_ik.mot" --out "$out/walk.html"
 else
   echo "real hips are skipped: $data/hip_vhf_right is not there" >&2
+fi
+knee=$data/knee_lenhart2015_right
+if [ -d "$knee" ]; then
+  CONDYLE_DATA=$data "$condyle" report examples/tibiofemoral.toml --load --accept-reference-contact \
+    --motion "$knee/passive_flexion_states.sto" --out "$out/knee.html"
+else
+  echo "the knee is skipped: $knee is not there" >&2
 fi
 node --test --test-concurrency=1 tests/viewer/*.test.mjs

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -121,6 +122,48 @@ TEST_F(ReportCommand, PressureComesFromLayersOfTheJointFile) {
   EXPECT_TRUE(found);
 }
 
+TEST_F(ReportCommand, HoldsTheLayersThatThePageComputesPressureWith) {
+  write_joint(
+      "[contact]\ncasting = \"fixed\"\n[contact.fixed]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\n"
+      "thickness = 6\n");
+  EXPECT_EQ(answer("")["layers"], nullptr);
+  ASSERT_EQ(run("report joint.toml --load --out report.html").exit_code, 0);
+  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  const Json& layers = block.json["layers"];
+  EXPECT_EQ(layers["casting"], "fixed");
+  EXPECT_EQ(layers["law"], "linear");
+  EXPECT_EQ(layers["rule"], "cut_faces");
+  EXPECT_EQ(layers["reach_mm"], 20);
+  EXPECT_EQ(layers["fixed"]["youngs_modulus_mpa"], 10);
+  EXPECT_EQ(layers["fixed"]["poisson_ratio"], 0.45);
+  EXPECT_EQ(layers["fixed"]["first_vertex"], 0);
+  EXPECT_EQ(block.array<double>(layers["fixed"]["thickness_mm"], "f64"), std::vector(8, 6.0));
+  EXPECT_EQ(layers["mobile"]["triangles"], 12);
+  EXPECT_FALSE(layers["mobile"].contains("thickness_mm")) << "it is rigid";
+}
+
+TEST_F(ReportCommand, HoldsTheTrianglesThatMeetPastALimit) {
+  EXPECT_EQ(answer("")["zones"].size(), 0u);
+  ASSERT_EQ(run("report joint.toml --past 3 --out report.html").exit_code, 0);
+  const ReportBlock block = report_block(io::read_whole_file(folder / "report.html"));
+  ASSERT_EQ(run("rom joint.toml --past 3 --out range").exit_code, 0);
+  std::size_t zones = 0;
+  for (const Json& zone : block.json["zones"]) {
+    EXPECT_EQ(zone["past_deg"], 3);
+    for (const std::string body : {"fixed", "mobile"}) {
+      const auto triangles = block.array<std::uint32_t>(zone[body], "u32");
+      EXPECT_FALSE(triangles.empty());
+      EXPECT_TRUE(std::is_sorted(triangles.begin(), triangles.end()));
+    }
+    ++zones;
+  }
+  std::size_t files = 0;  // zone_02_extension_fixed.vtp and the like
+  for (const auto& entry : fs::directory_iterator(folder / "range"))
+    files += entry.path().filename().string().ends_with("_fixed.vtp");
+  EXPECT_EQ(zones, files);
+  EXPECT_GT(zones, 0u);
+}
+
 TEST_F(ReportCommand, WithoutAJointIsThePageThatTakesOne) {
   const Ran ran = run("report --empty --out report.html");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
@@ -136,7 +179,8 @@ TEST_F(ReportCommand, RefusesInOneLineAndWritesNothing) {
   expect_refused(2, "report joint.toml", "--out is required");
   expect_refused(2, "report --out report.html", "JOINT is required");
   expect_refused(2, "report joint.toml --out report.html --seed 4", "requires --band");
-  expect_refused(2, "report joint.toml --out report.html --load", "requires --motion");
+  expect_refused(2, "report joint.toml --out report.html --load", "no layers");
+  expect_refused(2, "report joint.toml --out report.html --past -1", "past");
   expect_refused(2, "report joint.toml --out report.html --vary flexion", "--vary");
   expect_refused(2, "report joint.toml --out report.html --map tilt=0:1:1 adduction=0:1:1", "'tilt'");
   expect_refused(2, "report joint.toml --out report.html --translation x=1", "only a free joint");

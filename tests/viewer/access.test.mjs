@@ -1,20 +1,9 @@
 // The page for everybody: accessibility rules, keyboard, touch, small and large windows, light and dark, paper.
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { axeSource, keep, openPage, pathOf, settled, withBrowser } from "./browser.mjs";
+import { test } from "node:test";
+import { axeSource, keep, openPage, pathOf, settled, sharedBrowser } from "./browser.mjs";
 
-let browser, done;
-before(() => new Promise((ready) => {
-  done = withBrowser((opened) => {
-    browser = opened;
-    ready();
-    return new Promise((end) => (browser.ended = end));
-  });
-}));
-after(async () => {
-  browser.ended();
-  await done;
-});
+const browser = await sharedBrowser();
 
 for (const colorScheme of ["light", "dark"])
   test(`axe finds nothing serious (${colorScheme})`, async () => {

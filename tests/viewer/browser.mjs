@@ -2,6 +2,7 @@
 import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
+import { after } from "node:test";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -13,13 +14,11 @@ export const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "u
 const quiet = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
   "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-export async function withBrowser(use) {
+/// One browser for all tests of a file, closed after them.
+export async function sharedBrowser() {
   const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: quiet });
-  try {
-    return await use(browser);
-  } finally {
-    await browser.close();
-  }
+  after(() => browser.close());
+  return browser;
 }
 
 export function pathOf(name) {

@@ -3,30 +3,15 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
-import { has, keep, openPage, pathOf, reports, root, settled, turnTo, withBrowser } from "./browser.mjs";
+import { has, keep, openPage, pathOf, pixels, region, reports, root, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { dataElement, readReport } from "./report_block.mjs";
 
 const condyle = join(root, "build/release/condyle");
-let browser, done;
-before(() => new Promise((ready) => {
-  done = withBrowser((opened) => {
-    browser = opened;
-    ready();
-    return new Promise((end) => (browser.ended = end));
-  });
-}));
-after(async () => {
-  browser.ended();
-  await done;
-});
+const browser = await sharedBrowser();
 
-const dataElement = /(<script type="application\/octet-stream" id="condyle-data">)([^<]*)(<\/script>)/;
-
-function textOf(name) {
-  const block = inflateSync(Buffer.from(dataElement.exec(readFileSync(pathOf(name), "utf8"))[2], "base64"));
-  return JSON.parse(block.subarray(16, 16 + block.readUInt32LE(12)));
-}
+const textOf = (name) => readReport(pathOf(name)).text;
 
 /// A report whose data block was changed.
 function changed(name, change) {
@@ -68,7 +53,29 @@ test("the template and a report of scenario 3 are as small as was promised", () 
   assert.ok(statSync(pathOf("scenario_3")).size <= 6e6);
 });
 
-test("limits and free angles are those of the command line, within the error bound of limits", async (t) => {
+for (const name of ["sample", "shifted", "counted", "parts", "knee"])
+  test(`limits of ${name} are those of the command line, within their error bound`, { skip: !has(name) && "not made" }, async () => {
+    const { page } = await openPage(browser, pathOf(name));
+    const { coordinates, rom } = textOf(name);
+    const names = coordinates.map(({ name: angle }) => angle);
+    for (const motion of rom.motions) {
+      const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
+        start: names.map((angle) => motion.start_deg[angle]), vary: names.indexOf(motion.vary), positive: motion.sense === "positive",
+        range_deg: motion.range_deg, held: rom.held_translation_mm ?? [0, 0, 0],
+      });
+      assert.equal(limit.reason, motion.reason);
+      assert.ok(Math.abs(limit.turned_deg - motion.limit_deg) <= motion.error_bound_deg, `${motion.name}: ${limit.turned_deg}`);
+    }
+    assert.ok(rom.motions.length > 1);
+    await page.context().close();
+  });
+
+test("the reports that limits are compared in differ by the contact that counts", () => {
+  const [counted, shifted] = ["counted", "shifted"].map((name) => textOf(name).rom.motions);
+  assert.ok(shifted.some(({ bearing_contact_deg, limit_deg }, i) => bearing_contact_deg !== null && counted[i].limit_deg < limit_deg));
+});
+
+test("free angles of a map are those of the command line, within the error bound of limits", async (t) => {
   const { page } = await openPage(browser, pathOf("sample"));
   const { coordinates, rom, map } = textOf("sample");
   const names = coordinates.map(({ name }) => name);
@@ -81,14 +88,6 @@ test("limits and free angles are those of the command line, within the error bou
     equal += a === b;
     ++asked;
   };
-  for (const motion of rom.motions) {
-    const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
-      start: names.map((name) => motion.start_deg[name]), vary: names.indexOf(motion.vary), positive: motion.sense === "positive",
-      range_deg: motion.range_deg,
-    });
-    assert.equal(limit.reason, motion.reason);
-    one(limit.turned_deg, motion.limit_deg);
-  }
   let points = 0;
   for (const [point, intervals] of map.intervals.entries()) {
     const found = await page.evaluate((question) => condyle.query(question), {
@@ -153,6 +152,64 @@ test("a figure goes where it is pressed", async () => {
   await page.getByRole("button", { name: "flexion 60°, adduction 0°" }).click();
   await settled(page);
   assert.equal(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue(), "60");
+  await page.context().close();
+});
+
+test("a figure pressed shows where bone meets bone once the joint has turned there, and the zone around it", async () => {
+  const { page } = await openPage(browser, pathOf("zones"));
+  await page.getByLabel("Colour", { exact: true }).selectOption("none");
+  await page.getByLabel("Mark triangles in contact").uncheck();
+  await page.getByLabel("Show femur").uncheck();
+  const fadir = textOf("zones").rom.motions.find(({ name }) => name === "fadir");
+  await page.getByRole("button", { name: "fadir", exact: true }).click();
+  await page.waitForFunction((deg) => Number(document.querySelector("input[aria-label='internal rotation, degrees'][type=number]").value) === deg,
+    fadir.at_limit_deg.internal_rotation);
+  assert.equal(await page.getByLabel("Mark the impingement zone of").inputValue(), "fadir");
+  await settled(page);
+  const seen = await pixels(page);
+  const isContactPoint = (r, g, b) => r > 200 && g > 90 && g < 150 && b < 60, isZone = (r, g, b) => b > g + 20 && r > g + 10;
+  await keep(page, "zone");
+  assert.ok(region(seen, isContactPoint).count > 10, "the contact point");
+  assert.ok(region(seen, isZone).count > 10, "the zone");
+  await page.getByLabel("Mark the impingement zone of").selectOption("none");
+  await settled(page);
+  assert.equal(region(await pixels(page), isZone).count, 0);
+  await page.context().close();
+});
+
+test("where a layer carries load its pressure is shown, in MPa, on open sheets too", { skip: !has("knee") && "not made" }, async () => {
+  const { page, complaints } = await openPage(browser, pathOf("knee"));
+  await page.getByLabel("Colour", { exact: true }).selectOption("pressure");
+  await settled(page);
+  await page.getByRole("button", { name: "above", exact: true }).click();
+  await page.getByLabel("Show femoral cartilage").uncheck();
+  await page.getByLabel("Mark triangles in contact").uncheck();
+  await settled(page);
+  await keep(page, "pressure");
+  const loaded = region(await pixels(page), (r, g, b) => Math.max(r, g, b) - Math.min(r, g, b) > 60);
+  assert.ok(loaded.count > 100, `${loaded.count} pixels under pressure`);
+  assert.match(await page.locator("#legend").textContent(), /^pressure, MPa/);
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+});
+
+test("meshes of a body are shown one by one", async () => {
+  const { page } = await openPage(browser, pathOf("parts"));
+  const isFemur = (r, g, b) => b > r + 8;
+  await page.getByLabel("Colour", { exact: true }).selectOption("none");
+  await page.getByLabel("Show hip bone").uncheck();
+  await settled(page);
+  const whole = region(await pixels(page), isFemur);
+  await keep(page, "parts");
+  await page.getByLabel("Show bone", { exact: true }).uncheck();
+  await settled(page);
+  const cartilage = region(await pixels(page), isFemur);
+  // A cap on the head, which is above all else of a femur.
+  assert.ok(cartilage.count > 100 && cartilage.count < whole.count / 3, `${cartilage.count} of ${whole.count}`);
+  assert.ok(cartilage.y < whole.y);
+  await page.getByLabel("Show cartilage", { exact: true }).uncheck();
+  await settled(page);
+  assert.equal(region(await pixels(page), isFemur).count, 0);
   await page.context().close();
 });
 

@@ -2,16 +2,21 @@
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "condyle/range_of_motion.hpp"
 #include "condyle/sample/hip.hpp"
 #include "page_core.hpp"
+#include "page_pressure.hpp"
 
-/// Asks a sample hip a thousand poses and its limits through the functions of the page, compiled natively, and writes both the
-/// questions and the answers for same_bits.mjs: page_core_answers FOLDER.
+/// Asks a joint a thousand poses, its limits and a map through the functions of the page, compiled natively, and writes the
+/// answers. The joint and the poses are those of FOLDER/scene.bin, which is made of a sample hip with --sample:
+///     page_core_answers [--sample] FOLDER
 
 namespace {
 
@@ -43,8 +48,76 @@ std::vector<std::uint32_t> flat_triangles(const TriMesh& mesh) {
   return values;
 }
 
+/// A file of whole numbers, doubles and words, as scene.mjs reads and writes it.
+struct Scene {
+  std::vector<double> fixed, mobile;
+  std::vector<double> questions;  ///< angles in degrees and a translation in mm each
+  std::vector<std::uint32_t> fixed_triangles, mobile_triangles;
+};
+
+Scene sample_scene() {
+  const SampleHip hip = sample_hip({}, Scenario::two);
+  Scene scene{.fixed = flat(hip.hip_bone),
+              .mobile = flat(hip.femur),
+              .questions = {},
+              .fixed_triangles = flat_triangles(hip.hip_bone),
+              .mobile_triangles = flat_triangles(hip.femur)};
+  constexpr int poses = 1000;
+  std::mt19937_64 random(7);
+  const auto uniform = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  for (int i = 0; i < poses; ++i) {
+    const double slip = i % 2 == 0 ? 0 : 1.5;
+    scene.questions.insert(scene.questions.end(),
+                           {uniform(-30, 150), uniform(-60, 60), uniform(-60, 60), uniform(-slip, slip),
+                            uniform(-slip, slip), uniform(-slip, slip)});
+  }
+  return scene;
+}
+
+void write_scene(const std::string& path, const Scene& scene) {
+  std::ofstream file(path, std::ios::binary);
+  const std::uint32_t head[] = {static_cast<std::uint32_t>(scene.fixed.size()),
+                                static_cast<std::uint32_t>(scene.mobile.size()),
+                                static_cast<std::uint32_t>(scene.questions.size()),
+                                0,
+                                static_cast<std::uint32_t>(scene.fixed_triangles.size()),
+                                static_cast<std::uint32_t>(scene.mobile_triangles.size())};
+  write(file, head, std::size(head));
+  for (const auto* values : {&scene.fixed, &scene.mobile, &scene.questions})
+    write(file, values->data(), values->size());
+  for (const auto* values : {&scene.fixed_triangles, &scene.mobile_triangles})
+    write(file, values->data(), values->size());
+}
+
+template <class T>
+void read(std::ifstream& file, std::vector<T>& values, std::size_t count) {
+  values.resize(count);
+  file.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(count * sizeof(T)));
+}
+
+Scene read_scene(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint32_t> head;
+  read(file, head, 6);
+  Scene scene;
+  read(file, scene.fixed, head[0]);
+  read(file, scene.mobile, head[1]);
+  read(file, scene.questions, head[2]);
+  read(file, scene.fixed_triangles, head[4]);
+  read(file, scene.mobile_triangles, head[5]);
+  if (!file) throw std::runtime_error(path + " is no scene");
+  return scene;
+}
+
+int checked(int answer) {
+  if (answer < 0) throw std::runtime_error(condyle_error());
+  return answer;
+}
+
 std::string penetrations(CondyleJoint* joint, const double* pose, int of_fixed) {
-  const int count = condyle_penetrations(joint, pose, of_fixed);
+  const int count = checked(condyle_penetrations(joint, pose, of_fixed));
   std::string text = std::to_string(count);
   for (int i = 0; i < count; ++i)
     text +=
@@ -52,74 +125,110 @@ std::string penetrations(CondyleJoint* joint, const double* pose, int of_fixed) 
   return text;
 }
 
-int failed() {
-  std::fprintf(stderr, "%s\n", condyle_error());
-  return 1;
+void answer_pose(CondyleJoint* joint, const double* question, double X[16], std::ostream& answers) {
+  checked(condyle_pose(joint, question, question + 3, X));
+  answers << "pose";
+  for (int i = 0; i < 16; ++i) answers << ' ' << bits(X[i]);
+  for (const int of_fixed : {0, 1}) {
+    answers << (of_fixed ? "\nfixed " : "\nmobile ") << penetrations(joint, X, of_fixed);
+    double depth[2];
+    checked(condyle_depth_to_read(joint, X, of_fixed, depth));
+    answers << "\ndepth " << of_fixed << ' ' << bits(depth[0]) << ' ' << bits(depth[1]);
+  }
+  answers << "\ncontact " << checked(condyle_in_contact(joint, X)) << "\npairs";
+  const int pairs = checked(condyle_pairs(joint, X));
+  for (int k = 0; k < 2 * pairs; ++k) answers << ' ' << condyle_pair_triangles(joint)[k];
+  answers << '\n';
+}
+
+/// What all vertices show at a pose, byte by byte.
+void answer_shown(CondyleJoint* joint, const double X[16], const std::size_t (&vertices)[2],
+                  std::ofstream& shown) {
+  constexpr int pressure = 3;  // after the quantities of condyle_shown()
+  for (int quantity = 0; quantity <= pressure; ++quantity)
+    for (const int of_fixed : {0, 1}) {
+      std::vector<float> values(vertices[of_fixed]);
+      std::vector<std::uint8_t> marks(values.size());
+      checked(quantity == pressure
+                  ? condyle_pressure(joint, X, of_fixed, values.data(), marks.data())
+                  : condyle_shown(joint, X, quantity, of_fixed, values.data(), marks.data()));
+      write(shown, values.data(), values.size());
+      write(shown, marks.data(), marks.size());
+    }
+}
+
+void answer_limit(CondyleJoint* joint, const Motion& motion, std::ostream& answers) {
+  const double start[] = {motion.start.flexion.degrees(), motion.start.adduction.degrees(),
+                          motion.start.internal_rotation.degrees()};
+  const double held[] = {0, 0, 0};
+  double limit[7];
+  checked(condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive, start,
+                        held, motion.range.degrees(), limit));
+  answers << "limit " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
+  for (const double value : start) answers << ' ' << bits(value);
+  answers << ' ' << bits(motion.range.degrees());
+  for (const double value : limit) answers << ' ' << bits(value);
+  answers << '\n';
+}
+
+/// Free internal rotation over flexion and adduction, every ten degrees.
+void answer_map(CondyleJoint* joint, std::ostream& answers) {
+  for (int adduction = -40; adduction <= 30; adduction += 10)
+    for (int flexion = -20; flexion <= 120; flexion += 10) {
+      const double start[] = {double(flexion), double(adduction), 0}, held[] = {0, 0, 0};
+      const int count = checked(condyle_free_angles(joint, 2, start, held, 180, 180));
+      answers << "free " << flexion << ' ' << adduction;
+      for (int i = 0; i < 4 * count; ++i) answers << ' ' << bits(condyle_intervals(joint)[i]);
+      answers << '\n';
+    }
+}
+
+/// A layer of 2 mm on either bone: the sample's bones overlap in its poses as much.
+void add_layers(CondyleJoint* joint, const Scene& scene) {
+  const int vertices[] = {static_cast<int>(scene.mobile.size() / 3),
+                          static_cast<int>(scene.fixed.size() / 3)};
+  const int triangles[] = {static_cast<int>(scene.mobile_triangles.size() / 3),
+                           static_cast<int>(scene.fixed_triangles.size() / 3)};
+  for (const int of_fixed : {0, 1}) {
+    const std::vector<double> thickness(static_cast<std::size_t>(vertices[of_fixed]), 2.0);
+    checked(condyle_surface(joint, of_fixed, 0, vertices[of_fixed], 0, triangles[of_fixed], 10, 0.45,
+                            thickness.data()));
+  }
+  checked(condyle_elastic(joint, 2, 0, 1, 20));
+}
+
+void answer(const Scene& scene, const std::string& folder) {
+  CondyleJoint* joint =
+      condyle_joint(0, 0, 0, 0, scene.fixed.data(), static_cast<int>(scene.fixed.size() / 3),
+                    scene.fixed_triangles.data(), static_cast<int>(scene.fixed_triangles.size() / 3),
+                    scene.mobile.data(), static_cast<int>(scene.mobile.size() / 3),
+                    scene.mobile_triangles.data(), static_cast<int>(scene.mobile_triangles.size() / 3));
+  if (!joint) throw std::runtime_error(condyle_error());
+  add_layers(joint, scene);
+  const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
+  std::ofstream answers(folder + "/answers.txt"), shown(folder + "/shown.bin", std::ios::binary);
+  for (std::size_t i = 0; i < scene.questions.size() / 6; ++i) {
+    double X[16];
+    answer_pose(joint, &scene.questions[6 * i], X, answers);
+    constexpr std::size_t every = 50;  // distances of all vertices take long
+    if (i % every == 0) answer_shown(joint, X, vertices, shown);
+  }
+  for (const Motion& motion : hip_motions()) answer_limit(joint, motion, answers);
+  answer_map(joint, answers);
+  condyle_free(joint);
+  if (!answers || !shown) throw std::runtime_error(folder + " cannot be written");
 }
 
 }  // namespace
 
-int main(int count, char** arguments) {
-  if (count != 2) return 2;
-  const std::string folder = arguments[1];
-  const SampleHip hip = sample_hip({}, Scenario::two);
-  const std::vector<double> fixed = flat(hip.hip_bone), mobile = flat(hip.femur);
-  const auto fixed_triangles = flat_triangles(hip.hip_bone), mobile_triangles = flat_triangles(hip.femur);
-
-  constexpr int poses = 1000;
-  std::vector<double> questions;  // angles and a translation each
-  std::mt19937_64 random(7);
-  const auto uniform = [&](double low, double high) {
-    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
-  };
-  for (int i = 0; i < poses; ++i) {
-    const double slip = i % 2 == 0 ? 0 : 1.5;
-    questions.insert(questions.end(), {uniform(-30, 150), uniform(-60, 60), uniform(-60, 60),
-                                       uniform(-slip, slip), uniform(-slip, slip), uniform(-slip, slip)});
-  }
-
-  std::ofstream scene(folder + "/scene.bin", std::ios::binary);
-  const std::int32_t head[] = {
-      static_cast<std::int32_t>(fixed.size()),           static_cast<std::int32_t>(mobile.size()),
-      static_cast<std::int32_t>(questions.size()),       0,
-      static_cast<std::int32_t>(fixed_triangles.size()), static_cast<std::int32_t>(mobile_triangles.size())};
-  write(scene, head, 6);
-  write(scene, fixed.data(), fixed.size());
-  write(scene, mobile.data(), mobile.size());
-  write(scene, questions.data(), questions.size());
-  write(scene, fixed_triangles.data(), fixed_triangles.size());
-  write(scene, mobile_triangles.data(), mobile_triangles.size());
-
-  CondyleJoint* joint = condyle_joint(0, 0, 0, fixed.data(), static_cast<int>(fixed.size() / 3),
-                                      fixed_triangles.data(), static_cast<int>(fixed_triangles.size() / 3),
-                                      mobile.data(), static_cast<int>(mobile.size() / 3),
-                                      mobile_triangles.data(), static_cast<int>(mobile_triangles.size() / 3));
-  if (!joint) return failed();
-  std::ofstream answers(folder + "/answers.txt");
-  for (int i = 0; i < poses; ++i) {
-    double X[16];
-    if (condyle_pose(joint, &questions[6 * i], &questions[6 * i + 3], X) != 0) return failed();
-    answers << "pose";
-    for (const double entry : X) answers << ' ' << bits(entry);
-    answers << "\nmobile " << penetrations(joint, X, 0) << "\nfixed " << penetrations(joint, X, 1);
-    answers << "\ncontact " << condyle_in_contact(joint, X) << "\npairs";
-    const int pairs = condyle_pairs(joint, X);
-    for (int k = 0; k < 2 * pairs; ++k) answers << ' ' << condyle_pair_triangles(joint)[k];
-    answers << '\n';
-  }
-  for (const Motion& motion : hip_motions()) {
-    const double start[] = {motion.start.flexion.degrees(), motion.start.adduction.degrees(),
-                            motion.start.internal_rotation.degrees()};
-    double limit[7];
-    if (condyle_limit(joint, static_cast<int>(motion.vary), motion.sense == RotationSense::positive, start,
-                      motion.range.degrees(), limit) != 0)
-      return failed();
-    answers << "limit " << static_cast<int>(motion.vary) << ' ' << (motion.sense == RotationSense::positive);
-    for (const double value : start) answers << ' ' << bits(value);
-    answers << ' ' << bits(motion.range.degrees());
-    for (const double value : limit) answers << ' ' << bits(value);
-    answers << '\n';
-  }
-  condyle_free(joint);
-  return answers && scene ? 0 : 1;
+int main(int count, char** arguments) try {
+  const bool is_sample = count == 3 && std::string_view(arguments[1]) == "--sample";
+  if (count != 2 && !is_sample) return 2;
+  const std::string folder = arguments[count - 1], path = folder + "/scene.bin";
+  if (is_sample) write_scene(path, sample_scene());
+  answer(read_scene(path), folder);
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
 }

@@ -9,11 +9,13 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/io/rom_result.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
 #include "io/mesh/uncompress.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
+#include "mesh/scale.hpp"
 #include "page_joint.hpp"
 
 using namespace condyle;
@@ -26,18 +28,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What told the joint that was proposed last, and what it is made into.
-struct Proposed {
-  std::vector<std::string> told;
-  std::vector<JointNote> notes;
-  std::string description;
-};
-
-Proposed& last_proposed() {
-  static Proposed proposed;
-  return proposed;
-}
-
 /// In mm, by what their sizes say.
 LengthUnit told_unit(const TriMesh& fixed, const TriMesh& mobile) {
   const LikelyUnit of_fixed = likely_unit(fixed), of_mobile = likely_unit(mobile);
@@ -47,9 +37,7 @@ LengthUnit told_unit(const TriMesh& fixed, const TriMesh& mobile) {
 }
 
 TriMesh in_mm(TriMesh mesh, LengthUnit unit) {
-  const double factor = unit == LengthUnit::metres ? 1000 : 1;
-  for (auto* coordinates : {&mesh.vertices.x, &mesh.vertices.y, &mesh.vertices.z})
-    for (double& value : *coordinates) value *= factor;
+  mesh::scale(mesh, mm_per(unit));
   return mesh;
 }
 
@@ -60,7 +48,7 @@ kinematics::AgreeingAxes told_axes(const kinematics::HipAnatomy& hip, const std:
                                  : "axes: the bones agree with more than one of the axes in use");
 }
 
-PlacedJoint proposed_joint(const TriMesh& fixed, const TriMesh& mobile, const std::optional<Side>& side) {
+CondyleJoint* proposed_joint(const TriMesh& fixed, const TriMesh& mobile, const std::optional<Side>& side) {
   const LengthUnit unit = told_unit(fixed, mobile);
   const auto hip = kinematics::hip_anatomy(in_mm(fixed, unit), in_mm(mobile, unit));
   if (!hip)
@@ -70,15 +58,18 @@ PlacedJoint proposed_joint(const TriMesh& fixed, const TriMesh& mobile, const st
   description.frame.centre = CentreFit{};
   description.frame.axes = axes->directions;
   PlacedJoint placed = make_joint(description, {"fixed body", fixed}, {"mobile body", mobile});
-  last_proposed().told = {
+  PageProposal proposal;
+  proposal.told = {
       fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", hip->head.fit.sphere.radius,
                   100 * hip->head.coverage),
       fmt::format("side: {}", told_side == Side::right ? "right" : "left"),
       fmt::format("axes: {}", axes->name),
       fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"),
   };
-  last_proposed().notes = check_joint(placed.joint, placed.placement);
-  return placed;
+  proposal.notes = check_joint(placed.joint, placed.placement);
+  JointContact bodies(placed.joint);
+  return new CondyleJoint{
+      .joint = std::move(placed.joint), .bodies = std::move(bodies), .proposal = std::move(proposal)};
 }
 
 Json angles_json(const JointAngles& angles) {
@@ -87,18 +78,6 @@ Json angles_json(const JointAngles& angles) {
     json[coordinate_names(Anatomy::hip)[static_cast<std::size_t>(angle)].positive] =
         angle_of(angles, angle).degrees();
   return json;
-}
-
-std::string_view name_of(LimitReason reason) {
-  switch (reason) {
-    case LimitReason::contact:
-      return "contact";
-    case LimitReason::end_of_range:
-      return "end_of_range";
-    case LimitReason::contact_at_start:
-      break;
-  }
-  return "contact_at_start";
 }
 
 Json motion_json(const MotionLimit& limit) {
@@ -150,9 +129,7 @@ CondyleJoint* condyle_propose(const CondyleMesh* fixed, const CondyleMesh* mobil
   return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
     const std::optional<Side> given =
         side < 0 ? std::nullopt : std::optional(side == 0 ? Side::right : Side::left);
-    PlacedJoint placed = proposed_joint(fixed->mesh, mobile->mesh, given);
-    JointContact bodies(placed.joint);
-    return new CondyleJoint{std::move(placed.joint), std::move(bodies)};
+    return proposed_joint(fixed->mesh, mobile->mesh, given);
   });
 }
 
@@ -178,14 +155,14 @@ void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std
 
 const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
-    Proposed& proposed = last_proposed();
     Json notes = Json::array(), motions = Json::array();
-    for (const JointNote& note : proposed.notes)
+    for (const JointNote& note : joint->proposal.notes)
       notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
     for (const MotionLimit& limit : range_of(*joint).limits(hip_motions()))
       motions.push_back(motion_json(limit));
-    proposed.description =
-        Json{{"told", proposed.told}, {"notes", std::move(notes)}, {"motions", std::move(motions)}}.dump();
-    return proposed.description.c_str();
+    joint->description =
+        Json{{"told", joint->proposal.told}, {"notes", std::move(notes)}, {"motions", std::move(motions)}}
+            .dump();
+    return joint->description.c_str();
   });
 }

@@ -24,7 +24,7 @@ int condyle_vertex_count(const CondyleJoint* joint, int of_fixed);
 int condyle_triangle_count(const CondyleJoint* joint, int of_fixed);
 void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std::uint32_t* triangles);
 
-/// Of the joint just proposed: what told its side, centre, unit and axes, and what looks wrong with it; and the ends of all its
+/// Of a joint that was proposed: what told its side, centre, unit and axes, and what looks wrong with it; and the ends of all its
 /// motions. As JSON: {"told": [line, ...], "notes": [{"code", "text"}, ...], "motions": [as in `condyle rom --json`, ...]}.
 const char* condyle_description(CondyleJoint* joint);
 }

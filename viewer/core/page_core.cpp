@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/held_translation.hpp"
 #include "condyle/reliable_depth.hpp"
 #include "page_joint.hpp"
 
@@ -23,13 +24,6 @@ Mesh mesh_of(const double* vertices, int vertex_count, const std::uint32_t* tria
   for (int t = 0; t < triangle_count; ++t)
     mesh.triangles.push_back({triangles[3 * t], triangles[3 * t + 1], triangles[3 * t + 2]});
   return Mesh(std::move(mesh));
-}
-
-Pose pose_of(const double* rows) {
-  Pose pose = Pose::Identity();
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 4; ++c) pose.matrix()(r, c) = rows[4 * r + c];
-  return pose;
 }
 
 JointAngles angles_of(const double* deg) {
@@ -58,6 +52,12 @@ struct ShownValue {
   double mm = 0;
   Mark mark = Mark::nothing;
 };
+
+/// Of a vertex beside an open mesh, which has no inside.
+template <class Nearest>
+ShownValue shown_beside_open(Shown quantity, const Nearest& nearest) {
+  return quantity == Shown::nearest_distance ? ShownValue{nearest(), Mark::value} : ShownValue{};
+}
 
 /// `nearest` tells the distance to the other body's surface.
 template <class Nearest>
@@ -105,11 +105,19 @@ int number_of(ContactKind kind) {
 
 }  // namespace
 
-RangeOfMotion& range_of(CondyleJoint& joint) {
-  if (!joint.range) {
-    RangeOptions options;
+Pose pose_of(const double* rows) {
+  Pose pose = Pose::Identity();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 4; ++c) pose.matrix()(r, c) = rows[4 * r + c];
+  return pose;
+}
+
+const RangeOfMotion& range_of(CondyleJoint& joint, const Vec3& held_mm) {
+  if (!joint.range || joint.range_held_at != held_mm) {
+    RangeOptions options{.bearing = joint.bearing};
     options.overlap.reference_contact = ReferenceContact::accept;
-    joint.range.emplace(joint.joint, options);
+    joint.range.emplace(held_at(joint.joint, held_mm), options);
+    joint.range_held_at = held_mm;
   }
   return *joint.range;
 }
@@ -123,22 +131,25 @@ const char* condyle_error() {
   return last_error().c_str();
 }
 
-CondyleJoint* condyle_joint(int kind, int anatomy, int side, const double* fixed_vertices,
-                            int fixed_vertex_count, const std::uint32_t* fixed_triangles,
-                            int fixed_triangle_count, const double* mobile_vertices, int mobile_vertex_count,
+CondyleJoint* condyle_joint(int kind, int anatomy, int side, int translation_frame,
+                            const double* fixed_vertices, int fixed_vertex_count,
+                            const std::uint32_t* fixed_triangles, int fixed_triangle_count,
+                            const double* mobile_vertices, int mobile_vertex_count,
                             const std::uint32_t* mobile_triangles, int mobile_triangle_count) {
   return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
     constexpr std::array kinds{JointKind::ball, JointKind::hinge, JointKind::free};
     constexpr std::array anatomies{Anatomy::hip, Anatomy::knee, Anatomy::ankle, Anatomy::elbow,
                                    Anatomy::shoulder};
-    Joint joint{.name = {},
-                .kind = kinds.at(static_cast<std::size_t>(kind)),
-                .side = side == 0 ? Side::right : Side::left,
-                .fixed = {"fixed body",
-                          mesh_of(fixed_vertices, fixed_vertex_count, fixed_triangles, fixed_triangle_count)},
-                .mobile = {"mobile body", mesh_of(mobile_vertices, mobile_vertex_count, mobile_triangles,
-                                                  mobile_triangle_count)},
-                .anatomy = anatomies.at(static_cast<std::size_t>(anatomy))};
+    Joint joint{
+        .name = {},
+        .kind = kinds.at(static_cast<std::size_t>(kind)),
+        .side = side == 0 ? Side::right : Side::left,
+        .fixed = {"fixed body",
+                  mesh_of(fixed_vertices, fixed_vertex_count, fixed_triangles, fixed_triangle_count)},
+        .mobile = {"mobile body",
+                   mesh_of(mobile_vertices, mobile_vertex_count, mobile_triangles, mobile_triangle_count)},
+        .anatomy = anatomies.at(static_cast<std::size_t>(anatomy)),
+        .translation_frame = translation_frame == 0 ? TranslationFrame::fixed : TranslationFrame::joint_axes};
     JointContact bodies(joint);
     return new CondyleJoint{std::move(joint), std::move(bodies)};
   });
@@ -158,6 +169,10 @@ int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const doub
       for (int c = 0; c < 4; ++c) pose[4 * r + c] = X_FM.matrix()(r, c);
     return 0;
   });
+}
+
+int condyle_can_penetrate(const CondyleJoint* joint, int of_fixed) {
+  return (of_fixed ? joint->joint.mobile : joint->joint.fixed).mesh.is_closed();
 }
 
 int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed) {
@@ -213,7 +228,7 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
     const auto what = static_cast<Shown>(quantity);
     for (Index v = 0; v < body.vertices().size(); ++v) {
       const auto nearest = [&] { return other_surface(*joint, of_fixed)(X * body.vertices()[v]); };
-      const ShownValue shown = radial ? shown_value(what, *radial, v, nearest) : ShownValue{};
+      const ShownValue shown = radial ? shown_value(what, *radial, v, nearest) : shown_beside_open(what, nearest);
       values[v] = static_cast<float>(shown.mm);
       marks[v] = static_cast<std::uint8_t>(shown.mark);
     }
@@ -238,16 +253,18 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint) {
   return joint->pair_triangles.data();
 }
 
-int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
-                  double limit[7]) {
+int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, const double* held_mm,
+                  double range_deg, double limit[7]) {
   return guarded(-1, [&] {
     const Angle range = Angle::degrees(range_deg);
-    const RotationLimits ends = range_of(*joint).both_limits(
-        all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
-        {positive ? Angle() : -range, positive ? range : Angle()});
+    const Vec3 held(held_mm[0], held_mm[1], held_mm[2]);
+    const RotationLimits ends =
+        range_of(*joint, held)
+            .both_limits(all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
+                         {positive ? Angle() : -range, positive ? range : Angle()});
     const Limit& end = positive ? ends.positive : ends.negative;
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    const Vec3 point = end.contact ? end.contact->fixed_point : Vec3(none, none, none);
+    const Vec3 point = end.contact ? Vec3(end.contact->fixed_point + held) : Vec3(none, none, none);
     limit[0] = end.turned.degrees();
     limit[1] = number_of(end.reason);
     limit[2] = number_of(end.kind());
@@ -257,12 +274,13 @@ int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* sta
   });
 }
 
-int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, double back_deg,
-                        double forth_deg) {
+int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, const double* held_mm,
+                        double back_deg, double forth_deg) {
   return guarded(-1, [&] {
-    const FreeAngles free = range_of(*joint).free_angles(
-        all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
-        {Angle::degrees(-back_deg), Angle::degrees(forth_deg)});
+    const FreeAngles free =
+        range_of(*joint, Vec3(held_mm[0], held_mm[1], held_mm[2]))
+            .free_angles(all_joint_angles.at(static_cast<std::size_t>(vary)), angles_of(start_deg),
+                         {Angle::degrees(-back_deg), Angle::degrees(forth_deg)});
     joint->intervals.clear();
     const auto by_contact = [](const Limit& end) { return end.reason == LimitReason::contact ? 1.0 : 0.0; };
     for (const FreeInterval& interval : free.intervals)
@@ -275,6 +293,19 @@ int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, 
 
 const double* condyle_intervals(const CondyleJoint* joint) {
   return joint->intervals.data();
+}
+
+int condyle_set_bearing(CondyleJoint* joint, const std::uint8_t* triangles) {
+  return guarded(-1, [&] {
+    joint->range.reset();
+    joint->bearing = {};
+    if (triangles)
+      joint->bearing.surface.emplace().triangles.assign(
+          triangles, triangles + joint->joint.mobile.mesh.triangles().size());
+    else
+      joint->bearing.rule = BearingRule::count;
+    return 0;
+  });
 }
 
 int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles) {

@@ -16,19 +16,26 @@ struct CondyleJoint;
 const char* condyle_error();
 
 /// A joint of two closed surfaces in the joint frame. `kind`: 0 ball, 1 hinge, 2 free; `anatomy`: 0 hip, 1 knee, 2 ankle, 3 elbow,
-/// 4 shoulder; `side`: 0 right, 1 left. Vertices are x, y, z each; triangles three vertices each. Tables are made when a
-/// question first needs them.
-CondyleJoint* condyle_joint(int kind, int anatomy, int side, const double* fixed_vertices,
-                            int fixed_vertex_count, const std::uint32_t* fixed_triangles,
-                            int fixed_triangle_count, const double* mobile_vertices, int mobile_vertex_count,
+/// 4 shoulder; `side`: 0 right, 1 left; `translation_frame`: 0 fixed, 1 joint_axes. Vertices are x, y, z each; triangles three
+/// vertices each. Tables are made when a question first needs them.
+CondyleJoint* condyle_joint(int kind, int anatomy, int side, int translation_frame,
+                            const double* fixed_vertices, int fixed_vertex_count,
+                            const std::uint32_t* fixed_triangles, int fixed_triangle_count,
+                            const double* mobile_vertices, int mobile_vertex_count,
                             const std::uint32_t* mobile_triangles, int mobile_triangle_count);
 void condyle_free(CondyleJoint* joint);
+
+/// The bearing surface as it was found before: 1 for each of the mobile body's triangles that does not end a motion. Null: every
+/// contact does. Without this call the surface is looked for at the first question about motions.
+int condyle_set_bearing(CondyleJoint* joint, const std::uint8_t* triangles);
 
 /// The pose of three angles and a translation, in `pose`.
 int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const double* translation_mm,
                  double* pose);
 
-/// How many vertices of the mobile body are in the fixed one (`of_fixed` 0), or the other way (1).
+/// Whether vertices of the mobile body (`of_fixed` 0) or of the fixed one (1) can be in the other one: 0 where its mesh is open.
+int condyle_can_penetrate(const CondyleJoint* joint, int of_fixed);
+/// How many vertices of the mobile body are in the fixed one (`of_fixed` 0), or the other way (1); fails where none can be.
 int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed);
 /// Of the last answer: numbers of vertices, and their radial depths.
 const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint);
@@ -41,7 +48,8 @@ int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed,
 /// What every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) shows at a pose, for colours: in `values` mm, in
 /// `marks` 0 for nothing, 1 for the value, 2 for a value that is no more than a bound. `quantity`: 0 the gap along its ray,
 /// negative inside; 1 of vertices inside the depth to read without rotations, their nearest distance marked 2 where the ray's
-/// is none; 2 the distance to the nearest point of the other body, negative inside. Both arrays have an element per vertex.
+/// is none; 2 the distance to the nearest point of the other body, negative inside: of an open one only that. Both arrays have an
+/// element per vertex.
 int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
                   std::uint8_t* marks);
 
@@ -51,16 +59,16 @@ int condyle_in_contact(CondyleJoint* joint, const double* pose);
 int condyle_pairs(CondyleJoint* joint, const double* pose);
 const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint);
 
-/// How far an angle turns from a pose until contact: `vary` 0 to 2 in the joint's order, `positive` 1 or 0, up to `range_deg`.
+/// How far an angle turns from a pose until contact: `vary` 0 to 2 in the joint's order, `positive` 1 or 0, up to `range_deg`;
+/// the mobile body keeps the translation `held_mm`, in F.
 /// In `limit`: the angle turned, the reason (0 contact, 1 end of range, 2 in contact at the start), the kind of contact (0
 /// unknown, 1 bearing, 2 impingement), where bearing surfaces touch before (or -1), and the contact's point in F (or NaN).
-/// Bearing surfaces are looked for at the first call.
-int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, double range_deg,
-                  double limit[7]);
+int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, const double* held_mm,
+                  double range_deg, double limit[7]);
 /// How many intervals of an angle are free, from its start less `back_deg` to its start and `forth_deg`, half a turn at most
 /// either way; and of each its ends, and 1 for each that contact makes: low, high, contact at low, at high.
-int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, double back_deg,
-                        double forth_deg);
+int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, const double* held_mm,
+                        double back_deg, double forth_deg);
 const double* condyle_intervals(const CondyleJoint* joint);
 /// How many triangles of the mobile body are its bearing surface, each marked 1 in `triangles`; 0 where none was found.
 int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles);

@@ -7,14 +7,39 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/joint_checks.hpp"
+#include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "mesh/surface_distance.hpp"
+
+/// What of a body carries load: a run of its vertices from `first_vertex`, as a mesh of its own.
+struct PageSurface {
+  std::size_t first_vertex = 0;
+  std::optional<condyle::Mesh> mesh = {};
+  std::optional<condyle::ElasticLayer> layer = {};
+};
+
+/// Layers that carry load, and what the last pose showed of them.
+struct PagePressure {
+  PageSurface fixed = {}, mobile = {};
+  std::optional<condyle::ElasticContact> contact = {};
+  condyle::Pose results_at = condyle::Pose::Identity();
+  std::optional<condyle::ElasticContactResults> results = {};
+};
+
+/// What a joint was proposed by.
+struct PageProposal {
+  std::vector<std::string> told;
+  std::vector<condyle::JointNote> notes;
+};
 
 /// A joint of the page, and what its last answers left.
 struct CondyleJoint {
   condyle::Joint joint;
   condyle::JointContact bodies;
+  condyle::BearingOptions bearing = {};
   std::optional<condyle::RangeOfMotion> range = {};
+  condyle::Vec3 range_held_at = condyle::Vec3::Zero();
   condyle::Penetrations penetrations = {};
   std::vector<std::uint32_t> pair_triangles = {};
   std::vector<double> intervals = {};
@@ -22,10 +47,17 @@ struct CondyleJoint {
   condyle::Pose shown_at = condyle::Pose::Identity();
   std::optional<condyle::RadialContact> shown = {};
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
+  PagePressure pressure = {};
+  PageProposal proposal = {};  ///< empty where the joint was given
+  std::string description = {};
 };
 
-/// Made ready for motions at the first call: bearing surfaces are looked for.
-condyle::RangeOfMotion& range_of(CondyleJoint& joint);
+/// Of 16 numbers, row by row.
+condyle::Pose pose_of(const double* rows);
+
+/// Made ready for rotations of a body that keeps this translation, in F: at the first call and whenever it is another one.
+const condyle::RangeOfMotion& range_of(CondyleJoint& joint,
+                                       const condyle::Vec3& held_mm = condyle::Vec3::Zero());
 
 /// The line that condyle_error() gives.
 std::string& last_error();

@@ -1,12 +1,14 @@
 import { CoreClient } from "./core/client";
+import { lineOf } from "./core/error_line";
 import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
 import { button, choice, html, section, shortened, spaced } from "./dom";
 import { DisplayPanel } from "./panels/display";
 import { dropPanel } from "./panels/drop";
-import { anglesAtEnd, MotionPanel } from "./panels/motion";
+import { MotionPanel } from "./panels/motion";
 import { numbersPanel } from "./panels/numbers";
 import { PointerPanel } from "./panels/pointer";
 import { RecordedPanel } from "./panels/recorded";
+import { ZonePanel } from "./panels/zones";
 import { clockDrawing } from "./plots/clock";
 import { figure } from "./plots/figure";
 import { limitsDrawing } from "./plots/limits";
@@ -14,11 +16,11 @@ import { MapPlot } from "./plots/map";
 import {
   bytesOf, inflated, Report, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
 } from "./report";
+import { jointArraysOf } from "./joint_arrays";
 import { JointScene } from "./scene/scene";
 import { readViewState, writeViewState } from "./view_state";
 import { words } from "./words";
 
-const kinds = ["ball", "hinge", "free"], anatomies = ["hip", "knee", "ankle", "elbow", "shoulder"];
 const translationNames = ["x", "y", "z"];
 const quantities = Object.keys(words.quantity) as Quantity[];
 
@@ -32,17 +34,6 @@ function textOf(id: string): string | null {
 
 function warn(message: string): void {
   found("messages").append(html("p", { class: "warning", role: "alert" }, message));
-}
-
-function arraysOf(report: Report): JointArrays {
-  const { joint } = report.text;
-  const surface = (body: string) => ({
-    vertices: report.array(`${body}_vertices`, "f64"), triangles: report.array(`${body}_triangles`, "u32"),
-  });
-  return {
-    kind: kinds.indexOf(joint.kind), anatomy: anatomies.indexOf(joint.anatomy), side: joint.side === "right" ? 0 : 1,
-    fixed: surface("fixed"), mobile: surface("mobile"),
-  };
 }
 
 /// A scene, or nothing but a line where the browser shows none.
@@ -62,6 +53,7 @@ class Page {
   private readonly motion: MotionPanel;
   private core: CoreClient | null = null;
   private mapPlot: MapPlot | null = null;
+  private zones: ZonePanel | null = null;
   private fragmentTimer = 0;
 
   /// `report` holds the arrays of figures and poses that a joint dropped on the page has not.
@@ -73,12 +65,18 @@ class Page {
     const names = { fixed: joint.fixed, mobile: joint.mobile };
     this.scene = sceneOf(arrays, words.sceneLabel(joint.fixed, joint.mobile));
     const state = readViewState(location.hash, this.coordinateNames());
-    const quantity = quantities.find((key) => key === state.colour) ?? "gap";
-    this.motion = new MotionPanel(text, (at) => this.moved(at));
-    this.display = new DisplayPanel(this.scene, names, quantity, () => this.moved(this.motion.coordinates));
+    const shown = quantities.filter((key) => key !== "pressure" || text.layers);
+    const quantity = shown.find((key) => key === state.colour) ?? "gap";
+    this.motion = new MotionPanel(text, (at) => this.moved(at), (motion) => this.arrived(motion));
+    this.display = new DisplayPanel(this.scene, names, text.parts, shown, quantity, () => this.moved(this.motion.coordinates));
+    if (report && text.zones.length) {
+      this.zones = new ZonePanel(this.scene, report, text.zones);
+      this.display.element.append(this.zones.element);
+    }
     found("legend-place").append(this.display.legend);
     if (this.scene) {
-      found("pointer-place").append(new PointerPanel(this.scene, names).element);
+      const unit = () => (this.display.quantity === "none" ? "" : words.unit[this.display.quantity]);
+      found("pointer-place").append(new PointerPanel(this.scene, names, unit).element);
       this.scene.onViewChange(() => this.rememberView());
     }
     if (state.camera && this.scene) this.scene.viewpoint = state.camera;
@@ -94,15 +92,18 @@ class Page {
       shown: (_, shown, roundTrip_ms) => {
         this.scene?.setPose(shown.pose);
         if (this.display.quantity === "none") this.show(null);
-        this.scene?.bodies.fixed.showMeeting(Array.from(shown.pairs).filter((_, i) => i % 2 === 0));
-        this.scene?.bodies.mobile.showMeeting(Array.from(shown.pairs).filter((_, i) => i % 2 === 1));
+        const pairs = Array.from(shown.pairs);
+        this.scene?.setMarked("contact", pairs.filter((_, i) => i % 2 === 0), pairs.filter((_, i) => i % 2 === 1));
         this.motion.show(shown, roundTrip_ms);
         document.documentElement.dataset["answered"] = String(Number(document.documentElement.dataset["answered"] ?? 0) + 1);
       },
       values: (values) => this.show(values),
       limit: (at, limit) => this.motion.setLimit(at, limit),
-      bearing: (triangles) => this.scene?.bodies.mobile.setBearing(triangles),
-      mapPoint: (point, intervals) => this.mapPlot?.set(point, intervals),
+      bearing: (triangles) => this.scene?.setMarked("bearing", [], [...triangles.keys()].filter((t) => triangles[t])),
+      mapPoint: (point, intervals) => {
+        this.mapPlot?.set(point, intervals);
+        found("map-progress").textContent = this.mapPlot?.progress() ?? "";
+      },
       failed: warn,
     });
     this.core = core;
@@ -139,7 +140,7 @@ class Page {
   private storedGaps(name: string): Values {
     const hundredths = this.report!.array(name, "i16"), none = 32767;
     return {
-      mm: Float32Array.from(hundredths, (gap) => gap / 100), marks: Uint8Array.from(hundredths, (gap) => (gap === none ? 0 : 1)),
+      shown: Float32Array.from(hundredths, (gap) => gap / 100), marks: Uint8Array.from(hundredths, (gap) => (gap === none ? 0 : 1)),
     };
   }
 
@@ -148,10 +149,7 @@ class Page {
     const made: HTMLElement[] = [];
     if (recorded && this.report)
       made.push(new RecordedPanel(this.report, recorded, (angles, translation) => this.motion.set(angles, translation)).element);
-    const go = (motion: MotionAnswer) => {
-      this.motion.goTo(anglesAtEnd(this.text, motion));
-      this.scene?.showContactPoint(motion.contact_point_mm);
-    };
+    const go = (motion: MotionAnswer) => this.motion.goToEnd(motion);
     if (rom) {
       made.push(section(words.limits, figure(limitsDrawing(rom.motions, go))));
       const clock = clockDrawing(rom.motions, go);
@@ -179,10 +177,11 @@ class Page {
       showMap(map);
       return place;
     }
+    place.append(html("p", { id: "map-progress", role: "status" }));
     const ask = button(words.computeMap, () => {
       if (!this.core) return;
       ask.remove();
-      const question = coarseMap();
+      const question = { ...coarseMap(), held: this.text.rom?.held_translation_mm ?? [0, 0, 0] } satisfies MapQuestion;
       const [column, row, vary] = [question.columnAngle, question.rowAngle, question.vary].map((i) => this.text.coordinates[i]!);
       showMap({
         columns: { angle: column!.name, opposite: column!.opposite, values_deg: question.columns },
@@ -193,6 +192,11 @@ class Page {
     });
     place.append(ask);
     return place;
+  }
+
+  private arrived(motion: MotionAnswer): void {
+    this.scene?.showContactPoint(motion.contact_point_mm);
+    this.zones?.show(motion.name);
   }
 
   private moved(at: Coordinates): void {
@@ -246,24 +250,25 @@ function openEmpty(): void {
       const text = textOfProposal(proposal, fixed.name, mobile.name);
       new Page(text, proposal.joint, null).compute(core);
     } catch (error) {
-      warn(error instanceof Error ? error.message : String(error));
+      warn(lineOf(error));
     }
   });
   found("panels").append(panel);
 }
 
 async function open(): Promise<void> {
+  found("licences-title").textContent = words.licences;
   found("licences").textContent = textOf("licence-texts") ?? "";
   found("scope").textContent = words.scope;
   const data = textOf("condyle-data");
   if (data === null) return openEmpty();
   const report = await Report.read(data);
-  const arrays = arraysOf(report);
+  const arrays = jointArraysOf(report);
   const page = new Page(report.text, arrays, report);
   if (typeof WebAssembly === "undefined") return page.useStoredPoses();
   page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
 }
 
 open().catch((error: unknown) => {
-  warn(error instanceof Error ? error.message : String(error));
+  warn(lineOf(error));
 });

@@ -1,13 +1,13 @@
 import type { Proposal } from "./core/protocol";
+import type { Part } from "./scene/body";
 import { words } from "./words";
 
 /// What `condyle report` puts into the page; docs/report.md has every key.
 
 export interface ArrayPlace {
-  type: "f64" | "f32" | "u32" | "i16" | "u8";
+  type: "f64" | "u32" | "i16" | "u8";
   offset: number;
   length: number;
-  planes?: boolean;
 }
 
 export interface Band {
@@ -40,6 +40,8 @@ export interface MeshSource {
 }
 
 export interface RomAnswer {
+  bearing?: { rule: "count" | "leave_out" };
+  held_translation_mm?: [number, number, number] | null;
   motions: MotionAnswer[];
   notes: { code: string; text: string }[];
   terms: string[];
@@ -72,6 +74,33 @@ export interface MapAnswer {
   intervals: Interval[][];
 }
 
+/// Names of arrays of triangles that meet past the end of a motion.
+export interface StoredZone {
+  motion: string;
+  past_deg: number;
+  fixed: string;
+  mobile: string;
+}
+
+export interface StoredSurface {
+  first_vertex: number;
+  vertices: number;
+  first_triangle: number;
+  triangles: number;
+  youngs_modulus_mpa?: number;
+  poisson_ratio?: number;
+  thickness_mm?: string;
+}
+
+export interface StoredLayers {
+  casting: "fixed" | "mobile" | "both";
+  law: "linear" | "logarithmic";
+  rule: "face_centre" | "cut_faces";
+  reach_mm: number;
+  fixed: StoredSurface;
+  mobile: StoredSurface;
+}
+
 export interface StoredPose {
   name: string;
   coordinates_deg: [number, number, number];
@@ -101,6 +130,7 @@ export interface ReportText {
     side: "right" | "left";
     fixed: string;
     mobile: string;
+    translation_frame: "fixed" | "joint_axes";
   };
   coordinates: { name: string; opposite: string }[];
   reference_deg: [number, number, number];
@@ -108,6 +138,9 @@ export interface ReportText {
   rom: RomAnswer | null;
   rom_error?: string;
   map: MapAnswer | null;
+  zones: StoredZone[];
+  layers: StoredLayers | null;
+  parts: Record<"fixed" | "mobile", Part[]>;
   arrays: Record<string, ArrayPlace>;
   poses: StoredPose[];
   recorded: Recorded | null;
@@ -119,7 +152,7 @@ export class ReportError extends Error {}
 const headBytes = 16;
 const magic = "CONDYLE\0";
 const elementTypes = {
-  f64: Float64Array, f32: Float32Array, u32: Uint32Array, i16: Int16Array, u8: Uint8Array,
+  f64: Float64Array, u32: Uint32Array, i16: Int16Array, u8: Uint8Array,
 };
 type Elements = { [T in keyof typeof elementTypes]: InstanceType<(typeof elementTypes)[T]> };
 
@@ -168,13 +201,7 @@ export class Report {
     const place = this.text.arrays[name];
     if (place === undefined || place.type !== type) throw new ReportError(words.damaged + name);
     const Type = elementTypes[type];
-    const size = Type.BYTES_PER_ELEMENT;
-    const stored = this.arrays.slice(place.offset, place.offset + place.length * size);
-    return new Type(place.planes ? joined(new Uint8Array(stored), size) : stored) as Elements[T];
-  }
-
-  has(name: string): boolean {
-    return name in this.text.arrays;
+    return new Type(this.arrays.slice(place.offset, place.offset + place.length * Type.BYTES_PER_ELEMENT)) as Elements[T];
   }
 }
 
@@ -182,22 +209,14 @@ export class Report {
 export function textOfProposal(proposal: Proposal, fixed: string, mobile: string): ReportText {
   const side = proposal.joint.side === 0 ? "right" : "left";
   return {
-    version: "", title: words.dropped(fixed, mobile), joint: { name: words.dropped(fixed, mobile), kind: "ball", anatomy: "hip", side, fixed, mobile },
+    version: "", title: words.dropped(fixed, mobile),
+    joint: { name: words.dropped(fixed, mobile), kind: "ball", anatomy: "hip", side, fixed, mobile, translation_frame: "fixed" },
     coordinates: [
       { name: "flexion", opposite: "extension" }, { name: "adduction", opposite: "abduction" },
       { name: "internal_rotation", opposite: "external_rotation" },
     ],
     reference_deg: [0, 0, 0], reference_mm: [0, 0, 0],
     rom: { motions: proposal.motions, notes: proposal.notes, terms: proposal.told, scope: words.scope },
-    map: null, arrays: {}, poses: [], recorded: null,
+    map: null, zones: [], layers: null, parts: { fixed: [], mobile: [] }, arrays: {}, poses: [], recorded: null,
   };
-}
-
-/// Elements whose bytes were stored plane by plane: all first bytes, then all second ones.
-function joined(planes: Uint8Array, size: number): ArrayBuffer {
-  const count = planes.length / size;
-  const out = new Uint8Array(planes.length);
-  for (let plane = 0; plane < size; ++plane)
-    for (let i = 0; i < count; ++i) out[i * size + plane] = planes[plane * count + i]!;
-  return out.buffer;
 }

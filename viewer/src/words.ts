@@ -25,16 +25,17 @@ export const words = {
   },
   colour: "Colour",
   quantity: {
-    gap: "gap along rays", depth: "depth to read", nearest: "nearest distance", none: "none",
+    gap: "gap along rays", depth: "depth to read", nearest: "nearest distance", pressure: "pressure", none: "none",
   },
+  unit: { gap: "mm", depth: "mm", nearest: "mm", pressure: "MPa" },
   quantityHelp: {
     gap: "Distance along the ray from the joint centre, mm: below zero the vertex is inside the other bone.",
     depth: "How deep a vertex is inside the other bone, mm, where its ray measures that; hatched: a lower bound only.",
     nearest: "Distance to the nearest point of the other bone, mm: below zero inside.",
+    pressure: "Load on the triangles around a vertex over their area, MPa, of thin layers on rigid bones.",
     none: "Plain bones.",
   },
   scaleEnd: "Scale to",
-  millimetres: "mm",
   opacity: (body: string) => `Opacity of ${body}`,
   shown: (body: string) => `Show ${body}`,
   clip: "Cut away",
@@ -42,6 +43,9 @@ export const words = {
   clipAt: "Cut at, mm from the centre",
   bearing: "Mark the bearing surface",
   pairs: "Mark triangles in contact",
+  zones: "Mark the impingement zone of",
+  noZone: "none",
+  zoneHelp: (past: string) => `The triangles that meet ${past}° past the end of the motion.`,
   shading: "Shading",
   measure: "Measure between two points",
   measureFirst: "Choose the first point on a bone.",
@@ -53,11 +57,9 @@ export const words = {
 
   motion: "Motion",
   reset: "Back to zero",
-  degrees: "degrees",
   coordinate: (name: string) => `${name}, degrees`,
   translation: (axis: string) => `${axis}, mm`,
   free: (name: string, low: string, high: string) => `${name} is free from ${low} to ${high} from here`,
-  limitBy: { contact: "contact", range: "end of range" },
   startsInContact: "in contact here",
   manoeuvres: "Go to the end of",
   inContact: "In contact",
@@ -73,8 +75,6 @@ export const words = {
   limitsCaption:
     "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: normal range.",
   limit: "limit",
-  band: "5 to 95 %",
-  median: "median",
   normal: "normal range",
   bearingContact: "bearing contact",
   reason: "ends by",
@@ -101,7 +101,6 @@ export const words = {
   play: "Play",
   pause: "Pause",
   frame: "Frame",
-  time: "Time, s",
 
   drop: "Drop your own",
   dropHere:
@@ -113,7 +112,6 @@ export const words = {
   saveData: "Save data",
 
   numbers: "Numbers",
-  joint: "joint",
   side: "side",
   kind: "kind",
   vertices: "vertices",

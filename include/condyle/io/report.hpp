@@ -20,6 +20,12 @@ struct ReportedMotion {
   const MotionAnswer& answer;
 };
 
+/// Layers that carry load, in a report: the page computes pressures with them.
+struct ReportedLayers {
+  const ContactEntry& contact;
+  ElasticContactOptions options;  ///< elastic_options() of the entry
+};
+
 /// What a report is made of.
 struct Report {
   std::string title;  ///< any text; it stays text on the page
@@ -30,6 +36,7 @@ struct Report {
   const RomResult* rom = nullptr;
   std::string rom_error = {};
   std::optional<ReportedMotion> recorded = {};
+  std::optional<ReportedLayers> layers = {};
 };
 
 /// The page. Vertices keep every bit. Radial gaps of all vertices are computed in the reference pose and at the

@@ -17,6 +17,8 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
 #include "io/joint/given_degrees.hpp"
+#include "io/report/block_arrays.hpp"
+#include "io/report/surfaces_json.hpp"
 #include "io/result/json.hpp"
 
 static_assert(std::endian::native == std::endian::little,
@@ -26,42 +28,10 @@ namespace condyle::io {
 namespace {
 
 constexpr std::uint32_t block_version = 1;
-constexpr std::size_t alignment = 8;
 /// So many to a millimetre, in gaps of 16 bits: 0.01 mm is below what a colour shows, and 327 mm above any gap
 /// that matters.
 constexpr double gap_units_per_mm = 100;
 constexpr std::int16_t no_gap = std::numeric_limits<std::int16_t>::max();
-
-template <class Element>
-constexpr std::string_view type_name = "";
-template <>
-constexpr std::string_view type_name<double> = "f64";
-template <>
-constexpr std::string_view type_name<std::uint32_t> = "u32";
-template <>
-constexpr std::string_view type_name<std::int16_t> = "i16";
-template <>
-constexpr std::string_view type_name<std::uint8_t> = "u8";
-
-/// Arrays back to back, and what the JSON says of them.
-class Arrays {
- public:
-  /// Returns the name.
-  template <class Element>
-  std::string add(std::string name, const std::vector<Element>& elements) {
-    bytes_.resize((bytes_.size() + alignment - 1) / alignment * alignment, '\0');
-    directory_[name] = {{"type", type_name<Element>}, {"offset", bytes_.size()}, {"length", elements.size()}};
-    bytes_.append(reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element));
-    return name;
-  }
-
-  const Json& directory() const noexcept { return directory_; }
-  const std::string& bytes() const noexcept { return bytes_; }
-
- private:
-  Json directory_ = Json::object();
-  std::string bytes_;
-};
 
 std::vector<double> interleaved(PointsView points) {
   std::vector<double> xyz;
@@ -71,7 +41,7 @@ std::vector<double> interleaved(PointsView points) {
   return xyz;
 }
 
-void add_body(Arrays& arrays, const std::string& role, const Mesh& mesh) {
+void add_body(BlockArrays& arrays, const std::string& role, const Mesh& mesh) {
   arrays.add(role + "_vertices", interleaved(mesh.vertices().view()));
   std::vector<std::uint32_t> corners;
   corners.reserve(3 * mesh.triangles().size());
@@ -167,7 +137,7 @@ std::vector<std::int16_t> rounded_gaps(const std::vector<double>& gaps_mm) {
 /// Poses that the page shows where it cannot compute.
 class StoredPoses {
  public:
-  StoredPoses(const Joint& joint, Arrays& arrays) : joint_(joint), contact_(joint), arrays_(arrays) {}
+  StoredPoses(const Joint& joint, BlockArrays& arrays) : joint_(joint), contact_(joint), arrays_(arrays) {}
 
   /// Nothing where there are no gaps: a mesh is open, or the centre lies on a surface.
   void add(const std::string& name, const JointCoordinates& at, const std::optional<Vec3>& contact_point_F) {
@@ -203,11 +173,11 @@ class StoredPoses {
 
   const Joint& joint_;
   JointContact contact_;
-  Arrays& arrays_;
+  BlockArrays& arrays_;
   Json poses_ = Json::array();
 };
 
-Json poses_json(const Report& report, Arrays& arrays) {
+Json poses_json(const Report& report, BlockArrays& arrays) {
   StoredPoses poses(report.joint, arrays);
   poses.add("reference", report.reference_pose, std::nullopt);
   if (!report.rom) return std::move(poses).json();
@@ -230,7 +200,7 @@ std::string_view unit_of(std::string_view name) {
   return "";
 }
 
-Json recorded_json(const ReportedMotion& recorded, const Joint& joint, Arrays& arrays) {
+Json recorded_json(const ReportedMotion& recorded, const Joint& joint, BlockArrays& arrays) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> degrees, millimetres, poses;
   for (const std::optional<Pose>& X_FM : recorded.question.motion.X_FM) {
@@ -271,7 +241,7 @@ void append(std::string& bytes, std::uint32_t number) {
 
 std::string data_block(const Report& report) {
   const Joint& joint = report.joint;
-  Arrays arrays;
+  BlockArrays arrays;
   add_body(arrays, "fixed", joint.fixed.mesh);
   add_body(arrays, "mobile", joint.mobile.mesh);
   if (report.rom && report.rom->bearing.surface)
@@ -286,13 +256,15 @@ std::string data_block(const Report& report) {
             {"rom", report.rom ? Json::parse(rom_json(*report.rom)) : Json(nullptr)}};
   if (!report.rom) json["rom_error"] = report.rom_error;
   json["map"] = report.rom && report.rom->map ? map_json(*report.rom->map) : Json(nullptr);
+  json["zones"] = report.rom ? zones_json(*report.rom, arrays) : Json::array();
+  json["layers"] = report.layers ? layers_json(*report.layers, joint, arrays) : Json(nullptr);
   json["parts"] = {{"fixed", parts_json(joint.fixed)}, {"mobile", parts_json(joint.mobile)}};
   json["poses"] = poses_json(report, arrays);
   json["recorded"] = report.recorded ? recorded_json(*report.recorded, joint, arrays) : Json(nullptr);
   json["arrays"] = arrays.directory();
   drop_negative_zeros(json);
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-  text.resize((text.size() + alignment - 1) / alignment * alignment, ' ');
+  text.resize(BlockArrays::aligned(text.size()), ' ');
 
   std::string block("CONDYLE\0", 8);
   append(block, block_version);

@@ -1,10 +1,11 @@
 import pageCore, { type PageCore } from "page-core";
 import {
-  quantityNumber, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside, type JointArrays, type LiveLimit, type MapQuestion, type Penetrations,
-  type Proposal, type Shown, type Surface, type Values,
+  quantityNumber, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside, type JointArrays, type Layers,
+  type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations, type Proposal, type Quantity, type Shown, type Surface, type Values,
 } from "./protocol";
 
 const poseBytes = 16 * 8;
+const atRest = [0, 0, 0] as const;
 const reasons = ["contact", "end_of_range", "contact_at_start"] as const;
 const kinds = ["unknown", "bearing", "impingement"] as const;
 
@@ -14,7 +15,7 @@ export class CoreJoint {
   private readonly three: number;
   private readonly otherThree: number;
   private readonly answer: number;
-  private readonly mmPlace: number;
+  private readonly shownPlace: number;
   private readonly marksPlace: number;
   private readonly vertices: { fixed: number; mobile: number };
   private readonly mobileTriangles: number;
@@ -27,10 +28,13 @@ export class CoreJoint {
     }));
     const [fixed, mobile] = [placed[0]!, placed[1]!];
     const joint = memory.core._condyle_joint(
-      arrays.kind, arrays.anatomy, arrays.side, fixed.vertices, fixed.vertexCount, fixed.triangles, fixed.count, mobile.vertices,
+      arrays.kind, arrays.anatomy, arrays.side, arrays.translationFrame, fixed.vertices, fixed.vertexCount, fixed.triangles, fixed.count, mobile.vertices,
       mobile.vertexCount, mobile.triangles, mobile.count);
     for (const { vertices, triangles } of placed) memory.free(vertices, triangles);
-    return new CoreJoint(memory, joint);
+    const opened = new CoreJoint(memory, joint);
+    opened.setBearing(arrays.bearing);
+    if (arrays.layers) opened.setLayers(arrays.layers);
+    return opened;
   }
 
   /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
@@ -52,7 +56,10 @@ export class CoreJoint {
     return {
       joint,
       proposal: {
-        joint: { kind: 0, anatomy: 0, side: core._condyle_side(joint.joint), fixed: joint.surface(1), mobile: joint.surface(0) },
+        joint: {
+          kind: 0, anatomy: 0, side: core._condyle_side(joint.joint), translationFrame: 0, fixed: joint.surface(1),
+          mobile: joint.surface(0), bearing: "found", layers: null,
+        },
         ...(JSON.parse(core.UTF8ToString(description)) as Omit<Proposal, "joint">),
       },
     };
@@ -68,7 +75,7 @@ export class CoreJoint {
     this.three = core._malloc(3 * 8);
     this.otherThree = core._malloc(3 * 8);
     this.answer = core._malloc(7 * 8);
-    this.mmPlace = core._malloc(4 * most);
+    this.shownPlace = core._malloc(4 * most);
     this.marksPlace = core._malloc(Math.max(most, this.mobileTriangles));
   }
 
@@ -81,14 +88,23 @@ export class CoreJoint {
     return { pose: this.f64(this.pose, 16), inContact, inside, pairs };
   }
 
-  values(at: Coordinates, quantity: keyof typeof quantityNumber): BothValues {
+  values(at: Coordinates, quantity: Exclude<Quantity, "none">): BothValues {
     this.place(at);
     return { mobile: this.valuesOf(quantity, 0, this.vertices.mobile), fixed: this.valuesOf(quantity, 1, this.vertices.fixed) };
   }
 
-  limit(start: [number, number, number], vary: number, positive: boolean, range_deg: number): LiveLimit {
+  /// From a pose of the joint.
+  limitFrom(at: Coordinates, vary: number, positive: boolean, range_deg: number): LiveLimit {
+    this.place(at);
+    const X_FM = this.f64(this.pose, 16);
+    return this.limit({ start: at.angles, held: [X_FM[3]!, X_FM[7]!, X_FM[11]!], vary, positive, range_deg });
+  }
+
+  limit({ start, held, vary, positive, range_deg }: LimitQuestion): LiveLimit {
     this.put(this.three, start);
-    this.checked(this.core._condyle_limit(this.joint, vary, positive ? 1 : 0, this.three, range_deg, this.answer));
+    this.put(this.otherThree, held ?? atRest);
+    this.checked(this.core._condyle_limit(
+      this.joint, vary, positive ? 1 : 0, this.three, this.otherThree, range_deg, this.answer));
     const [turned_deg, reason, kind, bearing, x, y, z] = this.f64(this.answer, 7) as unknown as number[];
     return {
       vary, positive, turned_deg: turned_deg!, reason: reasons[reason!]!, kind: kinds[kind!]!,
@@ -98,6 +114,15 @@ export class CoreJoint {
 
   details(at: Coordinates): Details {
     this.place(at);
+    return this.detailsHere();
+  }
+
+  detailsOf(X_FM: readonly number[]): Details {
+    this.put(this.pose, X_FM);
+    return this.detailsHere();
+  }
+
+  private detailsHere(): Details {
     const mobileInFixed = this.penetrations(0), fixedInMobile = this.penetrations(1);
     const inContact = this.checked(this.core._condyle_in_contact(this.joint, this.pose)) === 1;
     const count = this.checked(this.core._condyle_pairs(this.joint, this.pose));
@@ -111,7 +136,8 @@ export class CoreJoint {
     start[question.columnAngle] = question.columns[point % question.columns.length]!;
     start[question.rowAngle] = question.rows[Math.floor(point / question.columns.length)]!;
     this.put(this.three, start);
-    const count = this.checked(this.core._condyle_free_angles(this.joint, question.vary, this.three, 180, 180));
+    this.put(this.otherThree, question.held ?? atRest);
+    const count = this.checked(this.core._condyle_free_angles(this.joint, question.vary, this.three, this.otherThree, 180, 180));
     const flat = this.f64(this.core._condyle_intervals(this.joint), 4 * count);
     return Array.from({ length: count }, (_, i) => Array.from(flat.subarray(4 * i, 4 * i + 4)) as [number, number, number, number]);
   }
@@ -127,6 +153,7 @@ export class CoreJoint {
   }
 
   private penetrations(ofFixed: number): Penetrations {
+    if (!this.core._condyle_can_penetrate(this.joint, ofFixed)) return { vertices: new Uint32Array(), depths_mm: new Float64Array() };
     const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
     return {
       vertices: this.u32(this.core._condyle_penetrating_vertices(this.joint), count),
@@ -135,6 +162,7 @@ export class CoreJoint {
   }
 
   private inside(ofFixed: number): Inside {
+    if (!this.core._condyle_can_penetrate(this.joint, ofFixed)) return { count: 0, deepest_mm: 0, without: 0 };
     const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
     if (count === 0) return { count, deepest_mm: 0, without: 0 };
     this.checked(this.core._condyle_depth_to_read(this.joint, this.pose, ofFixed, this.answer));
@@ -142,11 +170,30 @@ export class CoreJoint {
     return { count, deepest_mm, without };
   }
 
-  private valuesOf(quantity: keyof typeof quantityNumber, ofFixed: number, count: number): Values {
-    this.checked(this.core._condyle_shown(
-      this.joint, this.pose, quantityNumber[quantity], ofFixed, this.mmPlace, this.marksPlace));
+  private setBearing(bearing: JointArrays["bearing"]): void {
+    if (bearing === "found") return;
+    const place = bearing === "count" ? 0 : this.memory.copied(bearing);
+    this.checked(this.core._condyle_set_bearing(this.joint, place));
+    if (place) this.memory.free(place);
+  }
+
+  private setLayers(layers: Layers): void {
+    for (const [ofFixed, surface] of [layers.mobile, layers.fixed].entries()) {
+      const thickness = surface.layer ? this.memory.copied(surface.layer.thickness_mm) : 0;
+      this.checked(this.core._condyle_surface(
+        this.joint, ofFixed, surface.firstVertex, surface.vertices, surface.firstTriangle, surface.triangles,
+        surface.layer?.youngsModulus_mpa ?? 0, surface.layer?.poissonRatio ?? 0, thickness));
+      if (thickness) this.memory.free(thickness);
+    }
+    this.checked(this.core._condyle_elastic(this.joint, layers.casting, layers.law, layers.rule, layers.reach_mm));
+  }
+
+  private valuesOf(quantity: Exclude<Quantity, "none">, ofFixed: number, count: number): Values {
+    const { core, joint, pose, shownPlace, marksPlace } = this;
+    this.checked(quantity === "pressure" ? core._condyle_pressure(joint, pose, ofFixed, shownPlace, marksPlace)
+      : core._condyle_shown(joint, pose, quantityNumber[quantity], ofFixed, shownPlace, marksPlace));
     return {
-      mm: new Float32Array(this.bytes(this.mmPlace, 4 * count)), marks: new Uint8Array(this.bytes(this.marksPlace, count)),
+      shown: new Float32Array(this.bytes(shownPlace, 4 * count)), marks: new Uint8Array(this.bytes(marksPlace, count)),
     };
   }
 

@@ -2,7 +2,8 @@ import type { MotionAnswer } from "../report";
 
 /// What page and worker say to each other.
 
-export type Quantity = "gap" | "depth" | "nearest" | "none";
+export type Quantity = "gap" | "depth" | "nearest" | "pressure" | "none";
+/// Of those that condyle_shown() gives.
 export const quantityNumber = { gap: 0, depth: 1, nearest: 2 } as const;
 
 export interface Surface {
@@ -14,13 +15,36 @@ export interface JointArrays {
   kind: number;
   anatomy: number;
   side: number;
+  translationFrame: number;
   fixed: Surface;
   mobile: Surface;
+  /// What ends motions: "found" by the core, every contact, or all but that of these mobile triangles, marked 1.
+  bearing: "found" | "count" | Uint8Array;
+  layers: Layers | null;
 }
 
-/// Of a body's vertices, for colours: mm, and per vertex 0 nothing, 1 the value, 2 a bound.
+/// The part of a body that carries load; rigid without a layer.
+export interface LoadedSurface {
+  firstVertex: number;
+  vertices: number;
+  firstTriangle: number;
+  triangles: number;
+  layer: { youngsModulus_mpa: number; poissonRatio: number; thickness_mm: Float64Array } | null;
+}
+
+/// Numbers as condyle_elastic() takes them.
+export interface Layers {
+  casting: number;
+  law: number;
+  rule: number;
+  reach_mm: number;
+  fixed: LoadedSurface;
+  mobile: LoadedSurface;
+}
+
+/// Of a body's vertices, for colours: mm or MPa, and per vertex 0 nothing, 1 the value, 2 a bound.
 export interface Values {
-  mm: Float32Array;
+  shown: Float32Array;
   marks: Uint8Array;
 }
 
@@ -60,7 +84,9 @@ export interface LiveLimit {
   point: [number, number, number] | null;
 }
 
+/// `held` in F, mm: what the mobile body keeps while it turns.
 export interface MapQuestion {
+  held?: [number, number, number];
   columnAngle: number;
   rowAngle: number;
   vary: number;
@@ -85,6 +111,7 @@ export interface Details {
 
 export interface LimitQuestion {
   start: [number, number, number];
+  held?: [number, number, number];
   vary: number;
   positive: boolean;
   range_deg: number;
@@ -92,6 +119,8 @@ export interface LimitQuestion {
 
 export type Query =
   | { of: "pose"; at: Coordinates }
+  /// 16 numbers, row by row.
+  | { of: "poseMatrix"; X_FM: number[] }
   | { of: "limit"; limit: LimitQuestion }
   | { of: "mapPoint"; question: MapQuestion; point: number }
   /// Bytes that the core has taken.

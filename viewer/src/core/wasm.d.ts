@@ -7,11 +7,12 @@ declare module "page-core" {
     _free(pointer: number): void;
     _condyle_error(): number;
     _condyle_joint(
-      kind: number, anatomy: number, side: number, fixedVertices: number, fixedVertexCount: number, fixedTriangles: number,
+      kind: number, anatomy: number, side: number, translationFrame: number, fixedVertices: number, fixedVertexCount: number, fixedTriangles: number,
       fixedTriangleCount: number, mobileVertices: number, mobileVertexCount: number, mobileTriangles: number,
       mobileTriangleCount: number): number;
     _condyle_free(joint: number): void;
     _condyle_pose(joint: number, angles: number, translation: number, pose: number): number;
+    _condyle_can_penetrate(joint: number, ofFixed: number): number;
     _condyle_penetrations(joint: number, pose: number, ofFixed: number): number;
     _condyle_penetrating_vertices(joint: number): number;
     _condyle_depths(joint: number): number;
@@ -21,9 +22,15 @@ declare module "page-core" {
     _condyle_pairs(joint: number, pose: number): number;
     _condyle_pair_triangles(joint: number): number;
     _condyle_limit(
-      joint: number, vary: number, positive: number, start: number, range: number, limit: number): number;
-    _condyle_free_angles(joint: number, vary: number, start: number, back: number, forth: number): number;
+      joint: number, vary: number, positive: number, start: number, held: number, range: number, limit: number): number;
+    _condyle_free_angles(joint: number, vary: number, start: number, held: number, back: number, forth: number): number;
     _condyle_intervals(joint: number): number;
+    _condyle_set_bearing(joint: number, triangles: number): number;
+    _condyle_surface(
+      joint: number, ofFixed: number, firstVertex: number, vertices: number, firstTriangle: number, triangles: number,
+      youngsModulus: number, poissonRatio: number, thickness: number): number;
+    _condyle_elastic(joint: number, casting: number, law: number, rule: number, reach: number): number;
+    _condyle_pressure(joint: number, pose: number, ofFixed: number, values: number, marks: number): number;
     _condyle_bearing(joint: number, triangles: number): number;
     _condyle_read_mesh(name: number, bytes: number, count: number): number;
     _condyle_free_mesh(mesh: number): void;

@@ -1,3 +1,4 @@
+import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
 import type { FromWorker, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
@@ -15,17 +16,17 @@ function say(message: FromWorker, transfer: Transferable[] = []): void {
   (self as unknown as DedicatedWorkerGlobalScope).postMessage(message, transfer);
 }
 
-function attempt(work: () => void): void {
+async function attempt(work: () => void | Promise<void>): Promise<void> {
   try {
-    work();
+    await work();
   } catch (error) {
-    say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
+    say({ type: "failed", message: lineOf(error) });
   }
 }
 
 /// The worker's own turn of the event loop: a message waits no longer than one piece of work.
 const turns = new MessageChannel();
-turns.port1.onmessage = () => attempt(next);
+turns.port1.onmessage = () => void attempt(next);
 function soon(): void {
   turns.port2.postMessage(null);
 }
@@ -41,7 +42,7 @@ function next(): void {
     const { quantity } = asked;
     if (quantity !== "none") aboutPose.push(() => sayValues(asked, quantity));
     asked.ranges?.forEach((range, vary) => range.forEach((range_deg, positive) => aboutPose.push(() => {
-      const limit = joint!.limit(asked.at.angles, vary, positive === 1, range_deg);
+      const limit = joint!.limitFrom(asked.at, vary, positive === 1, range_deg);
       say({ type: "limit", id: asked.id, limit });
     })));
   } else {
@@ -52,7 +53,7 @@ function next(): void {
 
 function sayValues({ id, at }: PoseQuestion, quantity: Exclude<Quantity, "none">): void {
   const values = joint!.values(at, quantity);
-  const arrays = [values.mobile.mm, values.mobile.marks, values.fixed.mm, values.fixed.marks];
+  const arrays = [values.mobile.shown, values.mobile.marks, values.fixed.shown, values.fixed.marks];
   say({ type: "values", id, values }, arrays.map((array) => array.buffer as ArrayBuffer));
 }
 
@@ -65,8 +66,10 @@ function answerTo(query: Query): QueryAnswer {
   switch (query.of) {
     case "pose":
       return joint!.details(query.at);
+    case "poseMatrix":
+      return joint!.detailsOf(query.X_FM);
     case "limit":
-      return joint!.limit(query.limit.start, query.limit.vary, query.limit.positive, query.limit.range_deg);
+      return joint!.limit(query.limit);
     case "mapPoint":
       return joint!.mapPoint(query.question, query.point);
     case "memory":
@@ -79,29 +82,25 @@ function askQuery(id: number, query: Query): void {
     try {
       say({ type: "queried", id, answer: answerTo(query), error: "" });
     } catch (error) {
-      say({ type: "queried", id, answer: null, error: error instanceof Error ? error.message : String(error) });
+      say({ type: "queried", id, answer: null, error: lineOf(error) });
     }
   });
 }
 
-self.onmessage = async ({ data }: MessageEvent<ToWorker>) => {
+self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
   switch (data.type) {
     case "open":
-      try {
+      void attempt(async () => {
         joint = await CoreJoint.open(data.wasm, data.joint);
         say({ type: "ready" });
-      } catch (error) {
-        say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
-      }
+      });
       return;
     case "propose":
-      try {
+      void attempt(async () => {
         const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile);
         joint = opened.joint;
         say({ type: "proposed", proposal: opened.proposal });
-      } catch (error) {
-        say({ type: "failed", message: error instanceof Error ? error.message : String(error) });
-      }
+      });
       return;
     case "pose":
       latest = data;

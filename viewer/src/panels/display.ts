@@ -1,10 +1,11 @@
 import { button, checkbox, choice, html, section } from "../dom";
 import type { Quantity } from "../core/protocol";
+import type { Part } from "../scene/body";
 import type { BodyName, ClipAxis, JointScene, View } from "../scene/scene";
 import { colourScale } from "../scene/colour_scale";
 import { words } from "../words";
 
-const usualEnd_mm = { gap: 8, depth: 4, nearest: 8 };
+const usualEnd = { gap: 8, depth: 4, nearest: 8, pressure: 5 };
 const clipRange_mm = 150;
 
 /// What the scene shows and how; the colour scale with it.
@@ -12,25 +13,28 @@ export class DisplayPanel {
   readonly element: HTMLElement;
   readonly legend = html("div", { id: "legend" });
   private chosen: Quantity;
-  private readonly ends_mm = { ...usualEnd_mm };
+  private readonly ends = { ...usualEnd };
   private readonly scaleEnd = html("input", { type: "number", min: 0.1, step: 0.5 });
   private clipAxis: ClipAxis = "none";
   private clipAt = 0;
+  private readonly unit = html("span", {});
 
+  /// `parts` of a body that is one mesh: none. `quantities` that can be shown.
   constructor(
-    private readonly scene: JointScene | null, names: Record<BodyName, string>, quantity: Quantity,
-    changed: () => void) {
+    private readonly scene: JointScene | null, names: Record<BodyName, string>, parts: Record<BodyName, readonly Part[]>,
+    quantities: readonly Quantity[], quantity: Quantity, changed: () => void) {
     this.chosen = quantity;
     this.scaleEnd.addEventListener("input", () => {
       if (this.chosen === "none" || !(this.scaleEnd.valueAsNumber > 0)) return;
-      this.ends_mm[this.chosen] = this.scaleEnd.valueAsNumber;
+      this.ends[this.chosen] = this.scaleEnd.valueAsNumber;
       this.drawScale();
     });
     const bodies = (["fixed", "mobile"] as const).map((body) => {
       const opacity = html("input", { type: "range", min: 0.1, max: 1, step: 0.05, value: 1, "aria-label": words.opacity(names[body]) });
       opacity.addEventListener("input", () => scene?.setOpacity(body, opacity.valueAsNumber));
       return html("div", { class: "row" },
-        checkbox(words.shown(names[body]), true, (on) => scene?.setVisible(body, on)), opacity);
+        checkbox(words.shown(names[body]), true, (on) => scene?.setVisible(body, on)), opacity,
+        ...parts[body].map((part) => checkbox(words.shown(part.name), true, (on) => scene?.setPartVisible(body, part, on))));
     });
     const clipAt = html("input", { type: "range", min: -clipRange_mm, max: clipRange_mm, step: 1, value: 0, "aria-label": words.clipAt });
     clipAt.addEventListener("input", () => {
@@ -44,12 +48,12 @@ export class DisplayPanel {
           changed();
         }))),
       html("div", { class: "row" },
-        choice(words.colour, words.quantity, quantity, (key) => {
+        choice(words.colour, only(words.quantity, quantities), quantity, (key) => {
           this.chosen = key;
           this.drawScale();
           changed();
         }),
-        html("label", {}, `${words.scaleEnd} `, this.scaleEnd, ` ${words.millimetres}`)),
+        html("label", {}, `${words.scaleEnd} `, this.scaleEnd, " ", this.unit)),
       ...bodies,
       html("div", { class: "row" },
         choice(words.clip, words.clipAxis, "none", (axis) => {
@@ -57,8 +61,8 @@ export class DisplayPanel {
           scene?.clip(axis, this.clipAt);
         }), clipAt),
       html("div", { class: "row" },
-        checkbox(words.pairs, true, (on) => this.each((body) => (body.showsMeeting = on))),
-        checkbox(words.bearing, false, (on) => this.each((body) => (body.showsBearing = on))),
+        checkbox(words.pairs, true, (on) => scene?.showMarked("contact", on)),
+        checkbox(words.bearing, false, (on) => scene?.showMarked("bearing", on)),
         checkbox(words.shading, true, (on) => scene?.setShading(on))));
     this.drawScale();
   }
@@ -67,19 +71,13 @@ export class DisplayPanel {
     return this.chosen;
   }
 
-  private each(change: (body: JointScene["bodies"]["fixed"]) => void): void {
-    if (!this.scene) return;
-    change(this.scene.bodies.fixed);
-    change(this.scene.bodies.mobile);
-    this.scene.draw();
-  }
-
   private drawScale(): void {
     const quantity = this.chosen;
     this.legend.replaceChildren();
     this.scaleEnd.disabled = quantity === "none";
     if (quantity === "none") return;
-    const end = this.ends_mm[quantity];
+    const end = this.ends[quantity];
+    this.unit.textContent = words.unit[quantity];
     this.scaleEnd.value = String(end);
     const scale = colourScale(quantity, end);
     this.scene?.setScale(scale);
@@ -89,10 +87,14 @@ export class DisplayPanel {
       context.fillStyle = scale.colour(scale.low + ((scale.high - scale.low) * i) / (canvas.width - 1));
       context.fillRect(i, 0, 1, 1);
     }
-    const ticks = quantity === "depth" ? [0, end / 2, end] : [-end, 0, end];
+    const ticks = scale.low === 0 ? [0, end / 2, end] : [-end, 0, end];
     this.legend.append(
-      html("span", {}, `${words.quantity[quantity]}, ${words.millimetres}`), canvas,
+      html("span", {}, `${words.quantity[quantity]}, ${words.unit[quantity]}`), canvas,
       html("span", { class: "ticks" }, ...ticks.map((tick) => html("span", {}, String(Number(tick.toFixed(2)))))),
       html("span", { class: "small" }, words.quantityHelp[quantity]));
   }
+}
+
+function only<Key extends string>(texts: Record<Key, string>, keys: readonly Key[]): Record<Key, string> {
+  return Object.fromEntries(keys.map((key) => [key, texts[key]])) as Record<Key, string>;
 }

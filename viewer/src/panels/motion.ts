@@ -29,14 +29,17 @@ export class MotionPanel {
   private animation = 0;
   private toldAt = 0;
 
-  constructor(private readonly report: ReportText, private readonly moved: (at: Coordinates) => void) {
+  /// `arrived` where a motion that was asked for has come to its end.
+  constructor(
+    private readonly report: ReportText, private readonly moved: (at: Coordinates) => void,
+    private readonly arrived: (motion: MotionAnswer) => void) {
     const count = report.joint.kind === "hinge" ? 1 : 3;
     this.sliders = report.coordinates.slice(0, count).map((_, angle) => this.slider(angle));
     const rows = this.sliders.map(({ name, input, number, strip, told }) =>
       html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), number, input, strip, told));
     if (report.joint.kind === "free") rows.push(html("div", { class: "row" }, ...axes.map((axis) => this.translation(axis))));
     const manoeuvres = (report.rom?.motions ?? []).map((motion) =>
-      button(shortened(spaced(motion.name)), () => this.goTo(anglesAtEnd(report, motion)), { class: "manoeuvre" }));
+      button(shortened(spaced(motion.name)), () => this.goToEnd(motion), { class: "manoeuvre" }));
     this.element = section(words.motion, ...rows, this.answer, this.took,
       html("div", { class: "row no-print" },
         button(words.reset, () => this.goTo([...report.reference_deg])),
@@ -58,16 +61,28 @@ export class MotionPanel {
     this.moved(this.coordinates);
   }
 
-  /// The joint turns there, unless its user asked for less motion.
-  goTo(angles: readonly number[]): void {
+  /// To where a motion ends: the angle that varies to its last bit, the others as they were given.
+  goToEnd(motion: MotionAnswer): void {
+    const angles = this.report.coordinates.map(({ name }) =>
+      (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
+    this.goTo(angles, () => this.arrived(motion));
+  }
+
+  /// The joint turns there, at once where its user asked for less motion.
+  goTo(angles: readonly number[], there: () => void = () => undefined): void {
     cancelAnimationFrame(this.animation);
-    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return this.set(angles);
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) {
+      this.set(angles);
+      there();
+      return;
+    }
     const from = this.coordinates.angles, begun = performance.now(), duration_ms = 450;
     const step = () => {
       const share = Math.min(1, (performance.now() - begun) / duration_ms);
       const eased = share * share * (3 - 2 * share);
       this.set(share === 1 ? angles : from.map((angle, i) => angle + eased * (angles[i]! - angle)));
       if (share < 1) this.animation = requestAnimationFrame(step);
+      else there();
     };
     step();
   }
@@ -177,13 +192,8 @@ export class MotionPanel {
     }
     slider.strip.replaceChildren(...marks);
     const end = (deg: number, { reason }: LiveLimit) =>
-      `${deg.toFixed(1)}° (${reason === "contact" ? words.limitBy.contact : words.limitBy.range})`;
+      `${deg.toFixed(1)}° (${words.reasons[reason]})`;
     slider.told.textContent = startsInContact ? words.startsInContact
       : words.free(spaced(slider.name), end(low, negative), end(high, positive));
   }
-}
-
-/// Where a motion ends: the angle that varies to its last bit, the others as they were given.
-export function anglesAtEnd(report: ReportText, motion: MotionAnswer): number[] {
-  return report.coordinates.map(({ name }) => (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
 }

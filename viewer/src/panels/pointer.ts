@@ -1,5 +1,4 @@
-import { html } from "../dom";
-import { checkbox } from "../dom";
+import { checkbox, html } from "../dom";
 import type { BodyName, JointScene, Picked } from "../scene/scene";
 import { words } from "../words";
 
@@ -13,7 +12,9 @@ export class PointerPanel {
   private first: Picked | null = null;
   private pressedAt: [number, number] = [0, 0];
 
-  constructor(private readonly scene: JointScene, private readonly names: Record<BodyName, string>) {
+  /// `unit` of what vertices show now.
+  constructor(
+    private readonly scene: JointScene, private readonly names: Record<BodyName, string>, private readonly unit: () => string) {
     this.element = html("div", {},
       checkbox(words.measure, false, (on) => {
         this.measures = on;
@@ -46,7 +47,7 @@ export class PointerPanel {
       return;
     }
     const value = this.scene.bodies[picked.body].valueOf(picked.vertex);
-    const text = value ? `${value.isBound ? `${words.bound} ` : ""}${value.mm.toFixed(2)} ${words.millimetres}` : words.noValue;
+    const text = value ? `${value.isBound ? `${words.bound} ` : ""}${value.amount.toFixed(2)} ${this.unit()}` : words.noValue;
     this.told.textContent = words.hover(this.names[picked.body], picked.vertex, text);
   }
 

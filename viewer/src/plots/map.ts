@@ -67,6 +67,12 @@ export class MapPlot {
     this.paint(point);
   }
 
+  /// In one line while points are missing, then nothing.
+  progress(): string {
+    const total = this.cells.length, done = this.map.intervals.filter((known) => known !== undefined).length;
+    return done < total ? words.mapProgress(done, total) : "";
+  }
+
   private paint(point: number): void {
     const intervals = this.map.intervals[point];
     const cell = this.cells[point]!;

@@ -2,7 +2,16 @@ import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type Plane } f
 import type { Surface, Values } from "../core/protocol";
 import { BodyMaterial } from "./body_material";
 
-const plain = 0, bearing = 1, meeting = 2;
+/// What vertices are marked with, as the components of an attribute.
+const marked = { bearing: 0, contact: 1, zone: 2 } as const;
+export type Marked = keyof typeof marked;
+
+/// A mesh of a body that consists of several.
+export interface Part {
+  name: string;
+  first_vertex: number;
+  vertices: number;
+}
 
 /// One bone of the scene. Its vertices have the numbers they have everywhere.
 export class SceneBody {
@@ -10,11 +19,10 @@ export class SceneBody {
   values: Values | null = null;
   private readonly shown: BufferAttribute;
   private readonly mark: BufferAttribute;
-  private readonly tint: BufferAttribute;
-  private readonly bearingVertices = new Set<number>();
-  private meetingVertices: number[] = [];
-  private bearingIsShown = false;
-  private meetingIsShown = true;
+  private readonly tints: BufferAttribute;
+  private readonly hidden: BufferAttribute;
+  private readonly markedVertices: Record<Marked, number[]> = { bearing: [], contact: [], zone: [] };
+  private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
   constructor(readonly surface: Surface, bone: string) {
     const count = surface.vertices.length / 3;
@@ -23,10 +31,10 @@ export class SceneBody {
     geometry.setIndex(new BufferAttribute(surface.triangles, 1));
     this.shown = dynamic(count);
     this.mark = dynamic(count);
-    this.tint = dynamic(count);
-    geometry.setAttribute("shown", this.shown);
-    geometry.setAttribute("mark", this.mark);
-    geometry.setAttribute("tint", this.tint);
+    this.tints = dynamic(count, 3);
+    this.hidden = dynamic(count);
+    Object.entries({ shown: this.shown, mark: this.mark, tints: this.tints, hidden: this.hidden })
+      .forEach(([name, attribute]) => geometry.setAttribute(name, attribute));
     geometry.computeVertexNormals();
     this.mesh = new Mesh(geometry, new BodyMaterial(bone));
   }
@@ -35,7 +43,7 @@ export class SceneBody {
   show(values: Values | null): void {
     this.values = values;
     if (values) {
-      this.shown.array.set(values.mm);
+      this.shown.array.set(values.shown);
       this.mark.array.set(values.marks);
     } else {
       this.mark.array.fill(0);
@@ -43,55 +51,49 @@ export class SceneBody {
     this.shown.needsUpdate = this.mark.needsUpdate = true;
   }
 
-  /// Corners of these triangles are in contact.
-  showMeeting(triangles: readonly number[]): void {
-    for (const v of this.meetingVertices) this.tint.setX(v, this.tintWithoutContact(v));
-    this.meetingVertices = triangles.flatMap((t) => Array.from(this.surface.triangles.subarray(3 * t, 3 * t + 3)));
-    if (this.meetingIsShown) for (const v of this.meetingVertices) this.tint.setX(v, meeting);
-    this.tint.needsUpdate = true;
+  /// Marks the corners of these triangles, and no others so.
+  setMarked(as: Marked, triangles: Iterable<number>): void {
+    const before = this.markedVertices[as];
+    const now: number[] = [];
+    for (const t of triangles) now.push(...this.surface.triangles.subarray(3 * t, 3 * t + 3));
+    this.markedVertices[as] = now;
+    if (!this.showsMarked[as]) return;
+    this.tint(as, before, 0);
+    this.tint(as, now, 1);
   }
 
-  /// Per triangle 1 where it is bearing.
-  setBearing(triangles: Uint8Array): void {
-    triangles.forEach((is, t) => {
-      if (is) this.surface.triangles.subarray(3 * t, 3 * t + 3).forEach((v) => this.bearingVertices.add(v));
-    });
-    this.tintAll();
+  showMarked(as: Marked, on: boolean): void {
+    this.showsMarked[as] = on;
+    this.tint(as, this.markedVertices[as], on ? 1 : 0);
   }
 
-  set showsBearing(on: boolean) {
-    this.bearingIsShown = on;
-    this.tintAll();
+  setPartVisible({ first_vertex, vertices }: Part, visible: boolean): void {
+    for (let v = first_vertex; v < first_vertex + vertices; ++v) this.hidden.setX(v, visible ? 0 : 1);
+    this.hidden.needsUpdate = true;
   }
 
-  set showsMeeting(on: boolean) {
-    this.meetingIsShown = on;
-    this.tintAll();
+  isHidden(vertex: number): boolean {
+    return this.hidden.getX(vertex) === 1;
   }
 
   setClipping(planes: Plane[]): void {
     this.mesh.material.clippingPlanes = planes;
   }
 
-  /// What a vertex shows, in mm.
-  valueOf(vertex: number): { mm: number; isBound: boolean } | null {
+  /// What a vertex shows.
+  valueOf(vertex: number): { amount: number; isBound: boolean } | null {
     const mark = this.values?.marks[vertex] ?? 0;
-    return mark === 0 ? null : { mm: this.values!.mm[vertex]!, isBound: mark === 2 };
+    return mark === 0 ? null : { amount: this.values!.shown[vertex]!, isBound: mark === 2 };
   }
 
-  private tintAll(): void {
-    for (let v = 0; v < this.tint.count; ++v) this.tint.setX(v, this.tintWithoutContact(v));
-    if (this.meetingIsShown) for (const v of this.meetingVertices) this.tint.setX(v, meeting);
-    this.tint.needsUpdate = true;
-  }
-
-  private tintWithoutContact(vertex: number): number {
-    return this.bearingIsShown && this.bearingVertices.has(vertex) ? bearing : plain;
+  private tint(as: Marked, vertices: readonly number[], share: number): void {
+    for (const v of vertices) this.tints.setComponent(v, marked[as], share);
+    this.tints.needsUpdate = true;
   }
 }
 
-function dynamic(count: number): BufferAttribute {
-  const attribute = new BufferAttribute(new Float32Array(count), 1);
+function dynamic(count: number, components = 1): BufferAttribute {
+  const attribute = new BufferAttribute(new Float32Array(components * count), components);
   attribute.setUsage(DynamicDrawUsage);
   return attribute;
 }

@@ -20,24 +20,26 @@ export class BodyMaterial extends MeshLambertMaterial {
       Object.assign(shader.uniforms, this.shared);
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", `#include <common>
-          attribute float shown; attribute float mark; attribute float tint;
-          varying float vShown; varying float vMark; varying float vTint;`)
+          attribute float shown; attribute float mark; attribute vec3 tints; attribute float hidden;
+          varying float vShown; varying float vMark; varying vec3 vTints; varying float vHidden;`)
         .replace("#include <begin_vertex>", `#include <begin_vertex>
-          vShown = shown; vMark = mark; vTint = tint;`);
+          vShown = shown; vMark = mark; vTints = tints; vHidden = hidden;`);
       shader.fragmentShader = shader.fragmentShader
         .replace("#include <common>", `#include <common>
           uniform sampler2D scaleColours; uniform float scaleLow; uniform float scaleHigh; uniform bool plainAbove;
           uniform bool isFlat;
-          varying float vShown; varying float vMark; varying float vTint;`)
+          varying float vShown; varying float vMark; varying vec3 vTints; varying float vHidden;`)
         .replace("#include <color_fragment>", `#include <color_fragment>
+          if (vHidden > 0.5) discard;
           if (vMark > 0.5 && !(plainAbove && vShown > scaleHigh)) {
             float along = clamp((vShown - scaleLow) / (scaleHigh - scaleLow), 0.0, 1.0);
             diffuseColor.rgb = texture2D(scaleColours, vec2(along, 0.5)).rgb;
             if (vMark > 1.5)
               diffuseColor.rgb = mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 3.0 ? vec3(0.2) : vec3(0.55);
           }
-          if (vTint > 1.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.95, 0.45, 0.0), 0.85);
-          else if (vTint > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.1, 0.55, 0.35), 0.35);`)
+          if (vTints.x > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.1, 0.55, 0.35), 0.35);
+          if (vTints.z > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.45, 0.1, 0.55), 0.6);
+          if (vTints.y > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.95, 0.45, 0.0), 0.85);`)
         .replace("#include <opaque_fragment>", `if (isFlat) outgoingLight = diffuseColor.rgb;
           #include <opaque_fragment>`);
     };

@@ -1,27 +1,27 @@
 import { interpolateInferno, interpolateOrRd, interpolateYlGnBu } from "d3-scale-chromatic";
 import type { Quantity } from "../core/protocol";
 
-/// Colours of a quantity over mm, made of sequential scales that the colour blind tell apart.
+/// Colours of a quantity over mm or MPa, made of sequential scales that the colour blind tell apart.
 ///
 ///     gap, distance   -end  dark red ... orange | 0 | dark blue ... pale  end, beyond it plain bone
-///     depth              0  light ... dark  end
+///     depth, pressure    0  light ... dark  end
 export interface ColourScale {
   low: number;
   high: number;
   /// Values above `high` are nothing to look at: the bone stays plain.
   plainAbove: boolean;
   /// CSS colour of a value; values below `low` have its colour.
-  colour(mm: number): string;
+  colour(amount: number): string;
 }
 
-export function colourScale(quantity: Exclude<Quantity, "none">, end_mm: number): ColourScale {
-  const share = (mm: number) => Math.min(1, Math.max(0, mm / end_mm));
+export function colourScale(quantity: Exclude<Quantity, "none">, end: number): ColourScale {
+  const share = (amount: number) => Math.min(1, Math.max(0, amount / end));
   // The lightest of the sequential map is left out: on a light bone it would not be seen.
-  if (quantity === "depth")
-    return { low: 0, high: end_mm, plainAbove: false, colour: (mm) => interpolateInferno(0.85 * (1 - share(mm))) };
+  if (quantity === "depth" || quantity === "pressure")
+    return { low: 0, high: end, plainAbove: false, colour: (amount) => interpolateInferno(0.85 * (1 - share(amount))) };
   return {
-    low: -end_mm, high: end_mm, plainAbove: true,
-    colour: (mm) => (mm < 0 ? interpolateOrRd(0.4 + 0.6 * share(-mm)) : interpolateYlGnBu(1 - 0.9 * share(mm))),
+    low: -end, high: end, plainAbove: true,
+    colour: (amount) => (amount < 0 ? interpolateOrRd(0.4 + 0.6 * share(-amount)) : interpolateYlGnBu(1 - 0.9 * share(amount))),
   };
 }
 
@@ -35,8 +35,8 @@ export function rgb(css: string): [number, number, number] {
 export function colourTable(scale: ColourScale, steps: number): Uint8Array<ArrayBuffer> {
   const table = new Uint8Array(4 * steps);
   for (let i = 0; i < steps; ++i) {
-    const mm = scale.low + ((scale.high - scale.low) * i) / (steps - 1);
-    table.set([...rgb(scale.colour(mm)), 255], 4 * i);
+    const amount = scale.low + ((scale.high - scale.low) * i) / (steps - 1);
+    table.set([...rgb(scale.colour(amount)), 255], 4 * i);
   }
   return table;
 }

@@ -5,7 +5,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { ViewHelper } from "three/addons/helpers/ViewHelper.js";
 import type { Surface } from "../core/protocol";
-import { SceneBody } from "./body";
+import { SceneBody, type Marked, type Part } from "./body";
 import type { ColourScale } from "./colour_scale";
 
 /// From where the joint is looked at, in the joint frame: X anterior, Y superior, Z right.
@@ -148,6 +148,23 @@ export class JointScene {
     this.draw();
   }
 
+  /// Triangles of either body, as one kind of mark.
+  setMarked(as: Marked, fixed: Iterable<number>, mobile: Iterable<number>): void {
+    this.bodies.fixed.setMarked(as, fixed);
+    this.bodies.mobile.setMarked(as, mobile);
+    this.draw();
+  }
+
+  showMarked(as: Marked, on: boolean): void {
+    for (const body of Object.values(this.bodies)) body.showMarked(as, on);
+    this.draw();
+  }
+
+  setPartVisible(name: BodyName, part: Part, visible: boolean): void {
+    this.bodies[name].setPartVisible(part, visible);
+    this.draw();
+  }
+
   showDistance(ends: [Vector3, Vector3] | null): void {
     if (this.measure) this.scene.remove(this.measure);
     this.measure = ends
@@ -164,8 +181,9 @@ export class JointScene {
     for (const hit of this.rays.intersectObjects([this.bodies.fixed.mesh, this.bodies.mobile.mesh].filter((m) => m.visible))) {
       const body: BodyName = hit.object === this.bodies.fixed.mesh ? "fixed" : "mobile";
       const planes = this.bodies[body].mesh.material.clippingPlanes ?? [];
-      if (planes.every((plane) => plane.distanceToPoint(hit.point) >= 0))
-        return { body, vertex: nearestCorner(hit), point: hit.point };
+      const vertex = nearestCorner(hit);
+      if (planes.every((plane) => plane.distanceToPoint(hit.point) >= 0) && !this.bodies[body].isHidden(vertex))
+        return { body, vertex, point: hit.point };
     }
     return null;
   }

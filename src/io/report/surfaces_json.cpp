@@ -1,0 +1,59 @@
+#include "io/report/surfaces_json.hpp"
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "io/joint/given_degrees.hpp"
+#include "io/result/contact_terms.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// The surface of a body that carries load: all of it, or one of its parts, and its layer where it has one.
+Json layer_json(const Body& body, const std::string& part, const std::optional<ElasticLayer>& layer,
+                const std::string& role, BlockArrays& arrays) {
+  BodyPart run{"", 0, body.mesh.vertices().size(), 0, body.mesh.triangles().size()};
+  for (const BodyPart& known : body.parts)
+    if (known.name == part) run = known;
+  Json json{{"first_vertex", run.first_vertex},
+            {"vertices", run.vertices},
+            {"first_triangle", run.first_triangle},
+            {"triangles", run.triangles}};
+  if (!layer) return json;
+  json["youngs_modulus_mpa"] = layer->youngs_modulus_mpa;
+  json["poisson_ratio"] = layer->poisson_ratio;
+  const double* const everywhere = std::get_if<double>(&layer->thickness_mm);
+  json["thickness_mm"] =
+      arrays.add(role + "_thickness", everywhere ? std::vector<double>(run.vertices, *everywhere)
+                                                 : std::get<std::vector<double>>(layer->thickness_mm));
+  return json;
+}
+
+}  // namespace
+
+Json zones_json(const RomResult& rom, BlockArrays& arrays) {
+  Json zones = Json::array();
+  for (const std::optional<ImpingementZone>& zone : rom.zones) {
+    if (!zone) continue;
+    const std::string name = "zone_" + std::to_string(zones.size());
+    zones.push_back({{"motion", zone->limit.motion.name},
+                     {"past_deg", given_degrees(zone->past)},
+                     {"fixed", arrays.add(name + "_fixed", zone->fixed.triangles)},
+                     {"mobile", arrays.add(name + "_mobile", zone->mobile.triangles)}});
+  }
+  return zones;
+}
+
+Json layers_json(const ReportedLayers& layers, const Joint& joint, BlockArrays& arrays) {
+  const auto& [contact, options] = layers;
+  return {{"casting", name_of(options.casting)},
+          {"law", name_of(options.law)},
+          {"rule", name_of(options.rays.rule)},
+          {"reach_mm", options.rays.reach_mm},
+          {"fixed", layer_json(joint.fixed, contact.fixed_part, options.fixed, "fixed", arrays)},
+          {"mobile", layer_json(joint.mobile, contact.mobile_part, options.mobile, "mobile", arrays)}};
+}
+
+}  // namespace condyle::io
