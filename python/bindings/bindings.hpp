@@ -27,5 +27,6 @@ void bind_normal_contact(py::module_& module);
 void bind_pressure(py::module_& module);
 void bind_motion_contact(py::module_& module);
 void bind_recorded_motion(py::module_& module);
+void bind_report(py::module_& module);
 
 }  // namespace condyle::python

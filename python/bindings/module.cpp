@@ -25,4 +25,5 @@ PYBIND11_MODULE(_native, module) {
   bind_pressure(module);
   bind_motion_contact(module);
   bind_recorded_motion(module);
+  bind_report(module);
 }

@@ -9,6 +9,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "condyle/held_translation.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -20,12 +21,16 @@ namespace py = pybind11;
 
 /// A joint made ready for motions, with what that needs to live on.
 struct RangeHandle {
-  Joint joint;  ///< held at its translation
+  Joint joint;                              ///< held at its translation
+  std::optional<Vec3> held_translation_mm;  ///< of a free joint
   RangeOptions options;
   RangeOfMotion range;
 
-  RangeHandle(Joint held, RangeOptions given)
-      : joint(std::move(held)), options(std::move(given)), range(joint, options) {}
+  RangeHandle(const Joint& moving, const std::optional<Vec3>& translation, RangeOptions given)
+      : joint(held_at(moving, translation.value_or(Vec3::Zero()))),
+        held_translation_mm(translation),
+        options(std::move(given)),
+        range(joint, options) {}
 };
 
 /// (name, vary, sense, start_deg, range_deg) of a motion, vary a position among the joint's angles, and back.

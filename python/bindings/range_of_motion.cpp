@@ -5,7 +5,6 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
-#include "condyle/held_translation.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "condyle/path_limit.hpp"
 #include "interrupts.hpp"
@@ -14,12 +13,12 @@
 namespace condyle::python {
 namespace {
 
-/// The translation that a free joint keeps: the one given, else that of its reference pose.
-Vec3 held_translation(const JointHandle& handle, const py::object& given) {
+/// The translation that a free joint keeps: the one given, else that of its reference pose. Empty for the others.
+std::optional<Vec3> held_translation(const JointHandle& handle, const py::object& given) {
   const Joint& joint = handle.joint();
   if (joint.kind != JointKind::free) {
     if (!given.is_none()) throw UsageError("translation_mm: only a free joint translates");
-    return Vec3::Zero();
+    return std::nullopt;
   }
   const Vec3 held = given.is_none() ? handle.loaded.report.placement.reference_pose.translation_mm
                                     : vector_in(given, "translation_mm");
@@ -44,10 +43,10 @@ RangeOptions options_in(const JointHandle& handle, const py::dict& given) {
 
 std::unique_ptr<RangeHandle> ready(const JointHandle& handle, const py::object& translation_mm,
                                    const py::dict& given) {
-  const Vec3 translation = held_translation(handle, translation_mm);
+  const std::optional<Vec3> translation = held_translation(handle, translation_mm);
   RangeOptions options = options_in(handle, given);
   return followed(py::none(), [&](const auto&, const std::stop_token&) {
-    auto range = std::make_unique<RangeHandle>(held_at(handle.joint(), translation), options);
+    auto range = std::make_unique<RangeHandle>(handle.joint(), translation, options);
     // Found once, for bands too.
     range->options.bearing.surface = range->range.bearing().surface;
     return range;

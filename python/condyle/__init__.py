@@ -7,13 +7,14 @@ the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_
 
 from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, neck_clock, sagittal_clock
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
+from ._described_joint import BodyPart, JointNote
 from ._errors import FileError, MeshError, ReferenceContactError, UsageError
 from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
 from ._impingement_zone import BodyZone, ImpingementZone
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
-from ._joint import BodyPart, Joint, JointNote, read_joint
+from ._joint import Joint, read_joint
 from ._limit_band import LimitBand
 from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh

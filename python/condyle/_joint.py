@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal, Mapping, Optional, Sequence, Union
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answer import html_of
 from ._coordinates import positions_in
+from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
 from ._joint_description import description_of
@@ -29,30 +29,7 @@ from ._words import Path, Progress, count, number, path_of, progress_of, text_of
 PoseLike = Union[ArrayLike, Mapping[str, float]]
 
 
-@dataclass(frozen=True)
-class BodyPart:
-    """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many.
-
-    `is_bearing`: it slides on the other body, as cartilage does.
-    """
-
-    name: str
-    first_vertex: int
-    vertices: int
-    first_triangle: int
-    triangles: int
-    is_bearing: bool
-
-
-@dataclass(frozen=True)
-class JointNote:
-    """What looks wrong with a joint: `code` as in files ("wrong_side"), `text` one sentence."""
-
-    code: str
-    text: str
-
-
-class Joint:
+class Joint(DescribedJoint):
     """A fixed and a mobile body in the joint frame, ready to be asked at any pose.
 
     The frame F: millimetres, origin at the joint centre, X anterior, Y superior, Z to the subject's right. The mobile
@@ -98,10 +75,7 @@ class Joint:
     0.0
     """
 
-    __slots__ = ("_native", "_fixed", "_mobile", "__weakref__")
-    _native: NativeJoint
-    _fixed: TriMesh
-    _mobile: TriMesh
+    __slots__ = ("__weakref__",)
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike, *, name: str = "joint", kind: str = "ball",
                  joint: str = "hip", side: str = "right", units: str = "mm", translation_frame: str = "fixed",
@@ -134,97 +108,6 @@ class Joint:
     def from_file(cls, path: Path) -> Joint:
         """The same as :func:`read_joint`."""
         return cls._of_native(_native.read_joint(path_of(path)))
-
-    # What it is.
-
-    @property
-    def name(self) -> str:
-        return self._native.name
-
-    @property
-    def kind(self) -> str:
-        """"ball", "hinge" or "free"."""
-        return self._native.kind
-
-    @property
-    def joint(self) -> str:
-        """"hip", "knee", "ankle", "elbow" or "shoulder": order, signs and names of the angles."""
-        return self._native.anatomy
-
-    @property
-    def side(self) -> str:
-        """"right" or "left"."""
-        return self._native.side
-
-    @property
-    def fixed(self) -> TriMesh:
-        """The fixed body's mesh in F, mm; vertices as they were numbered when given."""
-        return self._fixed
-
-    @property
-    def mobile(self) -> TriMesh:
-        """The mobile body's mesh in M, mm."""
-        return self._mobile
-
-    @property
-    def fixed_name(self) -> str:
-        return self._native.fixed_name
-
-    @property
-    def mobile_name(self) -> str:
-        return self._native.mobile_name
-
-    @property
-    def fixed_parts(self) -> tuple[BodyPart, ...]:
-        """The meshes that the fixed body is made of; empty where it is one."""
-        return tuple(BodyPart(*part) for part in self._native.fixed_parts)
-
-    @property
-    def mobile_parts(self) -> tuple[BodyPart, ...]:
-        """Those of the mobile body."""
-        return tuple(BodyPart(*part) for part in self._native.mobile_parts)
-
-    def part(self, name: str, body: str = "mobile") -> TriMesh:
-        """The mesh of one part of a body, in that body's frame. UsageError with the names there are.
-
-        C++: `condyle::mesh_of_part` in condyle/joint.hpp.
-        """
-        is_fixed = word(body, "body", ("mobile", "fixed")) == "fixed"
-        return TriMesh._of_native(self._native.part(is_fixed, text_of(name, "name")))
-
-    @property
-    def translation_frame(self) -> str:
-        """Along which axes a free joint's x, y and z are: "fixed" or "joint_axes"."""
-        return self._native.translation_frame
-
-    @property
-    def X_WF(self) -> NDArray[np.float64]:
-        """(4, 4) the joint frame in the frame in which the meshes were given, mm."""
-        return self._native.X_WF
-
-    @property
-    def angle_names(self) -> tuple[tuple[str, str], ...]:
-        """Of each of the three angles the name where it is above zero, and where below."""
-        return tuple(self._native.angle_names)
-
-    @property
-    def reference_pose(self) -> NDArray[np.float64]:
-        """(4, 4) X_FM in which the mobile mesh was given."""
-        six = self._native.reference_pose
-        pose: NDArray[np.float64] = self._native.poses_at(np.array([six[:3]]), np.array([six[3:]]))[0]
-        return pose
-
-    @property
-    def notes(self) -> tuple[str, ...]:
-        """What was converted, repaired or fitted, one line each."""
-        return tuple(self._native.notes)
-
-    def checks(self) -> tuple[JointNote, ...]:
-        """What looks wrong with the joint; nothing is changed. Half a second for 50,000 triangles.
-
-        C++: `condyle::check_joint` in condyle/joint_checks.hpp.
-        """
-        return tuple(JointNote(code, text) for code, text in self._native.checks())
 
     # Where it is.
 
@@ -490,6 +373,39 @@ class Joint:
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
         return RangeOfMotion(self, _native.range_of_motion(self._native, translation_mm, options), motions)
+
+    def picture(self, pose: PoseLike, *, view: str = "anterior", colour: str = "depth", fixed: str = "solid",
+                mobile: str = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
+                field_mm: Optional[float] = None) -> NDArray[np.uint8]:
+        """Both bodies at one pose, drawn without a display: (height, width, 3) uint8, red, green, blue, from the top left.
+
+        Parameters
+        ----------
+        view : text
+            "anterior", "posterior", "left", "right", "superior", "inferior", "medial", "lateral", or several with hyphens.
+        colour : "depth", "gap", "nearest" or "none"
+            What the surfaces are coloured by; the scale stands below.
+        fixed, mobile : "solid", "transparent" or "hidden"
+        range_mm, field_mm : float, optional
+            End of the colours, and height of what is shown about the joint centre.
+
+        MeshError where a depth or a gap is asked of an open mesh. `matplotlib.pyplot.imsave(path, pixels)` writes it.
+
+        C++: `condyle::draw_joint` in condyle/io/picture.hpp; `condyle picture`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.picture({"flexion_deg": 140}, view="lateral", width=320, height=240).shape
+        (240, 320, 3)
+        """
+        looks = ("solid", "transparent", "hidden")
+        return _native.picture(
+            self._native, self._matrices(pose), text_of(view, "view"),
+            word(colour, "colour", ("depth", "gap", "nearest", "none")), word(fixed, "fixed", looks),
+            word(mobile, "mobile", looks), count(width, "width"), count(height, "height"),
+            None if range_mm is None else number(range_mm, "range_mm"),
+            None if field_mm is None else number(field_mm, "field_mm"))
 
     def path_limit(self, waypoints: Sequence[Mapping[str, float]], *, tolerance_deg: float = 1e-3) -> PathLimit:
         """Where a path of straight segments in the joint's angles ends, several of which may change at once.

@@ -16,7 +16,7 @@ from ._limit_band import LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, motion_limit_of, witness_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
-from ._words import Progress, count, number, progress_of
+from ._words import Path, Progress, count, number, path_of, progress_of, text_of
 
 if TYPE_CHECKING:
     from ._joint import Joint
@@ -174,6 +174,30 @@ class RangeOfMotion:
         found = _native.impingement_zones(self._native, [self._motions.tuple_of(each) for each in asked],
                                           number(past_deg, "past_deg"), progress_of(progress))
         return tuple(self._zone_of(zone) for zone in found)
+
+    def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0, seed: int = 1,
+                     past_deg: Optional[float] = None, progress: Progress = None) -> None:
+        """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
+
+        `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as
+        :meth:`zones`. Whole or not at all; FileError where it cannot be written.
+
+        C++: `condyle::write_report` in condyle/io/report.hpp; `condyle report`.
+
+        >>> import condyle, os, tempfile
+        >>> bones = condyle.sample_hip()
+        >>> rom = condyle.Joint(bones.hip_bone, bones.femur, name="right hip").range_of_motion(["flexion", "fadir"])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     rom.write_report(os.path.join(folder, "hip.html"), past_deg=5)
+        ...     os.listdir(folder)
+        ['hip.html']
+        """
+        samples = 0 if band_samples == 0 else count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES)
+        _native.write_report(
+            self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
+            [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
+            count(seed, "seed", high=2**64 - 1), None if past_deg is None else number(past_deg, "past_deg"),
+            progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:
         if found is None:

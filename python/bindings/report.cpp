@@ -1,0 +1,115 @@
+#include "condyle/io/report.hpp"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/impingement_zone.hpp"
+#include "condyle/io/picture.hpp"
+#include "interrupts.hpp"
+#include "motion.hpp"
+
+namespace condyle::python {
+namespace {
+
+/// Nothing where the joint was made of arrays: there are no files to name.
+std::optional<Provenance> files_of(const LoadedJoint& loaded) {
+  if (loaded.report.file.path.empty()) return std::nullopt;
+  return provenance_of(loaded, {"condyle.RangeOfMotion.write_report"});
+}
+
+std::vector<std::optional<ImpingementZone>> zones_past(const RangeHandle& range,
+                                                       const std::vector<MotionLimit>& limits,
+                                                       const std::optional<double>& past_deg) {
+  std::vector<std::optional<ImpingementZone>> zones;
+  if (!past_deg) return zones;
+  const ZoneFinder finder(range.joint, {.bearing = range.options.bearing, .past = Angle::degrees(*past_deg)});
+  for (const MotionLimit& limit : limits) zones.push_back(finder.zone(limit));
+  return zones;
+}
+
+void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
+            const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
+            std::uint64_t seed, const std::optional<double>& past_deg, const py::object& progress) {
+  const std::vector<Motion> motions = motions_in(given);
+  const LoadedJoint& loaded = handle.loaded;
+  followed(progress, [&](const auto& follow, const std::stop_token& stop) {
+    std::vector<MotionLimit> limits;
+    each_limit(range.range, motions, stop, [&](MotionLimit&& limit) { limits.push_back(std::move(limit)); });
+    const BandOptions band{.sigma = loaded.report.file.uncertainty, .samples = band_samples, .seed = seed};
+    std::vector<LimitBand> bands;
+    if (band_samples > 0)
+      bands = limit_bands(range.joint, motions, range.options, band, {.progress = follow, .stop = stop})
+                  .value_or(std::vector<LimitBand>{});
+    const auto zones = zones_past(range, limits, past_deg);
+    const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
+    std::vector<std::string> terms = terms_of(range.options, range.range);
+    std::optional<Provenance> from = files_of(loaded);
+    if (range.held_translation_mm) {
+      terms.push_back(term_of_held(*range.held_translation_mm));
+      if (from) from->frame = from->frame.of_held(*range.held_translation_mm);
+    }
+    const RomResult rom{.joint = range.joint,
+                        .limits = limits,
+                        .bearing = range.range.bearing(),
+                        .bearing_rule = range.range.bearing_rule(),
+                        .terms = terms,
+                        .held_translation_mm = range.held_translation_mm,
+                        .notes = notes,
+                        .zones = zones,
+                        .bands = bands,
+                        .band_options = band,
+                        .provenance = from ? &*from : nullptr};
+    if (!stop.stop_requested())
+      write_report(path, {.title = title.value_or(loaded.joint.name),
+                          .joint = loaded.joint,
+                          .reference_pose = loaded.report.placement.reference_pose,
+                          .rom = &rom});
+    return true;
+  });
+}
+
+BodyLook look_named(const std::string& name) {
+  return name == "solid" ? BodyLook::solid : name == "transparent" ? BodyLook::transparent : BodyLook::hidden;
+}
+
+PictureColour colour_named(const std::string& name) {
+  return name == "depth"     ? PictureColour::depth
+         : name == "gap"     ? PictureColour::gap
+         : name == "nearest" ? PictureColour::nearest
+                             : PictureColour::none;
+}
+
+/// (height, width, 3), uint8.
+py::array_t<std::uint8_t> picture(const JointHandle& handle, const py::object& pose, const std::string& view,
+                                  const std::string& colour, const std::string& fixed,
+                                  const std::string& mobile, std::size_t width, std::size_t height,
+                                  const std::optional<double>& range_mm,
+                                  const std::optional<double>& field_mm) {
+  const Pose X_FM = one_pose(pose, "pose");
+  const Joint& joint = handle.joint();
+  const PictureOptions options{.view = view_named(view, joint.side),
+                               .colour = colour_named(colour),
+                               .fixed = look_named(fixed),
+                               .mobile = look_named(mobile),
+                               .width = width,
+                               .height = height,
+                               .range_mm = range_mm,
+                               .field_mm = field_mm};
+  const Picture drawn = followed(py::none(), [&](const auto&, const std::stop_token&) {
+    return draw_joint(joint, angles_at(joint.coordinates(), X_FM), X_FM, options);
+  });
+  py::array_t<std::uint8_t> pixels({drawn.height, drawn.width, std::size_t{3}});
+  std::copy(drawn.rgb.begin(), drawn.rgb.end(), pixels.mutable_data());
+  return pixels;
+}
+
+}  // namespace
+
+void bind_report(py::module_& module) {
+  module.def("write_report", &report);
+  module.def("picture", &picture);
+}
+
+}  // namespace condyle::python

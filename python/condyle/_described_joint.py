@@ -1,0 +1,133 @@
+"""What a joint is: its bodies, frame and names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._mesh import TriMesh
+from ._native import Joint as NativeJoint
+from ._words import text_of, word
+
+
+@dataclass(frozen=True)
+class BodyPart:
+    """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many.
+
+    `is_bearing`: it slides on the other body, as cartilage does.
+    """
+
+    name: str
+    first_vertex: int
+    vertices: int
+    first_triangle: int
+    triangles: int
+    is_bearing: bool
+
+
+@dataclass(frozen=True)
+class JointNote:
+    """What looks wrong with a joint: `code` as in files ("wrong_side"), `text` one sentence."""
+
+    code: str
+    text: str
+
+
+class DescribedJoint:
+    """A joint before anything is asked of it."""
+
+    __slots__ = ("_native", "_fixed", "_mobile")
+    _native: NativeJoint
+    _fixed: TriMesh
+    _mobile: TriMesh
+
+    @property
+    def name(self) -> str:
+        return self._native.name
+
+    @property
+    def kind(self) -> str:
+        """"ball", "hinge" or "free"."""
+        return self._native.kind
+
+    @property
+    def joint(self) -> str:
+        """"hip", "knee", "ankle", "elbow" or "shoulder": order, signs and names of the angles."""
+        return self._native.anatomy
+
+    @property
+    def side(self) -> str:
+        """"right" or "left"."""
+        return self._native.side
+
+    @property
+    def fixed(self) -> TriMesh:
+        """The fixed body's mesh in F, mm; vertices as they were numbered when given."""
+        return self._fixed
+
+    @property
+    def mobile(self) -> TriMesh:
+        """The mobile body's mesh in M, mm."""
+        return self._mobile
+
+    @property
+    def fixed_name(self) -> str:
+        return self._native.fixed_name
+
+    @property
+    def mobile_name(self) -> str:
+        return self._native.mobile_name
+
+    @property
+    def fixed_parts(self) -> tuple[BodyPart, ...]:
+        """The meshes that the fixed body is made of; empty where it is one."""
+        return tuple(BodyPart(*part) for part in self._native.fixed_parts)
+
+    @property
+    def mobile_parts(self) -> tuple[BodyPart, ...]:
+        """Those of the mobile body."""
+        return tuple(BodyPart(*part) for part in self._native.mobile_parts)
+
+    def part(self, name: str, body: str = "mobile") -> TriMesh:
+        """The mesh of one part of a body, in that body's frame. UsageError with the names there are.
+
+        C++: `condyle::mesh_of_part` in condyle/joint.hpp.
+        """
+        is_fixed = word(body, "body", ("mobile", "fixed")) == "fixed"
+        return TriMesh._of_native(self._native.part(is_fixed, text_of(name, "name")))
+
+    @property
+    def translation_frame(self) -> str:
+        """Along which axes a free joint's x, y and z are: "fixed" or "joint_axes"."""
+        return self._native.translation_frame
+
+    @property
+    def X_WF(self) -> NDArray[np.float64]:
+        """(4, 4) the joint frame in the frame in which the meshes were given, mm."""
+        return self._native.X_WF
+
+    @property
+    def angle_names(self) -> tuple[tuple[str, str], ...]:
+        """Of each of the three angles the name where it is above zero, and where below."""
+        return tuple(self._native.angle_names)
+
+    @property
+    def reference_pose(self) -> NDArray[np.float64]:
+        """(4, 4) X_FM in which the mobile mesh was given."""
+        six = self._native.reference_pose
+        pose: NDArray[np.float64] = self._native.poses_at(np.array([six[:3]]), np.array([six[3:]]))[0]
+        return pose
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was converted, repaired or fitted, one line each."""
+        return tuple(self._native.notes)
+
+    def checks(self) -> tuple[JointNote, ...]:
+        """What looks wrong with the joint; nothing is changed. Half a second for 50,000 triangles.
+
+        C++: `condyle::check_joint` in condyle/joint_checks.hpp.
+        """
+        return tuple(JointNote(code, text) for code, text in self._native.checks())

@@ -1,0 +1,71 @@
+"""Reports and pictures hold what the command's hold."""
+
+import base64
+import json
+import re
+import subprocess
+import zlib
+
+import numpy as np
+import pytest
+
+import condyle
+
+
+def text_of(path):
+    data = zlib.decompress(base64.b64decode(re.search(r'id="condyle-data">([^<]*)<', path.read_text()).group(1)))
+    return json.loads(data[16:16 + int.from_bytes(data[12:16], "little")])
+
+
+def test_a_report_is_that_of_the_command_but_for_its_name(command, hip, hip_file, tmp_path):
+    subprocess.run([command, "report", hip_file, "--band=20", "--past", "5", "--out", tmp_path / "theirs.html"], check=True,
+                   capture_output=True)
+    hip.range_of_motion().write_report(tmp_path / "ours.html", band_samples=20, past_deg=5)
+    theirs, ours = text_of(tmp_path / "theirs.html"), text_of(tmp_path / "ours.html")
+    for text in (theirs, ours):
+        del text["rom"]["provenance"]["command"]
+    assert ours == theirs
+
+
+def test_a_report_has_the_motions_asked_for_and_the_title_given(hip, tmp_path):
+    rom = hip.range_of_motion(["flexion", "fadir"])
+    rom.write_report(tmp_path / "hip.html", title="Hip & <more>")
+    text = text_of(tmp_path / "hip.html")
+    assert text["title"] == "Hip & <more>"
+    assert [motion["limit_deg"] for motion in text["rom"]["motions"]] == [limit.turned_deg for limit in rom.limits]
+    assert text["zones"] == []
+
+
+def test_a_joint_of_arrays_has_a_report_without_files(tmp_path):
+    bones = condyle.sample_hip(scenario=1)
+    rom = condyle.Joint(bones.hip_bone, bones.femur, name="made of arrays").range_of_motion(["flexion"])
+    rom.write_report(tmp_path / "hip.html")
+    text = text_of(tmp_path / "hip.html")
+    assert text["title"] == "made of arrays"
+    assert text["rom"]["provenance"] is None
+
+
+def test_a_report_that_cannot_be_written_leaves_nothing(hip, tmp_path):
+    rom = hip.range_of_motion(["flexion"])
+    with pytest.raises(condyle.FileError):
+        rom.write_report(tmp_path)
+    with pytest.raises(condyle.UsageError, match="band_samples"):
+        rom.write_report(tmp_path / "hip.html", band_samples=3)
+    with pytest.raises(condyle.UsageError, match="past"):
+        rom.write_report(tmp_path / "hip.html", past_deg=-1)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_picture_is_that_of_the_command(command, hip, hip_file, tmp_path):
+    image = pytest.importorskip("matplotlib.image")
+    subprocess.run([command, "picture", hip_file, "--pose", "flexion=140", "--view", "lateral", "--hide", "fixed", "--size", "320x240",
+                    "--out", tmp_path / "hip.png"], check=True, capture_output=True)
+    theirs = np.round(255 * image.imread(tmp_path / "hip.png")[:, :, :3]).astype(np.uint8)
+    ours = hip.picture({"flexion_deg": 140}, view="lateral", fixed="hidden", width=320, height=240)
+    assert ours.dtype == np.uint8 and np.array_equal(ours, theirs)
+
+
+def test_wrong_pictures_are_refused(hip):
+    for wrong in ({"view": "askew"}, {"colour": "red"}, {"fixed": "gone"}, {"width": 1}, {"range_mm": -1}, {"field_mm": np.nan}):
+        with pytest.raises(condyle.UsageError):
+            hip.picture({"flexion_deg": 0}, **wrong)
