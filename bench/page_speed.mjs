@@ -1,9 +1,10 @@
 // Times what the page of a report asks of its worker, in a real browser: node bench/page_speed.mjs REPORT.html
 // Told are the median and the 99th percentile of milliseconds from question to answer, worker round trip included.
 import { resolve } from "node:path";
-import { openPage, settled, withBrowser } from "../tests/viewer/browser.mjs";
+import { launchedBrowser, openPage, settled } from "../tests/viewer/browser.mjs";
 
-await withBrowser(async (browser) => {
+const browser = await launchedBrowser();
+try {
   const { page, firstAnswer_ms } = await openPage(browser, resolve(process.argv[2]));
   await settled(page);
   // The bearing surface is looked for after the first answer.
@@ -32,4 +33,6 @@ await withBrowser(async (browser) => {
   });
   console.log(`first answer after ${firstAnswer_ms.toFixed(0)} ms`);
   for (const [what, [median, most]] of Object.entries(times)) console.log(`${what}: ${median.toFixed(2)} ms, ${most.toFixed(2)} ms`);
-});
+} finally {
+  await browser.close();
+}

@@ -14,9 +14,13 @@ export const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "u
 const quiet = ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
   "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
+export function launchedBrowser() {
+  return chromium.launch({ executablePath: "/usr/bin/chromium", args: quiet });
+}
+
 /// One browser for all tests of a file, closed after them.
 export async function sharedBrowser() {
-  const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: quiet });
+  const browser = await launchedBrowser();
   after(() => browser.close());
   return browser;
 }

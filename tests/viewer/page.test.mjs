@@ -213,6 +213,18 @@ test("meshes of a body are shown one by one", async () => {
   await page.context().close();
 });
 
+test("a map is computed in the page where the report has none, and says how far it is", async () => {
+  const { page } = await openPage(browser, pathOf("zones"));
+  assert.equal(textOf("zones").map, null);
+  await page.getByRole("button", { name: "Compute a map" }).click();
+  await page.getByText(/^Computing the map: \d+ of 120 points$/).waitFor();
+  await page.waitForFunction(() => document.getElementById("map-progress").textContent === "", undefined, { timeout: 120000 });
+  assert.equal(await page.locator("rect.cell").count(), 120);
+  assert.equal(await page.locator("rect.cell[fill=none]").count(), 0);
+  await keep(page, "map");
+  await page.context().close();
+});
+
 test("a recorded motion plays, with a cursor in its curves", { skip: !has("walk") && "not made" }, async () => {
   const { page } = await openPage(browser, pathOf("walk"));
   await settled(page);
