@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <ostream>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "condyle/tangential.hpp"
 #include "sample/made_hips.hpp"
+#include "simd/instruction_set.hpp"
 
 /// Answers on the sample hip as they have always been: a change of the code that is not meant to change them
 /// shows here at the first bit. A change that is meant to: store the new hashes, and say in the commit why.
@@ -224,13 +227,26 @@ void expect_stored(Scenario scenario, const Hashes& stored) {
   EXPECT_GE(seen.contacts, 6u);
 }
 
+constexpr Hashes of_scenario_one = {.hip_bone = 0x637ce21c2363a85e,
+                                    .femur = 0x1cb8fd6386079d71,
+                                    .radial = 0x0e6b42dd8af0c61c,
+                                    .tangential = 0x125143833bf159cc,
+                                    .arcs = 0x09afef927db2cb9f,
+                                    .motions = 0xb9be3589290fe999};
+
 TEST(StoredResults, OfScenarioOneAreWhatTheyWere) {
-  expect_stored(Scenario::one, {.hip_bone = 0x637ce21c2363a85e,
-                                .femur = 0x1cb8fd6386079d71,
-                                .radial = 0x0e6b42dd8af0c61c,
-                                .tangential = 0x125143833bf159cc,
-                                .arcs = 0x09afef927db2cb9f,
-                                .motions = 0xb9be3589290fe999});
+  expect_stored(Scenario::one, of_scenario_one);
+}
+
+TEST(StoredResults, AreTheSameOnEachInstructionSetAndOnOneTwoAndSevenThreads) {
+  for (const simd::InstructionSet& set : simd::instruction_sets()) {
+    const simd::InstructionSetInUse in_use(set);
+    for (const std::size_t threads : {1, 2, 7}) {
+      SCOPED_TRACE(set.name + ", " + std::to_string(threads) + " threads");
+      const tbb::global_control most(tbb::global_control::max_allowed_parallelism, threads);
+      expect_stored(Scenario::one, of_scenario_one);
+    }
+  }
 }
 
 TEST(StoredResults, OfScenarioTwoAreWhatTheyWere) {

@@ -99,7 +99,14 @@ bool segment_meets(const Exact3& p, const Exact3& q, const std::array<Exact3, 3>
   return holds(t, normal, {base[0] + shift[0], base[1] + shift[1], base[2] + shift[2]}, denominator);
 }
 
+bool has_area(const std::array<Exact3, 3>& t) {
+  const Exact3 normal = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+  return dot(normal, normal) != 0;
+}
+
+/// A triangle without area meets nothing: its points are those of its neighbours.
 bool intersect(const std::array<Exact3, 3>& a, const std::array<Exact3, 3>& b) {
+  if (!has_area(a) || !has_area(b)) return false;
   for (int k = 0; k < 3; ++k) {
     if (segment_meets(a[k], a[(k + 1) % 3], b) || segment_meets(b[k], b[(k + 1) % 3], a)) return true;
   }

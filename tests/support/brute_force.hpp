@@ -18,7 +18,7 @@ struct BruteWinding {
 };
 BruteWinding winding_number(const TriMesh& mesh, const Vec3& p);
 
-/// Whether two closed triangles share a point, exactly; touching counts.
+/// Whether two closed triangles share a point, exactly; touching counts. A triangle without area meets nothing.
 bool triangles_intersect(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b);
 
 /// Every intersecting pair (triangle of a, triangle of b), sorted.
