@@ -14,6 +14,7 @@ PYBIND11_MODULE(_native, module) {
   bind_gaps(module);
   bind_tables(module);
   bind_sample(module);
+  bind_study(module);
   bind_range_of_motion(module);
   bind_motion_map(module);
   bind_zones(module);

@@ -21,6 +21,7 @@ except ImportError:
 
 from . import files, style
 from .agreement import Series, agreement, many_methods
+from .cohort import limit_against, limit_distributions
 from .files import ReadError
 from .flatten import Flattened, about_centre, on_plane
 from .limit_bars import limits
@@ -44,6 +45,8 @@ __all__ = [
     "curve",
     "cycles",
     "files",
+    "limit_against",
+    "limit_distributions",
     "limits",
     "many_methods",
     "motion_map",

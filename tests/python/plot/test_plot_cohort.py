@@ -1,0 +1,83 @@
+"""Spreads of limits over a cohort stand where the numbers are."""
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+import condyle.plot as figures
+from condyle.plot.cohort import running_band
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+@pytest.fixture()
+def table():
+    """Of 101 joints: flexion 100 to 200 degrees, FADIR half of it; every fifth FADIR reaches the end of the range."""
+    n = 101
+    flexion = np.arange(100.0, 201.0)
+    return {
+        "motion": np.array(["flexion"] * n + ["fadir"] * n),
+        "limit_deg": np.concatenate([flexion, flexion / 2]),
+        "reason": np.array(["contact"] * n + ["end_of_range" if i % 5 == 0 else "contact" for i in range(n)]),
+        "sex": np.array(["f" if i % 2 else "m" for i in range(n)] * 2),
+        "alpha_deg": np.tile(np.linspace(40, 80, n), 2),
+    }
+
+
+def of(ax, gid):
+    return [line for line in ax.lines if line.get_gid() == gid]
+
+
+def test_bands_are_percentiles_of_each_motion(table):
+    ax = figures.limit_distributions(table)
+    assert [line.get_xdata().tolist() for line in of(ax, "band")] == [[105, 195], [52.5, 97.5]]
+    assert [line.get_xdata().tolist() for line in of(ax, "median")] == [[150], [75]]
+    boxes = [patch for patch in ax.patches if patch.get_gid() == "quartiles"]
+    assert [(box.get_x(), box.get_width()) for box in boxes] == [(125, 50), (62.5, 25)]
+    assert len(of(ax, "without_contact")) == 1
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["Flexion", "FADIR"]
+
+
+def test_groups_stand_below_each_other_in_the_order_of_their_values(table):
+    ax = figures.limit_distributions(table, by="sex", motions=["flexion"])
+    medians = of(ax, "median")
+    assert [line.get_xdata()[0] for line in medians] == [150, 150]
+    assert medians[0].get_ydata()[0] < 0 < medians[1].get_ydata()[0]
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["sex f", "sex m"]
+
+
+def test_a_point_stands_for_each_joint(table):
+    ax = figures.limit_against(table, "alpha_deg", "fadir", label="alpha angle (°)")
+    (contact,), (free,) = of(ax, "limits"), of(ax, "without_contact")
+    assert len(contact.get_xdata()) == 80 and len(free.get_xdata()) == 21
+    assert (free.get_ydata()[0], free.get_xdata()[0]) == (50, 40)
+    (median,) = of(ax, "median")
+    # The limit goes with the measure in a line, and so does the median of equal parts.
+    np.testing.assert_allclose(median.get_ydata(), 50 + (median.get_xdata() - 40) / 40 * 50)
+    assert ax.get_xlabel() == "alpha angle (°)" and ax.get_ylabel() == "FADIR (°)"
+
+
+def test_a_running_band_has_parts_of_equally_many():
+    x = np.arange(40.0)
+    np.testing.assert_allclose(running_band(x[::-1], x[::-1], 2), [[9.5, 0.95, 9.5, 18.05], [29.5, 20.95, 29.5, 38.05]])
+
+
+def test_what_is_not_there_is_named(table):
+    for column in ("nothere", "sex"):
+        with pytest.raises(ValueError, match=f"'{column}'"):
+            figures.limit_against(table, column, "flexion")
+    with pytest.raises(ValueError, match="no motion 'faber'"):
+        figures.limit_distributions(table, motions=["faber"])
+    with pytest.raises(ValueError, match="no motion 'faber'"):
+        figures.limit_against(table, "alpha_deg", "faber")
+    with pytest.raises(ValueError, match="101 values: at most 7 groups"):
+        figures.limit_distributions(table, by="alpha_deg")
+
+
+def test_a_dataframe_will_do(table):
+    pandas = pytest.importorskip("pandas")
+    ax = figures.limit_distributions(pandas.DataFrame(table), by="sex")
+    assert len(of(ax, "band")) == 4

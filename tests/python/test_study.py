@@ -1,0 +1,105 @@
+"""Studies from Python: the same files as of the command, read back as arrays and tables."""
+
+import csv
+import math
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import condyle
+
+MOTIONS = ["flexion", "internal_rotation_at_90_flexion"]
+
+
+@pytest.fixture(scope="module")
+def table(hip_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("cohort") / "hips.csv"
+    path.write_text("id,joint,group,age_years\n"
+                    f'a,{hip_file},"x, y",30\n'
+                    "b,nothere.toml,z,\n"
+                    f"c,{hip_file},z,41.5\n", encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def study(table: Path, tmp_path_factory: pytest.TempPathFactory) -> condyle.Study:
+    return condyle.run_study(table, tmp_path_factory.mktemp("out"), motions=MOTIONS)
+
+
+def test_limits_are_those_of_the_joint(study: condyle.Study, hip: condyle.Joint):
+    assert repr(study) == "Study(2 joints, 1 failures, 2 motions)"
+    limits = [limit.turned_deg for limit in hip.range_of_motion(MOTIONS).limits]
+    assert study.limits["limit_deg"].tolist() == limits * 2
+    assert study.limits["id"].tolist() == ["a", "a", "c", "c"]
+    assert study.limits["group"].tolist() == ["x, y"] * 2 + ["z"] * 2
+    assert study.limits["age_years"].tolist() == [30, 30, 41.5, 41.5]
+    assert study.limits.units["joint_space_mm"] == "mm" and study.limits.meanings["reason"]
+
+
+def test_failures_keep_exit_code_and_message(study: condyle.Study):
+    assert study.failures["exit_code"].tolist() == [3]
+    assert study.failures["message"][0].endswith("nothere.toml: no such file")
+    assert study.failures["table_row"].tolist() == [2] and math.isnan(study.failures["age_years"][0])
+
+
+def test_tables_become_dataframes(study: condyle.Study):
+    pytest.importorskip("pandas")
+    frame = study.to_dataframe()
+    assert len(frame) == 4 and set(frame["side"]) == {"right"}
+    assert frame.groupby("group")["limit_deg"].max().tolist() == [max(study.limits["limit_deg"])] * 2
+    assert study.limits.to_dataframe()["limit_deg"].tolist() == study.limits["limit_deg"].tolist()
+
+
+def test_the_command_writes_the_same_bytes(study: condyle.Study, table: Path, command: str, tmp_path: Path):
+    subprocess.run([command, "study", table, "--out", tmp_path / "a", "--motion", ",".join(MOTIONS)], check=True,
+                   capture_output=True)
+    condyle.run_study(table, tmp_path / "b", motions=MOTIONS)
+    for name in ("limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5", "study.json"):
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+
+
+def test_shards_are_merged(study: condyle.Study, table: Path, tmp_path: Path):
+    for number in (1, 2, 3):
+        shard = condyle.run_study(table, tmp_path, motions=MOTIONS, shard=(number, 3))
+        assert shard.hips.rows + shard.failures.rows == 1
+    with pytest.raises(condyle.FileError, match="has shards only"):
+        condyle.read_study(tmp_path)
+    merged = condyle.merge_study(tmp_path)
+    for name in merged.limits:
+        np.testing.assert_array_equal(merged.limits[name], study.limits[name])
+
+
+def test_what_is_not_a_study_is_refused(table: Path, tmp_path: Path):
+    with pytest.raises(condyle.FileError, match="study.json: No such file"):
+        condyle.read_study(tmp_path)
+    (tmp_path / "study.json").write_text("{}")
+    with pytest.raises(condyle.FileError, match="is not the record of a study"):
+        condyle.read_study(tmp_path)
+    condyle.run_study(table, tmp_path / "out", motions=MOTIONS)
+    with open(tmp_path / "out/limits.csv", "a", encoding="utf-8") as more:
+        csv.writer(more).writerow(["x"])
+    with pytest.raises(condyle.FileError, match="limits.csv: is not the one"):
+        condyle.read_study(tmp_path / "out")
+
+
+def test_arguments_are_checked(table: Path, tmp_path: Path):
+    for wrong in ({"shard": (0, 3)}, {"shard": (4, 3)}, {"shard": 3}, {"motions": "flexion"}, {"motions": ["flexoin"]},
+                  {"band_samples": -1}, {"band_samples": 7}, {"depth_at": "yaw=3"}, {"motions": [3]}):
+        with pytest.raises(condyle.UsageError):
+            condyle.run_study(table, tmp_path, **wrong)
+    with pytest.raises(condyle.FileError):
+        condyle.run_study(table, tmp_path, strict=True)
+    with pytest.raises(condyle.UsageError):
+        condyle.sample_cohort(tmp_path, 0)
+
+
+def test_a_cohort_is_a_table(tmp_path: Path):
+    condyle.sample_cohort(tmp_path, 50, seed=3)
+    with open(tmp_path / "cohort.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 50 and {row["side"] for row in rows} == {"left", "right"}
+    assert set(condyle.HIP_PARAMETERS) <= set(rows[0])
+
+
