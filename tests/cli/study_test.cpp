@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <random>
 #include <thread>
 
@@ -76,8 +77,8 @@ TEST_F(StudyCommand, RefusesWhatCannotBe) {
     expect_refusal(run(std::string("study table.csv --out out --shard=") + shard), 2, "such as 3/7", shard);
   expect_refusal(run("study nothere.csv --out out"), 3, "nothere.csv: no such file", "no table");
   expect_refusal(run("study table.csv --out out --motion flexoin"), 2, "flexoin", "motion");
-  expect_refusal(run("study table.csv --out out --map flexion=0:10:1 flexion=0:10:1"), 2, "one is named twice",
-                 "map");
+  expect_refusal(run("study table.csv --out out --map flexion=0:10:1 flexion=0:10:1"), 2,
+                 "one is named twice", "map");
   expect_refusal(run("study table.csv --out out --depth yaw=3"), 2, "yaw", "depth");
   expect_refusal(run("merge nothere"), 3, "nothere: there is no shard", "merge");
   std::ofstream(here / "file") << "x";
@@ -114,7 +115,8 @@ TEST_F(StudyCommand, KilledAtAnyMomentIsResumedToTheSameBytes) {
   const auto whole_run = Clock::now() - began;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0, 1.1);
-  for (int kill_number = 0; kill_number < 8; ++kill_number) {
+  const int kills = std::getenv("CONDYLE_LONG_TESTS") != nullptr ? 200 : 8;
+  for (int kill_number = 0; kill_number < kills; ++kill_number) {
     const pid_t process = begin(here, "study table.csv --out killed --band=100", folder / "err");
     std::this_thread::sleep_for(whole_run * share(random));
     ::kill(process, SIGKILL);

@@ -211,6 +211,10 @@ TEST_F(StudyOfArms, EndsWithItsLowestBadJointWhereThatIsAskedFor) {
   strict.bad_joint = BadJoint::ends_run;
   EXPECT_NE(message_of<FileError>([&] { run(strict); }).find("nothere.toml"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "out/limits.csv"));
+  // Tables that are there already change nothing, and stay.
+  run(study("out"));
+  EXPECT_NE(message_of<FileError>([&] { run(strict); }).find("nothere.toml"), std::string::npos);
+  EXPECT_TRUE(run(study("out")).was_there);
 }
 
 TEST_F(StudyOfArms, EndsWhereItsOptionsDoNotFit) {

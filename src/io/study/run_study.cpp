@@ -184,7 +184,9 @@ std::optional<StudyDone> run_study(const Study& study, const StudyControl& contr
   io::StudyResults results{record_of(study, table), io::columns_csv(columns), {}};
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
-  if (const auto done = done_before(folder, results.record, results.columns, table, rows)) return done;
+  const auto done = done_before(folder, results.record, results.columns, table, rows);
+  // Of a failure that is to end the run the tables know the message only, not the error.
+  if (done && (done->failures == 0 || study.bad_joint == BadJoint::is_a_row)) return done;
 
   const auto answers = Answers(study, table, rows, control).all();
   if (!answers) return std::nullopt;
