@@ -3,9 +3,9 @@
 
 Usage: PYTHONPATH=build/release/python scripts/draw_docs.py [NAME...]
 
-NAME is one or more of hip, pictures, deformities, knee and examples; all if none is given. Needs a release build
-with the example `example_deformity_curves`, matplotlib, and for knee and examples python3-vtk9 and the data that
-CONDYLE_DATA names. Those of docs/images/bench are made by `make bench`.
+NAME is one or more of hip, pictures, deformities, cohort (20 minutes of processor time), knee and examples; all if none
+is given. Needs a release build with the example `example_deformity_curves`, matplotlib, and for knee and examples
+python3-vtk9 and the data that CONDYLE_DATA names. Those of docs/images/bench are made by `make bench`.
 """
 import os
 import subprocess
@@ -18,6 +18,7 @@ matplotlib.use("Agg")
 
 import condyle.plot as figures  # noqa: E402
 import matplotlib.pyplot as plt  # noqa: E402
+from condyle import read_study  # noqa: E402
 from condyle.plot.folder import drawings  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,6 +85,23 @@ def draw_deformities():
     save(figure, "deformities.png")
 
 
+def draw_cohort():
+    """1,000 sample hips. Meshes that lie there are not made again."""
+    if not (OUT / "cohort/cohort.csv").exists():
+        condyle("sample", "cohort", "--n", 1000, "--seed", 1, "--meshes", "--out", OUT / "cohort")
+    condyle("study", OUT / "cohort/cohort.csv", "--out", OUT / "study")
+    study = read_study(OUT / "study")
+    save(figures.limit_distributions(study), "cohort_limits.png")
+    measures = (("bone_alpha_angle_deg", "alpha angle (°)"),
+                ("lateral_centre_edge_angle_deg", "lateral centre-edge angle (°)"))
+    with figures.print_style():
+        figure, both = plt.subplots(1, 2, sharey=True, layout="constrained", figsize=figures.size_mm(160, 66))
+        for ax, (measure, label) in zip(both, measures):
+            figures.limit_against(study, measure, "internal_rotation_at_90_flexion", ax=ax, label=label)
+        both[1].set_ylabel("")
+    save(figure, "cohort_internal_rotation.png")
+
+
 def knee_data():
     """Folder of the knee's data; also for those who ask the environment."""
     data = Path(os.environ.get("CONDYLE_DATA", ROOT.parent / "shared/data")) / "knee_lenhart2015_right"
@@ -114,6 +132,7 @@ DRAWN = {
     "hip": draw_hip,
     "pictures": draw_pictures,
     "deformities": draw_deformities,
+    "cohort": draw_cohort,
     "knee": draw_knee,
     "examples": draw_examples,
 }
