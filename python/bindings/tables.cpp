@@ -88,19 +88,9 @@ std::unique_ptr<SharedRadialTable> radial_table(const Mesh& mesh, bool is_cube, 
   return std::make_unique<SharedRadialTable>(mesh, options);
 }
 
-/// Squares and fourth powers of lengths have to be doubles: a ring table finds its cells by them.
-constexpr double largest_mm = 1e60;
-
-void require_computable(const Vec3& p, const char* name) {
-  if (!(p.cwiseAbs().maxCoeff() <= largest_mm))
-    throw UsageError(std::string(name) + ": coordinates beyond 1e60 mm are too large to compute with");
-}
-
 RingTable ring_table(const Mesh& mesh, const py::object& point, const py::object& direction,
                      double cells_per_triangle) {
   const Vec3 on_axis = vector_in(point, "point");
-  require_computable(on_axis, "point");
-  for (std::size_t v = 0; v < mesh.vertices().size(); ++v) require_computable(mesh.vertices()[v], "mesh");
   const AxisFrame frame(on_axis, vector_in(direction, "direction"));
   const py::gil_scoped_release released;
   return RingTable(mesh, frame, RingTableOptions{cells_per_triangle});
@@ -108,7 +98,6 @@ RingTable ring_table(const Mesh& mesh, const py::object& point, const py::object
 
 py::dict query_rings(const RingTable& table, const py::object& given, bool is_nearest_arc) {
   const PointsIn points(given, "points");
-  for (std::size_t i = 0; i < points.size(); ++i) require_computable(points.view()[i], "points");
   TangentialResults results = [&] {
     const py::gil_scoped_release released;
     return table.query(points.view(),
@@ -120,7 +109,6 @@ py::dict query_rings(const RingTable& table, const py::object& given, bool is_ne
 /// Of all points, point i owning [offset[i], offset[i + 1]).
 py::dict occupied_arcs(const RingTable& table, const py::object& given) {
   const PointsIn points(given, "points");
-  for (std::size_t i = 0; i < points.size(); ++i) require_computable(points.view()[i], "points");
   std::vector<std::int64_t> offset{0};
   std::vector<double> begin_deg, end_deg;
   std::vector<Index> enters, leaves;

@@ -4,6 +4,7 @@
 #include "condyle/error.hpp"
 #include "condyle/pressure.hpp"
 #include "contact/elastic_parts.hpp"
+#include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
 
 namespace condyle {
@@ -135,6 +136,7 @@ const ElasticContactOptions& ElasticContact::options() const noexcept {
 }
 
 ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
+  core::require_in_range(X_FM);
   auto answers = parts_->spare.take();
   parts_->answer(X_FM, *answers);
   ElasticContactResults results = parts_->results_of(*answers, X_FM);

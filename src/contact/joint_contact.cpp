@@ -9,6 +9,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "contact/body_pair.hpp"
+#include "core/coordinate_range.hpp"
 #include "core/lazy.hpp"
 
 namespace condyle {
@@ -144,6 +145,7 @@ void JointContact::fixed_in_mobile(const Pose& X_FM, Penetrations& out) const {
 }
 
 RadialContact JointContact::radial(const Pose& X_FM) const {
+  core::require_in_range(X_FM);
   RadialContact contact;
   if (fixed().is_closed()) contact.mobile_in_fixed = fixed_table().query(posed(X_FM, mobile().vertices()));
   if (mobile().is_closed())
@@ -154,6 +156,7 @@ RadialContact JointContact::radial(const Pose& X_FM) const {
 }
 
 TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F, TangentialRule rule) const {
+  core::require_in_range(X_FM);
   TangentialContact contact;
   if (fixed().is_closed()) {
     const auto table = parts_->fixed.ring_table(Vec3::Zero(), axis_F);
@@ -170,10 +173,12 @@ TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
 }
 
 std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {
+  core::require_in_range(X_FM);
   return parts_->bodies().pairs(X_FM);
 }
 
 bool JointContact::in_contact(const Pose& X_FM) const {
+  core::require_in_range(X_FM);
   return parts_->bodies().touch(X_FM);
 }
 

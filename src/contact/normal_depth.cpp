@@ -4,6 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "contact/overlap_sampler.hpp"
+#include "core/coordinate_range.hpp"
 
 namespace condyle {
 
@@ -30,6 +31,7 @@ SurfaceContact NormalDepth::at(const Pose& X_CT) const {
 }
 
 void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
+  core::require_in_range(X_CT);
   auto found = sampler_->spare_found().take();
   sampler_->sample(X_CT, contact::Quadrature::of_degree_2, {}, *found);
   contact::add_up(*sampler_, *found, {}, out);

@@ -2,6 +2,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/mesh.hpp"
+#include "core/coordinate_range.hpp"
 
 namespace condyle {
 namespace {
@@ -27,6 +28,8 @@ Vec3 unit(const Vec3& v) {
 AxisFrame::AxisFrame(const Vec3& point, const Vec3& direction) : point_(point) {
   if (!point.allFinite() || !direction.allFinite())
     throw UsageError("joint axis: a coordinate is not finite");
+  if (point.cwiseAbs().maxCoeff() > core::largest_coordinate)
+    throw UsageError("joint axis: its point is beyond 1e30 mm");
   if (direction.isZero(0)) throw UsageError("joint axis: its direction is zero");
   const Vec3 z = unit(direction), x = frame_x(z);
   rotation_.row(0) = x;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/resampling.hpp"
 
@@ -45,7 +46,7 @@ Mesh placed(const Pose& X_AW, const Pose& X_WB, double scale, const Body& body) 
       return static_cast<double>(m(i, 0) * x + m(i, 1) * y + m(i, 2) * z + m(i, 3));
     };
     const Vec3 p(row(0), row(1), row(2));
-    if (!p.allFinite())
+    if (!(p.cwiseAbs().maxCoeff() <= core::largest_coordinate))
       throw UsageError(body.name + ": vertex " + std::to_string(v) +
                        ": coordinates too large for millimetres");
     points.set(v, p);

@@ -1,11 +1,12 @@
 #include "condyle/mesh.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <mutex>
 #include <string>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "core/coordinate_range.hpp"
 #include "mesh/edge_balance.hpp"
 #include "mesh/edge_table.hpp"
 
@@ -21,17 +22,29 @@ void check_size(const char* what, std::size_t count, std::size_t most) {
     throw MeshError(std::to_string(count) + " " + what + ", not fewer than " + std::to_string(most));
 }
 
+/// Whether the vertices are apart, and nowhere far enough.
+bool is_too_small(const Points& points) {
+  double extent = 0;
+  for (const auto* column : {&points.x, &points.y, &points.z}) {
+    if (column->empty()) return false;
+    const auto [low, high] = std::minmax_element(column->begin(), column->end());
+    extent = std::max(extent, *high - *low);
+  }
+  return extent > 0 && extent < core::least_size;
+}
+
 void check_vertices(const Points& points) {
   if (points.y.size() != points.x.size() || points.z.size() != points.x.size())
     throw MeshError("coordinates are " + std::to_string(points.x.size()) + " x, " +
                     std::to_string(points.y.size()) + " y and " + std::to_string(points.z.size()) +
                     " z, not as many of each");
   check_size("vertices", points.size(), most_vertices);
-  for (std::size_t v = 0; v < points.size(); ++v) {
-    // One sum of zeros, or one NaN.
-    if (!std::isfinite((points.x[v] * 0 + points.y[v] * 0) + points.z[v] * 0))
-      throw MeshError("vertex " + std::to_string(v) + " has a coordinate that is not finite");
+  if (const auto v = core::first_out_of_range(points)) {
+    const bool finite = points[*v].allFinite();
+    throw MeshError("vertex " + std::to_string(*v) + " has a coordinate " +
+                    (finite ? "beyond 1e30" : "that is not finite"));
   }
+  if (is_too_small(points)) throw MeshError("the mesh is smaller than 1e-30, too small to compute with");
 }
 
 void check_triangles(const TriMesh& mesh) {

@@ -1,9 +1,11 @@
 #include "radial/direction_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/coordinate_range.hpp"
 #include "core/parallel.hpp"
 #include "mesh/edge_balance.hpp"
 #include "radial/exact/ray_crossing.hpp"
@@ -76,8 +78,16 @@ void DirectionTable::find_winding_at_centre() {
   winding_at_centre_ = winding;
 }
 
-/// Edge functions that are numbers have a plane that is certainly off the centre.
+/// Edge functions that are numbers have a plane that is certainly off the centre. Of a vertex too near single precision knows no
+/// direction.
 void DirectionTable::require_centre_off_surface() const {
+  const Points& vertices = mesh().vertices;
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const double reach =
+        std::max({std::abs(vertices.x[v]), std::abs(vertices.y[v]), std::abs(vertices.z[v])});
+    if (reach < core::least_distance && reach > 0)
+      throw MeshError("the joint centre is nearer than 1e-36 mm to vertex " + std::to_string(v));
+  }
   if (cube()) {
     for (const Index t : table_.forms.uncertain) require_centre_off_triangle(t);
   } else {

@@ -1,4 +1,5 @@
 #include "condyle/radial.hpp"
+#include "core/coordinate_range.hpp"
 #include "radial/direction_table.hpp"
 
 namespace condyle {
@@ -19,7 +20,7 @@ void Penetrations::resize(std::size_t count) {
 }
 
 SortedPoints::SortedPoints(PointsView points, const Vec3& centre)
-    : blocks_(std::make_shared<radial::PointBlocks>(points, centre)) {}
+    : blocks_((core::require_in_range(points), std::make_shared<radial::PointBlocks>(points, centre))) {}
 
 std::size_t SortedPoints::size() const noexcept {
   return blocks_->size();
@@ -49,6 +50,7 @@ void RadialTable::update(std::span<const Index> moved, PointsView positions) {
 }
 
 void RadialTable::query(PointsView points, RadialResults& out) const {
+  core::require_in_range(points);
   table_->query(points, out);
 }
 
@@ -60,11 +62,13 @@ RadialResults RadialTable::query(PointsView points) const {
 
 void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                                PenetrationWork* work) const {
+  core::require_in_range(X_FM);
   table_->penetrations(points.blocks(), X_FM, out, work);
 }
 
 void RadialTable::penetrations(const SortedPoints& points, std::span<const Pose> X_FM,
                                std::span<Penetrations> out) const {
+  for (const Pose& X : X_FM) core::require_in_range(X);
   table_->penetrations(points.blocks(), X_FM, out);
 }
 

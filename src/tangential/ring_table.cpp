@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/tangential.hpp"
+#include "core/coordinate_range.hpp"
 #include "core/parallel.hpp"
 #include "mesh/edge_balance.hpp"
 #include "tangential/build/rings.hpp"
@@ -62,6 +63,7 @@ RingTable::RingTable(const Mesh& mesh, const AxisFrame& frame, RingTableOptions 
 }
 
 void RingTable::query(PointsView points, TangentialResults& results, TangentialRule rule) const {
+  core::require_in_range(points);
   results.resize(points.size());
   results.work = {};
   std::mutex adding;
@@ -84,6 +86,7 @@ TangentialResults RingTable::query(PointsView points, TangentialRule rule) const
 }
 
 OccupiedArcs RingTable::occupied_arcs(PointsView points) const {
+  core::require_in_range(points);
   const std::size_t batches = (points.size() + CircleBatch::most - 1) / CircleBatch::most;
   std::vector<std::vector<OccupiedArc>> arcs(batches);
   // Until they are summed, the number of arcs of each point, one to the right.

@@ -64,12 +64,12 @@ TriMesh float_valued() {
   return mesh;
 }
 
-/// Doubles at the ends of their range, where a float would overflow or vanish.
+/// Doubles that a float would round, or that would vanish in it.
 TriMesh double_valued() {
   TriMesh mesh = test::sphere({0.1, -20.3, 300.7}, 25.1, 3);
   mesh.vertices.x[0] = -0.0;
   mesh.vertices.x[1] = std::numeric_limits<double>::denorm_min();
-  mesh.vertices.y[2] = -std::numeric_limits<double>::max();
+  mesh.vertices.y[2] = -1e30;
   mesh.vertices.z[3] = 1 + std::numeric_limits<double>::epsilon();
   return mesh;
 }

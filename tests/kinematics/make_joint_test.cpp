@@ -171,7 +171,7 @@ TEST(MakeJoint, MeshesOfTwoUnitsAreRefusedNamingBoth) {
 
 TEST(MakeJoint, CoordinatesThatOverflowInMillimetresAreRefused) {
   TriMesh huge = head_body().mesh;
-  huge.vertices.x[7] = 1e307;
+  huge.vertices.x[7] = 1e29;
   JointDescription description = right_hip();
   description.units = LengthUnit::metres;
   EXPECT_EQ(refusal<UsageError>(description, socket_body(), {"femur", huge}),

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -64,10 +66,25 @@ TEST(Mesh, ACoordinateThatIsNotFiniteIsRefusedNamingTheFirstVertex) {
   EXPECT_EQ(refusal_of(arrays), "vertex 2 has a coordinate that is not finite");
 }
 
-TEST(Mesh, TheLargestNumbersAreFinite) {
-  constexpr double largest = std::numeric_limits<double>::max();
+TEST(Mesh, CoordinatesAreAtMostTheLargestThatIsComputedWith) {
+  constexpr double largest = 1e30;
   TriMesh arrays = box();
   arrays.vertices.set(0, {largest, largest, largest}), arrays.vertices.set(1, {-largest, largest, 0});
+  EXPECT_EQ(refusal_of(arrays), "");
+  arrays.vertices.y[6] = -std::nextafter(largest, 2 * largest);
+  EXPECT_EQ(refusal_of(arrays), "vertex 6 has a coordinate beyond 1e30");
+}
+
+TEST(Mesh, ACoordinateMayBeAnyThatIsSmallButNotAllOfThem) {
+  TriMesh arrays = box();
+  arrays.vertices.z[3] = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(refusal_of(arrays), "");
+  for (auto* column : {&arrays.vertices.x, &arrays.vertices.y, &arrays.vertices.z})
+    std::fill(column->begin(), column->end(), 0);
+  EXPECT_EQ(refusal_of(arrays), "");
+  arrays.vertices.x[4] = -std::nextafter(1e-30, 0);
+  EXPECT_EQ(refusal_of(arrays), "the mesh is smaller than 1e-30, too small to compute with");
+  arrays.vertices.x[4] = -1e-30;
   EXPECT_EQ(refusal_of(arrays), "");
 }
 

@@ -96,9 +96,9 @@ CASES = {
     "an axis without direction": (lambda hip: condyle.RingTable((V, T), [0, 0, 0], [0, 0, 0]), condyle.UsageError,
                                   "its direction is zero"),
     "an axis beyond all bounds": (lambda hip: condyle.RingTable((V, T), [1e308, 0, 0], [0, 0, 1]), condyle.UsageError,
-                                  "too large"),
+                                  "beyond 1e30 mm"),
     "a mesh beyond all bounds": (lambda hip: condyle.RingTable((1e307 * V, T), [0, 0, 0], [0, 0, 1]),
-                                 condyle.UsageError, "too large"),
+                                 condyle.MeshError, "beyond 1e30"),
     "no layer": (lambda hip: condyle.ElasticContact(hip.fixed, hip.mobile), condyle.UsageError,
                  "one of them needs a layer"),
     "a layer like rubber": (lambda hip: condyle.ElasticContact(

@@ -160,7 +160,7 @@ TEST_P(PenetrationsOn, BodiesFarFromTheirFramesOriginAndPosesThatAreNoneAreAnswe
 }
 
 TEST_P(PenetrationsOn, LengthsThatFloatsDoNotHoldAreAnsweredToo) {
-  for (const double unit : {1e-30, 1e-13, 1e13, 1e30}) {
+  for (const double unit : {1e-30, 1e-13, 1e13, 5e29}) {
     TriMesh mesh = test::socket({0.1, 0.05, -0.2}, 1, 1.3, 2);
     Points points = random_points(200, 1.4, 15);
     for (auto* of : {&mesh.vertices, &points}) {

@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/repair.hpp"
+#include "core/coordinate_range.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle {
@@ -41,6 +42,8 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
     for (const auto& [axis, value] :
          {std::pair{'x', raw.vertices.x[v]}, {'y', raw.vertices.y[v]}, {'z', raw.vertices.z[v]}}) {
       if (!std::isfinite(value)) source.fail(fmt::format("vertex {}: coordinate {} is {}", v, axis, value));
+      if (std::abs(value) > core::largest_coordinate)
+        source.fail(fmt::format("vertex {}: coordinate {} is {}, beyond 1e30", v, axis, value));
     }
   }
   TriMesh mesh{std::move(raw.vertices), {}};

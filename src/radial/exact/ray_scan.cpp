@@ -40,7 +40,15 @@ double exact_relative_gap(const Vec3& v, const Cone& t) {
 /// product of lengths: 8u for their own operations, and u for each of the rounded differences in them. Where
 /// that could show in the quotient (a ray within a degree or so of the surface, a sliver), the quotient is
 /// taken in integers.
+///
+/// A point so near the centre that its square would vanish has the plane's distance along its ray, and its own, which that
+/// does not feel, less.
 double distance_along_ray(const Vec3& v, const Cone& t) {
+  if (const double reach = v.cwiseAbs().maxCoeff(); reach < 0x1p-500 && reach > 0) {
+    const int power = -std::ilogb(reach);
+    const Vec3 direction(std::ldexp(v.x(), power), std::ldexp(v.y(), power), std::ldexp(v.z(), power));
+    return distance_along_ray(direction, t) + direction.norm();
+  }
   if (const double gap = gap_to_plane(v, scaled_normal(t.a, t.b, t.c)); !std::isnan(gap)) return gap;
   const Vec3 ab = t.b - t.a, ac = t.c - t.a, av = v - t.a;
   const double past = core::filtered_determinant(av, ab, ac).value,

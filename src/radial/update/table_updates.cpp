@@ -1,6 +1,7 @@
 #include <string>
 
 #include "condyle/error.hpp"
+#include "core/coordinate_range.hpp"
 #include "radial/direction_table.hpp"
 #include "radial/update/slack_updates.hpp"
 
@@ -9,11 +10,10 @@
 namespace condyle::radial {
 namespace {
 
-void require_finite(PointsView positions) {
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!positions[i].allFinite())
-      throw MeshError("position " + std::to_string(i) + " of an update is not a finite number");
-  }
+void require_in_range(PointsView positions) {
+  if (const auto i = core::first_out_of_range(positions))
+    throw MeshError("position " + std::to_string(*i) + " of an update is " +
+                    (positions[*i].allFinite() ? "beyond 1e30 mm" : "not a finite number"));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void DirectionTable::update(PointsView vertices) {
     throw UsageError("an update of " + std::to_string(mesh().vertices.size()) + " vertices gives " +
                      std::to_string(vertices.size()));
   }
-  require_finite(vertices);
+  require_in_range(vertices);
   TriMesh& deforming = deforming_mesh();
   if (cube()) init_slack(deforming, table_);
   Points before;
@@ -60,7 +60,7 @@ void DirectionTable::update(std::span<const Index> moved, PointsView positions) 
       throw UsageError("an update moves vertex " + std::to_string(v) + " of " +
                        std::to_string(mesh().vertices.size()));
   }
-  require_finite(positions);
+  require_in_range(positions);
   TriMesh& deforming = deforming_mesh();
   if (cube()) init_slack(deforming, table_);
   Points before;
