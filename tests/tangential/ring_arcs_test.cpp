@@ -69,6 +69,26 @@ TEST(RingTable, OccupiedArcsAnswerEveryAngleAsRotatingThePointsDoes) {
   EXPECT_GT(compared, 120 * 360 - 100);
 }
 
+/// The circle of a point on the edge farthest from the axis touches the solid at the point, which rounding may put a turn ahead.
+TEST(RingTable, AnArcThatBeginsAtThePointItselfIsLessThanATurnAhead) {
+  const RingTable box(test::box({-4, -5, -6}, {4, 5, 6}), AxisFrame(Vec3::Zero(), Vec3::UnitZ()));
+  for (const double x : {-4.0, 4.0}) {
+    for (const double y : {-5.0, 5.0}) {
+      Points corner;
+      for (const double z : {-6.0, -1.0, 0.0, 3.3, 6.0}) corner.push_back({x, y, z});
+      const OccupiedArcs arcs = box.occupied_arcs(corner);
+      for (std::size_t i = 0; i < corner.size(); ++i) {
+        for (const OccupiedArc& arc : arcs.of(i)) {
+          EXPECT_GE(arc.begin.radians(), 0);
+          EXPECT_LT(arc.begin.radians(), two_pi);
+          EXPECT_LT(arc.begin.radians(), arc.end.radians());
+          EXPECT_LT(arc.end.radians() - arc.begin.radians(), 1e-6);
+        }
+      }
+    }
+  }
+}
+
 TEST(RingTable, NestedBodiesAndCavitiesHaveTheArcsOfTheirUnion) {
   const TriMesh outer = test::sphere({12, 0, 0}, 6, 3), inner = test::sphere({12, 0, 0}, 3, 3);
   Points points;

@@ -15,6 +15,17 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr OccupiedArc whole_circle{Angle(), Angle::radians(two_pi), no_index, no_index};
 
+/// Where an arc begins: less than a turn ahead, also for a crossing behind the point by less than rounding tells from a turn.
+double begin_of(const CircleCrossing& enters) noexcept {
+  constexpr double last = two_pi - 0x1p-50;  // the double before it
+  return std::min(enters.ahead(), last);
+}
+
+/// An arc that rounding leaves no length is none.
+bool is_empty(const OccupiedArc& arc) noexcept {
+  return !(arc.begin < arc.end);
+}
+
 /// visit(crossing, now_inside) wherever the circle comes into the solid or out of it, in order. Crossings at
 /// one angle act together: bodies that touch there are one, a sheet of no thickness is none.
 template <class Visit>
@@ -58,11 +69,12 @@ void append_arcs(int winding, std::span<const CircleCrossing> crossings, std::ve
     std::size_t i = static_cast<std::size_t>(winding);
     for (; i + 1 < crossings.size(); i += 2) {
       const CircleCrossing &enters = crossings[i], &leaves = crossings[i + 1];
-      arcs.push_back(
-          {Angle::radians(enters.ahead()), Angle::radians(leaves.ahead()), enters.triangle, leaves.triangle});
+      const OccupiedArc arc{Angle::radians(begin_of(enters)), Angle::radians(leaves.ahead()), enters.triangle,
+                            leaves.triangle};
+      if (!is_empty(arc)) arcs.push_back(arc);
     }
     if (i < crossings.size())
-      arcs.push_back({Angle::radians(crossings[i].ahead()), Angle::radians(crossings[0].ahead() + two_pi),
+      arcs.push_back({Angle::radians(begin_of(crossings[i])), Angle::radians(crossings[0].ahead() + two_pi),
                       crossings[i].triangle, crossings[0].triangle});
     return;
   }
@@ -71,11 +83,12 @@ void append_arcs(int winding, std::span<const CircleCrossing> crossings, std::ve
   const CircleCrossing* end_of_last = nullptr;
   for_each_change(winding, crossings, [&](const CircleCrossing& crossing, bool now_inside) {
     if (now_inside) {
-      arcs.push_back({Angle::radians(crossing.ahead()), Angle(), crossing.triangle, no_index});
+      arcs.push_back({Angle::radians(begin_of(crossing)), Angle(), crossing.triangle, no_index});
     } else if (arcs.size() == first) {
       end_of_last = &crossing;
     } else {
       arcs.back().end = Angle::radians(crossing.ahead()), arcs.back().leaves = crossing.triangle;
+      if (is_empty(arcs.back())) arcs.pop_back();
     }
   });
   if (end_of_last) {
