@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/one_line.hpp"
+
 namespace condyle::core {
 namespace {
 
-constexpr std::size_t most_changes = 2;
+constexpr std::size_t most_changes = 2, longest_name = 100;
 
 /// Changes that make one word of the other, an exchange of neighbours being one (optimal string alignment).
 std::size_t changes(std::string_view a, std::string_view b) {
@@ -32,6 +34,9 @@ std::string near_name(std::string_view word, std::span<const std::string> names)
   std::string nearest;
   std::size_t least = most_changes + 1;
   for (const std::string& name : names) {
+    // Names of a file may be of any length, and two long ones compared take the square of it.
+    if (name.size() > word.size() + most_changes || word.size() > name.size() + most_changes) continue;
+    if (name.size() > longest_name) continue;
     const std::size_t by = changes(word, name);
     if (by < least && 3 * by <= name.size()) least = by, nearest = name;
   }
@@ -40,7 +45,7 @@ std::string near_name(std::string_view word, std::span<const std::string> names)
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> names) {
   const std::string name = near_name(word, names);
-  return name.empty() ? name : " (did you mean \"" + name + "\"?)";
+  return name.empty() ? name : " (did you mean \"" + one_line(name) + "\"?)";
 }
 
 }  // namespace condyle::core

@@ -2,6 +2,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/joint.hpp"
+#include "core/one_line.hpp"
 
 namespace condyle {
 
@@ -11,8 +12,8 @@ Mesh mesh_of_part(const Body& body, std::string_view part) {
   if (found == body.parts.end()) {
     std::string names;
     for (const BodyPart& known : body.parts) names += (names.empty() ? "" : ", ") + known.name;
-    throw UsageError(body.name + " has no part \"" + std::string(part) + "\"" +
-                     (names.empty() ? ": it is one mesh" : "; there are " + names));
+    throw UsageError(body.name + " has no part \"" + core::one_line(part) + "\"" +
+                     (names.empty() ? ": it is one mesh" : "; there are " + core::one_line(names, 2000)));
   }
   TriMesh mesh;
   for (std::size_t v = 0; v < found->vertices; ++v)

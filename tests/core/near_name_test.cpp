@@ -23,7 +23,13 @@ TEST(NearName, IsNoneWhereNoneIsNear) {
   EXPECT_EQ(near_name("ab", std::vector<std::string>{"ad"}), "") << "half of it is another";
 }
 
+TEST(NearName, IsNoneOfVeryLongWords) {
+  const std::string word(1'000'000, 'a');
+  EXPECT_EQ(near_name(word, std::vector<std::string>{word + "b", "a"}), "");
+}
+
 TEST(NearName, IsAskedForInWords) {
+  EXPECT_EQ(did_you_mean("center", std::vector<std::string>{"cent\nre"}), " (did you mean \"cent?re\"?)");
   EXPECT_EQ(did_you_mean("center", names), " (did you mean \"centre\"?)");
   EXPECT_EQ(did_you_mean("zzz", names), "");
 }

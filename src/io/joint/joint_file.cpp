@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/repair_text.hpp"
+#include "core/one_line.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
@@ -27,10 +28,8 @@ toml::table parsed(std::string_view text, const std::filesystem::path& path) {
   try {
     return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
-    std::string what(error.description());
-    std::replace_if(
-        what.begin(), what.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
-    throw FileError(fmt::format("{}: line {}: not TOML: {}", path.string(), error.source().begin.line, what));
+    throw FileError(fmt::format("{}: line {}: not TOML: {}", path.string(), error.source().begin.line,
+                                core::one_line(error.description(), 300)));
   }
 }
 

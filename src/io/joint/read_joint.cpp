@@ -6,6 +6,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/repair_text.hpp"
+#include "core/one_line.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/load_joint.hpp"
 
@@ -29,8 +30,8 @@ void check_mesh_exists(const MeshEntry& entry, const std::string& key,
                        const std::filesystem::path& joint_file) {
   std::error_code ignored;
   if (!std::filesystem::exists(entry.mesh, ignored))
-    throw FileError(
-        fmt::format("{}: {}.mesh: there is no file {}", joint_file.string(), key, entry.mesh.string()));
+    throw FileError(fmt::format("{}: {}.mesh: there is no file {}", joint_file.string(), key,
+                                core::one_line(entry.mesh.string(), 300)));
 }
 
 LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {

@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "core/near_name.hpp"
+#include "core/one_line.hpp"
 
 namespace condyle::io {
 namespace {
@@ -58,8 +59,9 @@ bool TomlTable::is_list(std::string_view key) const {
 void TomlTable::fail(std::string_view key, std::string_view what) const {
   const toml::node* node = table_->get(key);
   const auto line = (node ? *node : static_cast<const toml::node&>(*table_)).source().begin.line;
-  throw FileError(line == 0 ? fmt::format("{}: {}: {}", path_->string(), full(key), what)
-                            : fmt::format("{}: line {}: {}: {}", path_->string(), line, full(key), what));
+  const std::string said = core::one_line(full(key) + ": ", 100) + core::one_line(what, 300);
+  throw FileError(line == 0 ? fmt::format("{}: {}", path_->string(), said)
+                            : fmt::format("{}: line {}: {}", path_->string(), line, said));
 }
 
 const toml::node* TomlTable::find(std::string_view key) {

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "condyle/error.hpp"
+#include "core/one_line.hpp"
 
 namespace condyle {
 namespace {
@@ -17,8 +18,8 @@ constexpr std::array<std::string_view, 3> repair_names{"weld", "drop_unreference
 Repair repair_named(std::string_view name) {
   const auto found = std::find(repair_names.begin(), repair_names.end(), name);
   if (found == repair_names.end())
-    throw UsageError(
-        fmt::format("unknown repair \"{}\"; there are weld, drop_unreferenced and flip_inverted", name));
+    throw UsageError(fmt::format("unknown repair \"{}\"; there are weld, drop_unreferenced and flip_inverted",
+                                 core::one_line(name)));
   return static_cast<Repair>(found - repair_names.begin());
 }
 

@@ -5,6 +5,7 @@
 #include "condyle/error.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "core/near_name.hpp"
+#include "core/one_line.hpp"
 
 namespace condyle {
 namespace {
@@ -142,8 +143,8 @@ const Motion& motion_named(std::span<const Motion> motions, std::string_view nam
     names.push_back(motion.name);
     list += (list.empty() ? "" : ", ") + motion.name;
   }
-  throw UsageError("unknown motion \"" + std::string(name) + "\"" +
-                   core::did_you_mean(in_small_letters(name), names) + "; there are " + list);
+  throw UsageError("unknown motion \"" + core::one_line(name) + "\"" +
+                   core::did_you_mean(in_small_letters(name), names) + "; there are " + core::one_line(list, 2000));
 }
 
 void check_motion(const Motion& motion, JointKind kind) {
