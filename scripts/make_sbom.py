@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Writes what Condyle is made of as SPDX 2.3: make_sbom.py BUILD_FOLDER SBOM.
+
+Three kinds, none listed by hand: libraries that the command and the Python module load (ldd), packages whose headers were
+compiled in (what ninja noted of each object), and web packages bundled into the page of a report (what its sources import, with
+their dependencies in package-lock.json). Debian's packages are asked for version and licence; a licence without an SPDX name is
+NOASSERTION and its own text is named.
+"""
+
+import json
+import re
+import subprocess
+import sys
+from datetime import datetime, timezone
+from pathlib import Path
+
+SOURCE = Path(__file__).resolve().parent.parent
+
+# Debian's short names (copyright-format 1.0) that SPDX has under another one.
+SPDX_NAMES = {
+    "Expat": "MIT", "BSD-2-clause": "BSD-2-Clause", "BSD-3-clause": "BSD-3-Clause", "BSL-1": "BSL-1.0", "Apache-2": "Apache-2.0",
+    "GPL-2": "GPL-2.0-only", "GPL-2+": "GPL-2.0-or-later", "GPL-3+": "GPL-3.0-or-later", "LGPL-2+": "LGPL-2.0-or-later",
+    "LGPL-2.1": "LGPL-2.1-only", "LGPL-2.1+": "LGPL-2.1-or-later", "LGPL-3+": "LGPL-3.0-or-later", "zlib": "Zlib",
+    "MPL-2": "MPL-2.0",
+}
+KNOWN = set(SPDX_NAMES.values()) | {"Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "BSL-1.0", "ISC", "MIT", "MPL-2.0", "Zlib",
+                                    "CC0-1.0", "curl", "OpenLDAP-2.8"}
+
+
+def output_of(*command: str) -> str:
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def version() -> str:
+    text = (SOURCE / "include/condyle/version.hpp").read_text()
+    return re.search(r'version = "(.*)"', text).group(1)
+
+
+def libraries_of(program: Path) -> list[str]:
+    """Paths of the shared libraries that a program or module loads, those of its libraries too."""
+    return sorted(set(re.findall(r"(/\S+) \(0x", output_of("ldd", str(program)))))
+
+
+def headers_of(build: Path) -> list[str]:
+    """Headers of the system that the objects of the libraries, the command and the module were compiled with."""
+    headers: set[str] = set()
+    ours = False
+    for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
+        if line and not line.startswith(" "):
+            ours = line.startswith(("src/", "cli/", "python/"))
+        elif ours and line.startswith("    /usr/"):
+            headers.add(line.strip())
+    return sorted(headers)
+
+
+def debian_packages(paths: list[str]) -> dict[str, str]:
+    """The package of each path, with its architecture where it has several."""
+    found: dict[str, str] = {}
+    for first in range(0, len(paths), 500):
+        # Debian's /lib is /usr/lib, and a file is known by the name that its package installed it under.
+        asked = [name for path in paths[first:first + 500]
+                 for real in {path, str(Path(path).resolve())} for name in (real, real.removeprefix("/usr"), "/usr" + real)]
+        answer = subprocess.run(["dpkg-query", "-S", *asked], capture_output=True, text=True, check=False).stdout
+        for line in answer.splitlines():
+            if not line.startswith("diversion "):
+                names, path = line.rsplit(": ", 1)
+                found[path] = names.split(", ")[0]
+    packages = {}
+    for path in paths:
+        for real in (path, str(Path(path).resolve())):
+            for name in (real, real.removeprefix("/usr"), "/usr" + real):
+                if name in found:
+                    packages[path] = found[name]
+    return packages
+
+
+def debian_licence(package: str) -> tuple[str, str]:
+    """SPDX name, and Debian's own word for the package's files as a whole."""
+    path = Path("/usr/share/doc") / package.split(":")[0] / "copyright"
+    if not path.exists():
+        return "NOASSERTION", "no copyright file"
+    text = path.read_text(errors="replace")
+    whole = re.search(r"^Files:\s*\*\s*$.*?^License:[ \t]*(\S.*?)?$", text, re.MULTILINE | re.DOTALL)
+    word = (whole.group(1) or "").strip() if whole else ""
+    name = SPDX_NAMES.get(word, word)
+    return (name if name in KNOWN else "NOASSERTION"), f"{word or 'in words'}: {path}"
+
+
+def identifier(*parts: str) -> str:
+    return "SPDXRef-" + re.sub(r"[^A-Za-z0-9.-]", "-", "-".join(parts))
+
+
+def entry(kind: str, name: str, of_version: str, licence: str, comment: str, url: str) -> dict:
+    return {"SPDXID": identifier(kind, name), "name": name, "versionInfo": of_version, "downloadLocation": "NOASSERTION",
+            "filesAnalyzed": False, "licenseConcluded": "NOASSERTION", "licenseDeclared": licence,
+            "licenseComments": comment, "copyrightText": "NOASSERTION",
+            "externalRefs": [{"referenceCategory": "PACKAGE-MANAGER", "referenceType": "purl", "referenceLocator": url}]}
+
+
+def debian_entry(package: str) -> dict:
+    of_version, architecture = output_of("dpkg-query", "-W", "-f", "${Version} ${Architecture}", package).split()
+    licence, comment = debian_licence(package)
+    name = package.split(":")[0]
+    return entry("Debian", name, of_version, licence, comment, f"pkg:deb/debian/{name}@{of_version}?arch={architecture}")
+
+
+def web_packages() -> list[dict]:
+    """What the page's sources import, and what that needs."""
+    lock = json.loads((SOURCE / "viewer/package-lock.json").read_text())["packages"]
+    named = json.loads((SOURCE / "viewer/package.json").read_text())["devDependencies"]
+    asked = set()
+    for source in (SOURCE / "viewer/src").rglob("*.ts"):
+        for module in re.findall(r"""from ["']([^."'][^"']*)["']""", source.read_text()):
+            asked.add("/".join(module.split("/")[:2 if module.startswith("@") else 1]))
+    asked &= set(named)  # the rest is of the page's own
+    found: dict[str, dict] = {}
+    while asked:
+        name = asked.pop()
+        locked = lock["node_modules/" + name]
+        found[name] = entry("npm", name, locked["version"], locked["license"], "package-lock.json",
+                            f"pkg:npm/{name}@{locked['version']}")
+        asked |= set(locked.get("dependencies", {})) - set(found)
+    return [found[name] for name in sorted(found)]
+
+
+def sbom_of(build: Path) -> dict:
+    programs = [build / "condyle", *(build / "python/condyle").glob("_native*.so")]
+    programs = [program for program in programs if program.exists()]
+    linked = debian_packages([path for program in programs for path in libraries_of(program)])
+    compiled_in = debian_packages(headers_of(build))
+    unknown = {path for program in programs for path in libraries_of(program)} - set(linked)
+    if unknown:
+        sys.exit(f"make_sbom.py: of no Debian package: {', '.join(sorted(unknown))}")
+    own = version()
+    condyle = {"SPDXID": "SPDXRef-condyle", "name": "condyle", "versionInfo": own, "downloadLocation": "NOASSERTION",
+               "filesAnalyzed": False, "licenseConcluded": "Apache-2.0", "licenseDeclared": "Apache-2.0",
+               "copyrightText": "Copyright 2026 The Condyle authors"}
+    packages, relations = [condyle], [("SPDXRef-DOCUMENT", "DESCRIBES", "SPDXRef-condyle")]
+    for package in sorted(set(linked.values()) | set(compiled_in.values())):
+        packages.append(debian_entry(package))
+        if package in linked.values():
+            relations.append(("SPDXRef-condyle", "DYNAMIC_LINK", packages[-1]["SPDXID"]))
+        if package in compiled_in.values():
+            relations.append(("SPDXRef-condyle", "STATIC_LINK", packages[-1]["SPDXID"]))
+    for package in web_packages():
+        packages.append(package)
+        relations.append(("SPDXRef-condyle", "CONTAINS", package["SPDXID"]))
+    made = datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return {"spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"condyle-{own}",
+            "documentNamespace": f"urn:condyle:sbom:{own}:{made}",
+            "creationInfo": {"created": made, "creators": ["Organization: The Condyle authors", "Tool: make_sbom.py"]},
+            "packages": packages,
+            "relationships": [{"spdxElementId": a, "relationshipType": kind, "relatedSpdxElement": b} for a, kind, b in relations]}
+
+
+def main() -> None:
+    if len(sys.argv) != 3:
+        sys.exit("usage: make_sbom.py BUILD_FOLDER SBOM")
+    build, out = map(Path, sys.argv[1:])
+    out.parent.mkdir(parents=True, exist_ok=True)
+    beside = out.with_name(out.name + ".part")
+    beside.write_text(json.dumps(sbom_of(build), indent=1) + "\n")
+    beside.rename(out)
+
+
+if __name__ == "__main__":
+    main()
