@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test page-core page page-template
+  package package-test page-core page page-template sanitize-thread sanitize-some release
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -33,19 +33,25 @@ test: dependencies build/release/build.ninja
 	@cmake --build --preset release
 	@$(call run_tests,release)
 
-sanitize clang: clang_dependencies
+clang: clang_dependencies
 	@cmake --preset $@ -DCONDYLE_TESTS=ON -DCONDYLE_PYTHON=ON >/dev/null
 	@cmake --build --preset $@
 	@$(call run_tests,$@)
 
-# A minute of coverage-guided fuzzing of the mesh readers; FUZZ_SECONDS=3600 for longer.
+# Every test under sanitizers: address and undefined behaviour, then threads. An hour each.
+sanitize sanitize-thread: clang_dependencies
+	@cmake --preset $@ >/dev/null
+	@cmake --build --preset $@
+	@$(call run_tests,$@)
+
+# Coverage-guided fuzzing, a minute of each target; FUZZ_SECONDS=600 for longer, FUZZ_TARGETS="radial pairs" for some. New
+# inputs gather in build/fuzz/corpus; what is found stays in build/fuzz/found and belongs, cut down, in tests/fuzz/corpus.
 FUZZ_SECONDS ?= 60
+FUZZ_TARGETS ?=
 fuzz: clang_dependencies
 	@cmake --preset fuzz >/dev/null
-	@cmake --build --preset fuzz --target fuzz_mesh_reader mesh_seeds
-	@mkdir -p build/fuzz/corpus
-	@build/fuzz/mesh_seeds build/fuzz/corpus
-	@build/fuzz/fuzz_mesh_reader -max_total_time=$(FUZZ_SECONDS) -malloc_limit_mb=256 build/fuzz/corpus
+	@cmake --build --preset fuzz --target fuzz_programs
+	@scripts/fuzz.sh $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
 # Condyle beside other libraries; the pages get the figures of this run, and ratios worse than the stored ones are told.
 bench: bench_dependencies
@@ -96,6 +102,10 @@ package: build docs
 	@rm -rf out/packages
 	@cpack --config build/release/CPackConfig.cmake >out/package.log || { cat out/package.log; exit 1; }
 	@ls out/packages/*.deb
+
+# A release in out/release from a clean tree: sources, packages, wheel, template, list of materials; each is run.
+release: dependencies docs_dependencies
+	@scripts/release.sh
 
 # The packages on a bare Debian.
 package-test: package

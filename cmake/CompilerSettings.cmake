@@ -26,8 +26,6 @@ function(condyle_settings_for target)
   # inline function or template that both compile (ours, Eigen's) the linker keeps one copy, and it may be theirs.
   target_compile_options(${target} PUBLIC -ffp-contract=off)
   if(CONDYLE_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=all
-                                             -fno-omit-frame-pointer)
-    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+    condyle_sanitize(${target})
   endif()
 endfunction()

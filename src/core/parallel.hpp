@@ -5,6 +5,8 @@
 #ifndef CONDYLE_SERIAL
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include "core/told_order.hpp"
 #endif
 
 namespace condyle::core {
@@ -17,8 +19,15 @@ void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, cons
 #ifdef CONDYLE_SERIAL
   if (count > 0) body(std::size_t{0}, count);
 #else
+  ToldOrder begun, done;
+  begun.before();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                    [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); });
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      begun.after();
+                      body(range.begin(), range.end());
+                      done.before();
+                    });
+  done.after();
 #endif
 }
 

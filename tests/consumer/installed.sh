@@ -40,9 +40,10 @@ in_cache() { sed -n "s/^$1:[A-Z]*=//p" "$build/CMakeCache.txt"; }
 if [ "$(in_cache CONDYLE_PYTHON)" = ON ]; then
   cmake --install "$build" --prefix prefix --component python >/dev/null
   module=$(find "$PWD/prefix" -type d -path '*/*-packages/condyle')
-  if [ -n "${CONSUMER_FLAGS:-}" ]; then
-    LD_PRELOAD=$("$compiler" -print-file-name=libasan.so) ASAN_OPTIONS=detect_leaks=0
-    export LD_PRELOAD ASAN_OPTIONS
+  preloaded=()
+  if [ -n "${CONSUMER_PRELOAD:-}" ]; then
+    # Only of the test's Python: programs that it starts are linked with the library, or have nothing to do with it.
+    preloaded=(env LD_PRELOAD="$CONSUMER_PRELOAD" ASAN_OPTIONS=detect_leaks=0)
   fi
   cat >import.py <<'EOF'
 import sys
@@ -51,6 +52,6 @@ assert condyle.__file__.startswith(sys.argv[1]), condyle.__file__
 mesh = condyle.sample_hip(scenario=1).femur
 print(len(mesh.vertices), "vertices in Python")
 EOF
-  imported() { PYTHONPATH=$(dirname "$module") "$(in_cache Python_EXECUTABLE)" import.py "$module"; }
+  imported() { PYTHONPATH=$(dirname "$module") "${preloaded[@]}" "$(in_cache Python_EXECUTABLE)" import.py "$module"; }
   says imported "773 vertices in Python"
 fi

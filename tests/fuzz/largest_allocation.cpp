@@ -5,7 +5,7 @@
 
 namespace condyle::test {
 
-std::size_t largest_allocation = 0;
+std::atomic<std::size_t> largest_allocation = 0;
 
 }  // namespace condyle::test
 
@@ -13,7 +13,10 @@ std::size_t largest_allocation = 0;
 // malloc for a mismatch of delete.
 void* operator new(std::size_t size) {
   using condyle::test::largest_allocation;
-  if (size > largest_allocation) largest_allocation = size;
+  std::size_t largest = largest_allocation.load(std::memory_order_relaxed);
+  while (size > largest &&
+         !largest_allocation.compare_exchange_weak(largest, size, std::memory_order_relaxed)) {
+  }
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }

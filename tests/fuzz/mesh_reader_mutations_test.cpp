@@ -91,10 +91,6 @@ class MutatedMeshFiles : public testing::TestWithParam<Writer> {};
 
 TEST_P(MutatedMeshFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
   constexpr int mutations = 20000;
-  // Bytes of memory requested at once, per byte of the file: a number of two characters becomes eight bytes,
-  // a vector grows by doubling, and deflate shortens up to 1032 times, for a number of a byte that becomes
-  // eight. Beside it what libraries take for themselves.
-  constexpr std::size_t largest_growth = 8 * 1032, slack = 1 << 20;
   const auto files = GetParam().files_of(test::box({0, 0, 0}, {30, 20.5, 10.25}));
   Random random(20240229);
   for (int i = 0; i < mutations; ++i) {
@@ -103,7 +99,7 @@ TEST_P(MutatedMeshFiles, GiveAMeshOrOneLineAndNeverMuchMemory) {
     test::largest_allocation = 0;
     const std::string broken = test::broken_promise(bytes, file.format);
     ASSERT_EQ(broken, "") << "mutation " << i << " of " << file.name;
-    ASSERT_LE(test::largest_allocation, bytes.size() * largest_growth + slack)
+    ASSERT_LE(test::largest_allocation, test::allowed_at_once(bytes.size()))
         << "mutation " << i << " of " << file.name;
   }
 }

@@ -1,12 +1,12 @@
 #include "motion/search/first_contact.hpp"
 
 #include <gtest/gtest.h>
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "condyle/error.hpp"
+#include "core/parallel.hpp"
 #include "motion/rotation_scenes.hpp"
 #include "support/test_meshes.hpp"
 
@@ -245,7 +245,10 @@ TEST(FirstContact, FromManyPosesOnManyThreadsGivesTheBytesOfOne) {
   const auto pose = [](int i) { return Pose(Eigen::AngleAxisd(0.03 * i, Vec3(0.3, 1, 0.2).normalized())); };
   std::vector<std::vector<double>> one(poses), many(poses);
   for (int i = 0; i < poses; ++i) one[i] = bytes(first_contact.limits(pose(i)));
-  tbb::parallel_for(0, poses, [&](int i) { many[i] = bytes(first_contact.limits(pose(i))); });
+  core::parallel_chunks(poses, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      many[i] = bytes(first_contact.limits(pose(static_cast<int>(i))));
+  });
   EXPECT_EQ(one, many);
   EXPECT_GT(std::count_if(one.begin(), one.end(), [](const auto& b) { return b.size() > 6; }), poses / 4);
   // A body that was never posed before.

@@ -1,0 +1,64 @@
+#include <utility>
+#include <vector>
+
+#include "condyle/contact.hpp"
+#include "condyle/error.hpp"
+#include "fuzz/fuzz_input.hpp"
+#include "fuzz/one_line.hpp"
+#include "fuzz/targets.hpp"
+#include "support/brute_force.hpp"
+
+namespace condyle::test {
+namespace {
+
+bool has_degenerate(const TriMesh& mesh) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (is_degenerate(mesh, t)) return true;
+  }
+  return false;
+}
+
+/// Every pair by brute force; triangles of zero area meet nothing.
+std::vector<TrianglePair> all_pairs(const TriMesh& fixed, const TriMesh& mobile) {
+  std::vector<TrianglePair> pairs;
+  for (const auto& [i, j] : intersecting_pairs(fixed, mobile)) {
+    if (!is_degenerate(fixed, i) && !is_degenerate(mobile, j)) pairs.push_back({i, j});
+  }
+  return pairs;
+}
+
+/// Whether a corner of `a` is in the solid of `b`, an inside being what closed meshes have.
+bool corner_inside(const TriMesh& a, const Mesh& b) {
+  if (!b.is_closed()) return false;
+  for (std::size_t t = 0; t < a.triangles.size(); ++t) {
+    if (winding_number(b, a.corner(t, 0)).winding > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string fuzz_pairs(std::string_view bytes) {
+  FuzzInput input(bytes);
+  try {
+    const Mesh fixed = input.mesh(), mobile = input.mesh();
+    const Pose X_FM = input.pose();
+    const JointContact joint(fixed, mobile);
+    const std::vector<TrianglePair> pairs = joint.pairs(X_FM);
+    const TriMesh placed = posed(X_FM, mobile.arrays());
+    if (pairs != all_pairs(fixed, placed)) return "other pairs than brute force finds";
+    const bool in_contact = joint.in_contact(X_FM);
+    if (!pairs.empty() && !in_contact) return "pairs that meet and no contact";
+    if (pairs.empty() && !has_degenerate(fixed) && !has_degenerate(placed) &&
+        in_contact !=
+            (corner_inside(placed, fixed) || corner_inside(fixed, mobile.moved_to(placed.vertices))))
+      return "one body inside the other is wrong";
+  } catch (const MeshError& error) {
+    return fault_of_message(error.what());
+  } catch (const UsageError& error) {
+    return fault_of_message(error.what());
+  }
+  return {};
+}
+
+}  // namespace condyle::test

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+/// What is fuzzed. Each target takes any bytes at all, does with them what a user could, and holds the outcome against what is
+/// promised: an answer that is right where a plain oracle knows it and finite where it must be, or an error of one line. It
+/// gives what was broken, in words; the empty text where nothing was. Other exceptions go through.
+///
+/// libFuzzer runs a target by entry.cpp; the ordinary tests run it on the inputs kept in corpus/.
+
+namespace condyle::test {
+
+/// The first byte chooses the format of a mesh file, the rest is the file.
+std::string fuzz_mesh_reader(std::string_view bytes);
+/// A joint file, beside a mesh for both its bodies.
+std::string fuzz_joint_file(std::string_view bytes);
+/// The first byte chooses .mot, .sto or .csv, the rest is the file: columns, times, coordinates and poses.
+std::string fuzz_motion_file(std::string_view bytes);
+/// The first two bytes choose a joint and what is read, the rest is the text: a pose, an axis of a map, a name.
+std::string fuzz_text(std::string_view bytes);
+
+// Those that follow draw meshes and points by FuzzInput.
+
+/// A triangle soup inspected.
+std::string fuzz_inspect(std::string_view bytes);
+/// A direction table and its two queries, against winding numbers by brute force.
+std::string fuzz_radial(std::string_view bytes);
+/// A ring table, its query and its arcs, against winding numbers by brute force.
+std::string fuzz_tangential(std::string_view bytes);
+/// Pairs of triangles of two bodies at a pose, against every pair by brute force.
+std::string fuzz_pairs(std::string_view bytes);
+/// Both ends of a free rotation, against poses on the way by brute force.
+std::string fuzz_first_contact(std::string_view bytes);
+/// Meshes and curves written and read back, and the JSON of an inspection.
+std::string fuzz_results(std::string_view bytes);
+
+}  // namespace condyle::test

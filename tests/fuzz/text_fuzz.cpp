@@ -1,0 +1,86 @@
+#include <cmath>
+#include <string>
+
+#include "condyle/error.hpp"
+#include "condyle/io/grid_text.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/io/repair_text.hpp"
+#include "condyle/joint.hpp"
+#include "fuzz/one_line.hpp"
+#include "fuzz/targets.hpp"
+#include "support/test_meshes.hpp"
+
+namespace condyle::test {
+namespace {
+
+Joint joint_of(JointKind kind, Anatomy anatomy) {
+  static const Mesh fixed = box({-1, -1, -1}, {1, 1, 1}), mobile = box({2, -1, -1}, {3, 1, 1});
+  return {.name = "joint",
+          .kind = kind,
+          .side = Side::right,
+          .fixed = {"fixed", fixed},
+          .mobile = {"mobile", mobile},
+          .anatomy = anatomy};
+}
+
+std::string fault_of_pose(std::string_view text, JointKind kind, Anatomy anatomy) {
+  const PoseDegrees pose = parse_pose(text, kind, anatomy);
+  for (const JointAngle angle : all_joint_angles) {
+    if (!std::isfinite(pose[angle])) return "an angle that is not finite";
+  }
+  if (!pose.translation_mm.allFinite()) return "a translation that is not finite";
+  if (kind != JointKind::free && parse_pose(to_text(pose, anatomy), kind, anatomy) != pose)
+    return "a pose that does not read back";
+  return {};
+}
+
+std::string fault_of_given(std::string_view text, JointKind kind, Anatomy anatomy) {
+  const Pose X = given_pose(text, joint_of(kind, anatomy)).X_FM;
+  if (!X.matrix().allFinite()) return "a pose that is not finite";
+  const double off =
+      (X.linear().transpose() * X.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  return off < 1e-12 ? "" : "a pose that is no rotation";
+}
+
+std::string fault_of_axis(std::string_view text, JointKind kind, Anatomy anatomy) {
+  const GridAxis axis = parse_grid_axis(text, anatomy);
+  const GridAxis again = parse_grid_axis(to_text(axis, anatomy), anatomy);
+  if (again.angle != axis.angle || again.first_deg != axis.first_deg || again.last_deg != axis.last_deg)
+    return "an axis that does not read back";
+  MapGrid grid;
+  grid.row = axis;
+  grid.column.angle = axis.angle == JointAngle::adduction ? JointAngle::flexion : JointAngle::adduction;
+  grid.vary =
+      axis.angle == JointAngle::internal_rotation ? JointAngle::flexion : JointAngle::internal_rotation;
+  if (grid.vary == grid.column.angle) grid.vary = JointAngle::adduction;
+  check_grid(grid, kind);
+  return grid.size() <= most_map_points ? "" : "a map of too many points";
+}
+
+}  // namespace
+
+std::string fuzz_text(std::string_view bytes) {
+  if (bytes.size() < 2) return {};
+  const auto first = static_cast<unsigned char>(bytes[0]), second = static_cast<unsigned char>(bytes[1]);
+  const auto kind = static_cast<JointKind>(first % 3);
+  const Anatomy anatomy = all_anatomies[first / 3 % all_anatomies.size()];
+  const std::string_view text = bytes.substr(2);
+  try {
+    switch (second % 5) {
+      case 0:
+        return fault_of_pose(text, kind, anatomy);
+      case 1:
+        return fault_of_given(text, kind, anatomy);
+      case 2:
+        return fault_of_axis(text, kind, anatomy);
+      case 3:
+        return name_of(repair_named(text)) == text ? "" : "a repair of another name";
+      default:
+        return name_of(joint_angle_named(text, anatomy), anatomy) == text ? "" : "an angle of another name";
+    }
+  } catch (const UsageError& error) {
+    return fault_of_message(error.what());
+  }
+}
+
+}  // namespace condyle::test
