@@ -1,6 +1,9 @@
 #include "interrupt.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
+#include <string_view>
 
 namespace condyle::cli {
 namespace {
@@ -12,7 +15,28 @@ void note(int) {
   signalled = true;
 }
 
+constexpr int exit_code = 130;
+
+/// Only what a signal handler may call.
+void end(int) {
+  constexpr std::string_view line = "condyle: interrupted; nothing more is written\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  ::_exit(exit_code);
+}
+
 }  // namespace
+
+void say_when_interrupted() noexcept {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    ::sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;
+    action = {};
+    action.sa_handler = end;
+    ::sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 InterruptWatch::InterruptWatch() {
   signalled = false;

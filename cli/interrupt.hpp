@@ -11,6 +11,10 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// From now on SIGINT or SIGTERM ends the process at once with one line and exit code 130, where it was not told to ignore them. A
+/// file that would grow past what the process may write is an error of writing like a full disk, and no signal.
+void say_when_interrupted() noexcept;
+
 /// While it lives, the first SIGINT or SIGTERM is noted instead of ending the process, so that it can end with
 /// nothing half-written; a second one ends it as ever. One at a time.
 class InterruptWatch {

@@ -132,6 +132,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   hold_standard_streams();
+  cli::say_when_interrupted();
   try {
     return run(argc, argv);
   } catch (const cli::Interrupted& stopped) {

@@ -1,0 +1,225 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "command.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/temporary_folder.hpp"
+
+/// Commands that are ended from outside, or that cannot write: what was there stays, or what was asked for is there, each file
+/// whole.
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Every file below a folder and what it holds, but for folders that a killed run could not clear away.
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  if (!fs::exists(folder)) return files;
+  for (auto at = fs::recursive_directory_iterator(folder); at != fs::recursive_directory_iterator(); ++at) {
+    if (at->path().filename().string().starts_with(".condyle-")) at.disable_recursion_pending();
+    if (at->is_regular_file())
+      files[fs::relative(at->path(), folder).string()] = io::read_whole_file(at->path());
+  }
+  return files;
+}
+
+/// Starts `condyle ARGUMENTS` in a folder of its own process; standard error goes into a file.
+pid_t start(const fs::path& folder, std::vector<std::string> arguments, const fs::path& err) {
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::setenv("OMP_NUM_THREADS", "1", 1);
+  arguments.insert(arguments.begin(), CONDYLE_COMMAND);
+  std::vector<char*> words;
+  for (std::string& word : arguments) words.push_back(word.data());
+  words.push_back(nullptr);
+  if (::chdir(folder.c_str()) != 0 || std::freopen("/dev/null", "w", stdout) == nullptr ||
+      std::freopen(err.c_str(), "w", stderr) == nullptr)
+    ::_exit(99);
+  ::execv(words[0], words.data());
+  ::_exit(99);
+}
+
+int status_of(pid_t child) {
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+/// A command that writes, with what it wrote before and what it is to write.
+struct Writing {
+  const char* name;
+  std::vector<std::string> before, after;
+};
+
+void PrintTo(const Writing& writing, std::ostream* out) {
+  *out << writing.name;
+}
+
+const std::vector<Writing> writings = {
+    {"rom",
+     {"rom", "sample/hip.toml", "--out", "result", "--motion", "flexion"},
+     {"rom", "sample/hip.toml", "--out", "result", "--map", "flexion=0:60:20", "--map",
+      "adduction=-10:10:10"}},
+    {"report",
+     {"report", "sample/hip.toml", "--out", "result/page.html", "--title", "earlier"},
+     {"report", "sample/hip.toml", "--out", "result/page.html"}},
+    {"motion",
+     {"motion", "sample/hip.toml", "--motion", "squat.csv", "--out", "result"},
+     {"motion", "sample/hip.toml", "--motion", "stride.csv", "--out", "result"}},
+};
+
+class BrokenOff : public testing::TestWithParam<Writing> {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    ASSERT_EQ(run_condyle(folder_->path(), "sample hip --out sample").exit_code, 0);
+    folder_->file("squat.csv", "time,flexion_deg\n0,0\n0.5,40\n1,80\n");
+    folder_->file("stride.csv", "time,flexion_deg,adduction_deg\n0,30,0\n0.5,0,-5\n1,-10,3\n");
+  }
+  static void TearDownTestSuite() {
+    delete folder_;
+    folder_ = nullptr;
+  }
+
+  void SetUp() override {
+    fs::remove_all(here() / "result");
+    run_whole(GetParam().before);
+    old_ = files_in(here() / "result");
+    const auto started = Clock::now();
+    run_whole(GetParam().after);
+    takes_ = Clock::now() - started;
+    new_ = files_in(here() / "result");
+    ASSERT_FALSE(old_.empty());
+    ASSERT_NE(old_, new_);
+  }
+
+  static const fs::path& here() { return folder_->path(); }
+  static fs::path err() { return here() / "err.txt"; }
+
+  static void run_whole(const std::vector<std::string>& arguments) {
+    const int status = status_of(start(here(), arguments, err()));
+    ASSERT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << io::read_whole_file(err());
+  }
+
+  /// The earlier result and nothing else.
+  void restore() {
+    fs::remove_all(here() / "result");
+    run_whole(GetParam().before);
+  }
+
+  void expect_whole_files() {
+    for (const auto& [name, bytes] : files_in(here() / "result")) {
+      const auto is = [&, &name = name, &bytes = bytes](const auto& files) {
+        const auto found = files.find(name);
+        return found != files.end() && found->second == bytes;
+      };
+      EXPECT_TRUE(is(old_) || is(new_)) << name << " is neither the earlier file nor the new one";
+    }
+  }
+
+  static TemporaryFolder* folder_;
+  std::map<std::string, std::string> old_, new_;
+  Clock::duration takes_{};
+};
+
+TemporaryFolder* BrokenOff::folder_ = nullptr;
+
+int kills() {
+  return std::getenv("CONDYLE_LONG_TESTS") ? 200 / static_cast<int>(writings.size()) + 1 : 6;
+}
+
+TEST_P(BrokenOff, AtAnyMomentLeavesEachFileOldOrNewAndTheNextRunTheSameBytes) {
+  std::mt19937 random(5);
+  int ended_early = 0;
+  for (int i = 0; i < kills(); ++i) {
+    restore();
+    const int signal = i % 3 == 0 ? SIGINT : SIGKILL;
+    const pid_t child = start(here(), GetParam().after, err());
+    const double share = 1.1 * static_cast<double>(random() % 1000) / 1000;
+    std::this_thread::sleep_for(std::chrono::duration<double>(takes_) * share);
+    ::kill(child, signal);
+    const auto signalled = Clock::now();
+    const int status = status_of(child);
+    EXPECT_LT(Clock::now() - signalled, std::chrono::seconds(5));
+    const bool finished = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    ended_early += !finished;
+    if (signal == SIGKILL) {
+      EXPECT_TRUE(finished || (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+    } else if (!finished && WIFEXITED(status)) {
+      EXPECT_EQ(WEXITSTATUS(status), 130);
+      const std::string said = io::read_whole_file(err());
+      EXPECT_NE(said.find("condyle: "), said.npos) << said;
+      EXPECT_EQ(said.back(), '\n') << said;
+    } else if (!finished) {
+      // Before the program had begun to listen.
+      EXPECT_EQ(WTERMSIG(status), SIGINT);
+    }
+    expect_whole_files();
+    run_whole(GetParam().after);
+    EXPECT_EQ(files_in(here() / "result"), new_);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(ended_early, kills() / 3);
+}
+
+/// A disk that is full for files of more than 1,500 bytes.
+TEST_P(BrokenOff, WithoutRoomForItsFilesLeavesTheEarlierOnesAndSaysSoInOneLine) {
+  restore();
+  struct rlimit before {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit little = before;
+  little.rlim_cur = 1500;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+  const pid_t child = start(here(), GetParam().after, err());
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  const int status = status_of(child);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  const std::string said = io::read_whole_file(err());
+  EXPECT_NE(said.find("cannot be written: File too large\n"), said.npos) << said;
+  EXPECT_EQ(files_in(here() / "result"), old_);
+}
+
+TEST_P(BrokenOff, InAFolderThatMayNotBeWrittenToLeavesItAsItWas) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write to every folder";
+  restore();
+  fs::permissions(here() / "result", fs::perms::owner_read | fs::perms::owner_exec);
+  const int status = status_of(start(here(), GetParam().after, err()));
+  fs::permissions(here() / "result", fs::perms::owner_all);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3);
+  EXPECT_TRUE(is_one_error_line(without_notes(io::read_whole_file(err()))));
+  EXPECT_EQ(files_in(here() / "result"), old_);
+}
+
+TEST_P(BrokenOff, WithAnInputThatVanishedSaysWhichInOneLine) {
+  restore();
+  fs::rename(here() / "sample/femur.ply", here() / "sample/gone.ply");
+  const int status = status_of(start(here(), GetParam().after, err()));
+  fs::rename(here() / "sample/gone.ply", here() / "sample/femur.ply");
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 3);
+  const std::string said = without_notes(io::read_whole_file(err()));
+  EXPECT_TRUE(is_one_error_line(said)) << said;
+  EXPECT_NE(said.find("femur.ply"), said.npos) << said;
+  EXPECT_EQ(files_in(here() / "result"), old_);
+}
+
+INSTANTIATE_TEST_SUITE_P(Writes, BrokenOff, testing::ValuesIn(writings),
+                         [](const auto& writing) { return std::string(writing.param.name); });
+
+}  // namespace
+}  // namespace condyle::test
