@@ -18,7 +18,8 @@ struct TriMesh;
 /// mesh stays closed.
 class AxisFrame {
  public:
-  /// The direction may have any length but zero. UsageError where it is zero or a value is not finite.
+  /// The direction may have any length but zero. UsageError where it is zero, a value is not finite, or the point is beyond
+  /// 1e30 mm.
   AxisFrame(const Vec3& point, const Vec3& direction);
 
   const Vec3& point() const noexcept { return point_; }

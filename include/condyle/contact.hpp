@@ -54,7 +54,7 @@ using TangentialContact = ContactResults<TangentialResults>;
 ///
 /// Tables are built when the first question needs them and kept: direction tables for depths and gaps along
 /// rays, ring tables for those about an axis (of the latest axes asked), trees for pairs. Any number of threads
-/// may ask; results do not depend on how many.
+/// may ask; results do not depend on how many. Each raises UsageError for a pose that is not finite or translates beyond 1e30 mm.
 class JointContact {
  public:
   /// The meshes of a joint, which are in the joint frame.

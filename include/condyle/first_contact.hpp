@@ -120,7 +120,7 @@ class FirstContact {
   FirstContact& operator=(FirstContact&&) noexcept;
 
   /// Both limits from the start pose. Throws UsageError where the range does not hold 0, is more than a full
-  /// turn either way, or is not finite. May be called from any thread; the same bits on each.
+  /// turn either way, or is not finite, and for a pose that is not finite or translates beyond 1e30 mm. May be called from any thread; the same bits on each.
   RotationLimits limits(const Pose& X_FM = Pose::Identity(), const RotationRange& range = {}) const;
 
  private:

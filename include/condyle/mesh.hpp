@@ -42,8 +42,9 @@ struct DirectedEdge {
   friend bool operator==(const DirectedEdge&, const DirectedEdge&) = default;
 };
 
-/// A triangle mesh that has come through the one door: every index in range, every coordinate finite, and
-/// known to be closed or not. Tables are made of nothing else. Immutable and shared: a copy costs a pointer.
+/// A triangle mesh that has come through the one door: every index in range, every coordinate finite and at most 1e30, its
+/// vertices in one place or apart by at least 1e-30 along an axis, and known to be closed or not. Tables are made of nothing else. Immutable and shared: a
+/// copy costs a pointer.
 class Mesh {
  public:
   /// Checks the arrays, which are taken over. Raises MeshError naming the first bad element ("triangle 812
@@ -63,7 +64,7 @@ class Mesh {
   const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
 
   /// The same triangles on vertices elsewhere: whether it is closed needs no second look. Raises MeshError
-  /// where there are not as many of them or a coordinate is not finite.
+  /// where there are not as many of them, and as the constructor does.
   Mesh moved_to(Points vertices) const;
 
   operator const TriMesh&() const noexcept { return arrays(); }

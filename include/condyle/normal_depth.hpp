@@ -106,7 +106,7 @@ class NormalDepth {
   NormalDepth& operator=(NormalDepth&&) noexcept;
 
   /// X_CT is the pose of the target in the casting body: X_FM with the fixed body casting, its inverse with the mobile one.
-  /// Some 0.1 microseconds a ray.
+  /// UsageError where it is not finite or translates beyond 1e30 mm. Some 0.1 microseconds a ray.
   SurfaceContact at(const Pose& X_CT) const;
   void at(const Pose& X_CT, SurfaceContact& out) const;
 

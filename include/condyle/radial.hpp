@@ -100,7 +100,8 @@ struct PenetrationWork {
 /// and shared: a copy costs a pointer.
 class SortedPoints {
  public:
-  /// Points in M's frame, mm; `centre` is the joint centre in that frame. n log n.
+  /// Points in M's frame, mm; `centre` is the joint centre in that frame. UsageError for a coordinate that is not finite or
+  /// beyond 1e30 mm. n log n.
   explicit SortedPoints(PointsView points, const Vec3& centre = Vec3::Zero());
 
   std::size_t size() const noexcept;
@@ -131,7 +132,8 @@ struct RadialTableSize {
 /// may only be assigned to or destroyed.
 class RadialTable {
  public:
-  /// Raises MeshError where the origin lies exactly on the surface, and UsageError for options out of range.
+  /// Raises MeshError where the origin lies exactly on the surface or nearer than 1e-36 mm to a vertex, and UsageError for
+  /// options out of range.
   /// Open meshes are accepted; queries of them are not. Linear in triangles and cells.
   explicit RadialTable(Mesh mesh, RadialOptions options = {});
   RadialTable(const RadialTable&);
@@ -165,8 +167,8 @@ class RadialTable {
   /// ball). A point inside leaves by the nearer way. A point exactly at the centre has no ray: its gap is
   /// infinite, negative where it is inside.
   ///
-  /// Raises MeshError for an open mesh, naming an edge of its boundary: without an inside there is no answer.
-  /// Linear in points; a point costs a look at its cell's list, sixteen triangles at a time, and the few of
+  /// Raises MeshError for an open mesh, naming an edge of its boundary: without an inside there is no answer. UsageError for a
+  /// coordinate that is not finite or beyond 1e30 mm. Linear in points; a point costs a look at its cell's list, sixteen triangles at a time, and the few of
   /// them that its ray comes near. On all threads of the calling oneTBB arena.
   void query(PointsView points, RadialResults& out) const;
   RadialResults query(PointsView points) const;
@@ -180,7 +182,7 @@ class RadialTable {
   /// not settle are decided as query() does. For the paper's map, for a pose that is no rigid motion or moves
   /// the centre by more than four times the distance of the nearest surface, all points are.
   ///
-  /// Raises MeshError for an open mesh. Cost: blocks, plus points near the surface; the first call on a table
+  /// Raises MeshError for an open mesh, UsageError for a pose that is not finite or translates beyond 1e30 mm. Cost: blocks, plus points near the surface; the first call on a table
   /// also what prepare_penetrations() does.
   void penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                     PenetrationWork* work = nullptr) const;

@@ -145,7 +145,8 @@ class RingTable {
   RingTable(const Mesh& mesh, const AxisFrame& frame, RingTableOptions options = {});
 
   /// State, gap or depth, triangle and rotation sense of every point. Linear in points; a point costs the
-  /// length of its cell's list. No allocation per point. `results` may hold anything before.
+  /// length of its cell's list. No allocation per point. `results` may hold anything before. UsageError for a coordinate that
+  /// is not finite or beyond 1e30 mm.
   void query(PointsView points, TangentialResults& results,
              TangentialRule rule = TangentialRule::alternating) const;
   TangentialResults query(PointsView points, TangentialRule rule = TangentialRule::alternating) const;
