@@ -13,7 +13,10 @@ rm -rf "$out"
 mkdir -p "$out"
 git archive --format=tar.gz --prefix="$name/" -o "$out/$name.tar.gz" HEAD
 
-work=$(mktemp -d)
+# Below the sources: a compiler cache with a base folder knows its files again.
+work=$PWD/out/release-work
+rm -rf "$work"
+mkdir -p "$work"
 trap 'rm -rf "$work"' EXIT
 tar -C "$work" -xf "$out/$name.tar.gz"
 cd "$work/$name"
