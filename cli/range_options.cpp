@@ -90,17 +90,17 @@ std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& j
   return ZoneFinder(joint, {.bearing = given.bearing, .past = Angle::degrees(*given.past_deg)});
 }
 
-std::optional<MapGrid> grid_of(const RangeGiven& given, const Joint& joint) {
+std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy) {
   if (given.map.empty()) {
     if (!given.vary.empty()) throw UsageError("--vary: is for --map");
     return std::nullopt;
   }
   MapGrid grid;
-  grid.column = parse_grid_axis(given.map[0], joint.anatomy);
-  grid.row = parse_grid_axis(given.map[1], joint.anatomy);
+  grid.column = parse_grid_axis(given.map[0], anatomy);
+  grid.row = parse_grid_axis(given.map[1], anatomy);
   grid.vary = given.vary.empty() ? third_angle(grid.column.angle, grid.row.angle)
-                                 : joint_angle_named(given.vary, joint.anatomy);
-  check_grid(grid, joint.kind);
+                                 : joint_angle_named(given.vary, anatomy);
+  check_grid(grid, kind);
   return grid;
 }
 

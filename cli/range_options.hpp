@@ -38,7 +38,7 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& give
 CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 
 /// Nothing where no map was asked for. Throws UsageError.
-std::optional<MapGrid> grid_of(const RangeGiven& given, const Joint& joint);
+std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy);
 /// Nothing where no zones were asked for. Throws UsageError.
 std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint);
 RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose);

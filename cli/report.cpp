@@ -44,7 +44,7 @@ struct RangeOrError {
 
 RangeOrError range_of(const Options& options, const LoadedJoint& loaded, const Joint& held,
                       const BandOptions& band) {
-  const std::optional<MapGrid> grid = grid_of(*options.range, held);
+  const std::optional<MapGrid> grid = grid_of(*options.range, held.kind, held.anatomy);
   const RangeOptions asked = range_options_of(*options.range, loaded.report.placement.reference_pose.angles);
   try {
     return {exact_range(held, motions_of(loaded), asked, grid, band), {}};

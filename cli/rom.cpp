@@ -120,7 +120,7 @@ void run(const Options& options, const CLI::App& command) {
   const Joint joint = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
   const std::vector<Motion> motions = chosen_motions(motions_of(loaded), options.motions);
   if (options.task == Task::list_motions) return print(list_of(motions, joint.anatomy));
-  const std::optional<MapGrid> grid = grid_of(*options.range, joint);
+  const std::optional<MapGrid> grid = grid_of(*options.range, joint.kind, joint.anatomy);
   const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose.angles);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, joint);

@@ -39,9 +39,7 @@ StudyOptions study_options(const Options& given) {
   options.bearing = range.bearing;
   options.reference_contact = range.reference_contact;
   if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
-  // Of the joint only its kind and which one it is are asked.
-  options.map =
-      grid_of(range, {"", JointKind::ball, Side::right, {"", TriMesh()}, {"", TriMesh()}, options.anatomy});
+  options.map = grid_of(range, JointKind::ball, options.anatomy);
   if (range.band_samples > 0)
     options.bands = {range.band_samples,
                      range.seed,

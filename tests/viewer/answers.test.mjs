@@ -66,8 +66,8 @@ test("a map of ten degrees: the same free intervals, within the bound of limits"
   const inPage = await page.evaluate((places) => Promise.all(places.map(([flexion, adduction]) => condyle.query({
     of: "mapPoint", point: 0, question: { columnAngle: 0, rowAngle: 1, vary: 2, columns: [flexion], rows: [adduction] },
   }))), points.map(([flexion, adduction]) => [Number(flexion), Number(adduction)]));
-  // As limits have it in same_bits.mjs.
-  const off_deg = 8 * 2 ** -45;
+  const [[bound]] = of("bound"), off_deg = fromBits(bound);
+  assert.ok(off_deg < 1e-10);
   let equal = 0, all = 0;
   points.forEach(([flexion, adduction, ...native], i) => {
     const found = inPage[i].flat();

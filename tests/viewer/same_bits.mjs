@@ -1,7 +1,7 @@
 // Holds the core compiled to WebAssembly against the same functions compiled natively, bit for bit:
 //   page_core_answers --sample FOLDER && node same_bits.mjs page_core.js FOLDER
-// Poses and limits rest on the sine and arctangent of two C libraries: poses may differ by one unit in the last place, limits by
-// the bound of limitsDiffer below; what is asked of one and the same pose may not differ.
+// Poses and limits rest on the sine and arctangent of two C libraries: poses may differ by one unit in the last place, limits within
+// their error bound; what is asked of one and the same pose may not differ.
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
@@ -42,10 +42,9 @@ const penetrations = (ofFixed) => {
 };
 const nextTo = (a, b) => Object.is(a, b) || Math.abs(a - b) <= Math.max(Math.abs(a) * 2 ** -52, 2 ** -53);
 
-// A limit is told within its error bound on either side, some units in the last place of degrees below 256; as told in
-// docs/report.md, eight of them. Its contact point is turned by that angle: at most 200 mm from the centre it moves by
-// 200 mm * 8 * 2^-45 deg * pi / 180, and is rounded some ten times by 2^-53 of 200 mm.
-const limitOff_deg = 8 * 2 ** -45, pointOff_mm = 200 * (limitOff_deg * Math.PI / 180 + 10 * 2 ** -53);
+// The native answers begin with the error bound of limits. A contact point is turned by the limit's angle: at most 200 mm from the centre
+// it moves by 200 mm * bound * pi / 180, and is rounded some ten times by 2^-53 of 200 mm.
+let limitOff_deg = 0, pointOff_mm = 0;
 const within = (a, b, off) => Object.is(a, b) || Math.abs(a - b) <= off;
 
 const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(56);
@@ -75,6 +74,10 @@ function compareShown() {
 }
 
 const answerers = {
+  bound([bound]) {
+    limitOff_deg = fromBits(bound);
+    pointOff_mm = 200 * (limitOff_deg * Math.PI / 180 + 10 * 2 ** -53);
+  },
   pose(fields) {
     const at = 6 * count.poses;
     f64(angles, 3).set(questions.subarray(at, at + 3));
@@ -137,5 +140,6 @@ console.log(`${count.answers} answers, ${count.penetrating} penetrating vertices
   `${count.equalPoses} of ${count.poses} poses and ${count.equalLimits} of ${count.limits} limits equal to the bit`);
 for (const text of wrong.slice(0, 5)) console.error(text);
 const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.mapPoints === 120 &&
+  limitOff_deg > 0 && limitOff_deg < 1e-10 &&
   shownAt === shownNatively.length;
 process.exit(wrong.length || !complete ? 1 : 0);
