@@ -70,12 +70,12 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& give
   for_band(
       command.add_option("--seed", given->seed, "With --band: seed of the displacements, 1 if not given"));
   for_band(command.add_option(
-      "--sigma-centre", given->sigma_centre_mm,
+      "--sigma-centre", given->sigma.centre_mm,
       "With --band: standard deviation of each coordinate of the centre, 0.5 mm if neither this "
       "nor the joint file says"));
-  for_band(command.add_option("--sigma-axes", given->sigma_axes_deg,
+  for_band(command.add_option("--sigma-axes", given->sigma.axes_deg,
                               "With --band: of the rotation about each axis, 1 degree if not said"));
-  for_band(command.add_option("--sigma-surface", given->sigma_surface_mm,
+  for_band(command.add_option("--sigma-surface", given->sigma.surface_mm,
                               "With --band: of each surface along its normals, 0.25 mm if not said"));
   return band;
 }
@@ -113,11 +113,7 @@ RangeOptions range_options_of(const RangeGiven& given, const JointAngles& refere
 }
 
 BandOptions band_options_of(const RangeGiven& given, const Uncertainty& of_file) {
-  BandOptions band{.sigma = of_file, .samples = given.band_samples, .seed = given.seed};
-  if (given.sigma_centre_mm) band.sigma.centre_mm = *given.sigma_centre_mm;
-  if (given.sigma_axes_deg) band.sigma.axes = Angle::degrees(*given.sigma_axes_deg);
-  if (given.sigma_surface_mm) band.sigma.surface_mm = *given.sigma_surface_mm;
-  return band;
+  return {.sigma = given.sigma.over(of_file), .samples = given.band_samples, .seed = given.seed};
 }
 
 }  // namespace condyle::cli

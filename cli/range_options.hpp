@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/impingement_zone.hpp"
+#include "condyle/io/study.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
 
@@ -27,7 +28,7 @@ struct RangeGiven {
   std::size_t band_samples = 0;  ///< 0: no bands
   std::uint64_t seed = 1;
   std::optional<double> past_deg;  ///< nothing: no impingement zones
-  std::optional<double> sigma_centre_mm, sigma_axes_deg, sigma_surface_mm;
+  StudyUncertainty sigma;
 };
 
 /// Each adds the options of one question and returns the first of them. `given` is written while arguments are read.

@@ -40,10 +40,7 @@ StudyOptions study_options(const Options& given) {
   options.reference_contact = range.reference_contact;
   if (given.leaves_out_reference_contacts) options.leave_out_reference_contacts.emplace();
   options.map = grid_of(range, JointKind::ball, options.anatomy);
-  if (range.band_samples > 0)
-    options.bands = {range.band_samples,
-                     range.seed,
-                     {range.sigma_centre_mm, range.sigma_axes_deg, range.sigma_surface_mm}};
+  if (range.band_samples > 0) options.bands = {range.band_samples, range.seed, range.sigma};
   if (!given.depth.empty()) options.depth_at = parse_pose(given.depth, JointKind::ball, options.anatomy);
   return options;
 }

@@ -23,6 +23,9 @@ namespace condyle {
 /// Standard deviations that hold for all joints; those left empty are as the joint's file says, else as is usual.
 struct StudyUncertainty {
   std::optional<double> centre_mm = {}, axes_deg = {}, surface_mm = {};
+
+  /// Those that are set, the others as in `of_file`.
+  Uncertainty over(const Uncertainty& of_file) const noexcept;
 };
 
 struct StudyBands {

@@ -167,4 +167,20 @@ std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs
   return text;
 }
 
+std::optional<JointAngle> angle_of(DepthWay way) noexcept {
+  switch (way) {
+    case DepthWay::flexion:
+      return JointAngle::flexion;
+    case DepthWay::adduction:
+      return JointAngle::adduction;
+    case DepthWay::internal_rotation:
+      return JointAngle::internal_rotation;
+    case DepthWay::none:
+    case DepthWay::radial:
+    case DepthWay::nearest:
+      break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace condyle::io

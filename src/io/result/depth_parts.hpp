@@ -5,6 +5,7 @@
 #include <string>
 
 #include "condyle/io/depth_result.hpp"
+#include "condyle/reliable_depth.hpp"
 #include "io/result/json.hpp"
 
 /// What the results of all methods have in common.
@@ -126,5 +127,8 @@ std::string pairs_csv(const Joint& joint, const std::vector<TrianglePair>& pairs
 
 /// Why a body has no figures; one line.
 std::string open_line(const Body& body);
+
+/// The angle whose axis a way turns about; nothing for those that turn about none.
+std::optional<JointAngle> angle_of(DepthWay way) noexcept;
 
 }  // namespace condyle::io

@@ -60,32 +60,15 @@ std::optional<DeepestOf> deepest_of(const Views& bodies, const ReliableContact& 
   return deepest;
 }
 
-/// The angle whose axis a way turns about; nothing for those that turn about none.
-std::optional<JointAngle> angle_of(DepthWay way) noexcept {
-  switch (way) {
-    case DepthWay::flexion:
-      return JointAngle::flexion;
-    case DepthWay::adduction:
-      return JointAngle::adduction;
-    case DepthWay::internal_rotation:
-      return JointAngle::internal_rotation;
-    case DepthWay::none:
-    case DepthWay::radial:
-    case DepthWay::nearest:
-      break;
-  }
-  return std::nullopt;
-}
-
 const WayOut* rotation_of(const DeepestReliable& vertex) noexcept {
-  const auto angle = angle_of(vertex.way);
+  const auto angle = io::angle_of(vertex.way);
   return angle ? &*vertex.rotations[static_cast<std::size_t>(*angle)] : nullptr;
 }
 
 io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   if (!deepest) return nullptr;
   const auto& [view, vertex] = *deepest;
-  const auto angle = angle_of(vertex.way);
+  const auto angle = io::angle_of(vertex.way);
   const WayOut* rotation = rotation_of(vertex);
   io::Json json{{"depth_mm", vertex.depth_mm},
                 {"kind", angle ? "tangential" : "radial"},
@@ -140,7 +123,7 @@ std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
   const WayOut* rotation = rotation_of(vertex);
   const std::string way = rotation
                               ? fmt::format("along the arc of {}, {:.3f} deg",
-                                            name_of(*angle_of(vertex.way), joint), rotation->angle.degrees())
+                                            name_of(*io::angle_of(vertex.way), joint), rotation->angle.degrees())
                               : "along the ray";
   return fmt::format("  depth: {:.3f} mm {}, {}, {}\n    its nearest surface is {:.3f} mm away\n",
                      vertex.depth_mm, way, io::vertex_text(view->body, vertex.vertex),

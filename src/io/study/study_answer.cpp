@@ -10,6 +10,7 @@
 #include "condyle/reliable_depth.hpp"
 #include "io/file/failure.hpp"
 #include "io/result/csv_field.hpp"
+#include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/rom_columns.hpp"
 #include "io/study/study_columns.hpp"
@@ -65,11 +66,7 @@ RangeOptions range_options_of(const LoadedJoint& loaded, const StudyOptions& opt
 }
 
 BandOptions band_options_of(const LoadedJoint& loaded, const StudyBands& bands) {
-  BandOptions options{loaded.report.file.uncertainty, bands.samples, bands.seed};
-  if (bands.sigma.centre_mm) options.sigma.centre_mm = *bands.sigma.centre_mm;
-  if (bands.sigma.axes_deg) options.sigma.axes = Angle::degrees(*bands.sigma.axes_deg);
-  if (bands.sigma.surface_mm) options.sigma.surface_mm = *bands.sigma.surface_mm;
-  return options;
+  return {bands.sigma.over(loaded.report.file.uncertainty), bands.samples, bands.seed};
 }
 
 /// Those columns of `condyle rom` that a study has, by their places there.
@@ -108,19 +105,10 @@ void add_map(Fields& fields, const MotionMap& map) {
   add(summary.with_islands);
 }
 
+/// Empty where nothing is a depth.
 std::string name_of_way(DepthWay way, Anatomy joint) {
-  switch (way) {
-    case DepthWay::flexion:
-      return std::string(name_of(JointAngle::flexion, joint));
-    case DepthWay::adduction:
-      return std::string(name_of(JointAngle::adduction, joint));
-    case DepthWay::internal_rotation:
-      return std::string(name_of(JointAngle::internal_rotation, joint));
-    case DepthWay::radial:
-      return "radial";
-    default:
-      return "";
-  }
+  if (const auto angle = angle_of(way)) return std::string(name_of(*angle, joint));
+  return way == DepthWay::radial ? "radial" : "";
 }
 
 void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {

@@ -29,3 +29,15 @@ std::string options_json(const StudyOptions& options) {
 }
 
 }  // namespace condyle::io
+
+namespace condyle {
+
+Uncertainty StudyUncertainty::over(const Uncertainty& of_file) const noexcept {
+  Uncertainty sigma = of_file;
+  if (centre_mm) sigma.centre_mm = *centre_mm;
+  if (axes_deg) sigma.axes = Angle::degrees(*axes_deg);
+  if (surface_mm) sigma.surface_mm = *surface_mm;
+  return sigma;
+}
+
+}  // namespace condyle
