@@ -15,28 +15,9 @@ Vec3 vector_of(const std::vector<double>& values) {
   return values.empty() ? Vec3(Vec3::Zero()) : Vec3(values[0], values[1], values[2]);
 }
 
-/// The one value for both bodies, or that of this one.
-void take(const std::vector<double>& given, std::size_t body, double& value) {
-  if (!given.empty()) value = given.size() == 1 ? given[0] : given[body];
-}
-
-std::optional<LayerEntry> layer_of(const ContactOptions& options, const std::optional<LayerEntry>& in_file,
-                                   std::size_t body) {
-  if (options.e.empty() && options.nu.empty() && options.thickness.empty()) return in_file;
-  // Changes to what the joint file has are none to a body without a layer; a whole layer is one for either.
-  const bool whole = !options.e.empty() && !options.nu.empty() && !options.thickness.empty();
-  if (!in_file && !whole) return std::nullopt;
-  LayerEntry layer = in_file.value_or(LayerEntry{});
-  take(options.e, body, layer.youngs_modulus_mpa);
-  take(options.nu, body, layer.poisson_ratio);
-  if (!options.thickness.empty()) layer.behind.reset(), layer.thickness_file.reset();
-  take(options.thickness, body, layer.thickness_mm);
-  return layer;
-}
-
 }  // namespace
 
-void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options, const std::string& when) {
+void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options, const std::string& when) {
   command
       .add_option_function<std::string>(
           "--casting",
@@ -62,14 +43,14 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactOptions>& options,
   command.add_option("--reach", options->reach_mm, when + "How far rays go, mm")->option_text("MM (20)");
 }
 
-void add_layers(CLI::App& command, const std::shared_ptr<ContactOptions>& options) {
+void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& options) {
   const auto add = [&](const char* name, std::vector<double>& values, const char* what, const char* text) {
     command.add_option(name, values, what)->expected(1, 2)->option_text(text);
   };
-  add("--e", options->e, "Young's modulus of the layers, MPa: one, or the fixed body's and the mobile one's",
-      "MPA [MPA]");
-  add("--nu", options->nu, "Poisson's ratio of the layers", "NU [NU]");
-  add("--thickness", options->thickness, "Thickness of the layers, mm", "MM [MM]");
+  add("--e", options->youngs_modulus_mpa,
+      "Young's modulus of the layers, MPa: one, or the fixed body's and the mobile one's", "MPA [MPA]");
+  add("--nu", options->poisson_ratio, "Poisson's ratio of the layers", "NU [NU]");
+  add("--thickness", options->thickness_mm, "Thickness of the layers, mm", "MM [MM]");
   command
       .add_option_function<std::string>(
           "--law",
@@ -81,16 +62,9 @@ void add_layers(CLI::App& command, const std::shared_ptr<ContactOptions>& option
       ->option_text("linear|logarithmic (linear)");
 }
 
-ContactEntry contact_of(const ContactOptions& options, const JointFile& file, bool with_pressure) {
-  ContactEntry entry = file.contact.value_or(ContactEntry{});
-  if (options.casting) entry.casting = *options.casting;
-  if (options.rule) entry.rays.rule = *options.rule;
-  if (options.reach_mm) entry.rays.reach_mm = *options.reach_mm;
-  if (options.law) entry.law = *options.law;
-  entry.fixed = layer_of(options, entry.fixed, 0);
-  entry.mobile = layer_of(options, entry.mobile, 1);
-  const bool any = !options.e.empty() || !options.nu.empty() || !options.thickness.empty();
-  if (any && !entry.fixed && !entry.mobile)
+ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bool with_pressure) {
+  ContactEntry entry = changed(file.contact.value_or(ContactEntry{}), changes);
+  if (changes.any_of_layers() && !entry.fixed && !entry.mobile)
     throw UsageError("--e, --nu and --thickness: a layer needs all three, and the joint file has none");
   if (with_pressure && !entry.fixed && !entry.mobile)
     throw UsageError(
@@ -129,6 +103,14 @@ void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) 
       "--free-rotations", [given] { given->rotations = true; }, "Balance by rotations too");
 }
 
+std::vector<Vec3> directions_of(const std::vector<double>& along) {
+  if (along.size() % 3 != 0) throw UsageError("--along: needs three numbers, or six for two directions");
+  std::vector<Vec3> directions;
+  for (std::size_t i = 0; i < along.size(); i += 3)
+    directions.emplace_back(along[i], along[i + 1], along[i + 2]);
+  return directions;
+}
+
 Load load_of(const BalanceGiven& given) {
   return {.on_mobile = {vector_of(given.force), vector_of(given.moment)}, .frame = given.frame};
 }
@@ -136,10 +118,7 @@ Load load_of(const BalanceGiven& given) {
 BalanceOptions balance_options_of(const BalanceGiven& given) {
   if (!given.moment.empty() && !given.rotations) throw UsageError("--moment: needs --free-rotations");
   BalanceOptions options;
-  if (given.along.size() % 3 != 0)
-    throw UsageError("--along: needs three numbers, or six for two directions");
-  for (std::size_t i = 0; i < given.along.size(); i += 3)
-    options.free_directions.emplace_back(given.along[i], given.along[i + 1], given.along[i + 2]);
+  options.free_directions = directions_of(given.along);
   options.free_rotations = given.rotations;
   return options;
 }

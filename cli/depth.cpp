@@ -34,7 +34,7 @@ struct Options {
   std::string joint, pose, matrix, out;
   Method method = Method::reliable;
   std::optional<std::string> about;
-  std::shared_ptr<ContactOptions> rays = std::make_shared<ContactOptions>();
+  std::shared_ptr<ContactChanges> rays = std::make_shared<ContactChanges>();
   VertexTables vertices = VertexTables::leave_out;
   Scope scope = Scope::vertices_and_pairs;
   Strictness strictness = Strictness::notes;

@@ -18,7 +18,7 @@ namespace {
 
 struct Options {
   std::string joint, pose, out;
-  std::shared_ptr<ContactOptions> contact = std::make_shared<ContactOptions>();
+  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
   Strictness strictness = Strictness::notes;
   std::shared_ptr<WhereOptions> where = std::make_shared<WhereOptions>();

@@ -27,7 +27,7 @@ namespace {
 struct Options {
   std::string joint, motion, loads, out;
   bool with_pressure = false, between = false;
-  std::shared_ptr<ContactOptions> contact = std::make_shared<ContactOptions>();
+  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
   std::vector<double> cycle;
   MotionFiles files;

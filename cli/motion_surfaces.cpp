@@ -4,7 +4,7 @@
 
 namespace condyle::cli {
 
-ContactEntry motion_contact_of(const ContactOptions& options, const JointFile& file, bool with_pressure) {
+ContactEntry motion_contact_of(const ContactChanges& options, const JointFile& file, bool with_pressure) {
   ContactEntry contact = contact_of(options, file, with_pressure);
   // Depths alone have no mean of two castings: the surface that moves casts.
   if (!with_pressure && contact.casting == Casting::both) contact.casting = Casting::mobile;

@@ -10,7 +10,7 @@
 namespace condyle::cli {
 
 /// Contact as frames of a recorded motion are asked for it.
-ContactEntry motion_contact_of(const ContactOptions& options, const JointFile& file, bool with_pressure);
+ContactEntry motion_contact_of(const ContactChanges& options, const JointFile& file, bool with_pressure);
 
 /// The bodies and surfaces of a recorded motion, made ready to be asked at any pose; by depth, or with pressure.
 class MotionSurfaces {

@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
+#include "contact_options.hpp"
 #include "prompt_stop.hpp"
 #include "range_options.hpp"
 
@@ -18,16 +19,26 @@ namespace {
 
 struct Options {
   std::string table, out, anatomy = "hip", shard, depth;
+  std::optional<std::string> load;
+  std::vector<double> force, along;
   std::vector<std::string> motions;
   bool leaves_out_reference_contacts = false;
   BadJoint bad_joint = BadJoint::is_a_row;
   std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
+  std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
 };
 
 Anatomy anatomy_named(std::string_view name) {
   for (const Anatomy anatomy : all_anatomies)
     if (name_of(anatomy) == name) return anatomy;
   throw UsageError("--anatomy: there are hip, knee, ankle, elbow and shoulder");
+}
+
+StudyLoad load_of(const Options& given, Anatomy anatomy) {
+  StudyLoad load{parse_pose(*given.load, JointKind::ball, anatomy), *given.contact, {}};
+  if (!given.force.empty()) load.force_n = Vec3(given.force[0], given.force[1], given.force[2]);
+  load.along = directions_of(given.along);
+  return load;
 }
 
 StudyOptions study_options(const Options& given) {
@@ -42,6 +53,11 @@ StudyOptions study_options(const Options& given) {
   options.map = grid_of(range, JointKind::ball, options.anatomy);
   if (range.band_samples > 0) options.bands = {range.band_samples, range.seed, range.sigma};
   if (!given.depth.empty()) options.depth_at = parse_pose(given.depth, JointKind::ball, options.anatomy);
+  if (given.load)
+    options.load = load_of(given, options.anatomy);
+  else if (given.contact->any_of_rays() || given.contact->any_of_layers() || given.contact->law ||
+           !given.force.empty() || !given.along.empty())
+    throw UsageError("--force, --e and all else on a load: needs --load");
   return options;
 }
 
@@ -103,6 +119,24 @@ void add_study(CLI::App& app) {
   command->add_option("--depth", options->depth,
                       "Also how deep the bodies are in each other in this pose, such as \"flexion=90 "
                       "internal_rotation=30\"");
+  command
+      ->add_option(
+          "--load", options->load,
+          "Also contact pressure in this pose (\"\": the reference pose), of the layers in joint files "
+          "or of those of --e, --nu and --thickness")
+      ->option_text("POSE");
+  command
+      ->add_option("--force", options->force,
+                   "With --load: on the mobile body, N; moves it to where the contact carries this force")
+      ->expected(3)
+      ->option_text("ANTERIOR SUPERIOR LATERAL");
+  command
+      ->add_option("--along", options->along,
+                   "With --force: translate along this direction only, or in the plane of two")
+      ->expected(3, 6)
+      ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
+  add_rays(*command, options->contact, "With --load: ");
+  add_layers(*command, options->contact);
   command->add_flag_callback(
       "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
       "A joint that cannot be answered ends the run with its exit code; nothing is written");

@@ -5,16 +5,33 @@
 #include "bindings.hpp"
 #include "condyle/io/sample_files.hpp"
 #include "interrupts.hpp"
+#include "surface_contact.hpp"
 
 namespace condyle::python {
 namespace {
 
-/// Of what Study of Python has checked; no bands where there are no samples.
+/// Of what StudyLoad of Python has checked.
+StudyLoad load_in(const py::dict& given) {
+  const auto numbers = [&](const char* name) { return given[name].cast<std::vector<double>>(); };
+  StudyLoad load;
+  load.at = parse_pose(given["at"].cast<std::string>(), JointKind::ball, Anatomy::hip);
+  load.contact.youngs_modulus_mpa = numbers("youngs_modulus_mpa");
+  load.contact.poisson_ratio = numbers("poisson_ratio");
+  load.contact.thickness_mm = numbers("thickness_mm");
+  if (const py::object casting = given["casting"]; !casting.is_none())
+    load.contact.casting = casting_in(casting.cast<std::string>());
+  if (const std::vector<double> force = numbers("force_n"); !force.empty())
+    load.force_n = Vec3(force.at(0), force.at(1), force.at(2));
+  return load;
+}
+
+/// Of what run_study() of Python has checked; no bands where there are no samples.
 struct Asked {
   std::vector<std::string> motions;
   std::size_t band_samples;
   std::uint64_t band_seed;
   std::string depth_at;
+  std::optional<py::dict> load;
 };
 
 StudyOptions options_of(const Asked& asked) {
@@ -23,14 +40,15 @@ StudyOptions options_of(const Asked& asked) {
   if (asked.band_samples > 0) options.bands = {asked.band_samples, asked.band_seed, {}};
   if (!asked.depth_at.empty())
     options.depth_at = parse_pose(asked.depth_at, JointKind::ball, options.anatomy);
+  if (asked.load) options.load = load_in(*asked.load);
   return options;
 }
 
 py::tuple study(const std::string& table, const std::string& folder, const std::vector<std::string>& motions,
                 std::size_t band_samples, std::uint64_t seed, const std::string& depth_at,
-                std::optional<std::pair<std::size_t, std::size_t>> shard, bool is_strict,
-                const py::object& progress) {
-  Study one{table, folder, options_of({motions, band_samples, seed, depth_at}), {}, {}};
+                const std::optional<py::dict>& load, std::optional<std::pair<std::size_t, std::size_t>> shard,
+                bool is_strict, const py::object& progress) {
+  Study one{table, folder, options_of({motions, band_samples, seed, depth_at, load}), {}, {}};
   if (shard) one.shard = {shard->first, shard->second};
   if (is_strict) one.bad_joint = BadJoint::ends_run;
   const auto done = followed(progress, [&](const auto& report, const std::stop_token& stop) {

@@ -29,7 +29,7 @@ from ._range_of_motion import RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
-from ._study import Study, StudyTable, merge_study, read_study, run_study, sample_cohort
+from ._study import Study, StudyLoad, StudyTable, merge_study, read_study, run_study, sample_cohort
 from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thickness_to
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
@@ -42,7 +42,7 @@ __all__ = [
     "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX",
     "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs", "PathLimit", "Penetration", "Penetrations", "REASONS",
     "RadialTable", "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits",
-    "SampleCartilages", "SampleHip", "SphereFit", "Study", "StudyTable", "SurfaceContact", "TriMesh", "UsageError",
+    "SampleCartilages", "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "TriMesh", "UsageError",
     "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__", "clock_face", "find_cylinder",
     "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere", "inspect", "merge_study",
     "neck_clock", "propose_joint", "read_joint", "read_mesh", "read_motion_table", "read_study", "run_study",

@@ -12,14 +12,16 @@ from pathlib import Path as FilePath
 from typing import Any, Iterator, Mapping, Optional, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
 from ._errors import FileError, UsageError
-from ._words import Path, Progress, count, path_of, progress_of
+from ._pressure import ElasticLayer
+from ._words import Path, Progress, count, number, number_array, path_of, progress_of, text_of, word
 
 MOST_HIPS = 10_000_000
+_LAYER = ("youngs_modulus_mpa", "poisson_ratio", "thickness_mm")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -55,6 +57,41 @@ class StudyTable(Mapping[str, NDArray[Any]]):
         import pandas
 
         return pandas.DataFrame(dict(self.columns))
+
+
+@dataclass(frozen=True)
+class StudyLoad:
+    """Contact pressure that :func:`run_study` asks for, in columns `load_...` of `hips`.
+
+    Attributes
+    ----------
+    at : str
+        The pose, such as "flexion=30"; the reference pose if empty.
+    force_n : (3,) array, optional
+        On the femur, anterior, superior, lateral: it is moved to where the contact carries this force. The pose itself if
+        not given.
+    layer : ElasticLayer, optional
+        On both bodies, of one thickness; those of each joint's file if not given.
+    casting : {"both", "fixed", "mobile"}, optional
+        The body whose surface is cast; as each joint's file says if not given, else both.
+    """
+
+    at: str = ""
+    force_n: Optional[ArrayLike] = None
+    layer: Optional[ElasticLayer] = None
+    casting: Optional[str] = None
+
+    def _checked(self) -> dict[str, Any]:
+        if self.layer is not None and not isinstance(self.layer, ElasticLayer):
+            raise UsageError(f"layer: an ElasticLayer is needed, not {type(self.layer).__name__}")
+        force = np.empty(0)
+        if self.force_n is not None:
+            force = number_array(self.force_n, "force_n", "three numbers")
+            if force.shape != (3,):
+                raise UsageError("force_n: three numbers are needed")
+        layers = {name: [] if self.layer is None else [number(getattr(self.layer, name), name)] for name in _LAYER}
+        casting = None if self.casting is None else word(self.casting, "casting", ("both", "fixed", "mobile"))
+        return {"at": text_of(self.at, "at"), "force_n": force.tolist(), "casting": casting, **layers}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -157,13 +194,13 @@ def read_study(folder: Path) -> Study:
 
 
 def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, band_samples: int = 0,
-              seed: int = 1, depth_at: str = "", shard: Optional[tuple[int, int]] = None, strict: bool = False,
-              progress: Progress = None) -> Study:
+              seed: int = 1, depth_at: str = "", load: Optional[StudyLoad] = None,
+              shard: Optional[tuple[int, int]] = None, strict: bool = False, progress: Progress = None) -> Study:
     """Answers for every row of a table of hips and writes the results: docs/cohort.md has both.
 
     `motions` by their names, all if not given; bands of `band_samples` displaced joints (20 or more; 0: none); how deep
-    the bones are in each other in the pose `depth_at`, such as "flexion=90 internal_rotation=30"; `shard` (3, 7) is the
-    third of seven parts, which :func:`merge_study` puts together. What lies there of the same inputs, options and version
+    the bones are in each other in the pose `depth_at`, such as "flexion=90 internal_rotation=30"; contact pressure by
+    `load`; `shard` (3, 7) is the third of seven parts, which :func:`merge_study` puts together. What lies there of the same inputs, options and version
     is not computed again. A hip that cannot be answered is a row of `failures`; with `strict` its error is raised.
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
@@ -179,9 +216,12 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
     names = [] if motions is None else list(motions)
     if not all(isinstance(name, str) for name in names) or not isinstance(depth_at, str):
         raise UsageError("motions and depth_at are texts")
+    if load is not None and not isinstance(load, StudyLoad):
+        raise UsageError(f"load: a StudyLoad is needed, not {type(load).__name__}")
     out = path_of(folder, "folder")
     _native.run_study(path_of(table, "table"), out, names, count(band_samples, "band_samples", high=100_000),
-                      count(seed, "seed", high=2**64 - 1), depth_at, part, bool(strict), progress_of(progress))
+                      count(seed, "seed", high=2**64 - 1), depth_at, None if load is None else load._checked(), part,
+                      bool(strict), progress_of(progress))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))
 
 

@@ -80,6 +80,12 @@ TEST_F(StudyCommand, RefusesWhatCannotBe) {
   expect_refusal(run("study table.csv --out out --map flexion=0:10:1 flexion=0:10:1"), 2,
                  "one is named twice", "map");
   expect_refusal(run("study table.csv --out out --depth yaw=3"), 2, "yaw", "depth");
+  expect_refusal(run("study table.csv --out out --load yaw=3"), 2, "yaw", "load");
+  expect_refusal(run("study table.csv --out out --force 1 2 3"), 2, "needs --load", "force");
+  expect_refusal(run("study table.csv --out out --load '' --e 12 --nu 0.7 --thickness 1"), 2,
+                 "Poisson's ratio", "layers");
+  expect_refusal(run("study table.csv --out out --load '' --force 1 2 3 --along 1 2 3 4"), 2, "--along",
+                 "along");
   expect_refusal(run("merge nothere"), 3, "nothere: there is no shard", "merge");
   std::ofstream(here / "file") << "x";
   expect_refusal(run("study table.csv --out file/out"), 3, "file/out: cannot be written to", "out");

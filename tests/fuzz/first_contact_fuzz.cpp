@@ -14,8 +14,9 @@ namespace {
 
 constexpr double largest_bound = 4e-12;  // rad, as promised
 
-bool meet(const TriMesh& fixed, const TriMesh& mobile) {
-  const auto pairs = intersecting_pairs(fixed, mobile);
+/// At the pose; a triangle that is degenerate is none there either, though rounding may give it an area.
+bool meet(const TriMesh& fixed, const TriMesh& mobile, const Pose& X) {
+  const auto pairs = intersecting_pairs(fixed, posed(X, mobile));
   return std::any_of(pairs.begin(), pairs.end(), [&](const auto& pair) {
     return !is_degenerate(fixed, pair.first) && !is_degenerate(mobile, pair.second);
   });
@@ -61,7 +62,7 @@ std::string fault_of_half(const FirstContact& bodies, const Pose& X, const Rotat
 
 /// About the z axis through the origin nothing is rounded at the start, and no heights are on the way.
 std::string fault_of_poses(const RotationLimits& limits, const TriMesh& fixed, const TriMesh& mobile) {
-  const bool meets = meet(fixed, mobile);
+  const bool meets = meet(fixed, mobile, Pose::Identity());
   if (meets && limits.free_at_start()) return "free at the start, where surfaces meet";
   if (!meets && limits.positive.reason == LimitReason::contact_at_start && limits.positive.contact)
     return "in contact at the start by surfaces that do not meet";
@@ -70,7 +71,7 @@ std::string fault_of_poses(const RotationLimits& limits, const TriMesh& fixed, c
   const auto meets_at = [&](double angle) {
     Pose X = Pose::Identity();
     X.linear() = Eigen::AngleAxisd(angle, Vec3::UnitZ()).toRotationMatrix();
-    return meet(fixed, posed(X, mobile));
+    return meet(fixed, mobile, X);
   };
   for (const double end : {-limits.negative.turned.radians(), limits.positive.turned.radians()}) {
     if (std::abs(end) < 1e-6) continue;

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/io/contact_changes.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
@@ -34,6 +35,17 @@ struct StudyBands {
   StudyUncertainty sigma = {};
 };
 
+/// Contact pressure in one pose, or in the place nearby where the contact carries a force.
+struct StudyLoad {
+  PoseDegrees at = {};
+  ContactChanges contact =
+      {};  ///< layers for joints whose files have none, and what else differs from their files
+  /// On the mobile body, N: anterior, superior, lateral, the same for both sides.
+  std::optional<Vec3> force_n = {};
+  /// Directions of the same components that the mobile body may be translated in: BalanceOptions::free_directions.
+  std::vector<Vec3> along = {};
+};
+
 /// What is asked of every joint of a study: its limits, and what else is set.
 struct StudyOptions {
   Anatomy anatomy = Anatomy::hip;         ///< of all of them; one of another is a failure
@@ -44,6 +56,7 @@ struct StudyOptions {
   std::optional<MapGrid> map = {};
   std::optional<StudyBands> bands = {};
   std::optional<PoseDegrees> depth_at = {};  ///< how deep the bodies are in each other in this pose
+  std::optional<StudyLoad> load = {};
 };
 
 /// A part of the table: of n rows shard i of N has those after (i-1) n / N, up to i n / N, both rounded down.

@@ -15,6 +15,7 @@
 #include "io/result/rom_columns.hpp"
 #include "io/study/study_columns.hpp"
 #include "io/study/study_joint.hpp"
+#include "io/study/study_load.hpp"
 
 namespace condyle::io {
 namespace {
@@ -178,6 +179,8 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     add_map(of_hip, *map);
   }
   if (options.depth_at) add_depth(of_hip, joint, *options.depth_at);
+  if (options.load)
+    for (std::string& field : load_fields(loaded, *options.load)) of_hip.push_back(std::move(field));
   return StudyAnswer{limit_lines(of_row, result, options), line_of(of_row, of_hip), {}, inputs};
 }
 

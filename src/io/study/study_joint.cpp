@@ -114,9 +114,20 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   }
 }
 
+/// What the layers of the surfaces in contact are measured by.
+void add_layer_files(const JointFile& file, std::vector<std::string>& files) {
+  if (!file.contact) return;
+  for (const auto* layer : {&file.contact->fixed, &file.contact->mobile}) {
+    if (!*layer) continue;
+    for (const auto* path : {&(*layer)->behind, &(*layer)->thickness_file})
+      if (*path) files.push_back(sha256_of_file(**path));
+  }
+}
+
 void add_files(const JointFile& file, std::vector<std::string>& files) {
   for (const BodyEntry* body : {&file.fixed, &file.mobile})
     for (const MeshEntry& mesh : body->meshes) files.push_back(sha256_of_file(mesh.mesh));
+  add_layer_files(file, files);
 }
 
 }  // namespace
@@ -142,6 +153,7 @@ std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint) {
   if (!joint.report.file.digest.sha256.empty()) files.push_back(joint.report.file.digest.sha256);
   for (const auto* meshes : {&joint.report.fixed, &joint.report.mobile})
     for (const BodyMeshReport& mesh : *meshes) files.push_back(mesh.digest.sha256);
+  add_layer_files(joint.report.file, files);
   return sha256_of(row, files);
 }
 

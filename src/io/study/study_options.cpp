@@ -1,9 +1,31 @@
 #include "io/study/study_options.hpp"
 
 #include "condyle/io/grid_text.hpp"
+#include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 
 namespace condyle::io {
+namespace {
+
+Json load_json(const StudyLoad& load, Anatomy joint) {
+  const ContactChanges& given = load.contact;
+  Json json;
+  json["pose"] = pose_json(load.at, joint);
+  json["force_anterior_superior_lateral_n"] = load.force_n ? numbers(*load.force_n) : Json(nullptr);
+  json["along_anterior_superior_lateral"] = Json::array();
+  for (const Vec3& direction : load.along)
+    json["along_anterior_superior_lateral"].push_back(numbers(direction));
+  json["casting"] = given.casting ? Json(name_of(*given.casting)) : Json(nullptr);
+  json["rule"] = given.rule ? Json(name_of(*given.rule)) : Json(nullptr);
+  json["reach_mm"] = nullable(given.reach_mm);
+  json["law"] = given.law ? Json(name_of(*given.law)) : Json(nullptr);
+  json["youngs_modulus_mpa"] = given.youngs_modulus_mpa;
+  json["poisson_ratio"] = given.poisson_ratio;
+  json["thickness_mm"] = given.thickness_mm;
+  return json;
+}
+
+}  // namespace
 
 std::string options_json(const StudyOptions& options) {
   Json json;
@@ -25,6 +47,7 @@ std::string options_json(const StudyOptions& options) {
                      {"sigma_axes_deg", nullable(bands->sigma.axes_deg)},
                      {"sigma_surface_mm", nullable(bands->sigma.surface_mm)}};
   if (options.depth_at) json["depth_at"] = pose_json(*options.depth_at, options.anatomy);
+  if (options.load) json["load"] = load_json(*options.load, options.anatomy);
   return json.dump();
 }
 

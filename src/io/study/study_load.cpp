@@ -1,0 +1,124 @@
+#include "io/study/study_load.hpp"
+
+#include <fmt/format.h>
+
+#include "condyle/error.hpp"
+#include "condyle/load_balance.hpp"
+
+namespace condyle::io {
+namespace {
+
+using Fields = std::vector<std::string>;
+
+constexpr ColumnKind text = ColumnKind::text, number = ColumnKind::number;
+
+ContactEntry contact_of(const LoadedJoint& loaded, const StudyLoad& load) {
+  const JointFile& file = loaded.report.file;
+  ContactEntry contact = changed(file.contact.value_or(ContactEntry{}), load.contact);
+  if (!contact.fixed && !contact.mobile)
+    throw FileError(fmt::format("{}: {}: no layers to carry a load", file.path.string(), loaded.joint.name));
+  return contact;
+}
+
+void add(Fields& fields, double value) {
+  fields.push_back(fmt::format("{}", value));
+}
+
+void add(Fields& fields, const Vec3& v) {
+  for (int axis = 0; axis < 3; ++axis) add(fields, v[axis]);
+}
+
+/// Empty where the body's surface was not cast, a mean or a centre also where nothing of it is in contact.
+void add_surface(Fields& fields, const std::optional<SurfaceContact>& surface) {
+  const std::size_t end = fields.size() + 8;
+  if (surface) {
+    const ContactTotals& totals = surface->totals;
+    add(fields, totals.area_mm2);
+    if (totals.triangles > 0)
+      for (const double value :
+           {totals.mean_depth_mm, totals.max_depth_mm, totals.mean_pressure_mpa, totals.max_pressure_mpa})
+        add(fields, value);
+    if (totals.centre_of_pressure) add(fields, *totals.centre_of_pressure);
+  }
+  fields.resize(end);
+}
+
+Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral) {
+  const Vec3& v = anterior_superior_lateral;
+  return {v.x(), v.y(), joint.side == Side::left ? -v.z() : v.z()};
+}
+
+BalancedPose balanced(const Joint& joint, const ElasticContact& layers, const Pose& start,
+                      const StudyLoad& load) {
+  BalanceOptions options;
+  for (const Vec3& direction : load.along)
+    options.free_directions.push_back(in_joint_frame(joint, direction));
+  return balance(layers, start, {.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}}, options);
+}
+
+}  // namespace
+
+std::vector<StudyColumn> load_columns() {
+  std::vector<StudyColumn> columns = {
+      {"load_outcome", "", text,
+       "balanced, at_jump, unstable, pulled_apart, over_the_rim or free_direction; the columns of contact "
+       "are "
+       "empty for the last three; empty without a force"},
+      {"load_residual_n", "N", number, "what contact and force add up to; empty without a force"}};
+  for (const char* axis : {"x", "y", "z"})
+    columns.push_back({fmt::format("load_moved_{}_mm", axis), "mm", number,
+                       "from the pose asked to the balanced one, joint frame; empty without a force"});
+  for (const char* body : {"fixed", "mobile"}) {
+    const auto add = [&](const char* name, const char* unit, const char* meaning) {
+      columns.push_back({fmt::format("load_{}_{}", body, name), unit, number,
+                         fmt::format("{}, of the {} body's surface", meaning, body)});
+    };
+    add("area_mm2", "mm^2", "in contact");
+    add("mean_depth_mm", "mm", "overlap in the mean over the area in contact");
+    add("max_depth_mm", "mm", "greatest overlap");
+    add("mean_pressure_mpa", "MPa", "pressure in the mean over the area in contact");
+    add("max_pressure_mpa", "MPa", "greatest pressure");
+    for (const char* axis : {"x", "y", "z"})
+      columns.push_back({fmt::format("load_{}_centre_{}_mm", body, axis), "mm", number,
+                         fmt::format("centre of pressure on the {} body, its own frame", body)});
+  }
+  for (const char* axis : {"x", "y", "z"})
+    columns.push_back({fmt::format("load_force_{}_n", axis), "N", number,
+                       "of the contact on the mobile body, joint frame"});
+  columns.push_back({"load_cut_off_by_reach", "", number,
+                     "rays that a longer reach would find in contact; 0: the reach suffices"});
+  return columns;
+}
+
+Fields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
+  const Joint& joint = loaded.joint;
+  const ContactEntry contact = contact_of(loaded, load);
+  const ContactSurfaces surfaces = surfaces_of(contact, joint);
+  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
+                              elastic_options(contact, surfaces, loaded));
+  Pose X_FM = pose_at(joint.coordinates(), load.at.angles());
+  ElasticContactResults found;
+  Fields fields;
+  if (load.force_n) {
+    const BalancedPose end = balanced(joint, layers, X_FM, load);
+    fields.emplace_back(name_of(end.outcome));
+    if (!end.carries_load()) {
+      fields.resize(load_columns().size());
+      return fields;
+    }
+    add(fields, end.residual.force_n.norm());
+    add(fields, end.X_FM.translation() - X_FM.translation());
+    X_FM = end.X_FM;
+    found = end.contact;
+  } else {
+    fields.resize(5);
+    found = layers.at(X_FM);
+  }
+  add_surface(fields, found.fixed);
+  add_surface(fields, found.mobile);
+  add(fields, found.on_mobile.force_n);
+  fields.push_back(fmt::format("{}", layers.cut_off_by_reach(X_FM)));
+  return fields;
+}
+
+}  // namespace condyle::io

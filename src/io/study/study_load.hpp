@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/study.hpp"
+#include "io/study/study_columns.hpp"
+
+namespace condyle::io {
+
+std::vector<StudyColumn> load_columns();
+
+/// Those columns of this joint. FileError where it has no layers.
+std::vector<std::string> load_fields(const LoadedJoint& loaded, const StudyLoad& load);
+
+}  // namespace condyle::io
