@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Makes a release from the commit that is checked out, in out/release: the sources, Debian packages, a wheel where its back end
-# is there, the template of reports, the list of materials (SPDX) and checksums. Everything is built from the unpacked sources,
-# and run. The tree must be clean.
+# Makes a release from the commit that is checked out, in out/release: the sources, Debian packages, a wheel, the template of
+# reports, the list of materials (SPDX) and checksums. Everything is built from the unpacked sources, and run. The tree must be
+# clean.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fail() { echo "release: $*" >&2; exit 1; }
@@ -43,12 +43,7 @@ condyle report sample/hip.toml --out report.html >/dev/null
 "$python" -c "import condyle; assert condyle.__version__ == '$version'; condyle.read_joint('sample/hip.toml')"
 test -e installed/usr/share/doc/condyle-doc/api/index.html || fail "condyle-doc has no page"
 
-if "$python" -c 'import scikit_build_core, pip' 2>/dev/null; then
-  "$python" -m pip wheel --no-deps --no-build-isolation -w "$out" "$work/$name" >"$work/wheel.txt" 2>&1 || fail "$(tail "$work/wheel.txt")"
-  mkdir wheel
-  "$python" -m zipfile -e "$out"/*.whl wheel
-  PYTHONPATH=$work/wheel "$python" -c "import condyle; assert condyle.__version__ == '$version'"
-else
-  echo "******** no wheel: $python has no scikit-build-core ********" >&2
-fi
+wheel=$("$python" "$name/scripts/make_wheel.py" "$name/build/release" "$out")
+"$python" -m pip install --quiet --no-index --no-deps --target wheel "$wheel" 2>"$work/pip.txt" || fail "$(cat "$work/pip.txt")"
+PYTHONPATH=$work/wheel "$python" -c "import condyle; assert condyle.__version__ == '$version'; condyle.read_joint('sample/hip.toml')"
 (cd "$out" && sha256sum -- * >SHA256SUMS && cat SHA256SUMS)

@@ -318,8 +318,8 @@ ObviousCounts obvious_counts(const TriMesh& mesh) {
     counts.boundary += on.size() == 1;
     counts.non_manifold += on.size() > 2;
     counts.inconsistent += on.size() == 2 && on[0].second == on[1].second;
-    const auto ascending =
-        std::count_if(on.begin(), on.end(), [&](const auto& side) { return side.second == edge.first; });
+    const auto ascending = std::count_if(
+        on.begin(), on.end(), [from = edge.first](const auto& side) { return side.second == from; });
     counts.unbalanced += 2 * static_cast<std::size_t>(ascending) != on.size();
     for (const auto& [t, from] : on) neighbours.insert({on[0].first, t});
   }

@@ -110,9 +110,12 @@ TEST(Mesh, KnowsWhetherItIsClosed) {
   const Mesh open = arrays;
   EXPECT_FALSE(open.is_closed());
   ASSERT_TRUE(open.unbalanced_edge());
-  const auto [from, to] = *open.unbalanced_edge();
-  const auto is_of_the_hole = [&](std::size_t k) { return dropped[k] == to && dropped[(k + 1) % 3] == from; };
-  EXPECT_TRUE(is_of_the_hole(0) || is_of_the_hole(1) || is_of_the_hole(2)) << from << " to " << to;
+  const auto edge = *open.unbalanced_edge();
+  const auto is_of_the_hole = [&](std::size_t k) {
+    return dropped[k] == edge.second && dropped[(k + 1) % 3] == edge.first;
+  };
+  EXPECT_TRUE(is_of_the_hole(0) || is_of_the_hole(1) || is_of_the_hole(2))
+      << edge.first << " to " << edge.second;
 }
 
 // A Mesh is made from arrays by checking them, from nothing else, and its arrays are never written to again.
