@@ -17,6 +17,8 @@ std::string fuzz_mesh_reader(std::string_view bytes);
 std::string fuzz_joint_file(std::string_view bytes);
 /// The first byte chooses .mot, .sto or .csv, the rest is the file: columns, times, coordinates and poses.
 std::string fuzz_motion_file(std::string_view bytes);
+/// The first byte chooses what is asked, the rest is the table of a study.
+std::string fuzz_study_table(std::string_view bytes);
 /// The first two bytes choose a joint and what is read, the rest is the text: a pose, an axis of a map, a name.
 std::string fuzz_text(std::string_view bytes);
 
