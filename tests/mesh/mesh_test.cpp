@@ -112,10 +112,9 @@ TEST(Mesh, KnowsWhetherItIsClosed) {
   ASSERT_TRUE(open.unbalanced_edge());
   const auto edge = *open.unbalanced_edge();
   const auto is_of_the_hole = [&](std::size_t k) {
-    return dropped[k] == edge.second && dropped[(k + 1) % 3] == edge.first;
+    return dropped[k] == edge.to && dropped[(k + 1) % 3] == edge.from;
   };
-  EXPECT_TRUE(is_of_the_hole(0) || is_of_the_hole(1) || is_of_the_hole(2))
-      << edge.first << " to " << edge.second;
+  EXPECT_TRUE(is_of_the_hole(0) || is_of_the_hole(1) || is_of_the_hole(2)) << edge.from << " to " << edge.to;
 }
 
 // A Mesh is made from arrays by checking them, from nothing else, and its arrays are never written to again.

@@ -43,7 +43,8 @@ SelfCrossings by_brute_force(const TriMesh& mesh) {
   SelfCrossings found;
   found.crosses.resize(mesh.triangles.size());
   const auto place = first_of_same_coordinates(mesh.vertices);
-  for (const auto& [s, t] : test::intersecting_pairs(mesh, mesh)) {
+  for (const auto& pair : test::intersecting_pairs(mesh, mesh)) {
+    const auto s = pair.first, t = pair.second;
     const auto shared = [&](Index v) {
       return std::any_of(mesh.triangles[s].begin(), mesh.triangles[s].end(),
                          [&](Index w) { return place[v] == place[w]; });
