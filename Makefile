@@ -44,13 +44,12 @@ sanitize sanitize-thread: clang_dependencies
 	@cmake --build --preset $@
 	@$(call run_tests,$@)
 
-# Some of it, in minutes: the library and the command built, the tests of predicates and meshes, of every fuzz target on its
-# corpus, of the radial queries, of limits and of threads; nothing optimised, which takes half the time to compile.
+# Some of it: the library and the command built, and the tests of predicates, of meshes and of every fuzz target on its corpus.
 SOME_SANITIZED = core mesh fuzz
 sanitize-some: clang_dependencies
-	@cmake --preset sanitize -B build/$@ -DCONDYLE_PYTHON=OFF -DCMAKE_CXX_FLAGS_RELWITHDEBINFO="-O0 -gline-tables-only" >/dev/null
-	@cmake --build build/$@ --target condyle_cli $(SOME_SANITIZED:%=test_%)
-	@ctest --test-dir build/$@ --parallel 2 --output-on-failure -R '^($(subst $() ,|,$(SOME_SANITIZED)))$$'
+	@cmake --preset sanitize >/dev/null
+	@cmake --build --preset sanitize --target condyle_cli $(SOME_SANITIZED:%=test_%)
+	@ctest --preset sanitize --parallel 2 -R '^($(subst $() ,|,$(SOME_SANITIZED)))$$'
 
 # Coverage-guided fuzzing, a minute of each target; FUZZ_SECONDS=600 for longer, FUZZ_TARGETS="radial pairs" for some. New
 # inputs gather in build/fuzz/corpus; what is found stays in build/fuzz/found and belongs, cut down, in tests/fuzz/corpus.
