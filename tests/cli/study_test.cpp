@@ -84,6 +84,7 @@ TEST_F(StudyCommand, RefusesWhatCannotBe) {
   expect_refusal(run("study table.csv --out out --force 1 2 3"), 2, "needs --load", "force");
   expect_refusal(run("study table.csv --out out --load '' --e 12 --nu 0.7 --thickness 1"), 2,
                  "Poisson's ratio", "layers");
+  expect_refusal(run("study table.csv --out out --load '' --along 1 0 0"), 2, "needs --force", "along");
   expect_refusal(run("study table.csv --out out --load '' --force 1 2 3 --along 1 2 3 4"), 2, "--along",
                  "along");
   expect_refusal(run("merge nothere"), 3, "nothere: there is no shard", "merge");

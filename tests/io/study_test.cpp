@@ -383,6 +383,8 @@ TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
   expect("id,joint\na,b\nc,d\na,e\n", "line 4: id 'a' is that of line 2");
   expect("id,joint\n\"a,b\n", "line 2: a quote is not closed");
   expect("id,joint,a/b\nx,y,z\n", "line 1: column 'a/b'");
+  expect(std::string_view("id,joint,a\0b\nx,y,z\n", 17), "a name has no control characters");
+  expect("id,joint," + std::string(1001, 'a') + "\nx,y,z\n", "column 3 has a name of 1001 bytes");
   expect("id,joint,limit_deg,table_limit_deg\nx,y,1,2\n", "line 1: column 'table_limit_deg' is there twice");
 }
 

@@ -79,6 +79,24 @@ TEST(RingTable, AnyAxisGivesWhatRotatingEverythingToZGives) {
   }
 }
 
+/// Beside its length floats cannot tell its radii from zero.
+TEST(RingTable, OfAnEndlesslyThinNeedleHasTheStatesOfBruteForce) {
+  const double thin = 1e-29, length = 1e10;
+  const TriMesh needle = test::box({-thin, -3 * thin, -length}, {5 * thin, 6 * thin, length});
+  Points points;
+  for (int i = 0; i < 800; ++i)
+    points.push_back(
+        {7 * thin * std::sin(i * 1.7), 9 * thin * std::cos(i * 2.9), 1.3 * length * std::sin(i * 5.3)});
+  const auto windings = mesh::WindingNumber(needle).at(points);
+  EXPECT_GT(std::count_if(windings.begin(), windings.end(),
+                          [](const auto& at) { return at.state == PointState::inside; }),
+            20);
+  for (const double cells_per_triangle : {0.1, 1.0, 30.0}) {
+    const auto results = RingTable(needle, z_axis, {.cells_per_triangle = cells_per_triangle}).query(points);
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(results.state[i], windings[i].state) << i;
+  }
+}
+
 TEST(RingTable, AnOpenMeshAndAFoolishOptionAreRefused) {
   TriMesh mesh = test::box({1, 1, 1}, {2, 2, 2});
   EXPECT_THROW(RingTable(mesh, z_axis, {.cells_per_triangle = 0}), UsageError);

@@ -10,6 +10,9 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
+/// Columns that stay empty without a force.
+constexpr std::size_t of_balance = 5;
+
 constexpr ColumnKind text = ColumnKind::text, number = ColumnKind::number;
 
 ContactEntry contact_of(const LoadedJoint& loaded, const StudyLoad& load) {
@@ -61,9 +64,8 @@ BalancedPose balanced(const Joint& joint, const ElasticContact& layers, const Po
 std::vector<StudyColumn> load_columns() {
   std::vector<StudyColumn> columns = {
       {"load_outcome", "", text,
-       "balanced, at_jump, unstable, pulled_apart, over_the_rim or free_direction; the columns of contact "
-       "are "
-       "empty for the last three; empty without a force"},
+       "balanced, at_jump or unstable; pulled_apart, over_the_rim or free_direction, where the other columns "
+       "are empty; empty without a force"},
       {"load_residual_n", "N", number, "what contact and force add up to; empty without a force"}};
   for (const char* axis : {"x", "y", "z"})
     columns.push_back({fmt::format("load_moved_{}_mm", axis), "mm", number,
@@ -111,7 +113,7 @@ Fields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
     X_FM = end.X_FM;
     found = end.contact;
   } else {
-    fields.resize(5);
+    fields.resize(of_balance);
     found = layers.at(X_FM);
   }
   add_surface(fields, found.fixed);

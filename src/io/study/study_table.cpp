@@ -24,6 +24,12 @@ bool is_source(std::string_view name) {
   return std::find(std::begin(source_columns), std::end(source_columns), name) != std::end(source_columns);
 }
 
+/// What HDF5 takes as a name.
+constexpr std::size_t longest_name = 1000;
+bool is_control(char c) {
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+}
+
 std::string carried_name(const std::string& name) {
   return !is_source(name) && is_result_column(name) ? "table_" + name : name;
 }
@@ -38,6 +44,11 @@ void check_columns(const StudyTable& table, std::size_t line, const Source& sour
     if (name.empty()) fail(fmt::format("column {} has no name", c + 1));
     if (name == "." || name.find_first_of("/\\") != name.npos)
       fail(fmt::format("column {}: a name is no point and has no slash", in_quotes(name)));
+    if (std::any_of(name.begin(), name.end(), is_control))
+      fail(fmt::format("column {}: a name has no control characters", in_quotes(name)));
+    if (name.size() > longest_name)
+      fail(
+          fmt::format("column {} has a name of {} bytes: {} are the most", c + 1, name.size(), longest_name));
     if (!known.insert(carried_name(name)).second)
       fail(fmt::format("column {} is there twice", in_quotes(name)));
   }

@@ -117,10 +117,11 @@ Sides sides_of_line(const Root& root, const Point& preferred, const SideFunction
 /// The direction with its largest component at 2^20 and whole numbers throughout: few digits keep the
 /// integers short.
 Triple<double> short_direction(const Triple<double>& d) {
-  const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-  if (!(largest > 0) || !std::isfinite(largest)) return {1, 0, 0};
-  const double scale = 0x1p20 / largest;
-  return {std::round(d.x * scale), std::round(d.y * scale), std::round(d.z * scale)};
+  const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}), scale = 0x1p20 / largest;
+  const Triple<double> whole = {std::round(d.x * scale), std::round(d.y * scale), std::round(d.z * scale)};
+  // Of zeros, of what is not finite, and of what is so small that the scale is not.
+  if (!std::isfinite(whole.x + whole.y + whole.z)) return {1, 0, 0};
+  return whole;
 }
 Point integer_direction(const Triple<double>& d) {
   const auto s = short_direction(d);

@@ -61,9 +61,9 @@ class CubeBinning {
   core::UninitialisedVector<CellEntry> entry_;
   std::size_t count_ = 0;
   std::vector<std::uint32_t> length_;
-  /// Waiting to be binned, see ProjectedTriangles.
+  /// Waiting to be binned, see ProjectedTriangles; vectors are read whole, beyond those that wait too.
   static constexpr std::size_t most_projected = 256;
-  std::array<FaceCorners, most_projected + binning_padding> projected_u_, projected_w_;
+  std::array<FaceCorners, most_projected + binning_padding> projected_u_{}, projected_w_{};
   std::array<std::uint32_t, most_projected> projected_triangle_;
   std::array<std::int32_t, most_projected> projected_face_;
   std::size_t projected_count_ = 0;

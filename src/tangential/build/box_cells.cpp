@@ -1,6 +1,7 @@
 #include "tangential/build/box_cells.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "tangential/build/box_cells.cpp"
@@ -92,9 +93,15 @@ namespace {
 /// The difference, the scale and the product are each rounded once, to 2^-24 of at most 256 n: `slack` is
 /// four times that, and the smallest number that counts.
 BoxScale::Axis axis_of(double from, double cells_per_mm, Index cells, double units_per_mm) noexcept {
-  const double parts = 256.0 * cells;
+  const double parts = 256.0 * cells, per_unit = 256 * cells_per_mm / units_per_mm;
+  // Cells that floats cannot tell apart, as of a mesh that lies in the axis: every box meets all of them.
+  if (per_unit > std::numeric_limits<float>::max())
+    return {.origin = 0,
+            .per_unit = 0,
+            .slack = static_cast<float>(parts),
+            .last = static_cast<float>(parts - 1)};
   return {.origin = static_cast<float>(from * units_per_mm),
-          .per_unit = static_cast<float>(256 * cells_per_mm / units_per_mm),
+          .per_unit = static_cast<float>(per_unit),
           .slack = static_cast<float>(parts * 0x1p-22 + 0x1p-6),
           .last = static_cast<float>(parts - 1)};
 }
