@@ -165,6 +165,17 @@ TEST_F(StudyOfArms, IsDoneAgainForOtherMeshesOtherOptionsAndFilesThatWereChanged
   EXPECT_EQ(found.failures, 3u);
 }
 
+TEST_F(StudyOfArms, IsDoneAgainForATableOfOtherBytesThatAreNoUtf8) {
+  Study bytes = study("out");
+  bytes.table = folder / "bytes.csv";
+  for (const char* table : {"id,joint,a\xff\nh,hip1.toml,x\n", "id,joint,a\xfe\nh,hip1.toml,x\n",
+                            "id,joint,a\xfe\nh,hip1.toml,\xfe\n", "id,joint,a\xfe\nh,hip1.toml,\xff\n"}) {
+    std::ofstream(bytes.table) << table;
+    EXPECT_FALSE(run(bytes).was_there) << table;
+    EXPECT_TRUE(run(bytes).was_there) << table;
+  }
+}
+
 TEST_F(StudyOfArms, KeepsShardsWhoseRowsDidNotChange) {
   for (std::size_t number = 1; number <= 3; ++number) run(shard("out", number, 3));
   cohort.write_table("open.toml", "c");

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -12,6 +11,7 @@
 #include "core/parallel_tasks.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/study/json_digest.hpp"
 #include "io/study/study_answer.hpp"
 #include "io/study/study_files.hpp"
 #include "io/study/study_joint.hpp"
@@ -31,10 +31,6 @@ Rows rows_of(const StudyTable& table, const Shard& shard) {
   return Rows(table.rows).subspan(before(shard.number - 1), before(shard.number) - before(shard.number - 1));
 }
 
-std::string sha256_of(const nlohmann::json& json) {
-  return digest_of(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).sha256;
-}
-
 /// What stands in study.json before the tables are known.
 io::StudyRecord record_of(const Study& study, const StudyTable& table) {
   io::StudyRecord record;
@@ -44,14 +40,14 @@ io::StudyRecord record_of(const Study& study, const StudyTable& table) {
   record.table_digest = table.digest;
   record.table_rows = table.rows.size();
   record.shard = study.shard.value_or(Shard{});
-  record.family = sha256_of({record.version, record.options, table.digest.sha256, record.shard.of});
+  record.family = io::sha256_of({record.version, record.options, table.digest.sha256, record.shard.of});
   return record;
 }
 
 /// `inputs` of each row in their order.
 std::string key_of(const io::StudyRecord& record, const std::string& columns,
                    const std::vector<std::string>& inputs) {
-  return sha256_of({record.version, record.options, columns, inputs});
+  return io::sha256_of({record.version, record.options, columns, inputs});
 }
 
 std::vector<std::string> inputs_of(const StudyTable& table, Rows rows) {

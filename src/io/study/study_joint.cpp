@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
@@ -12,6 +10,7 @@
 #include "io/file/whole_file.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/study/json_digest.hpp"
 
 namespace condyle::io {
 namespace {
@@ -102,8 +101,7 @@ LoadedJoint made(const StudyTable& table, const StudyRow& row) {
 }
 
 std::string sha256_of(const StudyRow& row, const std::vector<std::string>& files) {
-  const nlohmann::json inputs = {row.fields, files};
-  return digest_of(inputs.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)).sha256;
+  return io::sha256_of(nlohmann::json{row.fields, files});
 }
 
 std::string sha256_of_file(const std::filesystem::path& path) {
