@@ -44,11 +44,15 @@ Pose pose_of(double angle, const Vec3& axis, const Vec3& translation) {
 std::vector<Pose> some_poses(std::size_t count, double largest_translation, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
+  // One by one: compilers draw the arguments of a call in another order each.
+  const auto drawn = [&] {
+    const double z = uniform(random), y = uniform(random), x = uniform(random);
+    return Vec3(x, y, z);
+  };
   std::vector<Pose> poses = {Pose::Identity()};
   for (std::size_t i = 1; i < count; ++i) {
     const double size = i % 3 == 0 ? 0 : largest_translation * std::pow(10, -static_cast<double>(i % 4));
-    const Vec3 axis(uniform(random), uniform(random), uniform(random));
-    const Vec3 along(uniform(random), uniform(random), uniform(random));
+    const Vec3 axis = drawn(), along = drawn();
     poses.push_back(pose_of(3 * uniform(random), axis, size * along));
   }
   return poses;
