@@ -176,6 +176,25 @@ TEST_F(StudyOfArms, IsDoneAgainForATableOfOtherBytesThatAreNoUtf8) {
   }
 }
 
+/// Shard 3 of 3 has the same two joints in both tables, in other places.
+TEST_F(StudyOfArms, IsDoneAgainWhereItsRowsMoved) {
+  Study last = shard("out", 3, 3), all = study("whole");
+  last.table = all.table = folder / "moved.csv";
+  for (const char* before : {"", "z,hip4.toml\n"}) {
+    std::ofstream(last.table) << "id,joint\n" << before << "a,hip1.toml\nb,hip2.toml\nc,hip3.toml\nd,\n";
+    EXPECT_FALSE(run(last).was_there);
+    EXPECT_TRUE(run(last).was_there);
+    for (const std::size_t number : {1u, 2u}) {
+      last.shard->number = number;
+      run(last);
+    }
+    last.shard->number = 3;
+    merge_study(folder / "out");
+    run(all);
+    expect_same_tables("whole", "out");
+  }
+}
+
 TEST_F(StudyOfArms, KeepsShardsWhoseRowsDidNotChange) {
   for (std::size_t number = 1; number <= 3; ++number) run(shard("out", number, 3));
   cohort.write_table("open.toml", "c");

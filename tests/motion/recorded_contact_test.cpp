@@ -29,10 +29,15 @@ class Random {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   Vec3 direction() {
+    // One by one: compilers draw the arguments of a call in another order each.
     std::normal_distribution<double> normal;
-    return Vec3(normal(random_), normal(random_), normal(random_)).normalized();
+    const double z = normal(random_), y = normal(random_), x = normal(random_);
+    return Vec3(x, y, z).normalized();
   }
-  Eigen::Matrix3d rotation() { return Eigen::AngleAxisd(between(0, pi), direction()).toRotationMatrix(); }
+  Eigen::Matrix3d rotation() {
+    const Vec3 axis = direction();
+    return Eigen::AngleAxisd(between(0, pi), axis).toRotationMatrix();
+  }
 
  private:
   std::mt19937 random_;
@@ -194,8 +199,10 @@ Recording random_recording(Random& random, std::size_t samples, double rotation,
   for (std::size_t i = 0; i < samples; ++i) {
     out.time_s.push_back(static_cast<double>(i) / 30);
     out.X_FM.push_back(X);
-    X.linear() = about(random.direction(), random.between(0, rotation)) * X.linear();
-    X.translation() = shift_mm * random.between(0, 1) * random.direction();
+    const double angle = random.between(0, rotation);
+    X.linear() = about(random.direction(), angle) * X.linear();
+    const double shift = shift_mm * random.between(0, 1);
+    X.translation() = shift * random.direction();
   }
   return out;
 }

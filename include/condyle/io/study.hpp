@@ -98,7 +98,7 @@ struct StudyDone {
 };
 
 /// Answers for every row of the table, on all threads, and writes limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and
-/// study.json: all or nothing, the last one last. What lies there with the same key (the rows, the contents of the files they
+/// study.json: all or nothing, the last one last. What lies there with the same key (the rows and their places, the contents of the files they
 /// name, the options and the version) and whole is left. The same bytes whatever the threads; several runs may write the same
 /// folder at a time.
 ///

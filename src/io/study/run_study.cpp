@@ -44,10 +44,12 @@ io::StudyRecord record_of(const Study& study, const StudyTable& table) {
   return record;
 }
 
-/// `inputs` of each row in their order.
-std::string key_of(const io::StudyRecord& record, const std::string& columns,
+/// `inputs` of each row in their order. Where rows stand counts too: results have their numbers, messages their lines.
+std::string key_of(const io::StudyRecord& record, const std::string& columns, Rows rows,
                    const std::vector<std::string>& inputs) {
-  return io::sha256_of({record.version, record.options, columns, inputs});
+  std::vector<std::size_t> places;
+  for (const StudyRow& row : rows) places.insert(places.end(), {row.number, row.line});
+  return io::sha256_of({record.version, record.options, columns, places, inputs});
 }
 
 std::vector<std::string> inputs_of(const StudyTable& table, Rows rows) {
@@ -146,7 +148,7 @@ io::StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const io::Study
 std::optional<StudyDone> done_before(const std::filesystem::path& folder, const io::StudyRecord& asked,
                                      const std::string& columns, const StudyTable& table, Rows rows) {
   const auto there = io::read_study_record(folder);
-  if (!there || there->key != key_of(asked, columns, inputs_of(table, rows))) return std::nullopt;
+  if (!there || there->key != key_of(asked, columns, rows, inputs_of(table, rows))) return std::nullopt;
   // Other rows of the table may have changed: then the shard belongs to the new table as it is.
   if (there->family != asked.family) {
     io::StudyResults results = io::read_study(folder);
@@ -192,7 +194,7 @@ std::optional<StudyDone> run_study(const Study& study, const StudyControl& contr
     results.record.failures += !answer.failure.empty();
   }
   results.record.joints = rows.size() - results.record.failures;
-  results.record.key = key_of(results.record, results.columns, inputs);
+  results.record.key = key_of(results.record, results.columns, rows, inputs);
   results.texts = texts_of(*answers, columns);
   return StudyDone{results.record.joints, results.record.failures, false, io::write_study(folder, results)};
 }
