@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -40,6 +41,7 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 
 /// Starts `condyle ARGUMENTS` in a folder of its own process; standard error goes into a file.
 pid_t start(const fs::path& folder, std::vector<std::string> arguments, const fs::path& err) {
+  std::fflush(nullptr);  // else the child would write it again, or into a file that is full
   const pid_t child = ::fork();
   if (child != 0) return child;
   ::setenv("OMP_NUM_THREADS", "1", 1);
