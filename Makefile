@@ -44,8 +44,8 @@ sanitize sanitize-thread: clang_dependencies
 	@cmake --build --preset $@
 	@$(call run_tests,$@)
 
-# Some of it: the library and the command built, and the tests of predicates, of meshes and of every fuzz target on its corpus.
-SOME_SANITIZED = core mesh fuzz
+# Some of it: the library and the command built, and the tests of predicates and of every fuzz target on its corpus.
+SOME_SANITIZED = core fuzz
 sanitize-some: clang_dependencies
 	@cmake --preset sanitize >/dev/null
 	@cmake --build --preset sanitize --target condyle_cli $(SOME_SANITIZED:%=test_%)
