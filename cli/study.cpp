@@ -38,7 +38,7 @@ StudyLoad load_of(const Options& given, Anatomy anatomy) {
   if (given.force.empty() && !given.along.empty()) throw UsageError("--along: needs --force");
   StudyLoad load{parse_pose(*given.load, JointKind::ball, anatomy), *given.contact, {}};
   if (!given.force.empty()) load.force_n = Vec3(given.force[0], given.force[1], given.force[2]);
-  load.along = directions_of(given.along);
+  load.free_directions = directions_of(given.along);
   return load;
 }
 

@@ -6,7 +6,7 @@ endif()
 
 set(condyle_sanitizer_flags -fsanitize=${CONDYLE_SANITIZE})
 # Left out: whether each reference is null or unaligned and each pointer stays in its object, which makes Eigen's small functions
-# twenty times slower. The address sanitizer sees what would come of most of them.
+# many times slower. The address sanitizer sees what would come of most of them.
 set(condyle_unchecked -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow)
 if(CONDYLE_PYTHON)
   # The module's address sanitizer comes before Python's own code, as a shared library that is preloaded, and the command

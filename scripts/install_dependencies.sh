@@ -40,7 +40,7 @@ for group in "$@"; do
     release) packages+=(python3-pip python3-wheel) ;;
     workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page, package-test, release and workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page, package-test, release, workflow" >&2
       exit 2
       ;;
   esac

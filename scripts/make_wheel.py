@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Packs the Python module that a build folder holds as a wheel: make_wheel.py BUILD OUT. Prints its path.
 
 For the Python that it was built for, on machines with the shared libraries it was linked with (VTK, oneTBB, HDF5): pip
@@ -14,11 +14,11 @@ import tempfile
 import tomllib
 from pathlib import Path
 
-SOURCE = Path(__file__).resolve().parent.parent
+from make_sbom import SOURCE, version
 
 
-def metadata(project: dict, version: str) -> str:
-    lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version}",
+def metadata(project: dict) -> str:
+    lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version()}",
              f"Summary: {project['description']}", f"License: {project['license']['text']}",
              f"Requires-Python: {project['requires-python']}"]
     lines += [f"Requires-Dist: {package}" for package in project["dependencies"]]
@@ -31,28 +31,26 @@ def metadata(project: dict, version: str) -> str:
 
 def main(build: Path, out: Path) -> None:
     project = tomllib.loads((SOURCE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    found = re.search(r'version = "([0-9.]+)"', (SOURCE / "include/condyle/version.hpp").read_text(encoding="utf-8"))
-    assert found, "include/condyle/version.hpp has no version"
-    version = found[1]
+    name = f"condyle-{version()}"
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     tag = f"{python}-{python}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
     with tempfile.TemporaryDirectory() as folder:
-        installed, unpacked = Path(folder) / "installed", Path(folder) / f"condyle-{version}"
+        installed, unpacked = Path(folder) / "installed", Path(folder) / name
         subprocess.run(["cmake", "--install", build, "--component", "python", "--prefix", installed], check=True,
                        stdout=subprocess.DEVNULL)
         package, = (path.parent for path in installed.rglob("condyle/__init__.py"))
         unpacked.mkdir()
         package.rename(unpacked / "condyle")
-        info = unpacked / f"condyle-{version}.dist-info"
+        info = unpacked / f"{name}.dist-info"
         info.mkdir()
-        (info / "METADATA").write_text(metadata(project, version), encoding="utf-8")
-        (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: condyle {version}\nRoot-Is-Purelib: false\n"
+        (info / "METADATA").write_text(metadata(project), encoding="utf-8")
+        (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: condyle {version()}\nRoot-Is-Purelib: false\n"
                                     f"Tag: {tag}\n", encoding="utf-8")
         (info / "LICENSE").write_bytes((SOURCE / "LICENSE").read_bytes())
         out.mkdir(parents=True, exist_ok=True)
         subprocess.run([sys.executable, "-m", "wheel", "pack", unpacked, "--dest-dir", out], check=True,
                        stdout=subprocess.DEVNULL)
-    print(out / f"condyle-{version}-{tag}.whl")
+    print(out / f"{name}-{tag}.whl")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include <array>
+
 #include "bindings.hpp"
 #include "condyle/io/sample_files.hpp"
 #include "interrupts.hpp"
@@ -20,6 +22,14 @@ StudyLoad load_in(const py::dict& given) {
   load.contact.thickness_mm = numbers("thickness_mm");
   if (const py::object casting = given["casting"]; !casting.is_none())
     load.contact.casting = casting_in(casting.cast<std::string>());
+  if (const py::object rule = given["rule"]; !rule.is_none())
+    load.contact.rule = rays_in(rule.cast<std::string>(), NormalDepthOptions().reach_mm).rule;
+  load.contact.reach_mm = given["reach_mm"].cast<std::optional<double>>();
+  if (const py::object law = given["law"]; !law.is_none())
+    load.contact.law =
+        law.cast<std::string>() == "logarithmic" ? PressureLaw::logarithmic : PressureLaw::linear;
+  for (const auto& direction : given["free_directions"].cast<std::vector<std::array<double, 3>>>())
+    load.free_directions.emplace_back(direction[0], direction[1], direction[2]);
   if (const std::vector<double> force = numbers("force_n"); !force.empty())
     load.force_n = Vec3(force.at(0), force.at(1), force.at(2));
   return load;

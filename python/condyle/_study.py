@@ -68,18 +68,28 @@ class StudyLoad:
     at : str
         The pose, such as "flexion=30"; the reference pose if empty.
     force_n : (3,) array, optional
-        On the femur, anterior, superior, lateral: it is moved to where the contact carries this force. The pose itself if
-        not given.
+        On the femur, anterior, superior, lateral: it is moved to where the contact carries this force. The pose
+        itself if not given.
+    free_directions : (K, 3) array, optional
+        Directions of the same components that it may be translated in; all if not given.
     layer : ElasticLayer, optional
         On both bodies, of one thickness; those of each joint's file if not given.
     casting : {"both", "fixed", "mobile"}, optional
         The body whose surface is cast; as each joint's file says if not given, else both.
+    rule : {"cut_faces", "face_centre"}, optional
+    reach_mm : float, optional
+    law : {"linear", "logarithmic"}, optional
+        As of :class:`ElasticContact`; as each joint's file says if not given.
     """
 
     at: str = ""
     force_n: Optional[ArrayLike] = None
     layer: Optional[ElasticLayer] = None
     casting: Optional[str] = None
+    free_directions: Optional[ArrayLike] = None
+    rule: Optional[str] = None
+    reach_mm: Optional[float] = None
+    law: Optional[str] = None
 
     def _checked(self) -> dict[str, Any]:
         if self.layer is not None and not isinstance(self.layer, ElasticLayer):
@@ -89,9 +99,23 @@ class StudyLoad:
             force = number_array(self.force_n, "force_n", "three numbers")
             if force.shape != (3,):
                 raise UsageError("force_n: three numbers are needed")
+        free = np.empty((0, 3))
+        if self.free_directions is not None:
+            if self.force_n is None:
+                raise UsageError("free_directions: needs force_n")
+            free = np.atleast_2d(number_array(self.free_directions, "free_directions", "directions (K, 3)"))
+            if free.ndim != 2 or free.shape[1] != 3:
+                raise UsageError("free_directions: directions (K, 3) are needed")
         layers = {name: [] if self.layer is None else [number(getattr(self.layer, name), name)] for name in _LAYER}
-        casting = None if self.casting is None else word(self.casting, "casting", ("both", "fixed", "mobile"))
-        return {"at": text_of(self.at, "at"), "force_n": force.tolist(), "casting": casting, **layers}
+
+        def one_of(given: Optional[str], name: str, *known: str) -> Optional[str]:
+            return None if given is None else word(given, name, known)
+
+        return {"at": text_of(self.at, "at"), "force_n": force.tolist(), "free_directions": free.tolist(), **layers,
+                "casting": one_of(self.casting, "casting", "both", "fixed", "mobile"),
+                "rule": one_of(self.rule, "rule", "cut_faces", "face_centre"),
+                "reach_mm": None if self.reach_mm is None else number(self.reach_mm, "reach_mm"),
+                "law": one_of(self.law, "law", "linear", "logarithmic")}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -200,8 +224,9 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
 
     `motions` by their names, all if not given; bands of `band_samples` displaced joints (20 or more; 0: none); how deep
     the bones are in each other in the pose `depth_at`, such as "flexion=90 internal_rotation=30"; contact pressure by
-    `load`; `shard` (3, 7) is the third of seven parts, which :func:`merge_study` puts together. What lies there of the same inputs, options and version
-    is not computed again. A hip that cannot be answered is a row of `failures`; with `strict` its error is raised.
+    `load`; `shard` (3, 7) is the third of seven parts, which :func:`merge_study` puts together. What lies there of the
+    same inputs, options and version is not computed again. A hip that cannot be answered is a row of `failures`; with
+    `strict` its error is raised.
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
     """

@@ -63,9 +63,11 @@ def test_the_command_writes_the_same_bytes(study: condyle.Study, table: Path, co
 def test_a_load_is_that_of_elastic_contact(table: Path, hip: condyle.Joint, command: str, tmp_path: Path):
     layer = condyle.ElasticLayer(12, 0.42, 1.5)
     study = condyle.run_study(table, tmp_path / "a", motions=["flexion"],
-                              load=condyle.StudyLoad("flexion=20", (0, 1500, -200), layer, "mobile"))
-    contact = condyle.ElasticContact(hip.fixed, hip.mobile, fixed_layer=layer, mobile_layer=layer, casting="mobile")
-    balanced = contact.balance((0, 1500, -200), start=hip.pose(flexion_deg=20))
+                              load=condyle.StudyLoad("flexion=20", (0, 1500, -200), layer, "mobile", [(0, 1, 0)],
+                                                     "face_centre", 15, "logarithmic"))
+    contact = condyle.ElasticContact(hip.fixed, hip.mobile, fixed_layer=layer, mobile_layer=layer, casting="mobile",
+                                     rule="face_centre", reach_mm=15, law="logarithmic")
+    balanced = contact.balance((0, 1500, -200), start=hip.pose(flexion_deg=20), free_directions=[(0, 1, 0)])
     assert study.hips["load_outcome"].tolist() == [balanced.outcome] * 2
     assert balanced.carries_load and balanced.contact.mobile is not None
     assert study.hips["load_mobile_max_pressure_mpa"][0] == balanced.contact.mobile.totals.max_pressure_mpa
@@ -74,7 +76,8 @@ def test_a_load_is_that_of_elastic_contact(table: Path, hip: condyle.Joint, comm
     assert study.hips.units["load_mobile_max_pressure_mpa"] == "MPa"
     subprocess.run([command, "study", table, "--out", tmp_path / "b", "--motion", "flexion", "--load", "flexion=20",
                     "--force", "0", "1500", "-200", "--e", "12", "--nu", "0.42", "--thickness", "1.5", "--casting",
-                    "mobile"], check=True, capture_output=True)
+                    "mobile", "--along", "0", "1", "0", "--rule", "face_centre", "--reach", "15", "--law",
+                    "logarithmic"], check=True, capture_output=True)
     assert (tmp_path / "a/hips.csv").read_bytes() == (tmp_path / "b/hips.csv").read_bytes()
 
 
@@ -106,7 +109,9 @@ def test_arguments_are_checked(table: Path, tmp_path: Path):
     for wrong in ({"shard": (0, 3)}, {"shard": (4, 3)}, {"shard": 3}, {"motions": "flexion"}, {"motions": ["flexoin"]},
                   {"band_samples": -1}, {"band_samples": 7}, {"depth_at": "yaw=3"}, {"motions": [3]},
                   {"load": "flexion=20"}, {"load": condyle.StudyLoad("yaw=3")}, {"load": condyle.StudyLoad(layer=3)},
-                  {"load": condyle.StudyLoad(force_n=(1, 2))}, {"load": condyle.StudyLoad(casting="none")}):
+                  {"load": condyle.StudyLoad(force_n=(1, 2))}, {"load": condyle.StudyLoad(casting="none")},
+                  {"load": condyle.StudyLoad(free_directions=(0, 1, 0))}, {"load": condyle.StudyLoad(rule="faces")},
+                  {"load": condyle.StudyLoad(force_n=(1, 2, 3), free_directions=(0, 1))}):
         with pytest.raises(condyle.UsageError):
             condyle.run_study(table, tmp_path, **wrong)
     with pytest.raises(condyle.FileError):

@@ -11,6 +11,7 @@
 #include "simd/instruction_set.hpp"
 #include "support/random_triangles.hpp"
 #include "support/test_meshes.hpp"
+#include "tangential/build/box_cells.hpp"
 #include "tangential/query/circle_cells.hpp"
 #include "tangential/query/gather_candidates.hpp"
 
@@ -31,6 +32,26 @@ Listed listed(const TriMesh& mesh, std::size_t cells) {
   out.boxes = tangential::profile_boxes(out.vertices.rounded, mesh.triangles);
   out.lists = tangential::RingLists(out.vertices, mesh.triangles, out.boxes, cells);
   return out;
+}
+
+/// Cells that floats cannot tell apart: of a needle about the axis, and of points in it.
+TEST(RingLists, ABoxIsWithinTheGridWhereItsCellsAreNoFloats) {
+  const TriMesh needle = test::box({-1e-29, -3e-29, -1e10}, {5e-29, 6e-29, 1e10});
+  const TriMesh in_the_axis = test::box({0, 0, -1e-30}, {0, 0, 1e-30});
+  for (const TriMesh& mesh : {needle, in_the_axis}) {
+    for (const std::size_t cells : {1u, 12u, 400u}) {
+      const Listed here = listed(mesh, cells);
+      const tangential::ProfileGrid& grid = here.lists.grid();
+      const tangential::BoxScale scale(grid, here.vertices.units_per_mm);
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const tangential::BoxSides sides = scale.sides(here.boxes, t);
+        EXPECT_LE(sides.first_column(), sides.last_column());
+        EXPECT_LE(sides.first_row(), sides.last_row());
+        EXPECT_LT(sides.last_column(), grid.columns);
+        EXPECT_LT(sides.last_row(), grid.rows);
+      }
+    }
+  }
 }
 
 TEST(RingLists, TheCircleOfEveryPointOfATriangleFindsIt) {

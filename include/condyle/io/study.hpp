@@ -43,7 +43,7 @@ struct StudyLoad {
   /// On the mobile body, N: anterior, superior, lateral, the same for both sides.
   std::optional<Vec3> force_n = {};
   /// Directions of the same components that the mobile body may be translated in: BalanceOptions::free_directions.
-  std::vector<Vec3> along = {};
+  std::vector<Vec3> free_directions = {};
 };
 
 /// What is asked of every joint of a study: its limits, and what else is set.

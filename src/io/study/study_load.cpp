@@ -54,7 +54,7 @@ Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral) {
 BalancedPose balanced(const Joint& joint, const ElasticContact& layers, const Pose& start,
                       const StudyLoad& load) {
   BalanceOptions options;
-  for (const Vec3& direction : load.along)
+  for (const Vec3& direction : load.free_directions)
     options.free_directions.push_back(in_joint_frame(joint, direction));
   return balance(layers, start, {.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}}, options);
 }

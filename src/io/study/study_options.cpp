@@ -12,9 +12,9 @@ Json load_json(const StudyLoad& load, Anatomy joint) {
   Json json;
   json["pose"] = pose_json(load.at, joint);
   json["force_anterior_superior_lateral_n"] = load.force_n ? numbers(*load.force_n) : Json(nullptr);
-  json["along_anterior_superior_lateral"] = Json::array();
-  for (const Vec3& direction : load.along)
-    json["along_anterior_superior_lateral"].push_back(numbers(direction));
+  json["free_directions_anterior_superior_lateral"] = Json::array();
+  for (const Vec3& direction : load.free_directions)
+    json["free_directions_anterior_superior_lateral"].push_back(numbers(direction));
   json["casting"] = given.casting ? Json(name_of(*given.casting)) : Json(nullptr);
   json["rule"] = given.rule ? Json(name_of(*given.rule)) : Json(nullptr);
   json["reach_mm"] = nullable(given.reach_mm);

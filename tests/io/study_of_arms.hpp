@@ -1,0 +1,70 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "condyle/io/study.hpp"
+#include "io/file/csv_fields.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/small_cohort.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace condyle::test {
+
+/// A table by its header: one map per row.
+inline std::vector<std::map<std::string, std::string>> rows_of(const std::filesystem::path& path) {
+  const std::string text = io::read_whole_file(path), name = path.string();
+  const io::Source source{text, name};
+  std::istringstream lines(text);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = io::csv_fields(line, 1, source);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> fields = io::csv_fields(line, rows.size() + 2, source);
+    EXPECT_EQ(fields.size(), header.size()) << path << ": " << line;
+    rows.emplace_back();
+    for (std::size_t c = 0; c < header.size(); ++c) rows.back()[header[c]] = fields[c];
+  }
+  return rows;
+}
+
+class StudyOfArms : public ::testing::Test {
+ protected:
+  StudyDone run(const Study& study) const { return *run_study(study); }
+  Study study(const std::string& out) const { return {cohort.table(), folder / out, flexion_only()}; }
+  Study shard(const std::string& out, std::size_t number, std::size_t of) const {
+    Study one = study(out);
+    one.shard = {number, of};
+    return one;
+  }
+  static StudyOptions flexion_only() {
+    StudyOptions options;
+    options.motions = {"flexion", "extension"};
+    return options;
+  }
+  void expect_same_tables(const std::string& a, const std::string& b) const {
+    for (const char* name : {"limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5"})
+      EXPECT_EQ(io::read_whole_file(folder / a / name), io::read_whole_file(folder / b / name)) << name;
+  }
+  template <class Error, class Run>
+  static std::string message_of(const Run& run) {
+    try {
+      run();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+  }
+
+  const TemporaryFolder folder;
+  const SmallCohort cohort{folder.path(), 9};
+};
+
+}  // namespace condyle::test
