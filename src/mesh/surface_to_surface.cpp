@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -77,8 +76,12 @@ struct PlacedTriangle {
 
 class Search {
  public:
-  Search(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB) : a_(a), b_(b), X_AB_(X_AB) {
-    for (int axis = 0; axis < 3; ++axis) to_a_size_.row(axis) = X_AB.linear().row(axis).cwiseAbs();
+  Search(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB, double at_most_mm)
+      : a_(a), b_(b), X_AB_(X_AB), best_mm_(at_most_mm) {
+    const Eigen::Matrix3d R = X_AB.linear();
+    to_a_size_ = R.cwiseAbs();
+    origins_apart_ = X_AB.translation().norm();
+    stretch_ = 3 * (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() + rounding;
   }
 
   std::optional<ClosestPoints> run() {
@@ -125,8 +128,17 @@ class Search {
     return between.cwiseMax(0.0).norm() * (1 - rounding) - rounding * scale;
   }
 
+  /// Of the shells about both origins: a head and its socket lie apart by them near the roots of their trees.
+  double shells_apart(const Node& na, const Node& nb) const noexcept {
+    const double between =
+        std::max(double{na.nearest} - double{nb.farthest}, double{nb.nearest} - double{na.farthest});
+    return between - origins_apart_ - stretch_ * (double{na.farthest} + double{nb.farthest} + origins_apart_);
+  }
+
   void push(Index a, Index b) {
-    const double distance = apart(a_.nodes()[a], b_.nodes()[b]);
+    const Node &na = a_.nodes()[a], &nb = b_.nodes()[b];
+    if (shells_apart(na, nb) >= best_mm_) return;
+    const double distance = apart(na, nb);
     if (distance < best_mm_) open_.push_back({a, b, distance});
   }
 
@@ -166,17 +178,20 @@ class Search {
   const TriangleTree &a_, &b_;
   const Pose& X_AB_;
   Eigen::Matrix3d to_a_size_;
+  double origins_apart_;
+  double stretch_;  ///< of distances from B's origin, where the pose is not quite a rotation
   std::vector<Pair> open_;
   Index leaf_a_ = no_index;
   std::array<PlacedTriangle, TriangleTree::leaf_triangles> of_a_;  ///< of that leaf
-  double best_mm_ = std::numeric_limits<double>::infinity();
+  double best_mm_;
   std::optional<ClosestPoints> found_;
 };
 
 }  // namespace
 
-std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB) {
-  return Search(a, b, X_AB).run();
+std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB,
+                                            double at_most_mm) {
+  return Search(a, b, X_AB, at_most_mm).run();
 }
 
 }  // namespace condyle::mesh

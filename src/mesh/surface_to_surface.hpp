@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "condyle/pose.hpp"
@@ -18,6 +19,10 @@ struct ClosestPoints {
 /// Of two surfaces, B placed by X_AB; empty where one has no triangles. Whether they meet is decided exactly for B's
 /// corners as placed, each coordinate rounded; distances are rounded to 1e-12 of the coordinates. Near linear in the
 /// triangles that lie within the answer of each other.
-std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB);
+///
+/// `at_most_mm`: more than the distance is known to be. The answer is the same, down to which of several nearest pairs it names,
+/// and sooner found; empty where the distance is not less.
+std::optional<ClosestPoints> closest_points(const TriangleTree& a, const TriangleTree& b, const Pose& X_AB,
+                                            double at_most_mm = std::numeric_limits<double>::infinity());
 
 }  // namespace condyle::mesh

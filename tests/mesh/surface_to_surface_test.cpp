@@ -83,6 +83,41 @@ TEST(ClosestPoints, IsTheLeastOverAllPairsOfTriangles) {
   EXPECT_LT(apart, 40u);
 }
 
+TEST(ClosestPoints, AreTheSameWhereAnUpperBoundIsKnown) {
+  const TriangleTree socket(test::socket({0, 0, 0}, 23, 28, 3)), ball(sphere({0, 0, 0}, 20, 3));
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  for (int round = 0; round < 50; ++round) {
+    const double angle = 3 * anywhere(random), x = anywhere(random), y = anywhere(random);
+    Pose X = Pose::Identity();
+    X.linear() = Eigen::AngleAxisd(angle, Vec3(x, y, 0.1).normalized()).toRotationMatrix();
+    X.translation() = Vec3(y, x, 0.3);
+    const ClosestPoints all = *closest_points(socket, ball, X);
+    ASSERT_GT(all.distance_mm, 0);
+    for (const double more : {1e-9, 0.01, 1.0}) {
+      const auto bounded = closest_points(socket, ball, X, all.distance_mm + more);
+      ASSERT_TRUE(bounded) << more;
+      EXPECT_EQ(bounded->distance_mm, all.distance_mm);
+      EXPECT_EQ(bounded->a_triangle, all.a_triangle);
+      EXPECT_EQ(bounded->b_triangle, all.b_triangle);
+      EXPECT_EQ(bounded->a_point, all.a_point);
+      EXPECT_EQ(bounded->b_point, all.b_point);
+    }
+    EXPECT_FALSE(closest_points(socket, ball, X, all.distance_mm / 2));
+  }
+}
+
+TEST(ClosestPoints, OfShellsAboutOriginsThatLieApart) {
+  // The shells of both are far apart, were their origins one.
+  Pose X = Pose::Identity();
+  X.translation() = Vec3(70, 0, 0);
+  EXPECT_NEAR(closest(sphere({0, 0, 0}, 50, 4), sphere({0, 0, 0}, 10, 4), X).distance_mm, 10, 0.1);
+  // Stretched: no rigid motion, and answered as what it is.
+  Pose stretched = Pose::Identity();
+  stretched.linear() *= 1.5;
+  EXPECT_NEAR(closest(sphere({0, 0, 0}, 50, 4), sphere({0, 0, 0}, 30, 4), stretched).distance_mm, 5, 0.2);
+}
+
 TEST(ClosestPoints, OfNothingIsNone) {
   EXPECT_FALSE(
       closest_points(TriangleTree(TriMesh{}), TriangleTree(sphere({0, 0, 0}, 1, 1)), Pose::Identity()));

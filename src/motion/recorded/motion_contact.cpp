@@ -1,10 +1,12 @@
 #include "condyle/motion_contact.hpp"
 
+#include <limits>
 #include <mutex>
 #include <string>
 
 #include "condyle/error.hpp"
 #include "core/parallel.hpp"
+#include "core/per_thread.hpp"
 #include "mesh/surface_to_surface.hpp"
 
 namespace condyle {
@@ -51,6 +53,32 @@ void ask(const NormalDepth& surfaces, const AlongMotionOptions& options, FrameCo
   surfaces.at(options.casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM), frame.surface);
 }
 
+/// The smallest gap, frame after frame: where the surfaces were nearest before they are near now.
+class SmallestGap {
+ public:
+  SmallestGap(const mesh::TriangleTree& fixed, const mesh::TriangleTree& mobile)
+      : fixed_(fixed), mobile_(mobile) {}
+
+  std::optional<double> at(const Pose& X_FM) {
+    double at_most = std::numeric_limits<double>::infinity();
+    if (nearest_) {
+      const double known = (nearest_->on_fixed - X_FM * nearest_->on_mobile).norm();
+      at_most = known + 1e-6 * (1 + nearest_->on_fixed.norm() + known);
+    }
+    const auto found = mesh::closest_points(fixed_, mobile_, X_FM, at_most);
+    if (!found) return std::nullopt;
+    nearest_ = {found->a_point, X_FM.linear().inverse() * (found->b_point - X_FM.translation())};
+    return found->distance_mm;
+  }
+
+ private:
+  struct Points {
+    Vec3 on_fixed, on_mobile;  ///< in F and in M
+  };
+  const mesh::TriangleTree &fixed_, &mobile_;
+  std::optional<Points> nearest_;
+};
+
 }  // namespace
 
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
@@ -59,15 +87,16 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
   const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
   std::vector<std::optional<FrameContact>> frames(X_FM.size());
   Followed followed(options, frames.size());
+  core::PerThread<SmallestGap> gaps([&] { return SmallestGap(fixed, mobile); });
   core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
+    SmallestGap& gap = gaps.local();
     for (std::size_t i = first; i < last && !followed.stopped(); ++i) {
       if (X_FM[i]) {
         FrameContact& frame = frames[i].emplace(FrameContact{.X_FM = *X_FM[i]});
         frame.intersecting_pairs = joint.pairs(frame.X_FM).size();
         frame.in_contact = frame.intersecting_pairs > 0 || joint.in_contact(frame.X_FM);
         if (frame.intersecting_pairs == 0)
-          if (const auto nearest = mesh::closest_points(fixed, mobile, frame.X_FM))
-            frame.smallest_gap_mm = nearest->distance_mm;
+          if (const auto smallest = gap.at(frame.X_FM)) frame.smallest_gap_mm = *smallest;
         named(i, [&] { std::visit([&](const auto* of) { ask(*of, options, frame); }, surfaces); });
       }
       followed.one_done();
