@@ -13,7 +13,7 @@ using condyle::JointAngle;
 
 const TableHead map_head = {
     "motion_map",
-    "Map: flexion -20:120, adduction -40:30, both ends of internal rotation; all threads, made ready before",
+    "Map: flexion -20:120, adduction -40:30, free intervals of internal rotation; all threads",
     {{"scene", "scene"},
      {"step_deg", "step, °"},
      {"points", "points"},

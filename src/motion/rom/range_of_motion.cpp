@@ -25,11 +25,12 @@ struct CountingBody {
   explicit CountingBody(motion::PartOfMesh part)
       : mesh(std::move(part.mesh)), tree(mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
 
-  /// The vertices that its triangles use.
-  Points used_vertices() const {
-    Points used;
-    for (const Vec3& v : tree.vertices()) used.push_back(v);
-    return used;
+  /// Vertices that its triangles use, spread over all of it: neighbours in the tree are neighbours in space.
+  Points spread_vertices(std::size_t most) const {
+    Points spread;
+    const std::size_t step = std::max<std::size_t>(1, tree.vertices().size() / most);
+    for (std::size_t v = 0; v < tree.vertices().size(); v += step) spread.push_back(tree.vertices()[v]);
+    return spread;
   }
 
   Feature in_whole(Feature feature) const noexcept {
@@ -42,7 +43,10 @@ struct CountingBody {
 constexpr Angle narrowest_interval = Angle::radians(1e-9);
 
 /// Taken off the ends of arcs, which err by 1e-7 rad at most; narrower arcs are not worth their sorting.
-constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees(4);
+constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees(1);
+
+/// Vertices whose angles of contact are told before pairs of triangles are looked at: more tell little that these do not.
+constexpr std::size_t told_vertices = 1024;
 
 /// The body that turned in a search.
 enum class Turning { fixed, mobile };
@@ -96,8 +100,7 @@ struct RangeOfMotion::Parts {
     std::optional<motion::TurningBody> sliding;
     std::optional<Angle> flexion;
     std::unique_ptr<motion::RotationTable> adduction_table;
-    /// The fixed body about the axis whose contacts it last collected.
-    std::optional<motion::TurningBody> resting;
+    /// The fixed body's about the axis whose contacts it last collected.
     std::optional<RingTable> rings;
     std::optional<Vec3> axis_F;
 
@@ -116,7 +119,7 @@ struct RangeOfMotion::Parts {
         left_out(counting.left_out),
         fixed(std::move(counting.fixed)),
         ending(std::move(counting.mobile), system),
-        ending_vertices(ending.body.used_vertices()),
+        ending_vertices(ending.body.spread_vertices(told_vertices)),
         sliding(counting.bearing ? std::make_unique<MobilePart>(std::move(*counting.bearing), system)
                                  : nullptr),
         flexion_table(fixed.tree, flexion_axis(system)),
@@ -131,18 +134,29 @@ struct RangeOfMotion::Parts {
     return *worker.adduction_table;
   }
 
+  /// The fixed body and one part of the mobile one, ready to turn by an angle from its start: whichever has the axis at rest
+  /// has its table.
+  struct Rotation {
+    const motion::RotationTable& resting;
+    motion::TurningBody& turning;
+  };
+  Rotation rotation_of(Worker& worker, const MobilePart& part, motion::TurningBody& turning, JointAngle vary,
+                       const JointAngles& start) const {
+    const Pose X_FM = pose_at(system, start);
+    const auto started = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
+      body.start_at(table.frame(), X);
+      return Rotation{table, body};
+    };
+    return vary == JointAngle::internal_rotation ? started(part.rotation_table, worker.fixed, inverted(X_FM))
+           : vary == JointAngle::adduction       ? started(adduction_table(worker, start), turning, X_FM)
+                                                 : started(flexion_table, turning, X_FM);
+  }
+
   /// First contact of the fixed body and one part of the mobile one.
   RotationLimits first_contact(Worker& worker, const MobilePart& part, motion::TurningBody& turning,
                                JointAngle vary, const JointAngles& start, const RotationRange& range) const {
-    const Pose X_FM = pose_at(system, start);
-    const auto search = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
-      body.start_at(table.frame(), X);
-      return motion::first_contact(table, body, range);
-    };
-    RotationLimits limits =
-        vary == JointAngle::internal_rotation ? search(part.rotation_table, worker.fixed, inverted(X_FM))
-        : vary == JointAngle::adduction       ? search(adduction_table(worker, start), turning, X_FM)
-                                              : search(flexion_table, turning, X_FM);
+    const Rotation rotation = rotation_of(worker, part, turning, vary, start);
+    RotationLimits limits = motion::first_contact(rotation.resting, rotation.turning, range);
     for (Limit* limit : {&limits.negative, &limits.positive})
       if (limit->contact)
         finish(*limit->contact, part,
@@ -165,36 +179,24 @@ struct RangeOfMotion::Parts {
   /// vertices is inside. What is in `known` is not looked at and is in the answer.
   core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
                               std::vector<core::Arc> known) const {
-    const Pose X_FM = pose_at(system, start);
     const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
-    if (!worker.resting) worker.resting.emplace(fixed.tree);
-    if (!worker.axis_F || *worker.axis_F != axis.direction()) {
-      worker.resting->start_at(axis, Pose::Identity());
-      if (fixed.mesh.is_closed()) worker.rings.emplace(fixed.mesh, axis, coarse_rings);
+    if (fixed.mesh.is_closed() && (!worker.rings || worker.axis_F != axis.direction())) {
+      worker.rings.emplace(fixed.mesh, axis, coarse_rings);
       worker.axis_F = axis.direction();
     }
     // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Most contact is told so,
     // without a pair of triangles; what is left are the ends of intervals.
     if (worker.rings) {
-      const OccupiedArcs arcs = worker.rings->occupied_arcs(posed(X_FM, ending_vertices.view()));
+      const OccupiedArcs arcs =
+          worker.rings->occupied_arcs(posed(pose_at(system, start), ending_vertices.view()));
       for (std::size_t v = 0; v < arcs.size(); ++v)
         for (const OccupiedArc& arc : arcs.of(v)) {
           const Angle width = arc.end - arc.begin - arc_slack * 2;
           if (width > narrowest_arc) known.push_back({arc.begin + arc_slack, width});
         }
     }
-    worker.ending.start_at(axis, X_FM);
-    return motion::contact_set(*worker.resting, worker.ending, core::ArcSet(known));
-  }
-
-  /// Limits of what ends motions about the axis for which contact_angles() was last asked.
-  RotationLimits limits_about_axis(Worker& worker, const JointAngles& start,
-                                   const RotationRange& range) const {
-    worker.ending.start_at(worker.resting->frame(), pose_at(system, start));
-    RotationLimits limits = motion::first_contact(*worker.resting, worker.ending, range);
-    for (Limit* limit : {&limits.negative, &limits.positive})
-      if (limit->contact) finish(*limit->contact, ending, Turning::mobile);
-    return limits;
+    const Rotation rotation = rotation_of(worker, ending, worker.ending, vary, start);
+    return motion::contact_set(rotation.resting, rotation.turning, core::ArcSet(known));
   }
 
   HeadAtLimit head_at(const JointAngles& angles) const {
@@ -271,8 +273,9 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
       if (!(high - low > narrowest_interval)) continue;
       // The gap is free or, one body inside the other, all contact; its ends are told as limits are.
       const Angle middle = low + (high - low) * 0.5;
-      const RotationLimits both = parts_->limits_about_axis(
-          worker, turned_by(start, vary, middle), {range.negative - middle, range.positive - middle});
+      const RotationLimits both =
+          parts_->first_contact(worker, parts_->ending, worker.ending, vary, turned_by(start, vary, middle),
+                                {range.negative - middle, range.positive - middle});
       if (both.free_at_start())
         free.intervals.push_back(
             {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});

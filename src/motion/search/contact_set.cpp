@@ -38,10 +38,11 @@ core::Arc window(const CylinderBox& turning, const CylinderBox& resting) {
   return arc(from, from + turning.theta_width + resting.theta_width);
 }
 
-/// The angles at which the two surfaces meet.
+/// The angles at which the two surfaces meet. Resting is TurningBody or const RotationTable.
+template <class Resting>
 class Collector {
  public:
-  Collector(TurningBody& resting, TurningBody& turning, core::ArcSet known)
+  Collector(Resting& resting, TurningBody& turning, core::ArcSet known)
       : resting_(resting), turning_(turning), found_(std::move(known)) {}
 
   core::ArcSet run() {
@@ -84,7 +85,7 @@ class Collector {
   void compare_triangles(Index s, Index t) {
     const Corners a = turning_.features().corners(turning_.tree(), s);
     const Corners b = resting_.features().corners(resting_.tree(), t);
-    find_events(a, b);
+    find_events({a, turning_, s}, {b, resting_, t});
     if (events_.empty()) {
       // Without an event the state never changes; a pair away from the axis is apart at some angle.
       const auto all = window(turning_.features().triangle_boxes[s], resting_.features().triangle_boxes[t]);
@@ -105,15 +106,37 @@ class Collector {
     }
   }
 
-  void find_events(const Corners& a, const Corners& b) {
+  /// A triangle with the boxes of its parts: of two only parts whose profiles overlap can meet.
+  struct PlacedTriangle {
+    const Corners& corners;
+    const CylinderBox& box;
+    std::array<CylinderBox, 3> vertices, edges;  ///< edge k from corner k to the next
+
+    template <class Body>
+    PlacedTriangle(const Corners& placed, const Body& body, Index triangle)
+        : corners(placed), box(body.features().triangle_boxes[triangle]) {
+      const auto& ids = body.tree().triangles()[triangle];
+      std::array<CylinderPoint, 3> at;
+      for (std::size_t k = 0; k < 3; ++k) at[k] = body.features().at[ids[k]];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        vertices[k] = box_of_vertex(placed[k], at[k]);
+        edges[k] = box_of_edge(placed[k], at[k], placed[next], at[next]);
+      }
+    }
+  };
+
+  void find_events(const PlacedTriangle& a, const PlacedTriangle& b) {
     events_.clear();
     const auto keep = [&](const ContactEvents& events) {
       events_.insert(events_.end(), events.begin(), events.end());
     };
     for (std::size_t k = 0; k < 3; ++k) {
-      keep(vertex_meets_face(a[k], b));
-      keep(face_meets_vertex(a, b[k]));
-      for (std::size_t l = 0; l < 3; ++l) keep(edges_meet(a[k], a[(k + 1) % 3], b[l], b[(l + 1) % 3]));
+      if (a.vertices[k].overlaps_profile(b.box)) keep(vertex_meets_face(a.corners[k], b.corners));
+      if (b.vertices[k].overlaps_profile(a.box)) keep(face_meets_vertex(a.corners, b.corners[k]));
+      for (std::size_t l = 0; l < 3; ++l)
+        if (a.edges[k].overlaps_profile(b.edges[l]))
+          keep(edges_meet(a.corners[k], a.corners[(k + 1) % 3], b.corners[l], b.corners[(l + 1) % 3]));
     }
   }
 
@@ -126,7 +149,7 @@ class Collector {
     fresh_.clear();
   }
 
-  TurningBody& resting_;
+  Resting& resting_;
   TurningBody& turning_;
   std::vector<NodePair> open_;
   std::vector<ContactEvent> events_;
@@ -134,11 +157,19 @@ class Collector {
   core::ArcSet found_;
 };
 
+template <class Resting>
+core::ArcSet contact_set_of(Resting& resting, TurningBody& turning, const core::ArcSet& known) {
+  if (resting.tree().empty() || turning.tree().empty()) return known;
+  return Collector<Resting>(resting, turning, known).run();
+}
+
 }  // namespace
 
+core::ArcSet contact_set(const RotationTable& resting, TurningBody& turning, const core::ArcSet& known) {
+  return contact_set_of(resting, turning, known);
+}
 core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known) {
-  if (resting.tree().empty() || turning.tree().empty()) return known;
-  return Collector(resting, turning, known).run();
+  return contact_set_of(resting, turning, known);
 }
 
 }  // namespace condyle::motion

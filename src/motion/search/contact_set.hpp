@@ -22,7 +22,8 @@ namespace condyle::motion {
 /// only.
 ///
 /// Angles in `known` are of contact for certain, or nobody's concern: they are in the answer and are not looked at.
-/// Both bodies are made ready only as far as they are looked at.
+/// Bodies that are not are made ready only as far as they are looked at.
+core::ArcSet contact_set(const RotationTable& resting, TurningBody& turning, const core::ArcSet& known = {});
 core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known = {});
 
 }  // namespace condyle::motion

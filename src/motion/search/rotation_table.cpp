@@ -73,6 +73,9 @@ TurningBody::TurningBody(const FeatureTree& tree)
 }
 
 void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
+  const bool as_before = pose_number_ > 0 && frame_R.rotation() == frame_.rotation() &&
+                         frame_R.point() == frame_.point() && X_RT.matrix() == X_RT_.matrix();
+  if (as_before) return;
   frame_ = frame_R;
   X_RT_ = X_RT;
   rotation_size_ = (frame_R.rotation() * X_RT.linear()).cwiseAbs();
