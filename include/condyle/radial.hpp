@@ -173,6 +173,9 @@ class RadialTable {
   void query(PointsView points, RadialResults& out) const;
   RadialResults query(PointsView points) const;
 
+  /// radial_gap_mm of query() alone, sooner: for colours and curves.
+  std::vector<double> radial_gaps(PointsView points) const;
+
   /// Every point that is not outside at a pose X_FM, with what query() says of it, byte for byte: points posed
   /// and rounded once (condyle/pose.hpp), signs exact, on every instruction set alike. All other points are
   /// outside.

@@ -26,6 +26,11 @@ class SharedRadialTable {
     return dict_of(read([&](const RadialTable& table) { return table.query(points.view()); }));
   }
 
+  py::array radial_gaps(const py::object& given) const {
+    const PointsIn points(given, "points");
+    return array_of(read([&](const RadialTable& table) { return table.radial_gaps(points.view()); }));
+  }
+
   void update(const py::object& given) {
     const PointsIn vertices(given, "vertices");
     const py::gil_scoped_release released;
@@ -140,6 +145,7 @@ void bind_tables(py::module_& module) {
   py::class_<SharedRadialTable>(module, "RadialTable")
       .def(py::init(&radial_table))
       .def("query", &SharedRadialTable::query)
+      .def("radial_gaps", &SharedRadialTable::radial_gaps)
       .def("update", &SharedRadialTable::update)
       .def("update_some", &SharedRadialTable::update_some)
       .def_property_readonly("mesh", &SharedRadialTable::mesh)

@@ -116,6 +116,11 @@ void DirectionTable::query(PointsView points, RadialResults& out) const {
   radial::query(exact_view(), points, out);
 }
 
+std::vector<double> DirectionTable::radial_gaps(PointsView points) const {
+  require_closed();
+  return radial::radial_gaps(exact_view(), points);
+}
+
 void DirectionTable::penetrations(const PointBlocks& points, const Pose& X_FM, Penetrations& out,
                                   PenetrationWork* work) const {
   require_closed();

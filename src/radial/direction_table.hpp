@@ -23,6 +23,7 @@ class DirectionTable {
   void update(std::span<const Index> moved, PointsView positions);
 
   void query(PointsView points, RadialResults& out) const;
+  std::vector<double> radial_gaps(PointsView points) const;
   void penetrations(const PointBlocks& points, const Pose& X_FM, Penetrations& out,
                     PenetrationWork* work) const;
   void penetrations(const PointBlocks& points, std::span<const Pose> X_FM, std::span<Penetrations> out) const;

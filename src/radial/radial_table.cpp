@@ -60,6 +60,11 @@ RadialResults RadialTable::query(PointsView points) const {
   return out;
 }
 
+std::vector<double> RadialTable::radial_gaps(PointsView points) const {
+  core::require_in_range(points);
+  return table_->radial_gaps(points);
+}
+
 void RadialTable::penetrations(const SortedPoints& points, const Pose& X_FM, Penetrations& out,
                                PenetrationWork* work) const {
   core::require_in_range(X_FM);

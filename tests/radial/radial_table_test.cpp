@@ -322,6 +322,20 @@ TEST(RadialTable, BothMapsGiveTheSameBytes) {
             RadialTable(mesh, {DirectionMapKind::cartesian, 40}).query(points));
 }
 
+TEST_P(RadialTableOnMap, GapsAloneAreThoseOfQueries) {
+  const RadialTable socket = table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3));
+  Points points = random_points(1000, 1.5, 12);
+  points.push_back(Vec3::Zero());
+  EXPECT_EQ(socket.radial_gaps(points), socket.query(points).radial_gap_mm);
+  EXPECT_TRUE(socket.radial_gaps(Points()).empty());
+
+  TriMesh open = sphere({0, 0, 0}, 1, 2);
+  open.triangles.pop_back();
+  EXPECT_THROW(table(open).radial_gaps(points), MeshError);
+  points.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+  EXPECT_THROW(socket.radial_gaps(points), UsageError);
+}
+
 TEST(RadialTable, TheAngleBetweenRayAndNormalTellsWhereRadialDepthMeansSomething) {
   const RadialTable table(box({-10, -10, 5}, {10, 10, 6}));
   Points points;

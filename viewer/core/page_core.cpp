@@ -30,14 +30,6 @@ JointAngles angles_of(const double* deg) {
   return {Angle::degrees(deg[0]), Angle::degrees(deg[1]), Angle::degrees(deg[2])};
 }
 
-const RadialContact& shown_at(CondyleJoint& joint, const Pose& X_FM) {
-  if (!joint.shown || joint.shown_at.matrix() != X_FM.matrix()) {
-    joint.shown = joint.bodies.radial(X_FM);
-    joint.shown_at = X_FM;
-  }
-  return *joint.shown;
-}
-
 /// The other body's surface, for vertices of this one.
 const mesh::SurfaceDistance& other_surface(CondyleJoint& joint, bool of_fixed) {
   auto& surface = of_fixed ? joint.to_mobile : joint.to_fixed;
@@ -48,36 +40,16 @@ const mesh::SurfaceDistance& other_surface(CondyleJoint& joint, bool of_fixed) {
 enum class Shown { radial_gap, depth, nearest_distance };
 enum class Mark : std::uint8_t { nothing, value, bound };
 
-struct ShownValue {
-  double mm = 0;
-  Mark mark = Mark::nothing;
-};
+/// What is shown of each vertex of a body.
+struct ShownValues {
+  float* mm;
+  std::uint8_t* marks;
 
-/// Of a vertex beside an open mesh, which has no inside.
-template <class Nearest>
-ShownValue shown_beside_open(Shown quantity, const Nearest& nearest) {
-  return quantity == Shown::nearest_distance ? ShownValue{nearest(), Mark::value} : ShownValue{};
-}
-
-/// `nearest` tells the distance to the other body's surface.
-template <class Nearest>
-ShownValue shown_value(Shown quantity, const RadialResults& radial, Index v, const Nearest& nearest) {
-  const bool is_inside = radial.state[v] == PointState::inside;
-  switch (quantity) {
-    case Shown::radial_gap:
-      if (!std::isfinite(radial.radial_gap_mm[v])) return {};
-      return {radial.radial_gap_mm[v], Mark::value};
-    case Shown::depth: {
-      if (!is_inside) return {};
-      const DeepestVertex vertex{v, -radial.radial_gap_mm[v], nearest(), radial.ray_to_normal[v]};
-      if (vertex.applies() == DepthKind::radial) return {vertex.depth_mm, Mark::value};
-      return {vertex.shortest_exit_mm, Mark::bound};
-    }
-    case Shown::nearest_distance:
-      return {is_inside ? -nearest() : nearest(), Mark::value};
+  void set(Index v, double value, Mark mark = Mark::value) const {
+    mm[v] = static_cast<float>(value);
+    marks[v] = static_cast<std::uint8_t>(mark);
   }
-  return {};
-}
+};
 
 int number_of(LimitReason reason) {
   switch (reason) {
@@ -220,17 +192,49 @@ int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed,
 int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
                   std::uint8_t* marks) {
   return guarded(-1, [&] {
-    const Pose X_FM = pose_of(pose);
-    const RadialContact& contact = shown_at(*joint, X_FM);
-    const auto& radial = of_fixed ? contact.fixed_in_mobile : contact.mobile_in_fixed;
-    const Mesh& body = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh;
-    const Pose X = of_fixed ? inverted(X_FM) : X_FM;
-    const auto what = static_cast<Shown>(quantity);
-    for (Index v = 0; v < body.vertices().size(); ++v) {
-      const auto nearest = [&] { return other_surface(*joint, of_fixed)(X * body.vertices()[v]); };
-      const ShownValue shown = radial ? shown_value(what, *radial, v, nearest) : shown_beside_open(what, nearest);
-      values[v] = static_cast<float>(shown.mm);
-      marks[v] = static_cast<std::uint8_t>(shown.mark);
+    const Pose X_FM = pose_of(pose), X = of_fixed ? inverted(X_FM) : X_FM;
+    const Points& vertices = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices();
+    const ShownValues shown{values, marks};
+    for (Index v = 0; v < vertices.size(); ++v) shown.set(v, 0, Mark::nothing);
+    const auto nearest = [&](Index v) { return other_surface(*joint, of_fixed)(X * vertices[v]); };
+    // An open mesh has no inside: of it distances are shown alone.
+    const bool has_inside = condyle_can_penetrate(joint, of_fixed);
+    const auto table = [&]() -> const RadialTable& {
+      return of_fixed ? joint->bodies.mobile_table() : joint->bodies.fixed_table();
+    };
+    Penetrations inside;
+    const auto find_inside = [&] {
+      of_fixed ? joint->bodies.fixed_in_mobile(X_FM, inside) : joint->bodies.mobile_in_fixed(X_FM, inside);
+    };
+    switch (static_cast<Shown>(quantity)) {
+      case Shown::radial_gap: {
+        if (!has_inside) break;
+        const std::vector<double> gaps = table().radial_gaps(posed(X, vertices));
+        for (Index v = 0; v < gaps.size(); ++v)
+          if (std::isfinite(gaps[v])) shown.set(v, gaps[v]);
+        break;
+      }
+      case Shown::depth: {
+        if (!has_inside) break;
+        find_inside();
+        table().add_ray_to_normal(vertices, X, inside);
+        for (std::size_t i = 0; i < inside.size(); ++i) {
+          if (inside.state[i] != PointState::inside) continue;
+          const Index v = inside.point[i];
+          const DeepestVertex vertex{v, inside.depth_mm[i], nearest(v), inside.ray_to_normal[i]};
+          if (vertex.applies() == DepthKind::radial)
+            shown.set(v, vertex.depth_mm);
+          else
+            shown.set(v, vertex.shortest_exit_mm, Mark::bound);
+        }
+        break;
+      }
+      case Shown::nearest_distance:
+        for (Index v = 0; v < vertices.size(); ++v) shown.set(v, nearest(v));
+        if (has_inside) find_inside();
+        for (std::size_t i = 0; i < inside.size(); ++i)
+          if (const Index v = inside.point[i]; inside.state[i] == PointState::inside) values[v] = -values[v];
+        break;
     }
     return 0;
   });

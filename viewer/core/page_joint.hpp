@@ -43,9 +43,6 @@ struct CondyleJoint {
   condyle::Penetrations penetrations = {};
   std::vector<std::uint32_t> pair_triangles = {};
   std::vector<double> intervals = {};
-  /// Of the pose that was last shown.
-  condyle::Pose shown_at = condyle::Pose::Identity();
-  std::optional<condyle::RadialContact> shown = {};
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
   PagePressure pressure = {};
   PageProposal proposal = {};  ///< empty where the joint was given

@@ -12,20 +12,9 @@ namespace {
 /// Points per task: enough to outweigh starting one.
 constexpr std::size_t points_per_chunk = 256;
 
-void set(RadialResults& out, std::size_t i, const Vec3& v, const RayAnswer& answer, const TriMesh& mesh) {
-  out.state[i] = answer.state;
-  out.winding[i] = answer.winding;
-  out.radial_gap_mm[i] = answer.gap;
-  out.triangle[i] = answer.triangle;
-  out.direction[i] = answer.direction;
-  out.ray_to_normal[i] =
-      answer.triangle == no_index ? Angle() : angle_to_normal(v, cone_of(mesh, answer.triangle));
-}
-
-}  // namespace
-
-void query(const ExactView& table, PointsView points, RadialResults& out) {
-  out.resize(points.size());
+/// tell(i, point, answer) for each point, on all threads.
+template <class Tell>
+void answer_each(const ExactView& table, PointsView points, const Tell& tell) {
   core::parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     RayScan scan(table.mesh, table.winding_at_centre);
     Candidates candidates(table.map, table.entries);
@@ -35,9 +24,31 @@ void query(const ExactView& table, PointsView points, RadialResults& out) {
       for (std::size_t k = 0; k < count; ++k) gathered[k] = points[i + k];
       candidates.gather({gathered.data(), count});
       for (std::size_t k = 0; k < count; ++k)
-        set(out, i + k, gathered[k], scan.answer(gathered[k], candidates.of(k)), table.mesh);
+        tell(i + k, gathered[k], scan.answer(gathered[k], candidates.of(k)));
     }
   });
+}
+
+}  // namespace
+
+void query(const ExactView& table, PointsView points, RadialResults& out) {
+  out.resize(points.size());
+  answer_each(table, points, [&](std::size_t i, const Vec3& v, const RayAnswer& answer) {
+    out.state[i] = answer.state;
+    out.winding[i] = answer.winding;
+    out.radial_gap_mm[i] = answer.gap;
+    out.triangle[i] = answer.triangle;
+    out.direction[i] = answer.direction;
+    out.ray_to_normal[i] =
+        answer.triangle == no_index ? Angle() : angle_to_normal(v, cone_of(table.mesh, answer.triangle));
+  });
+}
+
+std::vector<double> radial_gaps(const ExactView& table, PointsView points) {
+  std::vector<double> gaps(points.size());
+  answer_each(table, points,
+              [&](std::size_t i, const Vec3&, const RayAnswer& answer) { gaps[i] = answer.gap; });
+  return gaps;
 }
 
 }  // namespace condyle::radial

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "condyle/radial.hpp"
 #include "radial/query/candidates.hpp"
 
@@ -18,5 +20,6 @@ inline constexpr std::size_t points_per_gathering = 64;
 
 /// RadialTable::query() of a closed mesh.
 void query(const ExactView& table, PointsView points, RadialResults& out);
+std::vector<double> radial_gaps(const ExactView& table, PointsView points);
 
 }  // namespace condyle::radial
