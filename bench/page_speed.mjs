@@ -24,6 +24,10 @@ try {
     return {
       "a pose: both bodies' vertices inside, contact, pairs": await timed(1000, (i) =>
         ({ of: "pose", at: { angles: [i % 120, (i % 40) - 20, (i % 60) - 30], translation: [0, 0, 0] } })),
+      "gap of every vertex of both bodies": await timed(200, (i) =>
+        ({ of: "values", at: { angles: [i % 120, (i % 40) - 20, (i % 60) - 30], translation: [0, 0, 0] }, quantity: "gap" })),
+      "depth of every vertex of both bodies": await timed(200, (i) =>
+        ({ of: "values", at: { angles: [i % 120, (i % 40) - 20, (i % 60) - 30], translation: [0, 0, 0] }, quantity: "depth" })),
       "a limit": await timed(300, (i) =>
         ({ of: "limit", limit: { start: [i % 90, 0, 0], vary: i % 3, positive: i % 2 === 0, range_deg: 120 } })),
       "all free angles at a point of a map": await timed(60, (i) => ({

@@ -37,7 +37,7 @@ const policy = `default-src 'none'; script-src ${hashOf(script)} 'wasm-unsafe-ev
   "img-src data: blob:; base-uri 'none'; form-action 'none'";
 
 const packages = ["three", "d3-array", "d3-color", "d3-format", "d3-interpolate", "d3-path", "d3-scale", "d3-scale-chromatic", "d3-shape",
-  "d3-time", "d3-time-format", "internmap"];
+  "d3-time", "d3-time-format", "fflate", "internmap"];
 const licences = [
   source("../NOTICE").trim(),
   source("licences.txt").trim(),

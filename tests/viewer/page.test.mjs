@@ -1,7 +1,7 @@
 // What the page answers and says, in a browser: against the command line, damaged, without WebAssembly, with hostile names.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
@@ -10,6 +10,16 @@ import { dataElement, readReport } from "./report_block.mjs";
 
 const condyle = join(root, "build/release/condyle");
 const browser = await sharedBrowser();
+
+/// As condyle sample writes it: doubles, and triangles as a count and three numbers.
+function readPly(path) {
+  const bytes = readFileSync(path), end = bytes.indexOf("end_header\n") + 11, head = bytes.toString("latin1", 0, end);
+  const [vertexCount, count] = ["vertex", "face"].map((name) => Number(new RegExp(`element ${name} (\\d+)`).exec(head)[1]));
+  const vertices = Float64Array.from({ length: 3 * vertexCount }, (_, i) => bytes.readDoubleLE(end + 8 * i));
+  const triangles = Int32Array.from({ length: 3 * count }, (_, i) =>
+    bytes.readInt32LE(end + 24 * vertexCount + 13 * Math.floor(i / 3) + 1 + 4 * (i % 3)));
+  return { vertices, triangles };
+}
 
 const textOf = (name) => readReport(pathOf(name)).text;
 
@@ -116,11 +126,14 @@ test("depths, pairs and contact are those of condyle depth", async () => {
     const shown = await page.evaluate((at) => condyle.query({ of: "pose", at }), { angles, translation: [0, 0, 0] });
     assert.equal(shown.inContact, told.in_contact);
     const flat = (typed) => Object.values(typed);
+    const gaps = await page.evaluate((at) => condyle.query({ of: "values", at, quantity: "gap" }), { angles, translation: [0, 0, 0] });
     assert.equal(flat(shown.pairs).length / 2, told.triangle_pairs);
     for (const [body, found] of [["mobile", shown.mobileInFixed], ["fixed", shown.fixedInMobile]]) {
       const depths = flat(found.depths_mm).filter((depth) => depth > 0);
       assert.equal(depths.length, told.bodies[body].vertices_inside);
       assert.equal(depths.length ? Math.max(...depths) : 0, told.bodies[body].max_radial_depth_mm ?? 0);
+      const negative = flat(gaps[body].shown).filter((gap) => gap < 0);
+      assert.deepEqual(negative.map((gap) => -gap).sort(), depths.map(Math.fround).sort(), "coloured as deep as they are");
       inside += depths.length;
     }
   }
@@ -294,6 +307,68 @@ test("two meshes dropped on the empty page answer as the same files do on the co
   await keep(page, "dropped");
   assert.deepEqual(complaints, []);
   assert.deepEqual(requests, []);
+  await page.context().close();
+});
+
+/// A mesh of condyle sample as VTK writes VTP: numbers in base64, compressed by zlib in blocks of 32 kB.
+function writeCompressedVtp(name, path) {
+  const { vertices, triangles } = readPly(join(reports, "sample", name));
+  const array = (numbers) => {
+    const bytes = Buffer.from(numbers.buffer), blocks = [];
+    for (let at = 0; at < bytes.length; at += 32768) blocks.push(bytes.subarray(at, at + 32768));
+    const packed = blocks.map((block) => deflateSync(block));
+    const header = Uint32Array.of(blocks.length, 32768, bytes.length % 32768, ...packed.map(({ length }) => length));
+    return Buffer.from(header.buffer).toString("base64") + Buffer.concat(packed).toString("base64");
+  };
+  const data = (type, attributes, numbers) => `<DataArray type="${type}" ${attributes} format="binary">${array(numbers)}</DataArray>`;
+  const count = triangles.length / 3;
+  writeFileSync(path, `<?xml version="1.0"?>
+<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian" header_type="UInt32" compressor="vtkZLibDataCompressor"><PolyData>
+<Piece NumberOfPoints="${vertices.length / 3}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="${count}">
+<Points>${data("Float64", 'Name="Points" NumberOfComponents="3"', vertices)}</Points>
+<Polys>${data("Int32", 'Name="connectivity"', triangles)}${data("Int32", 'Name="offsets"', Int32Array.from({ length: count }, (_, t) => 3 * t + 3))}</Polys>
+</Piece></PolyData></VTKFile>
+`);
+}
+
+test("meshes compressed as VTK compresses them are read, and damaged ones told as on the command line", async () => {
+  const folder = join(reports, "compressed");
+  mkdirSync(folder, { recursive: true });
+  const files = ["hip_bone", "femur"].map((name) => {
+    writeCompressedVtp(`${name}.ply`, join(folder, `${name}.vtp`));
+    return join(folder, `${name}.vtp`);
+  });
+  const limitsOf = async (dropped) => {
+    const { page } = await openPage(browser, empty, { answers: false });
+    await page.locator("#files").setInputFiles(dropped);
+    await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
+    await settled(page);
+    const limits = await page.locator(".plot title").allTextContents();
+    await page.context().close();
+    return limits;
+  };
+  assert.deepEqual(await limitsOf(files), await limitsOf(["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name))));
+
+  // A bit of the sum that ends the last block of the points, and one of what is compressed.
+  const whole = readFileSync(files[1], "utf8"), [before, text] = /^[^]*?NumberOfComponents="3" format="binary">([^<]*)/.exec(whole);
+  const end = before.length;
+  assert.ok(text.length > 1000);
+  const { page } = await openPage(browser, empty, { answers: false });
+  for (const back of [2, 200]) {
+    const bytes = Buffer.from(whole), last = end - 4 - back;
+    bytes[last] = bytes[last] === 65 ? 66 : 65;
+    const path = join(folder, "damaged.vtp");
+    writeFileSync(path, bytes);
+    let told = "";
+    try {
+      execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
+    } catch (error) {
+      told = String(error.stderr).trim().replace(`condyle: ${path}`, "damaged.vtp");
+    }
+    assert.match(told, /^damaged.vtp: .*block/);
+    await page.locator("#files").setInputFiles([files[0], path]);
+    await page.waitForFunction((line) => document.querySelector("[role=alert]")?.textContent === line, told);
+  }
   await page.context().close();
 });
 

@@ -1,5 +1,6 @@
 #include "dropped_joint.hpp"
 
+#include <emscripten.h>
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -105,11 +106,22 @@ Json motion_json(const MotionLimit& limit) {
 
 }  // namespace
 
+// zlib is the worker's, viewer/src/core/unzip.ts.
+// clang-format off
+EM_JS(int, page_unzip, (const char* from, int size, char* to, int capacity), {
+  return Module["unzip"](HEAPU8.subarray(from, from + size), HEAPU8.subarray(to, to + capacity)) ? 1 : 0;
+});
+// clang-format on
+
 namespace condyle::io {
 
-/// Nothing on the page undoes the compression of a VTP file.
-bool uncompress(Compressor, const std::string&, std::span<char>) {
-  throw FileError("a compressed file: the page reads VTP without compression, STL, OBJ and PLY");
+/// What compressed a file that the page cannot undo.
+struct UnknownCompression {};
+
+bool uncompress(Compressor compressor, const std::string& block, std::span<char> out) {
+  if (compressor != Compressor::zlib) throw UnknownCompression();
+  return page_unzip(block.data(), static_cast<int>(block.size()), out.data(), static_cast<int>(out.size())) !=
+         0;
 }
 
 }  // namespace condyle::io
@@ -117,7 +129,12 @@ bool uncompress(Compressor, const std::string&, std::span<char>) {
 CondyleMesh* condyle_read_mesh(const char* name, const std::uint8_t* bytes, int count) {
   return guarded(static_cast<CondyleMesh*>(nullptr), [&] {
     const std::string_view contents(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
-    return new CondyleMesh{read_mesh(contents, mesh_format_of(name), name).mesh};
+    try {
+      return new CondyleMesh{read_mesh(contents, mesh_format_of(name), name).mesh};
+    } catch (const io::UnknownCompression&) {
+      throw FileError(std::string(name) +
+                      ": compressed by LZ4: the page reads VTP compressed by zlib or not at all");
+    }
   });
 }
 

@@ -3,6 +3,7 @@ import {
   quantityNumber, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside, type JointArrays, type Layers,
   type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations, type Proposal, type Quantity, type Shown, type Surface, type Values,
 } from "./protocol";
+import { unzip } from "./unzip";
 
 const poseBytes = 16 * 8;
 const atRest = [0, 0, 0] as const;
@@ -21,7 +22,7 @@ export class CoreJoint {
   private readonly mobileTriangles: number;
 
   static async open(wasm: ArrayBuffer, arrays: JointArrays): Promise<CoreJoint> {
-    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
+    const memory = new Memory(await pageCore({ wasmBinary: wasm, unzip }));
     const placed = [arrays.fixed, arrays.mobile].map(({ vertices, triangles }: Surface) => ({
       vertices: memory.copied(vertices), triangles: memory.copied(triangles), vertexCount: vertices.length / 3,
       count: triangles.length / 3,
@@ -39,7 +40,7 @@ export class CoreJoint {
 
   /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
   static async propose(wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile): Promise<{ joint: CoreJoint; proposal: Proposal }> {
-    const memory = new Memory(await pageCore({ wasmBinary: wasm }));
+    const memory = new Memory(await pageCore({ wasmBinary: wasm, unzip }));
     const { core } = memory;
     const meshes = [fixed, mobile].map(({ name, bytes }) => {
       const namePlace = memory.copied(new TextEncoder().encode(`${name}\0`)), bytesPlace = memory.copied(new Uint8Array(bytes));

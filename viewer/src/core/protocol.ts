@@ -121,11 +121,12 @@ export type Query =
   | { of: "pose"; at: Coordinates }
   /// 16 numbers, row by row.
   | { of: "poseMatrix"; X_FM: number[] }
+  | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
   | { of: "limit"; limit: LimitQuestion }
   | { of: "mapPoint"; question: MapQuestion; point: number }
   /// Bytes that the core has taken.
   | { of: "memory" };
-export type QueryAnswer = number | Details | LiveLimit | [number, number, number, number][];
+export type QueryAnswer = number | Details | BothValues | LiveLimit | [number, number, number, number][];
 
 /// A mesh file and its name, whose ending tells the format.
 export interface DroppedFile {

@@ -41,6 +41,6 @@ declare module "page-core" {
     _condyle_mesh(joint: number, ofFixed: number, vertices: number, triangles: number): void;
     _condyle_description(joint: number): number;
   }
-  const pageCore: (options: { wasmBinary: ArrayBuffer }) => Promise<PageCore>;
+  const pageCore: (options: { wasmBinary: ArrayBuffer; unzip: (from: Uint8Array, to: Uint8Array) => boolean }) => Promise<PageCore>;
   export default pageCore;
 }

@@ -68,6 +68,8 @@ function answerTo(query: Query): QueryAnswer {
       return joint!.details(query.at);
     case "poseMatrix":
       return joint!.detailsOf(query.X_FM);
+    case "values":
+      return joint!.values(query.at, query.quantity);
     case "limit":
       return joint!.limit(query.limit);
     case "mapPoint":
