@@ -9,6 +9,8 @@
 #include <atomic>
 #include <cstddef>
 
+#include "core/told_order.hpp"
+
 namespace condyle::core {
 
 /// Calls body(i) for every i of [0, count), begun in ascending order, by threads that each take the next one when they are done
@@ -23,13 +25,22 @@ void parallel_tasks(std::size_t count, const Body& body) {
       std::min(allowed, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
   const std::size_t workers = std::min(count, threads);
   std::atomic<std::size_t> next = 0;
+  ToldOrder begun, done;
+  begun.before();
   tbb::parallel_for(
       std::size_t{0}, workers,
       [&](std::size_t) {
         tbb::task_arena share(static_cast<int>(threads / workers));
-        for (std::size_t i = next++; i < count; i = next++) share.execute([&] { body(i); });
+        for (std::size_t i = next++; i < count; i = next++) {
+          share.execute([&] {
+            begun.after();
+            body(i);
+            done.before();
+          });
+        }
       },
       tbb::simple_partitioner());
+  done.after();
 }
 
 }  // namespace condyle::core
