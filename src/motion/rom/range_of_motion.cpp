@@ -46,7 +46,7 @@ constexpr Angle narrowest_interval = Angle::radians(1e-9);
 constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees(1);
 
 /// Vertices whose angles of contact are told before pairs of triangles are looked at: more tell little that these do not.
-constexpr std::size_t told_vertices = 1024;
+constexpr std::size_t told_vertices = 512;
 
 /// The body that turned in a search.
 enum class Turning { fixed, mobile };
