@@ -41,6 +41,8 @@ void find_candidates_any(const EntryView& entries, std::span<const CellPlace> pl
     const Words axis = hn::Set(du, places[i].axis), diagonal = hn::Set(du, diagonal_of_point(places[i].axis));
     for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
       const auto holding = dops_holding(entries, first, row.last, axis, diagonal);
+      // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
+      if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
       store_compacted(du, hn::LoadU(du, entries.triangle + first), holding, found + count);
       count += static_cast<std::uint32_t>(hn::CountTrue(du, holding));
     }
@@ -80,7 +82,7 @@ HWY_INLINE std::size_t gather_candidates(const CubeView& cube, const NearPoints&
     const Words nearest = hn::PromoteTo(du, hn::LoadU(hn::Rebind<std::uint8_t, DU>(), cube.nearest + first));
     const auto holding = hn::And(dops_holding(cube.entries, first, row.last, box, diagonal),
                                  hn::Not(hn::Gt(nearest, relevant)));
-    // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
+    // As in find_candidates_any().
     if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
     store_compacted(du, hn::LoadU(du, cube.entries.triangle + first), holding, pairs.triangle.data() + count);
     hn::StoreU(number, du, pairs.point.data() + count);
