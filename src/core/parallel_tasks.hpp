@@ -1,5 +1,6 @@
 #pragma once
 
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/partitioner.h>
@@ -27,17 +28,14 @@ void parallel_tasks(std::size_t count, const Body& body) {
   std::atomic<std::size_t> next = 0;
   ToldOrder begun, done;
   begun.before();
+  // A range each for as many as there are workers.
   tbb::parallel_for(
-      std::size_t{0}, workers,
-      [&](std::size_t) {
+      tbb::blocked_range<std::size_t>(0, workers),
+      [&](const tbb::blocked_range<std::size_t>&) {
+        begun.after();
         tbb::task_arena share(static_cast<int>(threads / workers));
-        for (std::size_t i = next++; i < count; i = next++) {
-          share.execute([&] {
-            begun.after();
-            body(i);
-            done.before();
-          });
-        }
+        for (std::size_t i = next++; i < count; i = next++) share.execute([&] { body(i); });
+        done.before();
       },
       tbb::simple_partitioner());
   done.after();
