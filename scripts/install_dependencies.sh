@@ -24,7 +24,7 @@ packages=(
 
 for group in "$@"; do
   case $group in
-    clang) packages+=(clang libclang-rt-14-dev clang-format) ;;
+    clang) packages+=(clang libclang-rt-14-dev clang-format llvm-14) ;;
     bench)
       # Peers; CGAL and VTK are above.
       packages+=(libfcl-dev libembree-dev libopenvdb-dev libbullet-dev libode-dev libsimbody-dev)

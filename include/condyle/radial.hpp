@@ -173,7 +173,8 @@ class RadialTable {
   void query(PointsView points, RadialResults& out) const;
   RadialResults query(PointsView points) const;
 
-  /// radial_gap_mm of query() alone, sooner: for colours and curves.
+  /// radial_gap_mm of query() alone, one number for each point, sooner: for colours and curves. The same errors; the angle
+  /// between ray and normal costs an arctangent each.
   std::vector<double> radial_gaps(PointsView points) const;
 
   /// Every point that is not outside at a pose X_FM, with what query() says of it, byte for byte: points posed

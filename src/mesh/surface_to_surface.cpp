@@ -179,7 +179,9 @@ class Search {
   const Pose& X_AB_;
   Eigen::Matrix3d to_a_size_;
   double origins_apart_;
-  double stretch_;  ///< of distances from B's origin, where the pose is not quite a rotation
+  /// Of distances from B's origin where the pose is not quite a rotation: |R p|^2 is |p|^2 and p.(R^T R - 1)p, at most three times
+  /// the largest entry.
+  double stretch_;
   std::vector<Pair> open_;
   Index leaf_a_ = no_index;
   std::array<PlacedTriangle, TriangleTree::leaf_triangles> of_a_;  ///< of that leaf

@@ -107,15 +107,28 @@ TEST(ClosestPoints, AreTheSameWhereAnUpperBoundIsKnown) {
   }
 }
 
-TEST(ClosestPoints, OfShellsAboutOriginsThatLieApart) {
-  // The shells of both are far apart, were their origins one.
-  Pose X = Pose::Identity();
-  X.translation() = Vec3(70, 0, 0);
-  EXPECT_NEAR(closest(sphere({0, 0, 0}, 50, 4), sphere({0, 0, 0}, 10, 4), X).distance_mm, 10, 0.1);
-  // Stretched: no rigid motion, and answered as what it is.
-  Pose stretched = Pose::Identity();
-  stretched.linear() *= 1.5;
-  EXPECT_NEAR(closest(sphere({0, 0, 0}, 50, 4), sphere({0, 0, 0}, 30, 4), stretched).distance_mm, 5, 0.2);
+TEST(ClosestPoints, AreWhereTheyAreWhateverTheOrigins) {
+  // Shells about an origin far off tell nothing, those about the centres all: what they leave out is no part of the answer.
+  const TriMesh socket = test::socket({0, 0, 0}, 23, 28, 3), ball = sphere({0, 0, 0}, 20, 3);
+  const Vec3 off(300, -200, 100);
+  TriMesh far_socket = socket;
+  for (std::size_t v = 0; v < socket.vertices.size(); ++v)
+    far_socket.vertices.set(v, socket.vertices[v] + off);
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  for (int round = 0; round < 60; ++round) {
+    const double angle = 3 * anywhere(random), x = anywhere(random), y = anywhere(random);
+    Pose X = Pose::Identity();
+    X.linear() = Eigen::AngleAxisd(angle, Vec3(x, y, 0.1).normalized()).toRotationMatrix();
+    // In the socket, and well outside of it; every third stretched, which is no rigid motion.
+    X.translation() = (round % 2 == 0 ? 1 : 70) * Vec3(y, x, 0.3);
+    if (round % 3 == 0) X.linear() *= 1.02;
+    Pose X_far = X;
+    X_far.translation() += off;
+    // Distances are rounded to 1e-12 of coordinates below 500 mm.
+    EXPECT_NEAR(closest(socket, ball, X).distance_mm, closest(far_socket, ball, X_far).distance_mm, 1e-9)
+        << round;
+  }
 }
 
 TEST(ClosestPoints, OfNothingIsNone) {

@@ -20,7 +20,10 @@ core::ArcSet contact_set_of(const RotationScene& scene) {
   motion::TurningBody at_rest(resting), moving(turning);
   at_rest.start_at(scene.axis, Pose::Identity());
   moving.start_at(scene.axis, Pose::Identity());
-  return motion::contact_set(at_rest, moving);
+  const core::ArcSet found = motion::contact_set(at_rest, moving);
+  EXPECT_EQ(motion::contact_set(motion::RotationTable(resting, scene.axis), moving), found)
+      << "the same features, all made ready before";
+  return found;
 }
 
 std::vector<RotationScene> everywhere(const RotationScene& scene) {

@@ -40,6 +40,35 @@ const mesh::SurfaceDistance& other_surface(CondyleJoint& joint, bool of_fixed) {
 enum class Shown { radial_gap, depth, nearest_distance };
 enum class Mark : std::uint8_t { nothing, value, bound };
 
+const Points& vertices_of(const CondyleJoint& joint, bool of_fixed) {
+  return (of_fixed ? joint.joint.fixed : joint.joint.mobile).mesh.vertices();
+}
+
+/// The table of the other body, for vertices of this one.
+const RadialTable& other_table(const CondyleJoint& joint, bool of_fixed) {
+  return of_fixed ? joint.bodies.mobile_table() : joint.bodies.fixed_table();
+}
+
+void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, Penetrations& found) {
+  if (of_fixed)
+    joint.bodies.fixed_in_mobile(X_FM, found);
+  else
+    joint.bodies.mobile_in_fixed(X_FM, found);
+}
+
+/// tell(DeepestVertex) for each vertex found inside the other body, which X brings it to.
+template <class Tell>
+void tell_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetrations& found, const Tell& tell) {
+  const Points& vertices = vertices_of(joint, of_fixed);
+  other_table(joint, of_fixed).add_ray_to_normal(vertices, X, found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found.state[i] != PointState::inside) continue;
+    const Index v = found.point[i];
+    tell(DeepestVertex{v, found.depth_mm[i], other_surface(joint, of_fixed)(X * vertices[v]),
+                       found.ray_to_normal[i]});
+  }
+}
+
 /// What is shown of each vertex of a body.
 struct ShownValues {
   float* mm;
@@ -149,10 +178,7 @@ int condyle_can_penetrate(const CondyleJoint* joint, int of_fixed) {
 
 int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed) {
   return guarded(-1, [&] {
-    if (of_fixed)
-      joint->bodies.fixed_in_mobile(pose_of(pose), joint->penetrations);
-    else
-      joint->bodies.mobile_in_fixed(pose_of(pose), joint->penetrations);
+    find_inside(*joint, pose_of(pose), of_fixed, joint->penetrations);
     return static_cast<int>(joint->penetrations.size());
   });
 }
@@ -168,21 +194,13 @@ const double* condyle_depths(const CondyleJoint* joint) {
 int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed, double answer[2]) {
   return guarded(-1, [&] {
     const Pose X_FM = pose_of(pose), X = of_fixed ? inverted(X_FM) : X_FM;
-    const Points& points = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices();
-    Penetrations& found = joint->penetrations;
-    (of_fixed ? joint->bodies.mobile_table() : joint->bodies.fixed_table())
-        .add_ray_to_normal(points, X, found);
     double deepest = 0, without = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (found.state[i] != PointState::inside) continue;
-      const Index v = found.point[i];
-      const DeepestVertex vertex{v, found.depth_mm[i], other_surface(*joint, of_fixed)(X * points[v]),
-                                 found.ray_to_normal[i]};
+    tell_inside(*joint, X, of_fixed, joint->penetrations, [&](const DeepestVertex& vertex) {
       if (vertex.applies() == DepthKind::radial)
         deepest = std::max(deepest, vertex.depth_mm);
       else
         ++without;
-    }
+    });
     answer[0] = deepest;
     answer[1] = without;
     return 0;
@@ -193,45 +211,34 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
                   std::uint8_t* marks) {
   return guarded(-1, [&] {
     const Pose X_FM = pose_of(pose), X = of_fixed ? inverted(X_FM) : X_FM;
-    const Points& vertices = (of_fixed ? joint->joint.fixed : joint->joint.mobile).mesh.vertices();
+    const Points& vertices = vertices_of(*joint, of_fixed);
     const ShownValues shown{values, marks};
     for (Index v = 0; v < vertices.size(); ++v) shown.set(v, 0, Mark::nothing);
-    const auto nearest = [&](Index v) { return other_surface(*joint, of_fixed)(X * vertices[v]); };
     // An open mesh has no inside: of it distances are shown alone.
     const bool has_inside = condyle_can_penetrate(joint, of_fixed);
-    const auto table = [&]() -> const RadialTable& {
-      return of_fixed ? joint->bodies.mobile_table() : joint->bodies.fixed_table();
-    };
+    const auto what = static_cast<Shown>(quantity);
     Penetrations inside;
-    const auto find_inside = [&] {
-      of_fixed ? joint->bodies.fixed_in_mobile(X_FM, inside) : joint->bodies.mobile_in_fixed(X_FM, inside);
-    };
-    switch (static_cast<Shown>(quantity)) {
+    if (has_inside && what != Shown::radial_gap) find_inside(*joint, X_FM, of_fixed, inside);
+    switch (what) {
       case Shown::radial_gap: {
         if (!has_inside) break;
-        const std::vector<double> gaps = table().radial_gaps(posed(X, vertices));
+        const std::vector<double> gaps = other_table(*joint, of_fixed).radial_gaps(posed(X, vertices));
         for (Index v = 0; v < gaps.size(); ++v)
           if (std::isfinite(gaps[v])) shown.set(v, gaps[v]);
         break;
       }
-      case Shown::depth: {
+      case Shown::depth:
         if (!has_inside) break;
-        find_inside();
-        table().add_ray_to_normal(vertices, X, inside);
-        for (std::size_t i = 0; i < inside.size(); ++i) {
-          if (inside.state[i] != PointState::inside) continue;
-          const Index v = inside.point[i];
-          const DeepestVertex vertex{v, inside.depth_mm[i], nearest(v), inside.ray_to_normal[i]};
+        tell_inside(*joint, X, of_fixed, inside, [&](const DeepestVertex& vertex) {
           if (vertex.applies() == DepthKind::radial)
-            shown.set(v, vertex.depth_mm);
+            shown.set(vertex.vertex, vertex.depth_mm);
           else
-            shown.set(v, vertex.shortest_exit_mm, Mark::bound);
-        }
+            shown.set(vertex.vertex, vertex.shortest_exit_mm, Mark::bound);
+        });
         break;
-      }
       case Shown::nearest_distance:
-        for (Index v = 0; v < vertices.size(); ++v) shown.set(v, nearest(v));
-        if (has_inside) find_inside();
+        for (Index v = 0; v < vertices.size(); ++v)
+          shown.set(v, other_surface(*joint, of_fixed)(X * vertices[v]));
         for (std::size_t i = 0; i < inside.size(); ++i)
           if (const Index v = inside.point[i]; inside.state[i] == PointState::inside) values[v] = -values[v];
         break;

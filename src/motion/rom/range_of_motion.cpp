@@ -102,7 +102,6 @@ struct RangeOfMotion::Parts {
     std::unique_ptr<motion::RotationTable> adduction_table;
     /// The fixed body's about the axis whose contacts it last collected.
     std::optional<RingTable> rings;
-    std::optional<Vec3> axis_F;
 
     explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), ending(parts.ending.body.tree) {
       if (parts.sliding) sliding.emplace(parts.sliding->body.tree);
@@ -180,10 +179,8 @@ struct RangeOfMotion::Parts {
   core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
                               std::vector<core::Arc> known) const {
     const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
-    if (fixed.mesh.is_closed() && (!worker.rings || worker.axis_F != axis.direction())) {
-      worker.rings.emplace(fixed.mesh, axis, coarse_rings);
-      worker.axis_F = axis.direction();
-    }
+    const bool has_rings = worker.rings && worker.rings->frame().direction() == axis.direction();
+    if (fixed.mesh.is_closed() && !has_rings) worker.rings.emplace(fixed.mesh, axis, coarse_rings);
     // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Most contact is told so,
     // without a pair of triangles; what is left are the ends of intervals.
     if (worker.rings) {

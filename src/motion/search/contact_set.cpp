@@ -85,7 +85,7 @@ class Collector {
   void compare_triangles(Index s, Index t) {
     const Corners a = turning_.features().corners(turning_.tree(), s);
     const Corners b = resting_.features().corners(resting_.tree(), t);
-    find_events({a, turning_, s}, {b, resting_, t});
+    find_events(PlacedTriangle(a, turning_, s), PlacedTriangle(b, resting_, t));
     if (events_.empty()) {
       // Without an event the state never changes; a pair away from the axis is apart at some angle.
       const auto all = window(turning_.features().triangle_boxes[s], resting_.features().triangle_boxes[t]);
@@ -115,13 +115,12 @@ class Collector {
     template <class Body>
     PlacedTriangle(const Corners& placed, const Body& body, Index triangle)
         : corners(placed), box(body.features().triangle_boxes[triangle]) {
+      const CylinderFeatures& features = body.features();
       const auto& ids = body.tree().triangles()[triangle];
-      std::array<CylinderPoint, 3> at;
-      for (std::size_t k = 0; k < 3; ++k) at[k] = body.features().at[ids[k]];
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t next = (k + 1) % 3;
-        vertices[k] = box_of_vertex(placed[k], at[k]);
-        edges[k] = box_of_edge(placed[k], at[k], placed[next], at[next]);
+        vertices[k] = features.vertex_box(ids[k]);
+        edges[k] = box_of_edge(placed[k], features.at[ids[k]], placed[next], features.at[ids[next]]);
       }
     }
   };
