@@ -124,10 +124,9 @@ OverlapSampler::OverlapSampler(Mesh casting, Mesh target, NormalDepthOptions opt
     make_centre_rays(order);
   else
     make_corner_rays(order);
-  inward_.close();
   if (!target_is_closed_ || ray_target_.tree().empty()) return;
   Points origins;
-  for (std::size_t ray = 0; ray < inward_.size(); ++ray) origins.push_back(inward_.origin(ray));
+  for (std::size_t ray = 0; ray < inward_.size(); ++ray) origins.push_back(inward_[ray].origin);
   origins_inside_.emplace(target_, double{ray_target_.tree().nodes()[0].nearest}, std::move(origins));
 }
 
@@ -139,8 +138,8 @@ void OverlapSampler::make_centre_rays(const mesh::TriangleTree& order) {
   centre_ray_.assign(casting_.triangles().size(), no_index);
   for (const Index face : ray_owner_) {
     centre_ray_[face] = static_cast<Index>(inward_.size());
-    inward_.push_back((casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3,
-                      -face_normal_[face]);
+    inward_.push_back({(casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3,
+                       -face_normal_[face]});
   }
 }
 
@@ -172,7 +171,7 @@ void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
     for (const Index corner : ray.corners) corner_ray_[corner / 3][corner % 3] = Index(ray_owner_.size());
     ray_owner_.push_back(ray.vertex);
     ray_normal_.push_back(ray.normal);
-    inward_.push_back(casting_.vertices()[ray.vertex], -ray.normal);
+    inward_.push_back({casting_.vertices()[ray.vertex], -ray.normal});
   }
 }
 
@@ -225,7 +224,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
   const std::size_t count = inward_.size();
   scratch.ends.assign(count, {});
   const auto end_of = [&](std::size_t ray, std::size_t hit) {
-    const Overlap overlap = overlap_of(inward_.direction(ray), scratch.hits, hit, X_CT);
+    const Overlap overlap = overlap_of(inward_[ray].direction, scratch.hits, hit, X_CT);
     scratch.ends[ray] = overlap.end;
     out.met_from_front += overlap.met_from_front;
   };
@@ -237,8 +236,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
   }
   const auto& inside = scratch.inside;
   scratch.rays.clear();
-  for (const Index ray : inside.point) scratch.rays.push_back(inward_.origin(ray), inward_.direction(ray));
-  scratch.rays.close();
+  for (const Index ray : inside.point) scratch.rays.push_back(inward_[ray]);
   // The way out through the centre ends near where the ray does.
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits, inside.triangle);
   out.rays = inside.size();
@@ -286,9 +284,8 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
   for (Index ray = 0; ray < ends.size(); ++ray) {
     if (!scratch.outwards[ray]) continue;
     scratch.owner.push_back(ray);
-    scratch.rays.push_back(casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]);
+    scratch.rays.push_back({casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]});
   }
-  scratch.rays.close();
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
   out.rays += scratch.rays.size();
   for (std::size_t i = 0; i < scratch.owner.size(); ++i)
@@ -385,8 +382,7 @@ void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thickn
   };
   scratch.rays.clear();
   for (const Index face : scratch.rim)
-    for (const auto& w : centres) scratch.rays.push_back(at(face, w, vertex), direction_at(face, w));
-  scratch.rays.close();
+    for (const auto& w : centres) scratch.rays.push_back({at(face, w, vertex), direction_at(face, w)});
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
   out.rays += scratch.rays.size();
   std::size_t ray = 0;
@@ -451,14 +447,13 @@ std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, do
   const mesh::VertexTriangles around(from);
   const mesh::TriangleTree order(from);
   std::vector<Index> owner;
-  mesh::RayBundles rays;
+  std::vector<mesh::Ray> rays;
   for (const Index vertex : order.mesh_vertices()) {
     const Vec3 normal = corner_normal(from, face_normals, around, vertex);
     if (normal.isZero()) continue;
     owner.push_back(vertex);
-    rays.push_back(from.vertices()[vertex], -normal);
+    rays.push_back({from.vertices()[vertex], -normal});
   }
-  rays.close();
   mesh::RayHits hits;
   mesh::nearest_hits(mesh::RayTarget(to), Pose::Identity(), rays, reach, hits);
   std::vector<double> distances(from.vertices().size(), std::numeric_limits<double>::quiet_NaN());

@@ -70,7 +70,7 @@ class OverlapSampler {
     std::vector<RayEnd> ends;    ///< per ray inwards
     Penetrations inside;         ///< the origins in the target
     std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
-    mesh::RayBundles rays;
+    std::vector<mesh::Ray> rays;
     std::vector<Index> owner;
     std::vector<Index> active, rim;  ///< faces
   };
@@ -102,7 +102,7 @@ class OverlapSampler {
   std::vector<double> face_area_;
   std::vector<Vec3> face_normal_;
   std::vector<double> longest_edge_;
-  mesh::RayBundles inward_;  ///< along negative normals
+  std::vector<mesh::Ray> inward_;  ///< along negative normals
   std::optional<PointsInside> origins_inside_;
   /// The face, or the vertex, that each ray starts from; neighbours follow each other.
   std::vector<Index> ray_owner_;

@@ -14,17 +14,10 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-struct Ray {
-  Vec3 origin, direction;
-};
-
 RayHits hits_of(const TriMesh& mesh, const std::vector<Ray>& rays, double reach,
                 const Pose& X_TR = Pose::Identity()) {
-  RayBundles bundles;
-  for (const Ray& ray : rays) bundles.push_back(ray.origin, ray.direction);
-  bundles.close();
   RayHits hits;
-  nearest_hits(RayTarget(mesh), X_TR, bundles, reach, hits);
+  nearest_hits(RayTarget(mesh), X_TR, rays, reach, hits);
   return hits;
 }
 
@@ -140,9 +133,8 @@ TEST(RayHits, AreTheSameWhateverTriangleIsTriedFirst) {
   std::normal_distribution<double> normal;
   const auto vector = [&] { return Vec3(normal(random), normal(random), normal(random)); };
   const TriMesh mesh = test::torus(14, 3, 40, 20);
-  RayBundles rays;
-  for (int i = 0; i < 500; ++i) rays.push_back(8 * vector(), vector().normalized());
-  rays.close();
+  std::vector<Ray> rays;
+  for (int i = 0; i < 500; ++i) rays.push_back({8 * vector(), vector().normalized()});
   const RayTarget target(mesh);
   RayHits hits;
   nearest_hits(target, Pose::Identity(), rays, 40, hits);
