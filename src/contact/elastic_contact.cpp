@@ -85,27 +85,47 @@ Vector6 stacked(const Vec3& a, const Vec3& b) {
   return both;
 }
 
-/// `sense` is 1 where the fixed body is cast and -1 where the mobile one is; R_FC and the origins bring what is in C to F.
-void add_load(const ElasticCast& cast, const ElasticCast::Answer& answer, const Pose& X_FC,
-              const Vec3& origin_M, double sense, double share, bool with_change, MobileLoad& out) {
-  const auto normals = cast.sampler().face_normals();
-  for (std::size_t i = 0; i < answer.found.samples.size(); ++i) {
-    const OverlapSample& sample = answer.found.samples[i];
-    if (sample.area == 0) continue;
-    ++out.samples;
-    const LayerAnswer& layer = answer.of_sample[i];
-    const Vec3 n = sense * (X_FC.linear() * normals[sample.face]);
-    const Vec3 arm = X_FC * sample.point - origin_M;
-    const Vector6 direction = stacked(n, arm.cross(n));
-    out.wrench += share * sample.area * layer.pressure * direction;
-    out.energy += share * sample.area * layer.energy;
-    if (!with_change) continue;
-    // Moving the mobile body is moving the target, or moving the casting surface and so the target the other way.
-    const Vec3 g = sense * (X_FC.linear() * sample.gradient);
-    const Vec3 met = arm + sample.depth * -(X_FC.linear() * normals[sample.face]);
-    out.change += share * sample.area * layer.slope * direction * stacked(g, met.cross(g)).transpose();
+/// A surface that is cast: `sense` is 1 of the fixed body and -1 of the mobile one; the pose and the origin bring what is in C
+/// to F.
+struct CastInF {
+  const ElasticCast& cast;
+  const ElasticCast::Answer& answer;
+  Pose X_FC;
+  Vec3 origin_M;
+  double sense, share;
+
+  /// Each sample that stands for an area, with its direction and arm in F.
+  void for_each(const auto& take) const {
+    const auto normals = cast.sampler().face_normals();
+    for (std::size_t i = 0; i < answer.found.samples.size(); ++i) {
+      const OverlapSample& sample = answer.found.samples[i];
+      if (sample.area == 0) continue;
+      const Vec3 n = sense * (X_FC.linear() * normals[sample.face]);
+      const Vec3 arm = X_FC * sample.point - origin_M;
+      take(sample, answer.of_sample[i], stacked(n, arm.cross(n)), arm);
+    }
   }
-}
+
+  void add_load(MobileLoad& out) const {
+    for_each(
+        [&](const OverlapSample& sample, const LayerAnswer& layer, const Vector6& direction, const Vec3&) {
+          ++out.samples;
+          out.wrench += share * sample.area * layer.pressure * direction;
+          out.energy += share * sample.area * layer.energy;
+        });
+  }
+
+  void add_change(LoadChange& out) const {
+    const auto normals = cast.sampler().face_normals();
+    for_each([&](const OverlapSample& sample, const LayerAnswer& layer, const Vector6& direction,
+                 const Vec3& arm) {
+      // Moving the mobile body is moving the target, or moving the casting surface and so the target the other way.
+      const Vec3 g = sense * (X_FC.linear() * sample.gradient);
+      const Vec3 met = arm + sample.depth * -(X_FC.linear() * normals[sample.face]);
+      out += share * sample.area * layer.slope * direction * stacked(g, met.cross(g)).transpose();
+    });
+  }
+};
 
 }  // namespace
 }  // namespace contact
@@ -149,16 +169,23 @@ void ElasticContact::Parts::answer(const Pose& X_FM, Answers& out) const {
   if (from_mobile) from_mobile->answer(inverted(X_FM), out.of_mobile);
 }
 
-contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const Pose& X_FM,
-                                                   bool with_change) const {
-  contact::MobileLoad load;
+void ElasticContact::Parts::for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const {
   const double share = options.casting == Casting::both ? 0.5 : 1;
   const Vec3 origin_M = X_FM.translation();
-  if (from_fixed)
-    contact::add_load(*from_fixed, answers.of_fixed, Pose::Identity(), origin_M, 1, share, with_change, load);
-  if (from_mobile)
-    contact::add_load(*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share, with_change, load);
+  if (from_fixed) take(contact::CastInF{*from_fixed, answers.of_fixed, Pose::Identity(), origin_M, 1, share});
+  if (from_mobile) take(contact::CastInF{*from_mobile, answers.of_mobile, X_FM, origin_M, -1, share});
+}
+
+contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const Pose& X_FM) const {
+  contact::MobileLoad load;
+  for_each_cast(answers, X_FM, [&](const contact::CastInF& cast) { cast.add_load(load); });
   return load;
+}
+
+contact::LoadChange ElasticContact::Parts::change_of(const Answers& answers, const Pose& X_FM) const {
+  contact::LoadChange change = contact::LoadChange::Zero();
+  for_each_cast(answers, X_FM, [&](const contact::CastInF& cast) { cast.add_change(change); });
+  return change;
 }
 
 ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, const Pose& X_FM) const {
@@ -169,7 +196,7 @@ ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, 
   };
   if (from_fixed) add(*from_fixed, answers.of_fixed, out.fixed.emplace());
   if (from_mobile) add(*from_mobile, answers.of_mobile, out.mobile.emplace());
-  const contact::MobileLoad load = load_of(answers, X_FM, false);
+  const contact::MobileLoad load = load_of(answers, X_FM);
   out.on_mobile = {load.wrench.head<3>(), load.wrench.tail<3>()};
   out.energy_nmm = load.energy;
   return out;

@@ -33,15 +33,16 @@ class ElasticCast {
   std::vector<double> casting_thickness_, target_thickness_;
 };
 
-/// The load that one pose puts on the mobile body, and how it changes when the mobile body moves a little. In F; moments
-/// about the origin of M.
+/// The load that one pose puts on the mobile body. In F; moments about the origin of M.
 struct MobileLoad {
   Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();  ///< force, then moment
-  /// Of the wrench by translation and by rotation (radians) about the origin of M, loads held in place.
-  Eigen::Matrix<double, 6, 6> change = Eigen::Matrix<double, 6, 6>::Zero();
   double energy = 0;
   std::size_t samples = 0;
 };
+
+/// How the wrench changes when the mobile body is translated and turned (radians) a little about the origin of M, loads held in
+/// place.
+using LoadChange = Eigen::Matrix<double, 6, 6>;
 
 }  // namespace contact
 
@@ -55,8 +56,9 @@ struct ElasticContact::Parts {
     contact::ElasticCast::Answer of_fixed, of_mobile;
   };
   void answer(const Pose& X_FM, Answers& out) const;
-  /// With its change only where asked for.
-  contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM, bool with_change) const;
+  contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM) const;
+  contact::LoadChange change_of(const Answers& answers, const Pose& X_FM) const;
+  void for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const;
   ElasticContactResults results_of(const Answers& answers, const Pose& X_FM) const;
 
   mutable core::Spare<Answers> spare;

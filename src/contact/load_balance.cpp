@@ -109,12 +109,12 @@ class Search {
   /// The load at a pose that is tried, its answers kept until the next.
   MobileLoad tried(const Pose& X) {
     contact_.parts().answer(X, *tried_);
-    return contact_.parts().load_of(*tried_, X, true);
+    return contact_.parts().load_of(*tried_, X);
   }
   /// The pose tried last is the one to go on from.
-  void take(const Pose& X, MobileLoad load) {
+  void take(const Pose& X, const MobileLoad& load) {
     out_.X_FM = X;
-    now_ = std::move(load);
+    now_ = load;
     residual_ = left(X, now_);
     std::swap(answers_, tried_);
   }
@@ -129,13 +129,14 @@ class Search {
       Vector6 by = Vector6::Zero();
       by.head<3>() = way * along;
       const Pose X = moved(start_, by);
-      MobileLoad load = tried(X);
+      const MobileLoad load = tried(X);
       const double missing = force.norm() + load.wrench.head<3>().dot(along);
       if (!(missing > 0)) {
-        take(X, std::move(load));
+        take(X, load);
         return true;
       }
-      const double stiffness = -along.dot(load.change.topLeftCorner<3, 3>() * along);
+      const contact::LoadChange change = contact_.parts().change_of(*tried_, X);
+      const double stiffness = -along.dot(change.topLeftCorner<3, 3>() * along);
       way += stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
     }
     return false;
@@ -147,7 +148,8 @@ class Search {
     while (true) {
       resisted_ = resisted_ || now_.wrench.dot(load_at(out_.X_FM)) < 0;
       // How the contact pushes back against small motions along what is free.
-      const Eigen::MatrixXd stiffness = -free_.transpose() * now_.change * free_;
+      const Eigen::MatrixXd stiffness =
+          -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM) * free_;
       const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
       const auto& sizes = svd.singularValues();
       const Eigen::Index last = sizes.size() - 1;
@@ -203,7 +205,7 @@ class Search {
     if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
     for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
       const Pose X = moved(out_.X_FM, step);
-      MobileLoad next = tried(X);
+      const MobileLoad next = tried(X);
       if (next.samples == 0) continue;
       const Vector6 given = load_at(out_.X_FM);
       // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
@@ -212,7 +214,7 @@ class Search {
                                  given.tail<3>().norm() * step.tail<3>().norm()) +
                               1e-9 * now_.energy;
       if (climbs || !(size_of(left(X, next)) < size_of(residual_))) continue;
-      take(X, std::move(next));
+      take(X, next);
       return true;
     }
     return false;

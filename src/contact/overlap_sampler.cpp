@@ -97,6 +97,12 @@ int side_of(const Vec3& normal) {
   return 2 * static_cast<int>(axis) + (normal[axis] < 0 ? 1 : 0);
 }
 
+// The ray from o along u meets the plane with normal m through a at d = (a - o).m / (u.m): translated by s, d grows by
+// s.m / (u.m). Rays outwards have the opposite direction and the opposite depth, so one formula serves both.
+Vec3 depth_gradient(const Vec3& normal, const Vec3& direction) {
+  return normal / direction.dot(normal);
+}
+
 std::vector<Vec3> unit_normals(const TriMesh& mesh) {
   std::vector<Vec3> normals;
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) normals.push_back(unit(area_vector(mesh, f)));
@@ -175,21 +181,15 @@ void OverlapSampler::make_corner_rays(const mesh::TriangleTree& order) {
   }
 }
 
-OverlapSampler::Overlap OverlapSampler::overlap_of(const Vec3& direction_C, const mesh::RayHits& hits,
-                                                   std::size_t ray, const Pose& X_CT) const {
-  if (!hits.is_hit(ray)) return {};
-  const RayEnd end{hits.distance[ray], hits.triangle[ray]};
-  const double along = direction_C.dot(X_CT.linear() * target_normal_[end.triangle]);
-  const bool met_from_front = along < 0;
-  if (met_from_front && target_is_closed_) return {};
-  return {end, met_from_front};
-}
-
-// The ray from o along u meets the plane with normal m through a at d = (a - o).m / (u.m): translated by s, d grows by
-// s.m / (u.m). Rays outwards have the opposite direction and the opposite depth, so one formula serves both.
-Vec3 OverlapSampler::gradient_of(const RayEnd& end, const Vec3& direction_C, const Pose& X_CT) const {
-  const Vec3 m = X_CT.linear() * target_normal_[end.triangle];
-  return m / direction_C.dot(m);
+std::optional<OverlapSampler::Overlap> OverlapSampler::overlap_of(const Vec3& direction_C,
+                                                                  const mesh::RayHits& hits, std::size_t ray,
+                                                                  const Pose& X_CT) const {
+  if (!hits.is_hit(ray)) return std::nullopt;
+  const RayEnd end{hits.distance[ray], hits.triangle[ray],
+                   X_CT.linear() * target_normal_[hits.triangle[ray]]};
+  const bool met_from_front = direction_C.dot(end.normal) < 0;
+  if (met_from_front && target_is_closed_) return std::nullopt;
+  return Overlap{end, met_from_front};
 }
 
 double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C,
@@ -222,16 +222,17 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
 void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
   const Pose X_TC = inverted(X_CT);
   const std::size_t count = inward_.size();
-  scratch.ends.assign(count, {});
-  const auto end_of = [&](std::size_t ray, std::size_t hit) {
-    const Overlap overlap = overlap_of(inward_[ray].direction, scratch.hits, hit, X_CT);
-    scratch.ends[ray] = overlap.end;
-    out.met_from_front += overlap.met_from_front;
+  scratch.ends.clear(count);
+  const auto take_end = [&](Index ray, std::size_t hit) {
+    const auto overlap = overlap_of(inward_[ray].direction, scratch.hits, hit, X_CT);
+    if (!overlap) return;
+    scratch.ends.set(ray, overlap->end);
+    out.met_from_front += overlap->met_from_front;
   };
   if (!origins_inside_ || !origins_inside_->find(X_TC, scratch.inside)) {
     mesh::nearest_hits(ray_target_, X_TC, inward_, options_.reach_mm, scratch.hits);
     out.rays = count;
-    for (std::size_t ray = 0; ray < count; ++ray) end_of(ray, ray);
+    for (Index ray = 0; ray < count; ++ray) take_end(ray, ray);
     return;
   }
   const auto& inside = scratch.inside;
@@ -240,7 +241,7 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
   // The way out through the centre ends near where the ray does.
   mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits, inside.triangle);
   out.rays = inside.size();
-  for (std::size_t i = 0; i < inside.size(); ++i) end_of(inside.point[i], i);
+  for (std::size_t i = 0; i < inside.size(); ++i) take_end(inside.point[i], i);
 }
 
 void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
@@ -248,12 +249,13 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
   const Pose X_TC = inverted(X_CT);
   // In the order of faces, whatever the order of rays: sums are then those of a reader of the file.
   for (Index face = 0; face < centre_ray_.size(); ++face) {
-    if (centre_ray_[face] == no_index) continue;
-    const Vec3 direction = -face_normal_[face];
-    const RayEnd& end = scratch.ends[centre_ray_[face]];
-    if (!end.is_known() || !(end.depth > 0)) continue;
-    const Vec3 centre = (casting_.corner(face, 0) + casting_.corner(face, 1) + casting_.corner(face, 2)) / 3;
-    OverlapSample sample{face, face_area_[face], end.depth, centre, gradient_of(end, direction, X_CT), 0, 0};
+    const Index ray = centre_ray_[face];
+    if (ray == no_index || !scratch.ends.has(ray)) continue;
+    const RayEnd& end = scratch.ends[ray];
+    if (!(end.depth > 0)) continue;
+    const auto& [centre, direction] = inward_[ray];
+    OverlapSample sample{face, face_area_[face], end.depth, centre, depth_gradient(end.normal, direction), 0,
+                         0};
     if (!thicknesses.casting.empty()) {
       const auto& [a, b, c] = casting_.triangles()[face];
       sample.casting_thickness =
@@ -274,14 +276,14 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
   scratch.active.clear();
   scratch.rays.clear();
   scratch.owner.clear();
-  scratch.outwards.assign(ends.size(), 0);
+  scratch.outwards.assign(ends.rays(), 0);
   for (Index face = 0; face < corner_ray_.size(); ++face) {
     const auto& [a, b, c] = corner_ray_[face];
-    if (face_area_[face] == 0 || !(ends[a].is_known() || ends[b].is_known() || ends[c].is_known())) continue;
+    if (face_area_[face] == 0 || !(ends.has(a) || ends.has(b) || ends.has(c))) continue;
     scratch.active.push_back(face);
-    for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends[ray].is_known();
+    for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends.has(ray);
   }
-  for (Index ray = 0; ray < ends.size(); ++ray) {
+  for (Index ray = 0; ray < ends.rays(); ++ray) {
     if (!scratch.outwards[ray]) continue;
     scratch.owner.push_back(ray);
     scratch.rays.push_back({casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]});
@@ -290,7 +292,8 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
   out.rays += scratch.rays.size();
   for (std::size_t i = 0; i < scratch.owner.size(); ++i)
     if (scratch.hits.is_hit(i))
-      ends[scratch.owner[i]] = {-scratch.hits.distance[i], scratch.hits.triangle[i]};
+      ends.set(scratch.owner[i], {-scratch.hits.distance[i], scratch.hits.triangle[i],
+                                  X_CT.linear() * target_normal_[scratch.hits.triangle[i]]});
 
   static const auto of_degree_5 = nodes_of_degree_5();
   const std::span<const Node> nodes = quadrature == Quadrature::of_degree_2
@@ -300,11 +303,12 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
   scratch.rim.clear();
   for (const Index face : scratch.active) {
     const auto& rays = corner_ray_[face];
-    std::array<double, 3> depth;
-    for (std::size_t k = 0; k < 3; ++k) depth[k] = ends[rays[k]].depth;
+    const bool all_end = ends.has(rays[0]) && ends.has(rays[1]) && ends.has(rays[2]);
+    std::array<double, 3> depth{};
+    if (all_end)
+      for (std::size_t k = 0; k < 3; ++k) depth[k] = ends[rays[k]].depth;
     const auto [least, most] = std::minmax({depth[0], depth[1], depth[2]});
-    if (!ends[rays[0]].is_known() || !ends[rays[1]].is_known() || !ends[rays[2]].is_known() ||
-        most - least > steepest_linear * longest_edge_[face]) {
+    if (!all_end || most - least > steepest_linear * longest_edge_[face]) {
       scratch.rim.push_back(face);
       continue;
     }
@@ -331,7 +335,7 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
       const RayEnd& end = ends[rays[k]];
       const Vec3 direction = -ray_normal_[rays[k]];
       p[k] = casting_.vertices()[v];
-      gradient[k] = gradient_of(end, direction, X_CT);
+      gradient[k] = depth_gradient(end.normal, direction);
       if (!with_thickness) continue;
       if (!thicknesses.casting.empty()) of_casting[k] = thicknesses.casting[v];
       if (!thicknesses.target.empty())
@@ -389,11 +393,12 @@ void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thickn
   for (const Index face : scratch.rim) {
     for (const auto& w : centres) {
       const Vec3 direction = direction_at(face, w);
-      const RayEnd end = overlap_of(direction, scratch.hits, ray++, X_CT).end;
-      if (!end.is_known() || !(end.depth > 0)) continue;
+      const auto overlap = overlap_of(direction, scratch.hits, ray++, X_CT);
+      if (!overlap || !(overlap->end.depth > 0)) continue;
+      const RayEnd& end = overlap->end;
       const Vec3 point = at(face, w, vertex);
       OverlapSample sample{
-          face, face_area_[face] / rim_parts, end.depth, point, gradient_of(end, direction, X_CT), 0, 0};
+          face, face_area_[face] / rim_parts, end.depth, point, depth_gradient(end.normal, direction), 0, 0};
       if (!thicknesses.casting.empty())
         sample.casting_thickness = at(face, w, [&](Index v) { return thicknesses.casting[v]; });
       if (!thicknesses.target.empty())

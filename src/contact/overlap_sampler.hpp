@@ -61,13 +61,29 @@ class OverlapSampler {
 
   /// What a ray met: the depth is below 0 where a ray outwards met the target.
   struct RayEnd {
-    double depth = 0;
-    Index triangle = no_index;
-    bool is_known() const noexcept { return triangle != no_index; }
+    double depth;
+    Index triangle;
+    Vec3 normal;  ///< of the triangle, in the casting body's frame
+  };
+  /// The ends of those rays inwards that have one.
+  class RayEnds {
+   public:
+    void clear(std::size_t rays) { of_ray_.assign(rays, no_index), ends_.clear(); }
+    void set(Index ray, const RayEnd& end) {
+      of_ray_[ray] = static_cast<Index>(ends_.size());
+      ends_.push_back(end);
+    }
+    std::size_t rays() const noexcept { return of_ray_.size(); }
+    bool has(Index ray) const noexcept { return of_ray_[ray] != no_index; }
+    const RayEnd& operator[](Index ray) const noexcept { return ends_[of_ray_[ray]]; }
+
+   private:
+    std::vector<Index> of_ray_;
+    std::vector<RayEnd> ends_;
   };
   struct Scratch {
     mesh::RayHits hits;
-    std::vector<RayEnd> ends;    ///< per ray inwards
+    RayEnds ends;
     Penetrations inside;         ///< the origins in the target
     std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
     std::vector<mesh::Ray> rays;
@@ -80,11 +96,10 @@ class OverlapSampler {
   /// Where a ray inwards ends, and whether it met the target from its front: of an open target that counts.
   struct Overlap {
     RayEnd end;
-    bool met_from_front = false;
+    bool met_from_front;
   };
-  Overlap overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray,
-                     const Pose& X_CT) const;
-  Vec3 gradient_of(const RayEnd& end, const Vec3& direction_C, const Pose& X_CT) const;
+  std::optional<Overlap> overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray,
+                                    const Pose& X_CT) const;
   double target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C, const Pose& X_TC,
                           std::span<const double> of_vertices) const;
 

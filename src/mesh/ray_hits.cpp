@@ -55,6 +55,13 @@ HWY_INLINE Lanes doubled_area(const Seen& a, const Seen& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
+template <class Tag>
+HWY_INLINE unsigned bits_of(Tag tag, hn::Mask<Tag> mask) {
+  HWY_ALIGN std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(tag, mask, bits);
+  return bits[0];
+}
+
 /// A ray in the target's frame, and its nearest hit so far.
 class PlacedRay {
  public:
@@ -80,41 +87,39 @@ class PlacedRay {
   }
 
   bool is_hit() const noexcept { return triangle_ != none; }
+  float rough_direction(int k) const noexcept { return rough_direction_[k]; }
+  float rough_origin(int k) const noexcept { return rough_origin_[k]; }
+  float rough_end() const noexcept { return rough_end_; }
+  float slack() const noexcept { return slack_; }
   double distance() const noexcept { return is_hit() ? distance_ : none; }
   Index triangle() const noexcept { return is_hit() ? static_cast<Index>(triangle_) : no_index; }
 
-  /// Whether a hit that is not before `along`, as boxes_met() tells it, may be nearer.
-  bool may_meet_from(float along) const noexcept { return !(along > rough_end_); }
-
-  /// The boxes that the ray may meet before its end, one bit each, and from where on.
-  HWY_INLINE unsigned boxes_met(const RayTarget::Branch& branch, float* from) const {
+  /// The boxes that the ray may meet before its end, one bit each.
+  HWY_INLINE unsigned boxes_met(const RayTarget::Boxes& boxes) const {
     unsigned met = 0;
+    const auto slack = hn::Set(f, slack_);
     for (std::size_t i = 0; i < width; i += hn::Lanes(f)) {
       Floats centre[3], half[3];
       for (int k = 0; k < 3; ++k) {
-        centre[k] = hn::Sub(hn::Load(f, branch.centre[k] + i), hn::Set(f, rough_origin_[k]));
-        half[k] = hn::Load(f, branch.half[k] + i);
+        centre[k] = hn::Sub(hn::Load(f, boxes.centre[k] + i), hn::Set(f, rough_origin_[k]));
+        half[k] = hn::Load(f, boxes.half[k] + i);
       }
-      const auto slack = hn::Set(f, slack_);
       // Apart along an axis of the box, or along what is at right angles to one and to the ray. What is not a number may be
       // met.
-      Floats apart = hn::Zero(f), along = hn::Zero(f), extent = slack;
+      auto apart = hn::Zero(f);
       for (int k = 0; k < 3; ++k) {
         const auto middle = hn::Sub(centre[k], hn::Set(f, middle_[k]));
         apart = hn::Max(apart, hn::Sub(hn::Abs(middle), hn::Add(half[k], hn::Set(f, reached_[k]))));
         const int y = (k + 1) % 3, z = (k + 2) % 3;
         const auto beside = hn::Sub(hn::Mul(centre[y], hn::Set(f, rough_direction_[z])),
                                     hn::Mul(centre[z], hn::Set(f, rough_direction_[y])));
-        const auto wide = hn::Add(
-            hn::Add(hn::Mul(half[y], hn::Set(f, slope_[z])), hn::Mul(half[z], hn::Set(f, slope_[y]))), slack);
-        apart = hn::Max(apart, hn::Sub(hn::Abs(beside), wide));
-        along = hn::Add(along, hn::Mul(centre[k], hn::Set(f, rough_direction_[k])));
-        extent = hn::Add(extent, hn::Mul(half[k], hn::Set(f, slope_[k])));
+        const auto wide =
+            hn::Add(hn::Mul(half[y], hn::Set(f, slope_[z])), hn::Mul(half[z], hn::Set(f, slope_[y])));
+        apart = hn::Max(apart, hn::Sub(hn::Abs(beside), hn::Add(wide, slack)));
       }
-      hn::Store(hn::Sub(along, extent), f, from + i);
       met |= bits_of(f, hn::Not(hn::Gt(apart, hn::Zero(f)))) << i;
     }
-    return met & branch.used;
+    return met & boxes.used;
   }
 
   /// Takes the nearest triangle of a leaf that the ray meets, if that is nearer than what it met before.
@@ -165,13 +170,6 @@ class PlacedRay {
             hn::Sub(from(across_[1]), hn::Mul(along, hn::Set(d, shear_[1])))};
   }
 
-  template <class Tag>
-  static HWY_INLINE unsigned bits_of(Tag tag, hn::Mask<Tag> mask) {
-    HWY_ALIGN std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(tag, mask, bits);
-    return bits[0];
-  }
-
   void shorten() {
     rough_end_ = static_cast<float>(distance_);
     for (int k = 0; k < 3; ++k) {
@@ -191,57 +189,127 @@ class PlacedRay {
   float slack_;  ///< more than rounding moves rays and distances by, mm
 };
 
+/// What holds some rays up to their ends: slabs along the axes of the target, along the rays and across them. A box beyond one
+/// of the slabs is met by no ray.
+class Hull {
+ public:
+  explicit Hull(std::span<const PlacedRay> rays) {
+    Vec3 sum = Vec3::Zero();
+    for (const PlacedRay& ray : rays)
+      sum += Vec3(ray.rough_direction(0), ray.rough_direction(1), ray.rough_direction(2));
+    // Directions that cancel have no mean: then any serves.
+    const Vec3 u = sum.norm() > 1e-3 ? Vec3(sum.normalized()) : Vec3(Vec3::UnitX()), v = u.unitOrthogonal(),
+               w = u.cross(v);
+    const Vec3 directions[slabs] = {
+        Vec3::UnitX(),           Vec3::UnitY(), Vec3::UnitZ(), u, v, w, (v + w) * std::sqrt(0.5),
+        (v - w) * std::sqrt(0.5)};
+    for (std::size_t i = 0; i < slabs; ++i)
+      for (int k = 0; k < 3; ++k) axis_[k][i] = static_cast<float>(directions[i][k]);
+    for (std::size_t i = 0; i < slabs; i += hn::Lanes(f)) {
+      auto low = hn::Set(f, std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+      float slack = 0;
+      for (const PlacedRay& ray : rays) {
+        const auto along = [&](float x, float y, float z) {
+          return hn::Add(hn::Add(hn::Mul(hn::Load(f, axis_[0] + i), hn::Set(f, x)),
+                                 hn::Mul(hn::Load(f, axis_[1] + i), hn::Set(f, y))),
+                         hn::Mul(hn::Load(f, axis_[2] + i), hn::Set(f, z)));
+        };
+        const auto from = along(ray.rough_origin(0), ray.rough_origin(1), ray.rough_origin(2));
+        const auto way = along(ray.rough_direction(0), ray.rough_direction(1), ray.rough_direction(2));
+        const auto to = hn::Add(from, hn::Mul(way, hn::Set(f, ray.rough_end())));
+        low = hn::Min(low, hn::Min(from, to)), high = hn::Max(high, hn::Max(from, to));
+        slack = std::max(slack, ray.slack());
+      }
+      const auto half = hn::Set(f, 0.5f);
+      hn::Store(hn::Mul(hn::Add(low, high), half), f, centre_ + i);
+      hn::Store(hn::Add(hn::Mul(hn::Sub(high, low), half), hn::Set(f, slack)), f, half_ + i);
+    }
+  }
+
+  /// The boxes that a ray may meet, one bit each.
+  HWY_INLINE unsigned boxes_met(const RayTarget::Boxes& boxes) const {
+    unsigned met = 0;
+    for (std::size_t i = 0; i < width; i += hn::Lanes(f)) {
+      auto apart = hn::Zero(f);
+      for (std::size_t s = 0; s < slabs; ++s) {
+        auto at = hn::Neg(hn::Set(f, centre_[s])), wide = hn::Set(f, half_[s]);
+        for (int k = 0; k < 3; ++k) {
+          at = hn::Add(at, hn::Mul(hn::Load(f, boxes.centre[k] + i), hn::Set(f, axis_[k][s])));
+          wide = hn::Add(wide,
+                         hn::Mul(hn::Load(f, boxes.half[k] + i), hn::Set(f, std::abs(axis_[k][s]) + 1e-6f)));
+        }
+        apart = hn::Max(apart, hn::Sub(hn::Abs(at), wide));
+      }
+      // What is not a number may be met.
+      met |= bits_of(f, hn::Not(hn::Gt(apart, hn::Zero(f)))) << i;
+    }
+    return met & boxes.used;
+  }
+
+ private:
+  static constexpr std::size_t slabs = 8;
+
+  alignas(64) float axis_[3][slabs], centre_[slabs], half_[slabs];
+};
+
 /// A tree is at most as deep as the bits of its sorting key, and 32 for equal ones; a branch leaves seven boxes behind.
 constexpr std::size_t most_open = 128 * (width - 1) + 1;
 
-struct Open {
-  Index below;
-  bool is_leaf;
-  float from;
-};
-
-void trace(const RayTarget& target, PlacedRay& ray) {
-  std::array<Open, most_open> open;
+/// The leaves that a hull may meet, eight boxes at a time.
+void gather(const RayTarget& target, const Hull& hull, std::vector<RayTarget::Boxes>& leaves) {
+  leaves.clear();
+  std::size_t used = width;
+  std::array<Index, most_open> open;
   std::size_t count = 0;
-  open[count++] = {0, false, 0};
+  open[count++] = 0;
   while (count > 0) {
-    const Open here = open[--count];
-    if (!ray.may_meet_from(here.from)) continue;
-    if (here.is_leaf) {
-      ray.meet(target.leaves()[here.below]);
-      continue;
-    }
-    const auto& branch = target.branches()[here.below];
-    HWY_ALIGN float from[width];
-    // Once a ray is short, the order in which the last boxes are looked at hardly matters.
-    const bool any_order = ray.is_hit();
-    const std::size_t first = count;
-    for (unsigned bits = ray.boxes_met(branch, from); bits != 0; bits &= bits - 1) {
+    const auto& branch = target.branches()[open[--count]];
+    for (unsigned bits = hull.boxes_met(branch.boxes); bits != 0; bits &= bits - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(bits));
-      const bool is_leaf = (branch.leaves >> lane & 1) != 0;
-      if (any_order && is_leaf) {
-        ray.meet(target.leaves()[branch.below[lane]]);
+      if ((branch.leaves >> lane & 1) == 0) {
+        open[count++] = branch.boxes.below[lane];
         continue;
       }
-      std::size_t at = count++;
-      // The nearest last, to be looked at first.
-      if (!any_order)
-        for (; at > first && open[at - 1].from < from[lane]; --at) open[at] = open[at - 1];
-      open[at] = {branch.below[lane], is_leaf, from[lane]};
+      if (used == width) leaves.emplace_back(), used = 0;
+      RayTarget::Boxes& boxes = leaves.back();
+      for (int k = 0; k < 3; ++k) {
+        boxes.centre[k][used] = branch.boxes.centre[k][lane];
+        boxes.half[k][used] = branch.boxes.half[k][lane];
+      }
+      boxes.below[used] = branch.boxes.below[lane];
+      boxes.used |= 1u << used++;
     }
   }
 }
 
 void nearest_hits_any(const RayTarget& target, const Pose& X_TR, std::span<const Ray> rays, double reach,
                       std::span<const Index> first, RayHits& out) {
+  constexpr std::size_t together = 8;
+  std::vector<PlacedRay> some;
+  some.reserve(together);
+  std::vector<RayTarget::Boxes> leaves;
   Index likely = no_index;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    PlacedRay ray(X_TR, rays[i], reach, target.size());
-    if (!first.empty()) likely = first[i];
+  const auto try_likely = [&](PlacedRay& ray) {
     if (likely != no_index) ray.meet(target.leaves()[target.leaf_of(likely)]);
-    trace(target, ray);
-    out.distance[i] = ray.distance();
-    likely = out.triangle[i] = ray.triangle();
+  };
+  for (std::size_t begin = 0; begin < rays.size(); begin += together) {
+    const std::size_t end = std::min(begin + together, rays.size());
+    some.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!first.empty()) likely = first[i];
+      try_likely(some.emplace_back(X_TR, rays[i], reach, target.size()));
+    }
+    gather(target, Hull(some), leaves);
+    for (std::size_t i = begin; i < end; ++i) {
+      PlacedRay& ray = some[i - begin];
+      if (first.empty() && !ray.is_hit()) try_likely(ray);
+      for (const auto& boxes : leaves)
+        for (unsigned bits = ray.boxes_met(boxes); bits != 0; bits &= bits - 1)
+          ray.meet(target.leaves()[boxes.below[static_cast<std::size_t>(std::countr_zero(bits))]]);
+      out.distance[i] = ray.distance();
+      out.triangle[i] = ray.triangle();
+      if (ray.is_hit()) likely = ray.triangle();
+    }
   }
 }
 
@@ -286,12 +354,12 @@ Index RayTarget::add_branch(Index node) {
   for (std::size_t lane = 0; lane < boxes.size(); ++lane) {
     const auto& box = nodes[boxes[lane]];
     const Index below = box.is_leaf() ? add_leaf(box) : add_branch(boxes[lane]);
-    Branch& branch = branches_[number];
-    branch.below[lane] = below;
-    branch.used |= 1u << lane;
-    if (box.is_leaf()) branch.leaves |= 1u << lane;
+    if (box.is_leaf()) branches_[number].leaves |= 1u << lane;
+    Boxes& of_branch = branches_[number].boxes;
+    of_branch.below[lane] = below;
+    of_branch.used |= 1u << lane;
     for (std::size_t k = 0; k < 3; ++k)
-      branch.centre[k][lane] = box.centre[k], branch.half[k][lane] = box.half[k];
+      of_branch.centre[k][lane] = box.centre[k], of_branch.half[k][lane] = box.half[k];
   }
   return number;
 }

@@ -23,12 +23,15 @@ class RayTarget {
   static constexpr std::size_t width = 8;
   static_assert(width >= TriangleTree::leaf_triangles);
 
-  /// Boxes of the tree of triangles, three generations at a time.
-  struct alignas(64) Branch {
+  struct alignas(64) Boxes {
     float centre[3][width] = {}, half[3][width] = {};
-    Index below[width] = {};  ///< branches, or leaves
-    unsigned leaves = 0;      ///< the lanes with a leaf, one bit each
-    unsigned used = 0;        ///< the lanes with a box
+    Index below[width] = {};  ///< the number of what a box holds
+    unsigned used = 0;        ///< the lanes with a box, one bit each
+  };
+  /// Three generations of the tree of triangles.
+  struct Branch {
+    Boxes boxes;
+    unsigned leaves = 0;  ///< the lanes that hold a leaf; the others hold branches
   };
   /// Triangles; lanes beyond the last have none that a ray could meet.
   struct alignas(64) Leaf {
@@ -62,8 +65,8 @@ struct RayHits {
 };
 
 /// The nearest hit of each ray, given in R, with the target, at 0 <= distance <= reach; X_TR is the pose of the rays' frame in
-/// the target's. Of triangles met at one distance the one of the lowest number counts. Fast where a ray runs near the one
-/// before it: that one's triangle is tried first.
+/// the target's. Of triangles met at one distance the one of the lowest number counts. Fast where rays that
+/// follow each other start near each other and run alike: eight together are told what they may meet.
 ///
 /// A ray sees the mesh as a plane figure: each vertex is turned into two coordinates, rounded, the same ones in all its
 /// triangles; and of the areas that decide on which side of an edge the ray passes none has a wrong sign, and zero counts as

@@ -84,8 +84,8 @@ TEST_P(PublishedContact, HoldsToPrintedDigitsWithinTheRoundingOfTheCoordinates) 
     const Vec3 force = vector(*knee, frame, "contact_force"), moment = vector(*knee, frame, "contact_moment");
     Pose X = pose(*knee, frame);
     surfaces.parts().answer(X, answers);
-    const auto load = surfaces.parts().load_of(answers, X, true);
-    const Eigen::Matrix3d change = load.change.topLeftCorner<3, 3>();
+    const auto load = surfaces.parts().load_of(answers, X);
+    const Eigen::Matrix3d change = surfaces.parts().change_of(answers, X).topLeftCorner<3, 3>();
     constexpr double soft = 20;  // N / mm: of some 1500 across the contact; along it rounded angles decide
     const Vec3 off = (change.transpose() * change + soft * soft * Eigen::Matrix3d::Identity())
                          .ldlt()
