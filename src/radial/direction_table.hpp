@@ -54,7 +54,9 @@ class DirectionTable {
   const RejectionParts& rejection_parts() const;
   void find_rejection_parts(RejectionParts& parts) const;
   ExactView exact_view() const noexcept {
-    return {mesh(), map_, table_.entries, winding_at_centre_.value_or(0)};
+    const auto& functions = table_.forms.edge_functions;
+    return {mesh(), map_, table_.entries, winding_at_centre_.value_or(0),
+            functions.empty() ? nullptr : functions.data()};
   }
   std::optional<CubeView> cube_view() const;
 

@@ -322,6 +322,33 @@ TEST(RadialTable, BothMapsGiveTheSameBytes) {
             RadialTable(mesh, {DirectionMapKind::cartesian, 40}).query(points));
 }
 
+// The table of the paper's map keeps nothing in floats, so every answer of it is exact arithmetic's.
+TEST(RadialTable, WhatFloatsTellIsWhatExactArithmeticTells) {
+  std::mt19937_64 random(17);
+  for (const double scale : {1e-27, 1e-11, 1.0, 1e11, 1e27}) {
+    SCOPED_TRACE(scale);
+    for (TriMesh mesh : {test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3), test::torus(0.8, 0.5, 30, 20)}) {
+      for (std::size_t i = 0; i < mesh.vertices.size(); ++i) mesh.vertices.set(i, scale * mesh.vertices[i]);
+      Points points = random_points(2000, 1.5 * scale, 13);
+      // Rays through vertices and edges, or nearly, and points on the surface, or nearly.
+      for (const Triangle& corners : mesh.triangles) {
+        const Vec3 a = mesh.vertices[corners[0]], b = mesh.vertices[corners[1]], c = mesh.vertices[corners[2]];
+        for (const Vec3& at : {a, Vec3((a + b) / 2), Vec3((a + b + c) / 3)}) {
+          for (const double along : {0.7, 1 - 1e-7, 1.0, 1 + 1e-9, 1.4}) {
+            const double off = std::uniform_real_distribution(-1.0, 1.0)(random);
+            points.push_back(along * at);
+            points.push_back(along * at + 1e-8 * off * (c - b));
+          }
+        }
+      }
+      const RadialResults rough = RadialTable(mesh, {DirectionMapKind::cube, 24}).query(points);
+      EXPECT_EQ(rough, RadialTable(mesh, {DirectionMapKind::cartesian, 24}).query(points));
+      EXPECT_GT(std::count(rough.state.begin(), rough.state.end(), PointState::inside), 1000);
+      EXPECT_GT(std::count(rough.state.begin(), rough.state.end(), PointState::on_surface), 100);
+    }
+  }
+}
+
 TEST_P(RadialTableOnMap, GapsAloneAreThoseOfQueries) {
   const RadialTable socket = table(test::socket({0.1, 0.05, -0.2}, 1, 1.3, 3));
   Points points = random_points(1000, 1.5, 12);

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/exact_integers.hpp"
-#include "radial/exact/ray_crossing.hpp"
 #include "radial/exact/triangle_plane.hpp"
 
 namespace condyle::radial {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double fraction_along_ray(const Vec3& v, const Cone& t) noexcept {
   const double past = core::filtered_determinant(v - t.a, t.b - t.a, t.c - t.a).value;  // v . N - D
@@ -69,16 +65,10 @@ Angle angle_to_normal(const Vec3& v, const Cone& t) noexcept {
 RayScan::RayScan(const TriMesh& mesh, int winding_at_centre)
     : mesh_(mesh), winding_at_centre_(winding_at_centre) {}
 
-void RayScan::collect(const Vec3& v, std::span<const Index> triangles) {
-  crossings_.clear();
-  on_triangle_ = no_index;
-  for (const Index t : triangles) {
-    const Cone cone = cone_of(mesh_, t);
-    const RayCrossing crossing = ray_crossing(v, cone.a, cone.b, cone.c);
-    if (crossing.point_on_triangle) on_triangle_ = std::min(on_triangle_, t);
-    if (crossing.outwards == core::Sign::zero) continue;
-    crossings_.push_back({fraction_along_ray(v, cone), crossing.outwards, crossing.before_point, t});
-  }
+void RayScan::add(const RayCrossing& crossing, Index triangle) {
+  if (crossing.point_on_triangle) on_triangle_ = std::min(on_triangle_, triangle);
+  if (crossing.outwards != core::Sign::zero)
+    crossings_.push_back({0, crossing.outwards, crossing.before_point, triangle});
 }
 
 int RayScan::winding() const noexcept {
@@ -95,8 +85,13 @@ PointState RayScan::collected_state() const noexcept {
                                   : PointState::outside;
 }
 
-RayScan::Neighbours RayScan::boundary_crossings() {
-  std::sort(crossings_.begin(), crossings_.end());
+RayScan::Neighbours RayScan::boundary_crossings(const Vec3& v) {
+  const auto before = static_cast<std::size_t>(std::count_if(
+      crossings_.begin(), crossings_.end(), [](const Crossing& crossing) { return crossing.before_point; }));
+  if (before > 1 || crossings_.size() - before > 1)
+    for (Crossing& crossing : crossings_)
+      crossing.fraction = fraction_along_ray(v, cone_of(mesh_, crossing.triangle));
+  if (crossings_.size() > 1) std::sort(crossings_.begin(), crossings_.end());
   Neighbours nearest;
   int w = winding_at_centre_;
   for (const auto& crossing : crossings_) {
@@ -113,34 +108,13 @@ RayScan::Neighbours RayScan::boundary_crossings() {
 }
 
 RayAnswer RayScan::answer(const Vec3& v, std::span<const Index> triangles) {
-  const bool from_inside = winding_at_centre_ > 0;
-  RayAnswer answer{PointState::outside, winding_at_centre_, infinity, no_index,
-                   from_inside ? RayDirection::towards_centre : RayDirection::away_from_centre};
-  if (v == Vec3::Zero()) {
-    if (from_inside) answer.state = PointState::inside, answer.gap = -infinity;
-    return answer;
-  }
-  collect(v, triangles);
-  answer.winding = winding();
-  answer.state = collected_state();
-  if (answer.state == PointState::on_surface) {
-    answer.triangle = on_triangle_;
-    answer.gap = 0;
-    return answer;
-  }
-  const auto [before, after] = boundary_crossings();
-  const auto distance = [&](Index t) {
-    return t == no_index ? infinity : std::abs(distance_along_ray(v, cone_of(mesh_, t)));
-  };
-  const bool inside = answer.state == PointState::inside;
-  const double inwards = inside || from_inside ? distance(before) : infinity;
-  const double outwards = inside || !from_inside ? distance(after) : infinity;
-  const bool towards = inside ? inwards <= outwards : from_inside;
-  answer.triangle = towards ? before : after;
-  answer.direction = towards ? RayDirection::towards_centre : RayDirection::away_from_centre;
-  const double length = towards ? inwards : outwards;
-  answer.gap = inside ? -length : length;
-  return answer;
+  return answer(
+      v, triangles,
+      [&](Index t) {
+        const Cone cone = cone_of(mesh_, t);
+        return ray_crossing(v, cone.a, cone.b, cone.c);
+      },
+      [&](Index t) { return distance_along_ray(v, cone_of(mesh_, t)); });
 }
 
 }  // namespace condyle::radial

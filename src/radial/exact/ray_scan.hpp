@@ -1,11 +1,14 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "condyle/radial.hpp"
 #include "core/predicates.hpp"
 #include "radial/exact/direction_map.hpp"
+#include "radial/exact/ray_crossing.hpp"
 
 namespace condyle::radial {
 
@@ -38,10 +41,15 @@ class RayScan {
 
   /// All triangles that the ray through v can meet are to be among those given, each once.
   RayAnswer answer(const Vec3& v, std::span<const Index> triangles);
+  /// The same with what ray_crossing() and distance_along_ray() say of a triangle, told by others who know it sooner.
+  template <class CrossingOf, class DistanceTo>
+  RayAnswer answer(const Vec3& v, std::span<const Index> triangles, const CrossingOf& crossing_of,
+                   const DistanceTo& distance_to);
 
  private:
   struct Crossing {
-    double fraction;  // of the way from the centre to the point; good for ordering, not for depths
+    double
+        fraction;  // of the way from the centre to the point, where some are to be ordered; no good for depths
     core::Sign outwards;
     bool before_point;
     Index triangle;
@@ -60,16 +68,50 @@ class RayScan {
     Index before = no_index, after = no_index;
   };
 
-  void collect(const Vec3& v, std::span<const Index> triangles);
+  void add(const RayCrossing& crossing, Index triangle);
   /// Winding number of the point (of its side towards the centre, where it is on the surface).
   int winding() const noexcept;
   PointState collected_state() const noexcept;
-  Neighbours boundary_crossings();
+  Neighbours boundary_crossings(const Vec3& v);
 
   const TriMesh& mesh_;
   int winding_at_centre_;
   std::vector<Crossing> crossings_;
   Index on_triangle_ = no_index;
 };
+
+template <class CrossingOf, class DistanceTo>
+RayAnswer RayScan::answer(const Vec3& v, std::span<const Index> triangles, const CrossingOf& crossing_of,
+                          const DistanceTo& distance_to) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const bool from_inside = winding_at_centre_ > 0;
+  RayAnswer answer{PointState::outside, winding_at_centre_, infinity, no_index,
+                   from_inside ? RayDirection::towards_centre : RayDirection::away_from_centre};
+  if (v == Vec3::Zero()) {
+    if (from_inside) answer.state = PointState::inside, answer.gap = -infinity;
+    return answer;
+  }
+  crossings_.clear();
+  on_triangle_ = no_index;
+  for (const Index t : triangles) add(crossing_of(t), t);
+  answer.winding = winding();
+  answer.state = collected_state();
+  if (answer.state == PointState::on_surface) {
+    answer.triangle = on_triangle_;
+    answer.gap = 0;
+    return answer;
+  }
+  const auto [before, after] = boundary_crossings(v);
+  const auto distance = [&](Index t) { return t == no_index ? infinity : std::abs(distance_to(t)); };
+  const bool inside = answer.state == PointState::inside;
+  const double inwards = inside || from_inside ? distance(before) : infinity;
+  const double outwards = inside || !from_inside ? distance(after) : infinity;
+  const bool towards = inside ? inwards <= outwards : from_inside;
+  answer.triangle = towards ? before : after;
+  answer.direction = towards ? RayDirection::towards_centre : RayDirection::away_from_centre;
+  const double length = towards ? inwards : outwards;
+  answer.gap = inside ? -length : length;
+  return answer;
+}
 
 }  // namespace condyle::radial

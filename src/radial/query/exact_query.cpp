@@ -2,15 +2,86 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 #include "core/parallel.hpp"
+#include "radial/build/edge_functions.hpp"
 #include "radial/exact/ray_scan.hpp"
+#include "radial/exact/triangle_plane.hpp"
 
 namespace condyle::radial {
 namespace {
 
 /// Points per task: enough to outweigh starting one.
 constexpr std::size_t points_per_chunk = 256;
+
+/// What floats tell for certain of the ray through one point, which the exact way would say too.
+class RoughRay {
+ public:
+  /// Nothing is told where `edge_functions` is null.
+  RoughRay(const Vec3& v, const EdgeFunctions* edge_functions)
+      : v_{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())} {
+    const double largest = v.cwiseAbs().maxCoeff();
+    if (largest > least_length && largest < greatest_length) functions_ = edge_functions;
+    bound_ = form_error * std::max({std::abs(v_[0]), std::abs(v_[1]), std::abs(v_[2])});
+  }
+
+  /// Whether, and how, the ray crosses a triangle, or nothing.
+  std::optional<RayCrossing> crossing_of(Index triangle) const noexcept {
+    if (!functions_) return std::nullopt;
+    const EdgeFunctions& f = functions_[triangle];
+    float value[4], error[4];
+    for (int k = 0; k < 4; ++k) {
+      value[k] = v_[0] * f.x[k] + (v_[1] * f.y[k] + v_[2] * f.z[k]);
+      error[k] = bound_ * (std::abs(f.x[k]) + (std::abs(f.y[k]) + std::abs(f.z[k])));
+    }
+    // Elsewhere products may overflow, or be too small to be rounded as the bound has it.
+    const auto [least, most] = std::minmax({error[0], error[1], error[2], error[3]});
+    if (!(least > least_error && most < greatest_error)) return std::nullopt;
+    if (value[0] < -error[0] || value[1] < -error[1] || value[2] < -error[2]) return RayCrossing();
+    const float beyond = std::abs(value[3]) - 1;
+    if (!(value[0] > error[0] && value[1] > error[1] && value[2] > error[2] &&
+          std::abs(beyond) > error[3] + rounding_of_beyond))
+      return std::nullopt;
+    return RayCrossing{value[3] > 0 ? core::Sign::positive : core::Sign::negative, beyond > 0, false};
+  }
+
+  /// The normal of a triangle as gap_to_plane() wants it; NaN where it is not kept.
+  Vec3 scaled_normal(Index triangle) const noexcept {
+    if (!functions_) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    const EdgeFunctions& f = functions_[triangle];
+    return {double{f.x[3]} + double{f.low[0]}, double{f.y[3]} + double{f.low[1]},
+            double{f.z[3]} + double{f.low[2]}};
+  }
+
+ private:
+  /// Lengths that floats multiply without overflow or loss, mm.
+  static constexpr double least_length = 0x1p-40, greatest_length = 0x1p40;
+  static constexpr float least_error = 0x1p-90f, greatest_error = 0x1p90f;
+  /// Taking 1 from what is near 1 is exact, and from the rest rounds by less than half of what is left.
+  static constexpr float rounding_of_beyond = 0x1p-23f;
+
+  std::array<float, 3> v_;
+  float bound_;
+  const EdgeFunctions* functions_ = nullptr;
+};
+
+RayAnswer answer_of(RayScan& scan, const ExactView& table, const Vec3& v, std::span<const Index> triangles) {
+  const RoughRay rough(v, table.edge_functions);
+  return scan.answer(
+      v, triangles,
+      [&](Index t) {
+        if (const auto certain = rough.crossing_of(t)) return *certain;
+        const Cone cone = cone_of(table.mesh, t);
+        return ray_crossing(v, cone.a, cone.b, cone.c);
+      },
+      [&](Index t) {
+        const double gap = gap_to_plane(v, rough.scaled_normal(t));
+        return std::isnan(gap) ? distance_along_ray(v, cone_of(table.mesh, t)) : gap;
+      });
+}
 
 /// tell(i, point, answer) for each point, on all threads.
 template <class Tell>
@@ -24,7 +95,7 @@ void answer_each(const ExactView& table, PointsView points, const Tell& tell) {
       for (std::size_t k = 0; k < count; ++k) gathered[k] = points[i + k];
       candidates.gather({gathered.data(), count});
       for (std::size_t k = 0; k < count; ++k)
-        tell(i + k, gathered[k], scan.answer(gathered[k], candidates.of(k)));
+        tell(i + k, gathered[k], answer_of(scan, table, gathered[k], candidates.of(k)));
     }
   });
 }

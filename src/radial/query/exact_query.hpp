@@ -13,6 +13,7 @@ struct ExactView {
   const DirectionMap& map;
   const CellEntries& entries;
   int winding_at_centre;
+  const EdgeFunctions* edge_functions;  ///< of each triangle; null where the table has none
 };
 
 /// Points decided together: their candidates stay in the nearest caches.
