@@ -83,7 +83,7 @@ void expect_points_find_their_triangles(const TriMesh& mesh, const radial::CubeM
       const Vec3 v =
           k % 2 == 0 ? p : Vec3(p + 0x1p-17 * p.cwiseAbs().maxCoeff() * Vec3(1, -1, k % 4 == 0 ? 1 : -1) / 2);
       const Index cell = map.cell_of(v);
-      const std::uint32_t place = map.box_of(v);
+      const std::uint32_t place = map.place_of(v).axis;
       int found = 0, held = 0;
       for (std::uint32_t i = entries.row[cell].first; i < entries.row[cell].last; ++i) {
         if (entries.triangle[i] != t) continue;

@@ -294,16 +294,24 @@ void CartesianMap::visit_cells(const Cone& cone, const std::function<void(const 
   }
 }
 
-std::uint32_t CubeMap::box_of(const Vec3& v) const noexcept {
-  int axis = 0;
-  const double largest = v.cwiseAbs().maxCoeff(&axis);
-  const auto part = [&](int k) {
-    const double at = (v[k % 3] / largest + 1) * (0.5 * n_);
-    const int cell = std::clamp(static_cast<int>(at), 0, n_ - 1);
-    return std::clamp(static_cast<int>((at - cell) * parts_per_cell), 0, parts_per_cell - 1);
+CellPlace CubeMap::place_of(const Vec3& v) const noexcept {
+  const double x = std::abs(v.x()), y = std::abs(v.y()), z = std::abs(v.z());
+  const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+  constexpr std::array<int, 5> cyclic = {0, 1, 2, 0, 1};
+  const auto k = static_cast<std::size_t>(axis);
+  const double largest = std::abs(v[axis]);
+  struct Place {
+    int cell, part;
   };
-  const int column_part = part(axis + 1), row_part = part(axis + 2);
-  return packed_range(column_part, column_part, row_part, row_part);
+  const auto along = [&](int other) {
+    const double at = (v[other] / largest + 1) * (0.5 * n_);
+    const int cell = std::clamp(static_cast<int>(at), 0, n_ - 1);
+    return Place{cell, std::clamp(static_cast<int>((at - cell) * parts_per_cell), 0, parts_per_cell - 1)};
+  };
+  const Place column = along(cyclic[k + 1]), row = along(cyclic[k + 2]);
+  const int face = v[axis] < 0 ? axis + 3 : axis;
+  return {static_cast<Index>((face * n_ + row.cell) * n_ + column.cell),
+          packed_range(column.part, column.part, row.part, row.part)};
 }
 
 void CubeMap::visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const {

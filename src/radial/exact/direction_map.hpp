@@ -53,6 +53,12 @@ class CartesianMap {
   int n_;
 };
 
+/// Where a direction falls: its cell, and its place there as the axis part of its CellDop.
+struct CellPlace {
+  Index cell;
+  std::uint32_t axis;
+};
+
 /// Six faces of a cube, N x N cells each. No square root on the way to a cell, and a triangle's cone is a
 /// plane polygon on a face: filling the table is polygon clipping.
 ///
@@ -68,20 +74,13 @@ class CubeMap {
   Index cell_count() const noexcept { return static_cast<Index>(6 * n_ * n_); }
 
   /// Cell of the direction of v, which is not zero.
-  Index cell_of(const Vec3& v) const noexcept {
-    const double x = std::abs(v.x()), y = std::abs(v.y()), z = std::abs(v.z());
-    const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
-    const double largest = std::abs(v[axis]);
-    const int face = v[axis] < 0 ? axis + 3 : axis;
-    const int i = column(v[(axis + 1) % 3] / largest), j = column(v[(axis + 2) % 3] / largest);
-    return static_cast<Index>((face * n_ + j) * n_ + i);
-  }
+  Index cell_of(const Vec3& v) const noexcept { return place_of(v).cell; }
 
   /// Calls visit(CellOverlap) once for each cell the cone meets.
   void visit_cells(const Cone& cone, const std::function<void(const CellOverlap&)>& visit) const;
 
-  /// Where in its cell v, which is not zero, falls: the box of its CellDop.
-  std::uint32_t box_of(const Vec3& v) const noexcept;
+  /// The cell of v, and where in its cell v, which is not zero, falls.
+  CellPlace place_of(const Vec3& v) const noexcept;
 
  private:
   int column(double s) const noexcept {

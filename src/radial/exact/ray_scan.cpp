@@ -85,13 +85,17 @@ PointState RayScan::collected_state() const noexcept {
                                   : PointState::outside;
 }
 
-RayScan::Neighbours RayScan::boundary_crossings(const Vec3& v) {
+void RayScan::sort_crossings(const Vec3& v) {
   const auto before = static_cast<std::size_t>(std::count_if(
       crossings_.begin(), crossings_.end(), [](const Crossing& crossing) { return crossing.before_point; }));
   if (before > 1 || crossings_.size() - before > 1)
     for (Crossing& crossing : crossings_)
       crossing.fraction = fraction_along_ray(v, cone_of(mesh_, crossing.triangle));
-  if (crossings_.size() > 1) std::sort(crossings_.begin(), crossings_.end());
+  std::sort(crossings_.begin(), crossings_.end());
+}
+
+RayScan::Neighbours RayScan::boundary_crossings(const Vec3& v) {
+  if (crossings_.size() > 1) sort_crossings(v);
   Neighbours nearest;
   int w = winding_at_centre_;
   for (const auto& crossing : crossings_) {

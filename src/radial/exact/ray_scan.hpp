@@ -72,6 +72,7 @@ class RayScan {
   /// Winding number of the point (of its side towards the centre, where it is on the surface).
   int winding() const noexcept;
   PointState collected_state() const noexcept;
+  void sort_crossings(const Vec3& v);
   Neighbours boundary_crossings(const Vec3& v);
 
   const TriMesh& mesh_;

@@ -19,10 +19,9 @@ void Candidates::gather(const CubeMap& map, std::span<const Vec3> points) {
   std::size_t most = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (points[i] == Vec3::Zero()) continue;
-    const Index cell = map.cell_of(points[i]);
-    place_.push_back({cell, map.box_of(points[i])});
+    place_.push_back(map.place_of(points[i]));
     number_.push_back(static_cast<std::uint32_t>(i));
-    most += entries_.of(cell).size();
+    most += entries_.of(place_.back().cell).size();
   }
   end_.resize(place_.size());
   if (found_.size() < most + vector_padding) found_.resize(most + vector_padding);

@@ -25,7 +25,7 @@ class RoughRay {
       : v_{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())} {
     const double largest = v.cwiseAbs().maxCoeff();
     if (largest > least_length && largest < greatest_length) functions_ = edge_functions;
-    bound_ = form_error * std::max({std::abs(v_[0]), std::abs(v_[1]), std::abs(v_[2])});
+    bound_ = form_error * std::max(std::max(std::abs(v_[0]), std::abs(v_[1])), std::abs(v_[2]));
   }
 
   /// Whether, and how, the ray crosses a triangle, or nothing.
@@ -38,7 +38,8 @@ class RoughRay {
       error[k] = bound_ * (std::abs(f.x[k]) + (std::abs(f.y[k]) + std::abs(f.z[k])));
     }
     // Elsewhere products may overflow, or be too small to be rounded as the bound has it.
-    const auto [least, most] = std::minmax({error[0], error[1], error[2], error[3]});
+    const float least = std::min(std::min(error[0], error[1]), std::min(error[2], error[3]));
+    const float most = std::max(std::max(error[0], error[1]), std::max(error[2], error[3]));
     if (!(least > least_error && most < greatest_error)) return std::nullopt;
     if (value[0] < -error[0] || value[1] < -error[1] || value[2] < -error[2]) return RayCrossing();
     const float beyond = std::abs(value[3]) - 1;

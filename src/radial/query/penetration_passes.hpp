@@ -6,6 +6,7 @@
 #include <span>
 
 #include "condyle/pose.hpp"
+#include "radial/exact/direction_map.hpp"
 #include "radial/query/cube_view.hpp"
 
 /// The passes that find penetrating points, each compiled for every instruction set and chosen at run time.
@@ -55,11 +56,6 @@ std::size_t near_blocks(const CubeView& cube, const BlockColumns& blocks, const 
 /// Points of those blocks within the radii of their cell.
 void near_points(const CubeView& cube, const PointColumns& points, const FloatPose& pose,
                  const std::uint32_t* blocks, std::size_t block_count, NearPoints& found);
-
-/// Where a ray falls: its cell, and its place there as the axis part of its CellDop.
-struct CellPlace {
-  std::uint32_t cell, axis;
-};
 
 /// Triangles of each place's cell whose 8-DOPs hold the place, in the order of the rows, place after place;
 /// end[i] is behind the last one of place i. `found` has capacity for all rows and a vector.
