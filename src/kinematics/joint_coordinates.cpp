@@ -5,25 +5,18 @@
 #include <numbers>
 
 #include "core/predicates.hpp"
+#include "core/trigonometry.hpp"
 
 namespace condyle {
 namespace {
 
-struct SineCosine {
-  double sine, cosine;
-};
-
 /// Sine and cosine, exact at multiples of 90 degrees.
 ///
-/// Taken in extended precision and rounded once: the double versions of common libraries differ in the last
-/// bit between instruction sets. A multiple of 90 degrees written in degrees reaches radians with three
-/// roundings (of pi, of pi/180 and of the product), so where the smaller of the two is within 3u of the
-/// angle, the angle was meant to be that multiple. Near 0 the sine is as large as the angle itself and no
-/// angle is mistaken for 0.
-SineCosine sine_cosine(Angle angle) noexcept {
-  const long double radians = angle.radians();
-  const auto sine = static_cast<double>(std::sin(radians));
-  const auto cosine = static_cast<double>(std::cos(radians));
+/// A multiple of 90 degrees written in degrees reaches radians with three roundings (of pi, of pi/180 and of the product), so
+/// where the smaller of the two is within 3u of the angle, the angle was meant to be that multiple. Near 0 the sine is as large
+/// as the angle itself and no angle is mistaken for 0.
+core::SineCosine sine_cosine(Angle angle) noexcept {
+  const auto [sine, cosine] = core::sine_cosine(angle.radians());
   const double tolerance = 3 * core::rounding_unit * std::abs(angle.radians());
   if (std::abs(sine) <= tolerance) return {0, cosine > 0 ? 1.0 : -1.0};
   if (std::abs(cosine) <= tolerance) return {sine > 0 ? 1.0 : -1.0, 0};
@@ -51,11 +44,9 @@ Rotations rotations_of(CoordinateSystem system) noexcept {
   return {false, 1.0, sense, sense};
 }
 
-/// The angle of (x, y) in (-180, 180] degrees: atan2 with -180 given as 180, and -0 taken as 0. Extended
-/// precision as above.
+/// The angle of (x, y) in (-180, 180] degrees: -180 is given as 180, and -0 taken as 0.
 Angle angle_of(double y, double x) noexcept {
-  const auto radians =
-      static_cast<double>(std::atan2(static_cast<long double>(y + 0.0), static_cast<long double>(x)));
+  const double radians = core::arctangent(y + 0.0, x);
   return Angle::radians(radians == -std::numbers::pi ? std::numbers::pi : radians);
 }
 

@@ -198,27 +198,6 @@ void add_layers(CondyleJoint* joint, const Scene& scene) {
   checked(condyle_elastic(joint, 2, 0, 1, 20));
 }
 
-Mesh mesh_of(const std::vector<double>& xyz, const std::vector<std::uint32_t>& corners) {
-  TriMesh mesh;
-  for (std::size_t i = 0; i < xyz.size(); i += 3) mesh.vertices.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
-  for (std::size_t i = 0; i < corners.size(); i += 3)
-    mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
-  return Mesh(std::move(mesh));
-}
-
-/// The largest error bound of the limits: sines and arctangents of another C library may move them by as much.
-void answer_bound(const Scene& scene, std::ostream& answers) {
-  const RangeOfMotion range({"",
-                             JointKind::ball,
-                             Side::right,
-                             {"", mesh_of(scene.fixed, scene.fixed_triangles)},
-                             {"", mesh_of(scene.mobile, scene.mobile_triangles)}});
-  double bound = 0;
-  for (const MotionLimit& limit : range.limits(hip_motions()))
-    bound = std::max(bound, limit.end.error_bound.degrees());
-  answers << "bound " << bits(bound) << '\n';
-}
-
 void answer(const Scene& scene, const std::string& folder) {
   CondyleJoint* joint =
       condyle_joint(0, 0, 0, 0, scene.fixed.data(), static_cast<int>(scene.fixed.size() / 3),
@@ -229,7 +208,6 @@ void answer(const Scene& scene, const std::string& folder) {
   add_layers(joint, scene);
   const std::size_t vertices[] = {scene.mobile.size() / 3, scene.fixed.size() / 3};
   std::ofstream answers(folder + "/answers.txt"), shown(folder + "/shown.bin", std::ios::binary);
-  answer_bound(scene, answers);
   for (std::size_t i = 0; i < scene.questions.size() / 6; ++i) {
     double X[16];
     answer_pose(joint, &scene.questions[6 * i], X, answers);

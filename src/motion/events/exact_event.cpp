@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "core/exact_integers.hpp"
+#include "core/trigonometry.hpp"
 #include "motion/events/wrapped_angle.hpp"
 
 namespace condyle::motion::exact {
@@ -74,8 +75,8 @@ class Root {
     const int r_shift = std::max(0, std::max(bits(T_.A), bits(T_.B)) - safe_bits);
     const int s_shift = std::max(0, std::max(bits(T_.C), bits(D_) / 2) - safe_bits / 2);
     const double S = std::sqrt(shifted(D_, 2 * s_shift));
-    const double middle = std::atan2(shifted(T_.B, r_shift), shifted(T_.A, r_shift));
-    double angle = wrapped(middle + branch_ * std::atan2(S, -shifted(T_.C, s_shift)));
+    const double middle = core::arctangent(shifted(T_.B, r_shift), shifted(T_.A, r_shift));
+    double angle = wrapped(middle + branch_ * core::arctangent(S, -shifted(T_.C, s_shift)));
     // On which side of the start a root next to it lies must not depend on rounding.
     const double from_start = std::min(angle, two_pi - angle);
     if (from_start < worst_event_error) {

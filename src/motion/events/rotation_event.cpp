@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/predicates.hpp"
+#include "core/trigonometry.hpp"
 #include "motion/events/exact_event.hpp"
 #include "motion/events/wrapped_angle.hpp"
 
@@ -69,7 +70,7 @@ constexpr double arctangent_error = 2e-15;
 /// start, where the side matters.
 bool add_event(const Direction& root, double error, ContactEvents& events) noexcept {
   const double total = error + arctangent_error;
-  const double angle = wrapped(std::atan2(root.sine, root.cosine));
+  const double angle = wrapped(core::arctangent(root.sine, root.cosine));
   if (total > worst_event_error || std::min(angle, two_pi - angle) < 2 * worst_event_error) return false;
   events.add({angle, total});
   return true;
@@ -111,7 +112,8 @@ void mirror(ContactEvents& events) noexcept {
 }  // namespace
 
 AngleWindow::AngleWindow(double last, double side) noexcept : side_(side) {
-  last_ = last >= two_pi ? full_turn : order(std::cos(last), std::sin(last));
+  const auto [sine, cosine] = core::sine_cosine(last);
+  last_ = last >= two_pi ? full_turn : order(cosine, sine);
 }
 
 ContactEvents vertex_meets_face(const Point& p, const Corners& face, const AngleWindow& window) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/trigonometry.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "motion/search/node_pairs.hpp"
 
@@ -26,7 +27,7 @@ Vec3 turned(const Triple<double>& p, double cosine, double sine) {
 }
 
 bool in_contact_at(const Corners& turning, const Corners& resting, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const auto [s, c] = core::sine_cosine(angle);
   mesh::TriangleCorners a, b;
   for (std::size_t k = 0; k < 3; ++k) a[k] = turned(turning[k], c, s), b[k] = turned(resting[k], 1, 0);
   return mesh::triangles_intersect(a, b);

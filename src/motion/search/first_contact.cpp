@@ -10,6 +10,7 @@
 #include "condyle/error.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/per_thread.hpp"
+#include "core/trigonometry.hpp"
 #include "motion/search/node_pairs.hpp"
 #include "motion/search/start_contact.hpp"
 
@@ -179,7 +180,7 @@ class Search {
 };
 
 Vec3 about_axis(const Vec3& p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const auto [s, c] = core::sine_cosine(angle);
   return {c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()};
 }
 

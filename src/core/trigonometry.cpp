@@ -1,0 +1,131 @@
+#include "core/trigonometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace condyle::core {
+namespace {
+
+/// A number as the sum of two doubles, the second at most half a unit in the last place of the first: some 106 bits.
+/// T. J. Dekker, A floating-point technique for extending the available precision, Numerische Mathematik 18, 1971.
+struct Pair {
+  double high, low;
+};
+
+/// a + b exactly, where |a| >= |b| or a is 0.
+Pair ordered_sum(double a, double b) noexcept {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+/// a + b exactly.
+Pair exact_sum(double a, double b) noexcept {
+  const double sum = a + b, b_in_it = sum - a;
+  return {sum, (a - (sum - b_in_it)) + (b - b_in_it)};
+}
+/// a b exactly: halves of 26 bits, whose products are exact.
+Pair exact_product(double a, double b) noexcept {
+  const auto halves = [](double x) {
+    const double moved = 0x1.0000002p27 * x, high = moved - (moved - x);
+    return Pair{high, x - high};
+  };
+  const Pair p = halves(a), q = halves(b);
+  const double product = a * b;
+  return {product, ((p.high * q.high - product) + p.high * q.low + p.low * q.high) + p.low * q.low};
+}
+
+Pair operator-(Pair a) noexcept {
+  return {-a.high, -a.low};
+}
+Pair operator+(Pair a, Pair b) noexcept {
+  const Pair high = exact_sum(a.high, b.high), low = exact_sum(a.low, b.low);
+  const Pair sum = ordered_sum(high.high, high.low + low.high);
+  return ordered_sum(sum.high, sum.low + low.low);
+}
+Pair operator-(Pair a, Pair b) noexcept {
+  return a + -b;
+}
+Pair operator*(Pair a, Pair b) noexcept {
+  const Pair product = exact_product(a.high, b.high);
+  return ordered_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
+}
+/// Times a power of two.
+Pair scaled(Pair a, double power) noexcept {
+  return {power * a.high, power * a.low};
+}
+
+constexpr Pair pi{0x1.921fb54442d18p+1, 0x1.1a62633145c07p-53},
+    half_pi{0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54};
+
+struct SineCosinePair {
+  Pair sine, cosine;
+};
+
+/// Of at most an eighth of a turn, and a little. Taylor's series of a sixteenth of the angle u, and four doublings. The first
+/// terms are kept in pairs; from u^5 / 120 on they are a part in 10^7 of the sine, and doubles do.
+SineCosinePair of_small(Pair angle) noexcept {
+  constexpr Pair sixth{0x1.5555555555555p-3, 0x1.5555555555555p-57},
+      twenty_fourth{0x1.5555555555555p-5, 0x1.5555555555555p-59};
+  const Pair u = scaled(angle, 1.0 / 16), v = u * u;
+  const double x = v.high;
+  const double of_sine = x * x * (1.0 / 120 - x * (1.0 / 5040 - x * (1.0 / 362880 - x * (1.0 / 39916800))));
+  const double of_cosine = x * x * x * (1.0 / 720 - x * (1.0 / 40320 - x * (1.0 / 3628800)));
+  Pair sine = u + u * (Pair{of_sine, 0} - v * sixth);
+  Pair less = scaled(v, 0.5) - v * v * twenty_fourth + Pair{of_cosine, 0};  // 1 less the cosine
+  for (int doubling = 0; doubling < 4; ++doubling) {
+    const Pair half = sine;
+    sine = scaled(half - half * less, 2);
+    less = scaled(half * half, 2);
+  }
+  return {sine, Pair{1, 0} - less};
+}
+
+}  // namespace
+
+SineCosine sine_cosine(double radians) noexcept {
+  if (!(std::abs(radians) <= 0x1p20)) return {std::sin(radians), std::cos(radians)};
+  // Nearer to the angle, and to 1, than to any other number.
+  if (std::abs(radians) < 0x1p-27) return {radians, 1};
+  // A quarter turn in four doubles; products of the first two with the number of quarters are exact.
+  constexpr double quarter[4] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2e037073p-69,
+                                 0x1.129024e088a68p-123};
+  const double quarters = std::floor(radians / half_pi.high + 0.5);
+  Pair rest{radians, 0};
+  for (const double part : quarter) rest = rest - exact_product(quarters, part);
+  const auto [sine, cosine] = of_small(rest);
+  switch (static_cast<int>(quarters) & 3) {
+    case 0:
+      return {sine.high, cosine.high};
+    case 1:
+      return {cosine.high, -sine.high};
+    case 2:
+      return {-sine.high, -cosine.high};
+    default:
+      return {-cosine.high, sine.high};
+  }
+}
+
+double arctangent(double y, double x) noexcept {
+  double small = std::abs(y), large = std::abs(x);
+  const bool is_steep = small > large;
+  if (is_steep) std::swap(small, large);
+  if (!(small > 0 && std::isfinite(large))) return std::atan2(y, x);
+  if (small < 0x1p-60 * large) {
+    if (is_steep) return std::copysign(half_pi.high, y);
+    return x < 0 ? std::copysign(pi.high, y) : y / x;
+  }
+  const int power = -std::ilogb(large);
+  small = std::ldexp(small, power), large = std::ldexp(large, power);
+  // Rotated back by an arctangent that is nearly right, the point's direction is what that lacks.
+  const double guess = std::atan(small / large);
+  const auto [sine, cosine] = of_small({guess, 0});
+  const Pair across = exact_product(small, 1) * cosine - exact_product(large, 1) * sine;
+  const double lacking = across.high / (small * sine.high + large * cosine.high);
+  Pair angle = ordered_sum(guess, lacking);
+  if (is_steep) angle = half_pi - angle;
+  if (x < 0) angle = pi - angle;
+  return std::copysign(angle.high, y);
+}
+
+}  // namespace condyle::core

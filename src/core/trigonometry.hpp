@@ -1,0 +1,19 @@
+#pragma once
+
+/// Sine, cosine and arctangent with the same bits everywhere. Those of C libraries are right to half a unit in the last place
+/// and a little more, and which of two neighbours they give depends on the library, its version and the instruction set. These
+/// are made of sums and products of doubles in pairs alone: all but some one in a million are the exact value, rounded once.
+
+namespace condyle::core {
+
+struct SineCosine {
+  double sine, cosine;
+};
+
+/// Of an angle of at most 2^20 radians either way; larger ones are the C library's.
+SineCosine sine_cosine(double radians) noexcept;
+
+/// The angle of (x, y) in [-pi, pi], as std::atan2 has it, signs of zeros included.
+double arctangent(double y, double x) noexcept;
+
+}  // namespace condyle::core

@@ -1,0 +1,76 @@
+#include "core/trigonometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+namespace condyle::core {
+namespace {
+
+using Long = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool same(double a, double b) {
+  return a == b && std::signbit(a) == std::signbit(b);
+}
+
+TEST(Trigonometry, SinesAndCosinesAreTheExactOnesRoundedOnce) {
+  std::mt19937_64 random(3);
+  std::vector<double> angles;
+  for (const double most : {1e-6, 0.8, 3.2, 100.0, 1e6}) {
+    std::uniform_real_distribution<double> angle(-most, most);
+    for (int i = 0; i < 1500; ++i) angles.push_back(angle(random));
+  }
+  // Next to multiples of an eighth of a turn, where one of the two all but vanishes or the pieces of the series meet.
+  for (int eighths = -40; eighths <= 40; ++eighths) {
+    const double angle = eighths * std::numbers::pi / 4;
+    for (const double near : {angle, std::nextafter(angle, infinity), std::nextafter(angle, -infinity)})
+      if (near != 0) angles.push_back(near);
+  }
+  for (const double angle : angles) {
+    const auto [sine, cosine] = sine_cosine(angle);
+    EXPECT_EQ(sine, static_cast<double>(sin(Long(angle)))) << angle;
+    EXPECT_EQ(cosine, static_cast<double>(cos(Long(angle)))) << angle;
+  }
+}
+
+TEST(Trigonometry, ArctangentsAreTheExactOnesRoundedOnce) {
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> coordinate(-1, 1), power(-30, 30);
+  for (int i = 0; i < 6000; ++i) {
+    const double size = std::exp2(power(random)), y = size * coordinate(random), x = coordinate(random);
+    EXPECT_EQ(arctangent(y, x), static_cast<double>(atan2(Long(y), Long(x)))) << y << ' ' << x;
+  }
+  for (const double t :
+       {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0), 0x1p-59, 0x1p-61, 0x1p59, 0x1p61, 1e-50}) {
+    for (const double x : {1.0, -1.0, 3e250, -1e-250, 1e-310}) {
+      for (const double y : {t * x, -t * x})
+        EXPECT_EQ(arctangent(y, x), static_cast<double>(atan2(Long(y), Long(x)))) << y << ' ' << x;
+    }
+  }
+}
+
+TEST(Trigonometry, ZerosInfinitiesAndWhatIsNoNumberAreAsInTheStandardLibrary) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double y : {0.0, -0.0, 1.0, -2.0, infinity, -infinity}) {
+    for (const double x : {0.0, -0.0, 1.0, -2.0, infinity, -infinity})
+      EXPECT_TRUE(y == x || y == -x || same(arctangent(y, x), std::atan2(y, x))) << y << ' ' << x;
+  }
+  EXPECT_TRUE(same(arctangent(0.0, -0.0), std::numbers::pi));
+  EXPECT_TRUE(same(arctangent(-0.0, 0.0), -0.0));
+  EXPECT_TRUE(std::isnan(arctangent(nan, 1)) && std::isnan(arctangent(1, nan)));
+  EXPECT_TRUE(same(sine_cosine(-0.0).sine, -0.0));
+  EXPECT_EQ(sine_cosine(0).cosine, 1);
+  EXPECT_TRUE(std::isnan(sine_cosine(infinity).sine) && std::isnan(sine_cosine(nan).cosine));
+  EXPECT_EQ(sine_cosine(1e300).sine, std::sin(1e300));
+  const double least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(sine_cosine(least).sine, least);
+}
+
+}  // namespace
+}  // namespace condyle::core
