@@ -85,9 +85,12 @@ CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& give
                             "Also find the impingement zones this many degrees past each limit");
 }
 
-std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint) {
+std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint,
+                                         const ClockFace& socket_clock) {
   if (!given.past_deg) return std::nullopt;
-  return ZoneFinder(joint, {.bearing = given.bearing, .past = Angle::degrees(*given.past_deg)});
+  return ZoneFinder(
+      joint,
+      {.bearing = given.bearing, .past = Angle::degrees(*given.past_deg), .socket_clock = socket_clock});
 }
 
 std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy) {

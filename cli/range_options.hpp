@@ -41,7 +41,8 @@ CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& give
 /// Nothing where no map was asked for. Throws UsageError.
 std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy);
 /// Nothing where no zones were asked for. Throws UsageError.
-std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint);
+std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint,
+                                         const ClockFace& socket_clock = sagittal_clock());
 RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose);
 /// What was given, else what the joint file says, else what is usual.
 BandOptions band_options_of(const RangeGiven& given, const Uncertainty& of_file);

@@ -106,9 +106,10 @@ RangeFound depth_limits(const Options& options, const Joint& joint, const std::v
 }
 
 /// The clock that is wanted; throws MeshError where the socket has none.
-ClockFace clock_of(const Options& options, const Joint& joint, const BearingFinding& bearing) {
+ClockFace clock_of(const Options& options, const Joint& joint) {
   if (options.clock == ClockPlane::sagittal) return sagittal_clock();
-  const auto clock = bearing.surface ? find_rim_clock(joint.fixed.mesh, bearing.surface->head) : std::nullopt;
+  const auto bearing = find_bearing_surface(joint, options.range->bearing).surface;
+  const auto clock = bearing ? find_rim_clock(joint.fixed.mesh, bearing->head) : std::nullopt;
   if (!clock)
     throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
   return *clock;
@@ -123,7 +124,8 @@ void run(const Options& options, const CLI::App& command) {
   const std::optional<MapGrid> grid = grid_of(*options.range, joint.kind, joint.anatomy);
   const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose.angles);
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, joint);
+  const ClockFace clock = clock_of(options, joint);
+  const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, joint, clock);
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
@@ -139,7 +141,7 @@ void run(const Options& options, const CLI::App& command) {
                          .limits = found.limits,
                          .bearing = found.bearing,
                          .bearing_rule = found.bearing_rule,
-                         .clock = clock_of(options, joint, found.bearing),
+                         .clock = clock,
                          .clock_plane = options.clock,
                          .terms = found.terms,
                          .held_translation_mm = translation,

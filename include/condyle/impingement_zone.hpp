@@ -41,7 +41,7 @@ struct ImpingementZone {
   BodyZone fixed, mobile;
 
   /// On the socket's clock: the contact at the limit, and the centroid of the fixed body's zone past it. Empty but
-  /// for a hip.
+  /// for a hip, and for what is farther than 1.6 head radii from the joint centre, which is not at the rim.
   std::optional<double> contact_hour, zone_hour;
   /// Around the neck, from superior towards anterior: the same on the mobile body. Empty without a neck.
   std::optional<Angle> contact_neck_angle, zone_neck_angle;

@@ -245,6 +245,16 @@ TEST(ClockHour, LeavesOutWhatDidNotTouchAndHinges) {
   EXPECT_TRUE(Json::parse(rom_json({joint, limits}))["motions"][0]["clock_hour"].is_null());
 }
 
+TEST(ClockHour, EndsWhereNoRimCanBe) {
+  const Joint joint = arm_and_post();
+  BearingFinding bearing;
+  bearing.surface.emplace().head = {Vec3::Zero(), 20};
+  const std::vector limits{contact_towards({0, 31.999, 0}), contact_towards({0, 32.001, 0})};
+  const RomResult result{.joint = joint, .limits = limits, .bearing = bearing};
+  EXPECT_EQ(io::clock_hour(result, limits[0]), 0.0);
+  EXPECT_FALSE(io::clock_hour(result, limits[1]));
+}
+
 TEST(RomJson, SaysThatLimitsWithADepthAllowedAreSearchedFor) {
   const Joint joint = arm_and_post();
   DepthLimit depth;

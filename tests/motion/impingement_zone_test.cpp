@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "motion/rom/socket_hour.hpp"
 #include "support/test_meshes.hpp"
 
 /// Clock faces, necks and zones with known geometry.
@@ -136,6 +137,51 @@ TEST(ImpingementZone, ExistsOnlyWhereAMotionEndedByContact) {
   Motion brief = hip_motions().front();
   brief.range = Angle::degrees(3);
   EXPECT_FALSE(finder.zone(range.limit(brief)));
+}
+
+TEST(SocketHour, EndsAtOneAndAHalfAndATenthHeadRadii) {
+  BearingSurface surface;
+  surface.head = {Vec3::Zero(), 25};
+  const Vec3 towards = Vec3(1, 1, -1).normalized();
+  const auto hour = [&](const std::optional<BearingSurface>& bearing, double distance) {
+    return motion::socket_hour(sagittal_clock(), bearing, distance * towards);
+  };
+  EXPECT_DOUBLE_EQ(hour(surface, 39.999).value(), 1.5);
+  EXPECT_FALSE(hour(surface, 40.001));
+  EXPECT_DOUBLE_EQ(hour(std::nullopt, 40.001).value(), 1.5) << "no head, no rim to be far from";
+}
+
+/// A head of head_radius with an arm below it, and a post in front of the arm whose top is this far below the centre.
+Joint arm_and_post_at(double below) {
+  Joint joint = head_and_post_joint(Vec3::Zero());
+  joint.fixed.mesh =
+      joined(box({12, -below - 4, -5}, {16, -below, 5}), socket(Vec3::Zero(), socket_radius, 28, 4));
+  joint.mobile.mesh = joined(box({-1, -60, -1}, {1, -19, 1}), sphere(Vec3::Zero(), head_radius, 4));
+  return joint;
+}
+
+TEST(ImpingementZone, HasAnHourOnlyWhereARimMayBe) {
+  std::size_t near = 0, far = 0;
+  for (double below = 25; below < 32; below += 0.25) {
+    const Joint joint = arm_and_post_at(below);
+    MotionLimit limit = RangeOfMotion(joint).limit(hip_motions().front());
+    const ZoneFinder finder(joint);
+    const auto zone = finder.zone(limit);
+    ASSERT_TRUE(zone && zone->fixed.centroid_mm) << below;
+    const bool at_rim = zone->fixed.centroid_mm->norm() <= 1.6 * head_radius;
+    EXPECT_EQ(zone->zone_hour.has_value(), at_rim) << below;
+    ++(at_rim ? near : far);
+  }
+  EXPECT_GT(near, 4u);
+  EXPECT_GT(far, 4u);
+  const Joint joint = arm_and_post_at(25);
+  MotionLimit limit = RangeOfMotion(joint).limit(hip_motions().front());
+  const ZoneFinder finder(joint);
+  Vec3& point = limit.end.contact->fixed_point;
+  for (const double radii : {1.599, 1.601}) {
+    point *= radii * head_radius / point.norm();
+    EXPECT_EQ(finder.zone(limit)->contact_hour.has_value(), radii < 1.6) << radii;
+  }
 }
 
 TEST(ImpingementZone, RefusesAnglesPastTheLimitThatMakeNoSense) {

@@ -5,6 +5,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "motion/rom/socket_hour.hpp"
 
 namespace condyle {
 namespace {
@@ -67,6 +68,7 @@ struct ZoneFinder::Parts {
   bool has_socket;
   Angle past;
   ClockFace socket_clock;
+  std::optional<BearingSurface> bearing;
   std::optional<NeckAxis> neck;
   Sliding sliding;
   JointContact contact;
@@ -75,13 +77,13 @@ struct ZoneFinder::Parts {
 ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   if (!(options.past >= Angle() && options.past <= Angle::degrees(180)))
     throw UsageError("impingement zone: past the limit must be between 0 and 180 degrees");
-  const auto bearing = find_bearing_surface(joint, options.bearing).surface;
+  std::optional<BearingSurface> bearing = find_bearing_surface(joint, options.bearing).surface;
   std::optional<NeckAxis> neck = options.neck;
   if (!neck && bearing) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
-  parts_ = std::make_unique<Parts>(Parts{joint.coordinates(), joint.is_hip(), options.past,
-                                         options.socket_clock ? *options.socket_clock : sagittal_clock(),
-                                         neck, Sliding(joint.mobile.mesh, bearing, options.bearing.rule),
-                                         JointContact(joint)});
+  parts_ = std::make_unique<Parts>(
+      Parts{joint.coordinates(), joint.is_hip(), options.past,
+            options.socket_clock ? *options.socket_clock : sagittal_clock(), bearing, neck,
+            Sliding(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -94,7 +96,7 @@ const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;
-  const auto& [system, has_socket, past, socket_clock, neck, sliding, contact] = *parts_;
+  const auto& [system, has_socket, past, socket_clock, bearing, neck, sliding, contact] = *parts_;
   ImpingementZone zone{limit, past, {}, {}, {}, {}, {}, {}};
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
@@ -127,8 +129,10 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   take_triangles(contact.fixed(), std::move(of_fixed), zone.fixed);
   take_triangles(contact.mobile(), std::move(of_mobile), zone.mobile);
 
-  if (has_socket) zone.contact_hour = socket_clock.hour_of(limit.end.contact->fixed_point);
-  if (has_socket && zone.fixed.centroid_mm) zone.zone_hour = socket_clock.hour_of(*zone.fixed.centroid_mm);
+  if (has_socket)
+    zone.contact_hour = motion::socket_hour(socket_clock, bearing, limit.end.contact->fixed_point);
+  if (has_socket && zone.fixed.centroid_mm)
+    zone.zone_hour = motion::socket_hour(socket_clock, bearing, *zone.fixed.centroid_mm);
   if (!neck) return zone;
   const ClockFace around_neck = neck_clock(*neck);
   zone.contact_neck_angle = around_neck.angle_of(limit.end.contact->mobile_point);
