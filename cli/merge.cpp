@@ -23,6 +23,7 @@ void add_merge(CLI::App& app) {
   command->add_option("DIR", *folder, "What condyle study --shard was given as --out")->required();
   command->callback([folder] {
     const StudyDone done = merge_study(*folder);
+    for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
     say_written(done.written);
     print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
   });

@@ -68,6 +68,7 @@ void run(const Options& given) {
   const StudyDone done = stopped_promptly("joints", [&](const auto& follow, std::stop_token stop) {
     return run_study(study, {follow, stop});
   });
+  for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
   if (done.was_there)
     note("is there already, of the same inputs, options and version");
   else
@@ -140,7 +141,9 @@ void add_study(CLI::App& app) {
   add_layers(*command, options->contact);
   command->add_flag_callback(
       "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
-      "A joint that cannot be answered ends the run with its exit code; nothing is written");
+      "A joint that cannot be answered, or with which something looks wrong (exit code 4), ends the run; "
+      "nothing is "
+      "written");
   command->callback([options] { run(*options); });
 }
 

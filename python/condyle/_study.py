@@ -226,7 +226,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
     the bones are in each other in the pose `depth_at`, such as "flexion=90 internal_rotation=30"; contact pressure by
     `load`; `shard` (3, 7) is the third of seven parts, which :func:`merge_study` puts together. What lies there of the
     same inputs, options and version is not computed again. A hip that cannot be answered is a row of `failures`; with
-    `strict` its error is raised.
+    `strict` its error is raised, and a MeshError for one with which something looks wrong (`notes` in `hips`).
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
     """

@@ -305,11 +305,14 @@ TEST_F(SampleJointCommand, WhatLooksWrongIsNotedByEveryCommandAndAnErrorWhenStri
   EXPECT_EQ(run("frame sample/hip.toml --strict").err, "");
   EXPECT_EQ(answer("depth sample/hip.toml --strict")["notes"], Json::array());
   edit_joint("side = \"right\"", "side = \"left\"");
+  std::ofstream(folder / "flexion.csv") << "time_s,flexion_deg\n0,0\n1,10\n";
   for (const char* command :
-       {"frame sample/hip.toml", "depth sample/hip.toml", "rom sample/hip.toml --motion flexion"}) {
+       {"frame sample/hip.toml", "depth sample/hip.toml", "rom sample/hip.toml --motion flexion",
+        "load sample/hip.toml --e 12 --nu 0.42 --thickness 1.5",
+        "motion sample/hip.toml --motion flexion.csv"}) {
     const Ran ran = run(command + std::string(" --json"));
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
-    EXPECT_TRUE(ran.err.starts_with("condyle: note: wrong_side: the side is left, but "))
+    EXPECT_NE(ran.err.find("condyle: note: wrong_side: the side is left, but "), ran.err.npos)
         << command << ran.err;
     EXPECT_EQ(without_notes(ran.err), "");
     const Json notes = Json::parse(ran.out)["notes"];
@@ -318,8 +321,39 @@ TEST_F(SampleJointCommand, WhatLooksWrongIsNotedByEveryCommandAndAnErrorWhenStri
     EXPECT_TRUE(notes[0]["text"].get<std::string>().starts_with("the side is left")) << command;
     expect_refused(4, command + std::string(" --strict"), "hip.toml: wrong_side: the side is left");
   }
-  expect_refused(4, "depth sample/hip.toml --strict --out nothing", "(--strict)");
-  expect_refused(4, "rom sample/hip.toml --strict --out nothing", "(--strict)");
+  for (const char* command : {"depth sample/hip.toml", "rom sample/hip.toml",
+                              "load sample/hip.toml --e 12 --nu 0.42 --thickness 1.5",
+                              "motion sample/hip.toml --motion flexion.csv"})
+    expect_refused(4, command + std::string(" --strict --out nothing"), "(--strict)");
+  for (const char* command : {"picture sample/hip.toml --out seen.png",
+                              "report sample/hip.toml --motion flexion.csv --out seen.html"}) {
+    expect_refused(4, command + std::string(" --strict"), "hip.toml: wrong_side: the side is left");
+    for (const char* file : {"seen.png", "seen.html"}) EXPECT_FALSE(fs::exists(folder / file)) << command;
+    const Ran ran = run(command);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_NE(ran.err.find("condyle: note: wrong_side: the side is left, but "), ran.err.npos) << ran.err;
+    fs::remove(folder / "seen.png");
+  }
+}
+
+TEST_F(SampleJointCommand, AStudyNotesInALineEachWhatLooksWrongAndEndsThereWhenStrict) {
+  ASSERT_EQ(run("sample hip --out other").exit_code, 0);
+  edit_joint("side = \"right\"", "side = \"left\"");
+  std::ofstream(folder / "table.csv") << "id,joint\ngood,other/hip.toml\nwrong,sample/hip.toml\n";
+  const std::string study = "study table.csv --motion flexion --out out";
+  for (const char* shard : {"", " --shard 2/2"})
+    expect_refusal(run(study + " --strict" + shard), 4,
+                   "table.csv: line 3: joint 'wrong': wrong_side: the side is left", "--strict");
+  EXPECT_FALSE(fs::exists(folder / "out/study.json"));
+  EXPECT_EQ(run(study + " --strict --shard 1/2").err.find("wrong_side"), std::string::npos);
+  for (const char* what : {"first", "again"}) {
+    const Ran ran = run(study);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("condyle: note: wrong: wrong_side\ncondyle: note: ")) << what << ran.err;
+  }
+  expect_refusal(run(study + " --strict"), 4, "wrong_side", "of what is there");
+  ASSERT_EQ(run(study + " --shard 2/2").exit_code, 0);
+  EXPECT_TRUE(run("merge out").err.starts_with("condyle: note: wrong: wrong_side\n"));
 }
 
 TEST_F(SampleJointCommand, ACentreOnTheSurfaceIsRefused) {

@@ -71,7 +71,7 @@ struct Shard {
 /// What a joint that cannot be answered does to a study.
 enum class BadJoint {
   is_a_row,  ///< of failures.csv
-  ends_run,  ///< with its own error; that of the lowest row where there are several
+  ends_run,  ///< with its own error, as does one that looks wrong (MeshError); that of the lowest row of several
 };
 
 /// What to run, and where to.
@@ -90,11 +90,17 @@ struct StudyControl {
   std::stop_token stop = {};
 };
 
+/// A joint that looks wrong: docs/checks.md.
+struct NotedJoint {
+  std::string id, codes;  ///< codes with blanks between
+};
+
 /// What a study came to.
 struct StudyDone {
   std::size_t joints = 0, failures = 0;
   bool was_there = false;  ///< with the same key, and nothing was done
-  std::vector<std::filesystem::path> written;
+  std::vector<std::filesystem::path> written = {};
+  std::vector<NotedJoint> noted = {};  ///< of those answered, in the order of the table
 };
 
 /// Answers for every row of the table, on all threads, and writes limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and

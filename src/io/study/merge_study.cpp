@@ -77,7 +77,8 @@ StudyDone merge_study(const fs::path& folder) {
                                 whole.record.joints + whole.record.failures, whole.record.table_rows));
   whole.record.key.clear();
   whole.record.is_merged = true;
-  return {whole.record.joints, whole.record.failures, false, io::write_study(folder, whole)};
+  return {whole.record.joints, whole.record.failures, false, io::write_study(folder, whole),
+          io::noted_joints(whole)};
 }
 
 }  // namespace condyle

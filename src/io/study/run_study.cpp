@@ -86,7 +86,7 @@ class Answers {
       return;
     }
     try {
-      auto answer = io::answer_of(table_, rows_[i], study_.options, control_.stop);
+      auto answer = io::answer_of(table_, rows_[i], study_, control_.stop);
       if (answer)
         answers_[i] = std::move(*answer);
       else
@@ -149,16 +149,16 @@ std::optional<StudyDone> done_before(const std::filesystem::path& folder, const 
                                      const std::string& columns, const StudyTable& table, Rows rows) {
   const auto there = io::read_study_record(folder);
   if (!there || there->key != key_of(asked, columns, rows, inputs_of(table, rows))) return std::nullopt;
+  io::StudyResults results = io::read_study(folder);
   // Other rows of the table may have changed: then the shard belongs to the new table as it is.
   if (there->family != asked.family) {
-    io::StudyResults results = io::read_study(folder);
     results.record = asked;
     results.record.key = there->key;
     results.record.joints = there->joints;
     results.record.failures = there->failures;
     io::write_study(folder, results);
   }
-  return StudyDone{there->joints, there->failures, true, {}};
+  return StudyDone{there->joints, there->failures, true, {}, io::noted_joints(results)};
 }
 
 }  // namespace
@@ -183,8 +183,9 @@ std::optional<StudyDone> run_study(const Study& study, const StudyControl& contr
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
   const auto done = done_before(folder, results.record, results.columns, table, rows);
-  // Of a failure that is to end the run the tables know the message only, not the error.
-  if (done && (done->failures == 0 || study.bad_joint == BadJoint::is_a_row)) return done;
+  // Of what is to end the run the tables know the message only, not the error.
+  const bool all_well = done && done->failures == 0 && done->noted.empty();
+  if (all_well || (done && study.bad_joint == BadJoint::is_a_row)) return done;
 
   const auto answers = Answers(study, table, rows, control).all();
   if (!answers) return std::nullopt;
@@ -196,7 +197,8 @@ std::optional<StudyDone> run_study(const Study& study, const StudyControl& contr
   results.record.joints = rows.size() - results.record.failures;
   results.record.key = key_of(results.record, results.columns, rows, inputs);
   results.texts = texts_of(*answers, columns);
-  return StudyDone{results.record.joints, results.record.failures, false, io::write_study(folder, results)};
+  return StudyDone{results.record.joints, results.record.failures, false, io::write_study(folder, results),
+                   io::noted_joints(results)};
 }
 
 }  // namespace condyle

@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "condyle/reliable_depth.hpp"
 #include "io/file/failure.hpp"
+#include "io/file/in_quotes.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
@@ -137,21 +138,30 @@ Fields hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std:
           surface ? fmt::format("{}", surface->margin_mm) : "", std::string(notes), std::string(inputs)};
 }
 
-/// Of a joint that was read; a sample hip is as it was made.
-std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded) {
-  std::string codes;
+/// Codes of what looks wrong with a joint that was read; a sample hip is as it was made. Throws MeshError where that is to end
+/// the run.
+std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded,
+                     BadJoint bad_joint) {
+  std::string codes, texts;
   if (is_sample(table, row)) return codes;
-  for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement))
+  for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement)) {
     codes += (codes.empty() ? "" : " ") + std::string(name_of(note.code));
+    texts += fmt::format("{}{}: {}", texts.empty() ? "" : "; ", name_of(note.code), note.text);
+  }
+  if (bad_joint == BadJoint::ends_run && !codes.empty())
+    throw MeshError(fmt::format("{}: line {}: joint {}: {}", table.path.string(), row.line,
+                                in_quotes(table.id(row)), texts));
   return codes;
 }
 
 }  // namespace
 
-std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row,
-                                     const StudyOptions& options, std::stop_token stop) {
+std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
+                                     std::stop_token stop) {
+  const StudyOptions& options = study.options;
   const LoadedJoint loaded = load_joint(table, row);
   check_anatomy(loaded, options);
+  const std::string notes = notes_on(table, row, loaded, study.bad_joint);
   const Joint& joint = loaded.joint;
   const std::vector<Motion> motions = motions_of(loaded, options);
   const RangeOptions asked = range_options_of(loaded, options);
@@ -172,7 +182,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   }
   const Fields of_row = row_fields(table, row);
   const std::string inputs = inputs_sha256(row, loaded);
-  Fields of_hip = hip_fields(loaded, range.bearing(), notes_on(table, row, loaded), inputs);
+  Fields of_hip = hip_fields(loaded, range.bearing(), notes, inputs);
   if (options.map) {
     const auto map = motion_map(*options.map, range, {{}, stop});
     if (!map) return std::nullopt;

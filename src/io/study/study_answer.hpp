@@ -15,9 +15,10 @@ struct StudyAnswer {
   std::string inputs_sha256;
 };
 
-/// The lines of an answer. Throws where there is none; empty where it was stopped.
-std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row,
-                                     const StudyOptions& options, std::stop_token stop);
+/// The lines of an answer. Throws where there is none, and where a joint looks wrong and bad ones end the run; empty where it
+/// was stopped.
+std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
+                                     std::stop_token stop);
 
 /// The line of the exception that is being handled.
 StudyAnswer failure_of(const StudyTable& table, const StudyRow& row);

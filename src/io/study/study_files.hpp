@@ -34,6 +34,9 @@ struct StudyResults {
   StudyTexts texts;
 };
 
+/// The joints of hips.csv that have notes.
+std::vector<NotedJoint> noted_joints(const StudyResults& results);
+
 /// Where a shard's results lie: "DIR/shards/3_of_7".
 std::filesystem::path shard_folder(const std::filesystem::path& folder, const Shard& shard);
 
