@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/inspection_result.hpp"
@@ -37,7 +38,7 @@ void check_names_differ(const Options& options) {
       throw UsageError("--out: two meshes would be written as " + repaired_name(mesh));
 }
 
-void run(const Options& options) {
+void run(const Options& options, const CLI::App& command) {
   std::vector<Repair> repairs;
   for (const std::string& name : options.repairs) repairs.push_back(repair_named(name));
   if (!options.out.empty()) check_names_differ(options);
@@ -55,7 +56,7 @@ void run(const Options& options) {
       write_mesh(out.file(repaired_name(options.meshes[i])), repaired[i]);
     out.commit();
   }
-  print(options.form == AnswerForm::json ? to_json(inspections) : to_text(inspections));
+  print(options.form == AnswerForm::json ? to_json(inspections, words_of(command)) : to_text(inspections));
 }
 
 }  // namespace
@@ -75,7 +76,7 @@ void add_inspect(CLI::App& app) {
   command->add_option("--out", options->out, "Folder to write the meshes to, as read and repaired, as .ply");
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
-  command->callback([options] { run(*options); });
+  command->callback([options, command] { run(*options, *command); });
 }
 
 }  // namespace condyle::cli

@@ -8,6 +8,7 @@ import json
 import math
 import os
 from dataclasses import dataclass
+from itertools import dropwhile
 from pathlib import Path as FilePath
 from typing import Any, Iterator, Mapping, Optional, Sequence
 
@@ -166,7 +167,8 @@ def _text_of(folder: FilePath, name: str) -> str:
 
 
 def _rows_of(text: str) -> list[list[str]]:
-    return list(csv.reader(text.splitlines()))
+    """From the header on: comments come before it."""
+    return list(csv.reader(dropwhile(lambda line: line.startswith("#"), text.splitlines())))
 
 
 def _table_of(texts: Mapping[str, str], name: str, folder: FilePath) -> StudyTable:

@@ -5,7 +5,10 @@
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "support/temporary_folder.hpp"
+#include "condyle/io/file_digest.hpp"
 #include "support/test_meshes.hpp"
+#include "condyle/version.hpp"
+#include "io/file/whole_file.hpp"
 
 namespace condyle::test {
 namespace {
@@ -74,6 +77,13 @@ TEST_F(Command, InspectAnswersInTextAndJson) {
   EXPECT_EQ(answer["meshes"][0]["likely_unit"], "mm");
 }
 
+  const Json& from = answer["provenance"];
+  EXPECT_EQ(from["version"], version);
+  EXPECT_EQ(from["command"], (Json{"inspect", "femur.ply", "hip_bone.ply"}));
+  ASSERT_EQ(from["meshes"].size(), 2u);
+  EXPECT_EQ(from["meshes"][1]["path"], "hip_bone.ply");
+  EXPECT_EQ(from["meshes"][1]["bytes"], fs::file_size(here / "hip_bone.ply"));
+  EXPECT_EQ(from["meshes"][1]["sha256"], digest_of(io::read_whole_file(here / "hip_bone.ply")).sha256);
 TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
   TriMesh dirty = flipped(femur);
   dirty.vertices.push_back({5, 5, 5});

@@ -53,14 +53,16 @@ struct Ids {
 };
 
 Ids ids_in(const fs::path& path) {
-  const std::string text = io::read_whole_file(path), name = path.string();
-  const io::Source source{text, name};
+  const std::string bytes = io::read_whole_file(path), name = path.string();
+  const io::Source source{bytes, name};
   io::TextCursor cursor(source);
   Ids found;
   std::size_t columns = 0;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
-    const auto fields = io::csv_fields(cursor.rest_of_line(), line, source);
+    const std::string_view text = cursor.rest_of_line();
+    if (columns == 0 && text.starts_with("#")) continue;
+    const auto fields = io::csv_fields(text, line, source);
     if (columns == 0)
       columns = fields.size();
     else

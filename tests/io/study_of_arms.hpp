@@ -16,13 +16,14 @@
 
 namespace condyle::test {
 
-/// A table by its header: one map per row.
+/// A table by its header, behind its comments: one map per row.
 inline std::vector<std::map<std::string, std::string>> rows_of(const std::filesystem::path& path) {
   const std::string text = io::read_whole_file(path), name = path.string();
   const io::Source source{text, name};
   std::istringstream lines(text);
   std::string line;
-  std::getline(lines, line);
+  while (std::getline(lines, line) && line.starts_with("#")) {
+  }
   const std::vector<std::string> header = io::csv_fields(line, 1, source);
   std::vector<std::map<std::string, std::string>> rows;
   while (std::getline(lines, line)) {

@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
 
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/sample_files.hpp"
+#include "condyle/version.hpp"
 #include "io/file/whole_file.hpp"
 #include "study_of_arms.hpp"
 
@@ -276,7 +278,23 @@ TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
     const std::string text = read_whole_file(folder / "out" / (std::string(table) + ".csv"));
     std::string header;
     for (const std::string& name : names[table]) header += (header.empty() ? "" : ",") + name;
-    EXPECT_EQ(text.substr(0, text.find('\n')), header);
+    EXPECT_NE(text.find("\n" + header + "\n"), text.npos) << text;
+  }
+}
+
+TEST_F(StudyOfArms, SaysInEveryTableWhichVersionAndOptionsItIsOf) {
+  Study asked = study("out");
+  asked.options.bands = {20, 7, {}};
+  run(asked);
+  const auto options = nlohmann::json::parse(read_whole_file(folder / "out/study.json"))["options"];
+  for (const char* table : {"limits", "hips", "failures", "columns"}) {
+    std::istringstream text(read_whole_file(folder / "out" / (std::string(table) + ".csv")));
+    std::string version_line, options_line, header;
+    for (std::string* line : {&version_line, &options_line, &header}) std::getline(text, *line);
+    EXPECT_EQ(version_line, "# condyle_version: " + std::string(version)) << table;
+    ASSERT_TRUE(options_line.starts_with("# options: ")) << table;
+    EXPECT_EQ(nlohmann::json::parse(options_line.substr(11)), options) << table;
+    EXPECT_FALSE(header.starts_with("#")) << table;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/inspect.hpp"
+#include "condyle/io/file_digest.hpp"
 #include "condyle/repair.hpp"
 
 /// What `condyle inspect` found. Keys of the JSON are listed in docs/mesh-files.md.
@@ -15,6 +16,7 @@ namespace condyle {
 /// One inspected mesh file.
 struct MeshInspection {
   std::filesystem::path path;
+  FileDigest digest;
   std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
   std::vector<RepairDone> repairs;
   MeshReport report;  ///< after the repairs
@@ -29,8 +31,9 @@ struct InspectedMesh {
 /// MeshError where a repair cannot be made.
 InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs);
 
-/// For people, and for programs: whole documents that end with a newline.
+/// For people, and for programs: whole documents that end with a newline. `command`: the command line word by word, without
+/// the program; empty where there is none.
 std::string to_text(std::span<const MeshInspection> meshes);
-std::string to_json(std::span<const MeshInspection> meshes);
+std::string to_json(std::span<const MeshInspection> meshes, const std::vector<std::string>& command = {});
 
 }  // namespace condyle

@@ -7,7 +7,10 @@
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/repair_text.hpp"
+#include "condyle/version.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/result/json.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
@@ -130,8 +133,11 @@ Json json_of(const MeshInspection& mesh) {
 }  // namespace
 
 InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs) {
-  MeshFile file = read_mesh(path);
-  MeshInspection inspection{path, file.welded_vertices, {}, {}};
+  io::check_is_file(path);
+  const MeshFormat format = mesh_format_of(path);
+  const std::string bytes = io::read_whole_file(path);
+  MeshFile file = read_mesh(bytes, format, path.string());
+  MeshInspection inspection{path, digest_of(bytes), file.welded_vertices, {}, {}};
   try {
     inspection.repairs = repair_mesh(file.mesh, repairs);
   } catch (const MeshError& error) {
@@ -147,9 +153,16 @@ std::string to_text(std::span<const MeshInspection> meshes) {
   return out;
 }
 
-std::string to_json(std::span<const MeshInspection> meshes) {
+std::string to_json(std::span<const MeshInspection> meshes, const std::vector<std::string>& command) {
   Json out{{"meshes", Json::array()}};
-  for (const MeshInspection& mesh : meshes) out["meshes"].push_back(json_of(mesh));
+  Json files = Json::array();
+  for (const MeshInspection& mesh : meshes) {
+    out["meshes"].push_back(json_of(mesh));
+    files.push_back(io::file_json(mesh.path, mesh.digest));
+  }
+  out["provenance"] = {{"version", version},
+                       {"command", command.empty() ? Json(nullptr) : Json(command)},
+                       {"meshes", std::move(files)}};
   return io::document(out);
 }
 

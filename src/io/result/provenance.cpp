@@ -84,18 +84,14 @@ io::Json matrix_json(const Eigen::Affine3d& X) {
   return json;
 }
 
-io::Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
-  return {{"path", path.string()}, {"bytes", digest.bytes}, {"sha256", digest.sha256}};
-}
-
 io::Json mesh_json(const MeshOrigin& mesh) {
   io::Json json;
   if (mesh.files.size() == 1) {
-    json = file_json(mesh.files.front().path, mesh.files.front().digest);
+    json = io::file_json(mesh.files.front().path, mesh.files.front().digest);
   } else {
     for (const MeshSource& file : mesh.files) {
       io::Json part{{"name", file.part}};
-      part.update(file_json(file.path, file.digest));
+      part.update(io::file_json(file.path, file.digest));
       json["files"].push_back(std::move(part));
     }
   }
@@ -172,6 +168,10 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
 }
 
 namespace io {
+
+Json file_json(const std::filesystem::path& path, const FileDigest& digest) {
+  return {{"path", path.string()}, {"bytes", digest.bytes}, {"sha256", digest.sha256}};
+}
 
 Json provenance_json(const Provenance* from) {
   if (from == nullptr) return nullptr;

@@ -12,6 +12,9 @@
 
 namespace condyle::io {
 
+/// A file that an answer comes from.
+Json file_json(const std::filesystem::path& path, const FileDigest& digest);
+
 Json provenance_json(const Provenance* from);
 std::vector<VtpField> provenance_fields(const Provenance* from);
 /// Lines "# name: value" before a CSV's header line.

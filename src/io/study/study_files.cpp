@@ -23,8 +23,21 @@ Json digest_json(const FileDigest& digest) {
 
 struct NamedFile {
   const char* name;
-  std::string_view contents;
+  std::string contents;
 };
+
+/// What a table comes from, as far as all shards of a study have it in common, so that merged tables are those of one run.
+std::string comments_of(const StudyRecord& record) {
+  return fmt::format("# condyle_version: {}\n# options: {}\n", record.version, record.options);
+}
+
+std::string read_table(const fs::path& path) {
+  std::string text = read_whole_file(path);
+  std::size_t header = 0;
+  while (header < text.size() && text[header] == '#')
+    header = std::min(text.find('\n', header), text.size() - 1) + 1;
+  return text.substr(header);
+}
 
 Json record_json(const StudyRecord& record, const std::vector<NamedFile>& files) {
   Json json{{"condyle", record.version}, {"format", format_version}};
@@ -81,10 +94,11 @@ void prepare_study_folder(const fs::path& folder) {
 std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& results) {
   const StudyTexts& texts = results.texts;
   const std::string h5 = study_h5(read_columns_csv(results.columns, "columns.csv"), texts);
-  const std::vector<NamedFile> files = {{"limits.csv", texts.limits},
-                                        {"hips.csv", texts.hips},
-                                        {"failures.csv", texts.failures},
-                                        {"columns.csv", results.columns},
+  const std::string comments = comments_of(results.record);
+  const std::vector<NamedFile> files = {{"limits.csv", comments + texts.limits},
+                                        {"hips.csv", comments + texts.hips},
+                                        {"failures.csv", comments + texts.failures},
+                                        {"columns.csv", comments + results.columns},
                                         {"study.h5", h5}};
   OutputFolder out(folder, is_of_study);
   for (const auto& [name, contents] : files) write_whole_file(out.file(name), contents);
@@ -110,9 +124,9 @@ StudyResults read_study(const fs::path& folder) {
   const std::optional<StudyRecord> record = read_study_record(folder);
   if (!record) throw FileError(fmt::format("{}: is not whole: run it again", folder.string()));
   return {*record,
-          read_whole_file(folder / "columns.csv"),
-          {read_whole_file(folder / "limits.csv"), read_whole_file(folder / "hips.csv"),
-           read_whole_file(folder / "failures.csv")}};
+          read_table(folder / "columns.csv"),
+          {read_table(folder / "limits.csv"), read_table(folder / "hips.csv"),
+           read_table(folder / "failures.csv")}};
 }
 
 }  // namespace condyle::io

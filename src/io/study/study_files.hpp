@@ -27,7 +27,7 @@ struct StudyRecord {
   std::size_t joints = 0, failures = 0;
 };
 
-/// A study's results in memory.
+/// A study's results in memory, tables without the comments that begin their files.
 struct StudyResults {
   StudyRecord record;
   std::string columns;  ///< columns.csv
