@@ -103,7 +103,9 @@ TEST(Report, SaysOfLimitsWhatRomSays) {
   const Answered answer(odd_joint());
   const RomResult rom = answer.rom();
   const ReportBlock block = report_block(report_html({.title = "", .joint = answer.joint, .rom = &rom}));
-  EXPECT_EQ(block.json["rom"], Json::parse(rom_json(rom)));
+  Json said = Json::parse(rom_json(rom));
+  said["map"].erase("intervals");  // the page has them under "map"
+  EXPECT_EQ(block.json["rom"], said);
   EXPECT_FALSE(block.json.contains("rom_error"));
   // The bearing surface has an array where it was found, and only there.
   EXPECT_EQ(block.json["arrays"].contains("bearing"), answer.range.bearing().surface.has_value());

@@ -5,8 +5,11 @@
 #include <sstream>
 
 #include "condyle/io/map_result.hpp"
+#include "condyle/io/rom_files.hpp"
 #include "condyle/io/rom_result.hpp"
+#include "io/file/whole_file.hpp"
 #include "rom_scene.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace condyle::test {
 namespace {
@@ -68,6 +71,114 @@ TEST(MapSummary, CountsEveryPointOnceAtEitherEnd) {
   EXPECT_EQ(json["positive_ends"]["contact"], 45);
   EXPECT_EQ(json["free_volume_deg3"].get<double>(), free_volume(map).plain_deg3);
   EXPECT_EQ(json["row_free_area_deg2"].size(), 5u);
+}
+
+/// A post in front of the arm and one behind it: with the start beyond the first, what is free lies elsewhere.
+MotionMap map_with_islands() {
+  Joint joint = arm_and_post();
+  joint.fixed.mesh = joined(joint.fixed.mesh, box({-60, -120, -50}, {-40, -80, 50}));
+  MapGrid grid = small_grid();
+  grid.start = Angle::degrees(30);
+  RangeOptions accepting;
+  accepting.overlap.reference_contact = ReferenceContact::accept;
+  return motion_map(grid, RangeOfMotion(joint, accepting));
+}
+
+TEST(MapIntervals, AreThoseOfEveryPointInItsOrder) {
+  const MotionMap map = map_with_islands();
+  const Joint joint = arm_and_post();
+  const Json json = Json::parse(rom_json({.joint = joint, .limits = {}, .map = &map}))["map"]["intervals"];
+  ASSERT_EQ(json["offset"].size(), map.points.size() + 1);
+  std::size_t k = 0, with_several = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    EXPECT_EQ(json["offset"][i], k);
+    with_several += map.points[i].intervals.size() > 1;
+    for (const FreeInterval& free : map.points[i].intervals) {
+      EXPECT_EQ(json["low_deg"][k], (map.grid.start + free.low).degrees());
+      EXPECT_EQ(json["high_deg"][k], (map.grid.start + free.high).degrees());
+      EXPECT_EQ(json["low_reason"][k], name_of(free.at_low.reason));
+      EXPECT_EQ(json["high_reason"][k], name_of(free.at_high.reason));
+      ++k;
+    }
+  }
+  EXPECT_GT(with_several, 0u);
+  EXPECT_EQ(json["offset"].back(), k);
+  for (const char* column : {"low_deg", "high_deg", "low_reason", "high_reason"})
+    EXPECT_EQ(json[column].size(), k) << column;
+}
+
+/// What stands between the tags of an array of a VTP file of text.
+std::vector<double> numbers_of(const std::string& vtp, const std::string& name) {
+  const auto at = vtp.find("Name=\"" + name + "\"");
+  EXPECT_NE(at, vtp.npos) << name;
+  const auto begin = vtp.find('>', at) + 1;
+  std::istringstream text(vtp.substr(begin, vtp.find('<', begin) - begin));
+  std::vector<double> numbers;
+  for (std::string word; text >> word;) numbers.push_back(std::stod(word));
+  return numbers;
+}
+
+TEST(MapVtp, HasTheEndsOfTheIntervalDrawnAndAllIntervalsAsFieldData) {
+  const MotionMap map = map_with_islands();
+  const TemporaryFolder folder;
+  const Joint joint = arm_and_post();
+  write_rom(folder / "out", {.joint = joint, .limits = {}, .map = &map, .vtp_encoding = VtpEncoding::text});
+  const std::string vtp = io::read_whole_file(folder / "out/map.vtp");
+  const auto lower = numbers_of(vtp, "lower_deg"), upper = numbers_of(vtp, "upper_deg");
+  const auto lower_reason = numbers_of(vtp, "lower_reason"), upper_reason = numbers_of(vtp, "upper_reason");
+  const auto offset = numbers_of(vtp, "interval_offset");
+  const auto low = numbers_of(vtp, "interval_low_deg"), high = numbers_of(vtp, "interval_high_deg");
+  const auto low_reason = numbers_of(vtp, "interval_low_reason"),
+             high_reason = numbers_of(vtp, "interval_high_reason");
+  const auto at_start = numbers_of(vtp, "free_at_start"), count = numbers_of(vtp, "free_intervals");
+  const auto code = [](const Limit& end) { return end.reason == LimitReason::end_of_range ? 0 : 1; };
+  ASSERT_EQ(lower.size(), map.points.size());
+  ASSERT_EQ(offset.size(), map.points.size() + 1);
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const FreeAngles& point = map.points[i];
+    const FreeInterval* drawn = point.nearest_to_start();
+    ASSERT_TRUE(drawn);
+    EXPECT_EQ(lower[i], (map.grid.start + drawn->low).degrees());
+    EXPECT_EQ(upper[i], (map.grid.start + drawn->high).degrees());
+    EXPECT_EQ(lower_reason[i], code(drawn->at_low));
+    EXPECT_EQ(upper_reason[i], code(drawn->at_high));
+    EXPECT_EQ(at_start[i], point.from_start.free_at_start() ? 1 : 0);
+    EXPECT_EQ(count[i], static_cast<double>(point.intervals.size()));
+    EXPECT_EQ(offset[i], static_cast<double>(k));
+    for (const FreeInterval& free : point.intervals) {
+      EXPECT_EQ(low[k], (map.grid.start + free.low).degrees());
+      EXPECT_EQ(high[k], (map.grid.start + free.high).degrees());
+      EXPECT_EQ(low_reason[k], code(free.at_low));
+      EXPECT_EQ(high_reason[k], code(free.at_high));
+      ++k;
+    }
+  }
+  EXPECT_EQ(low.size(), k);
+}
+
+TEST(MapIntervalsCsv, HasALinePerIntervalWithBothEndsToTheLastBit) {
+  const MotionMap map = map_with_islands();
+  std::istringstream in(map_intervals_csv(map));
+  std::string line;
+  std::getline(in, line);
+  EXPECT_TRUE(
+      line.starts_with("adduction_deg,internal_rotation_deg,flexion_low_deg,flexion_high_deg,holds_start,low_"
+                       "reason,low_contact_kind,"));
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    for (const FreeInterval& free : map.points[i].intervals) {
+      ASSERT_TRUE(std::getline(in, line));
+      double x, y, low, high;
+      int holds_start;
+      ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%d,", &x, &y, &low, &high, &holds_start), 5)
+          << line;
+      EXPECT_EQ(x, -10 + 2.5 * static_cast<double>(i % 9));
+      EXPECT_EQ(y, -20 + 10.0 * static_cast<double>(i / 9));
+      EXPECT_EQ(low, (map.grid.start + free.low).degrees());
+      EXPECT_EQ(high, (map.grid.start + free.high).degrees());
+      EXPECT_EQ(holds_start, free.holds_start() ? 1 : 0);
+    }
+  EXPECT_FALSE(std::getline(in, line));
 }
 
 }  // namespace

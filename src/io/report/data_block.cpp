@@ -237,6 +237,14 @@ void append(std::string& bytes, std::uint32_t number) {
   bytes.append(raw, sizeof number);
 }
 
+/// As rom.json has it, but for the intervals of a map, which the page has of their own.
+Json rom_of(const Report& report) {
+  if (!report.rom) return nullptr;
+  Json rom = Json::parse(rom_json(*report.rom));
+  if (report.rom->map) rom["map"].erase("intervals");
+  return rom;
+}
+
 }  // namespace
 
 std::string data_block(const Report& report) {
@@ -253,7 +261,7 @@ std::string data_block(const Report& report) {
             {"coordinates", coordinates_json(joint.anatomy)},
             {"reference_deg", degrees_json(report.reference_pose.angles)},
             {"reference_mm", numbers(report.reference_pose.translation_mm)},
-            {"rom", report.rom ? Json::parse(rom_json(*report.rom)) : Json(nullptr)}};
+            {"rom", rom_of(report)}};
   if (!report.rom) json["rom_error"] = report.rom_error;
   json["map"] = report.rom && report.rom->map ? map_json(*report.rom->map) : Json(nullptr);
   json["zones"] = report.rom ? zones_json(*report.rom, arrays) : Json::array();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "condyle/motion_map.hpp"
 
@@ -32,6 +33,30 @@ inline MapSummary summarise(const MotionMap& map) {
   }
   summary.volume = free_volume(map);
   return summary;
+}
+
+/// All free intervals of a map, point by point:
+///
+///   offset     0     2  2        5  ...      one per point, plus one
+///   low_deg   | a b |  | c d e |    ...      point i owns [offset[i], offset[i+1])
+struct MapIntervals {
+  std::vector<std::size_t> offset = {0};
+  std::vector<double> low_deg, high_deg;  ///< values of the varied angle
+  std::vector<LimitReason> low_reason, high_reason;
+};
+
+inline MapIntervals all_intervals(const MotionMap& map) {
+  MapIntervals all;
+  for (const FreeAngles& point : map.points) {
+    for (const FreeInterval& free : point.intervals) {
+      all.low_deg.push_back((map.grid.start + free.low).degrees());
+      all.high_deg.push_back((map.grid.start + free.high).degrees());
+      all.low_reason.push_back(free.at_low.reason);
+      all.high_reason.push_back(free.at_high.reason);
+    }
+    all.offset.push_back(all.low_deg.size());
+  }
+  return all;
 }
 
 }  // namespace condyle

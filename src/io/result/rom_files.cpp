@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -15,6 +17,7 @@
 #include "condyle/io/zone_result.hpp"
 #include "io/file/figure_ending.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/map_summary.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
@@ -62,12 +65,33 @@ void write_zones(OutputFolder& out, const RomResult& result) {
   }
 }
 
+/// How the reason of an interval's end is told in a VTP file.
+std::int32_t code_of(LimitReason reason) noexcept {
+  return reason == LimitReason::end_of_range ? 0 : 1;
+}
+constexpr std::int32_t nothing_free = -1;
+
+/// The free intervals of all points, which are more than a value per point.
+void add_intervals(const MotionMap& map, VtpOptions& options) {
+  MapIntervals all = all_intervals(map);
+  const auto codes = [](const std::vector<LimitReason>& reasons) {
+    std::vector<double> numbers;
+    for (const LimitReason reason : reasons) numbers.push_back(code_of(reason));
+    return numbers;
+  };
+  options.fields.push_back({"interval_offset", std::vector<double>(all.offset.begin(), all.offset.end())});
+  options.fields.push_back({"interval_low_deg", std::move(all.low_deg)});
+  options.fields.push_back({"interval_high_deg", std::move(all.high_deg)});
+  options.fields.push_back({"interval_low_reason", codes(all.low_reason)});
+  options.fields.push_back({"interval_high_reason", codes(all.high_reason)});
+}
+
 /// The grid as a flat surface in degrees, columns along x and rows along y, with what is free at its points.
-void write_map_surface(const std::filesystem::path& path, const MotionMap& map, const VtpOptions& options) {
+void write_map_surface(const std::filesystem::path& path, const MotionMap& map, VtpOptions options) {
   const std::size_t columns = map.grid.column.count(), rows = map.grid.row.count();
   TriMesh surface;
   std::vector<double> lower, upper, width;
-  std::vector<std::int32_t> intervals;
+  std::vector<std::int32_t> intervals, lower_reason, upper_reason;
   std::vector<std::uint8_t> free_at_start;
   for (std::size_t i = 0; i < map.points.size(); ++i) {
     surface.vertices.push_back(
@@ -77,6 +101,8 @@ void write_map_surface(const std::filesystem::path& path, const MotionMap& map, 
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     lower.push_back(drawn ? (map.grid.start + drawn->low).degrees() : none);
     upper.push_back(drawn ? (map.grid.start + drawn->high).degrees() : none);
+    lower_reason.push_back(drawn ? code_of(drawn->at_low.reason) : nothing_free);
+    upper_reason.push_back(drawn ? code_of(drawn->at_high.reason) : nothing_free);
     double free = 0;
     for (const FreeInterval& interval : point.intervals) free += (interval.high - interval.low).degrees();
     width.push_back(free);
@@ -93,8 +119,11 @@ void write_map_surface(const std::filesystem::path& path, const MotionMap& map, 
   const MeshArray arrays[] = {{"free_width_deg", std::move(width)},
                               {"lower_deg", std::move(lower)},
                               {"upper_deg", std::move(upper)},
+                              {"lower_reason", std::move(lower_reason)},
+                              {"upper_reason", std::move(upper_reason)},
                               {"free_intervals", std::move(intervals)},
                               {"free_at_start", std::move(free_at_start)}};
+  add_intervals(map, options);
   write_vtp(path, surface, arrays, {}, options);
 }
 

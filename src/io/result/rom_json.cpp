@@ -173,24 +173,17 @@ Json json_of(const GridAxis& axis, Anatomy joint) {
           {"count", axis.count()}};
 }
 
-/// Of the points whose free angles are not the one interval about the start: all of them.
-Json other_intervals_json(const MotionMap& map) {
-  const std::size_t columns = map.grid.column.count();
-  Json points = Json::array();
-  for (std::size_t i = 0; i < map.points.size(); ++i) {
-    const auto& intervals = map.points[i].intervals;
-    if (intervals.empty() || (intervals.size() == 1 && intervals.front().holds_start())) continue;
-    Json of_point = Json::array();
-    for (const FreeInterval& free : intervals)
-      of_point.push_back({{"low_deg", (map.grid.start + free.low).degrees()},
-                          {"high_deg", (map.grid.start + free.high).degrees()},
-                          {"low_reason", name_of(free.at_low.reason)},
-                          {"high_reason", name_of(free.at_high.reason)}});
-    points.push_back({{"column_deg", map.grid.column.value_deg(i % columns)},
-                      {"row_deg", map.grid.row.value_deg(i / columns)},
-                      {"intervals", std::move(of_point)}});
-  }
-  return points;
+Json json_of(const MapIntervals& all) {
+  const auto names = [](const std::vector<LimitReason>& reasons) {
+    Json list = Json::array();
+    for (const LimitReason reason : reasons) list.push_back(name_of(reason));
+    return list;
+  };
+  return {{"offset", all.offset},
+          {"low_deg", all.low_deg},
+          {"high_deg", all.high_deg},
+          {"low_reason", names(all.low_reason)},
+          {"high_reason", names(all.high_reason)}};
 }
 
 Json json_of(const MotionMap& map) {
@@ -206,7 +199,7 @@ Json json_of(const MotionMap& map) {
           {"positive_ends", json_of(summary.positive_ends)},
           {"free_elsewhere", summary.free_elsewhere},
           {"with_islands", summary.with_islands},
-          {"other_intervals", other_intervals_json(map)},
+          {"intervals", json_of(all_intervals(map))},
           {"free_volume_deg3", summary.volume.plain_deg3},
           {map.anatomy == Anatomy::shoulder ? "free_volume_sine_weighted_deg3"
                                             : "free_volume_cosine_weighted_deg3",
