@@ -67,8 +67,9 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& give
                                 "this many displaced joints, 200 if not "
                                 "given (--band=1000)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
-  for_band(
-      command.add_option("--seed", given->seed, "With --band: seed of the displacements, 1 if not given"));
+  for_band(command.add_option(
+      "--seed", given->seed,
+      "With --band: seed of the displacements, 1 if neither this nor the joint file says"));
   for_band(command.add_option(
       "--sigma-centre", given->sigma.centre_mm,
       "With --band: standard deviation of each coordinate of the centre, 0.5 mm if neither this "
@@ -115,8 +116,10 @@ RangeOptions range_options_of(const RangeGiven& given, const JointAngles& refere
   return range;
 }
 
-BandOptions band_options_of(const RangeGiven& given, const Uncertainty& of_file) {
-  return {.sigma = given.sigma.over(of_file), .samples = given.band_samples, .seed = given.seed};
+BandOptions band_options_of(const RangeGiven& given, const JointFile& file) {
+  return {.sigma = given.sigma.over(file.uncertainty),
+          .samples = given.band_samples,
+          .seed = given.seed.value_or(file.band_seed)};
 }
 
 }  // namespace condyle::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/impingement_zone.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "condyle/io/study.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
@@ -26,7 +27,7 @@ struct RangeGiven {
   BearingOptions bearing;
   ReferenceContact reference_contact = ReferenceContact::refuse;
   std::size_t band_samples = 0;  ///< 0: no bands
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed;
   std::optional<double> past_deg;  ///< nothing: no impingement zones
   StudyUncertainty sigma;
 };
@@ -45,6 +46,6 @@ std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& j
                                          const ClockFace& socket_clock = sagittal_clock());
 RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose);
 /// What was given, else what the joint file says, else what is usual.
-BandOptions band_options_of(const RangeGiven& given, const Uncertainty& of_file);
+BandOptions band_options_of(const RangeGiven& given, const JointFile& file);
 
 }  // namespace condyle::cli

@@ -96,7 +96,7 @@ void run(const Options& options, const CLI::App& command) {
 
   if (recorded) recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
   const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, held);
-  const BandOptions band = band_options_of(*options.range, loaded.report.file.uncertainty);
+  const BandOptions band = band_options_of(*options.range, loaded.report.file);
   auto [found, error] = range_of(options, loaded, held, band);
   if (translation) found.terms.push_back(term_of_held(*translation));
 

@@ -129,7 +129,7 @@ void run(const Options& options, const CLI::App& command) {
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) OutputFolder{fs::path(options.out)};
 
-  const BandOptions band = band_options_of(*options.range, loaded.report.file.uncertainty);
+  const BandOptions band = band_options_of(*options.range, loaded.report.file);
   RangeFound found = options.allow_depth_mm ? depth_limits(options, joint, motions)
                                             : exact_limits(joint, motions, asked, grid, band);
   if (translation) found.terms.push_back(term_of_held(*translation));

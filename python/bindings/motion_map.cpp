@@ -121,8 +121,9 @@ void bind_motion_map(py::module_& module) {
   module.def("motion_map", &map_of);
   module.def("limit_bands", &bands_of);
   module.def("uncertainty", [](const JointHandle& handle) {
-    const Uncertainty& sigma = handle.loaded.report.file.uncertainty;
-    return py::make_tuple(sigma.centre_mm, sigma.axes.degrees(), sigma.surface_mm);
+    const JointFile& file = handle.loaded.report.file;
+    const Uncertainty& sigma = file.uncertainty;
+    return py::make_tuple(sigma.centre_mm, sigma.axes.degrees(), sigma.surface_mm, file.band_seed);
   });
 }
 

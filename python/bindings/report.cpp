@@ -31,13 +31,16 @@ std::vector<std::optional<ImpingementZone>> zones_past(const RangeHandle& range,
 
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
-            std::uint64_t seed, const std::optional<double>& past_deg, const py::object& progress) {
+            std::optional<std::uint64_t> seed, const std::optional<double>& past_deg,
+            const py::object& progress) {
   const std::vector<Motion> motions = motions_in(given);
   const LoadedJoint& loaded = handle.loaded;
   followed(progress, [&](const auto& follow, const std::stop_token& stop) {
     std::vector<MotionLimit> limits;
     each_limit(range.range, motions, stop, [&](MotionLimit&& limit) { limits.push_back(std::move(limit)); });
-    const BandOptions band{.sigma = loaded.report.file.uncertainty, .samples = band_samples, .seed = seed};
+    const JointFile& file = loaded.report.file;
+    const BandOptions band{
+        .sigma = file.uncertainty, .samples = band_samples, .seed = seed.value_or(file.band_seed)};
     std::vector<LimitBand> bands;
     if (band_samples > 0)
       bands = limit_bands(range.joint, motions, range.options, band, {.progress = follow, .stop = stop})

@@ -39,7 +39,7 @@ StudyLoad load_in(const py::dict& given) {
 struct Asked {
   std::vector<std::string> motions;
   std::size_t band_samples;
-  std::uint64_t band_seed;
+  std::optional<std::uint64_t> band_seed;
   std::string depth_at;
   std::optional<py::dict> load;
 };
@@ -55,7 +55,7 @@ StudyOptions options_of(const Asked& asked) {
 }
 
 py::tuple study(const std::string& table, const std::string& folder, const std::vector<std::string>& motions,
-                std::size_t band_samples, std::uint64_t seed, const std::string& depth_at,
+                std::size_t band_samples, std::optional<std::uint64_t> seed, const std::string& depth_at,
                 const std::optional<py::dict>& load, std::optional<std::pair<std::size_t, std::size_t>> shard,
                 bool is_strict, const py::object& progress) {
   Study one{table, folder, options_of({motions, band_samples, seed, depth_at, load}), {}, {}};

@@ -143,13 +143,13 @@ class RangeOfMotion:
         first, last, step = (number(value, what) for value in (*values, 1)[:3])
         return which, first, last, step
 
-    def bands(self, motions: Optional[Sequence[MotionLike]] = None, *, samples: int = 200, seed: int = 1,
-              sigma_centre_mm: Optional[float] = None, sigma_axes_deg: Optional[float] = None,
+    def bands(self, motions: Optional[Sequence[MotionLike]] = None, *, samples: int = 200,
+              seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None, sigma_axes_deg: Optional[float] = None,
               sigma_surface_mm: Optional[float] = None, progress: Progress = None) -> tuple[LimitBand, ...]:
         """How far each limit moves with what is uncertain: 5 to 95 % of `samples` displaced joints, 20 to 100,000.
 
-        Standard deviations not given are those of the joint file, else 0.5 mm, 1 degree and 0.25 mm. The same seed
-        gives the same bands. Of the motions of `limits` where none are named.
+        Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1. The
+        same seed gives the same bands. Of the motions of `limits` where none are named.
 
         C++: `condyle::limit_bands` in condyle/limit_band.hpp.
         """
@@ -160,7 +160,7 @@ class RangeOfMotion:
             (sigma_surface_mm, usual[2], "sigma_surface_mm"))]
         found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked],
                                     count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES),
-                                    count(seed, "seed", high=2**64 - 1), sigma[0], sigma[1], sigma[2],
+                                    usual[3] if seed is None else count(seed, "seed", high=2**64 - 1), sigma[0], sigma[1], sigma[2],
                                     progress_of(progress))
         return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
@@ -175,8 +175,8 @@ class RangeOfMotion:
                                           number(past_deg, "past_deg"), progress_of(progress))
         return tuple(self._zone_of(zone) for zone in found)
 
-    def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0, seed: int = 1,
-                     past_deg: Optional[float] = None, progress: Progress = None) -> None:
+    def write_report(self, path: Path, *, title: Optional[str] = None, band_samples: int = 0,
+                     seed: Optional[int] = None, past_deg: Optional[float] = None, progress: Progress = None) -> None:
         """Writes one HTML file that shows the joint with these limits in any browser and computes with it there.
 
         `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as
@@ -196,7 +196,7 @@ class RangeOfMotion:
         _native.write_report(
             self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
             [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
-            count(seed, "seed", high=2**64 - 1), None if past_deg is None else number(past_deg, "past_deg"),
+            None if seed is None else count(seed, "seed", high=2**64 - 1), None if past_deg is None else number(past_deg, "past_deg"),
             progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:

@@ -220,15 +220,16 @@ def read_study(folder: Path) -> Study:
 
 
 def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, band_samples: int = 0,
-              seed: int = 1, depth_at: str = "", load: Optional[StudyLoad] = None,
+              seed: Optional[int] = None, depth_at: str = "", load: Optional[StudyLoad] = None,
               shard: Optional[tuple[int, int]] = None, strict: bool = False, progress: Progress = None) -> Study:
     """Answers for every row of a table of hips and writes the results: docs/cohort.md has both.
 
-    `motions` by their names, all if not given; bands of `band_samples` displaced joints (20 or more; 0: none); how deep
-    the bones are in each other in the pose `depth_at`, such as "flexion=90 internal_rotation=30"; contact pressure by
-    `load`; `shard` (3, 7) is the third of seven parts, which :func:`merge_study` puts together. What lies there of the
-    same inputs, options and version is not computed again. A hip that cannot be answered is a row of `failures`; with
-    `strict` its error is raised, and a MeshError for one with which something looks wrong (`notes` in `hips`).
+    `motions` by their names, all if not given; bands of `band_samples` displaced joints (20 or more; 0: none) by
+    `seed`, that of each joint's file, else 1, if not given; how deep the bones are in each other in the pose
+    `depth_at`, such as "flexion=90 internal_rotation=30"; contact pressure by `load`; `shard` (3, 7) is the third of
+    seven parts, which :func:`merge_study` puts together. What lies there of the same inputs, options and version is
+    not computed again. A hip that cannot be answered is a row of `failures`; with `strict` its error is raised, and a
+    MeshError for one with which something looks wrong (`notes` in `hips`).
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
     """
@@ -247,7 +248,7 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError(f"load: a StudyLoad is needed, not {type(load).__name__}")
     out = path_of(folder, "folder")
     _native.run_study(path_of(table, "table"), out, names, count(band_samples, "band_samples", high=100_000),
-                      count(seed, "seed", high=2**64 - 1), depth_at, None if load is None else load._checked(), part,
+                      None if seed is None else count(seed, "seed", high=2**64 - 1), depth_at, None if load is None else load._checked(), part,
                       bool(strict), progress_of(progress))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))
 

@@ -379,6 +379,26 @@ TEST_F(ReadJoint, UnknownKeysAreRefusedEverywhere) {
             "line 10: mobile.colour: unknown key");
   EXPECT_EQ(refusal(plain + std::string("[reference_pose]\nflex = 1\n")).substr(0, 40),
             "line 17: reference_pose.flex: unknown ke");
+  for (const char* other : {"rest", "reference", "rest_pose"})
+    EXPECT_EQ(refusal(plain + std::string("[") + other + "]\nflexion = 5\n"),
+              "line 16: " + std::string(other) + ": unknown key (did you mean \"reference_pose\"?)");
+}
+
+TEST_F(ReadJoint, UncertaintyIsReadWithItsSeed) {
+  const JointFile usual = read(plain).report.file;
+  EXPECT_EQ(usual.uncertainty.centre_mm, 0.5);
+  EXPECT_EQ(usual.band_seed, 1u);
+  const JointFile file =
+      read(plain + std::string("[uncertainty]\ncentre = 0.75\naxes = 2\nsurface = 0\nseed = 42\n"))
+          .report.file;
+  EXPECT_EQ(file.uncertainty.centre_mm, 0.75);
+  EXPECT_EQ(file.uncertainty.axes, Angle::degrees(2));
+  EXPECT_EQ(file.uncertainty.surface_mm, 0);
+  EXPECT_EQ(file.band_seed, 42u);
+  EXPECT_EQ(refusal(plain + std::string("[uncertainty]\nseed = -1\n")),
+            "line 17: uncertainty.seed: must be 0 or more");
+  EXPECT_EQ(refusal(plain + std::string("[uncertainty]\nseed = 1.5\n")),
+            "line 17: uncertainty.seed: must be a whole number, not a number");
 }
 
 TEST_F(ReadJoint, KeysThatContradictEachOtherAreRefused) {

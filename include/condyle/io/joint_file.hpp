@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ struct JointFile {
   BodyEntry fixed, mobile;
   std::vector<Motion> motions;      ///< of the [[motion]] tables, in their order, each name once
   Uncertainty uncertainty = {};     ///< of the [uncertainty] table; what is usual where it says nothing
+  std::uint64_t band_seed = 1;      ///< of the same table
   PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
   std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table

@@ -31,7 +31,7 @@ struct StudyUncertainty {
 
 struct StudyBands {
   std::size_t samples = 200;
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed = {};  ///< where empty as the joint's file says, else 1
   StudyUncertainty sigma = {};
 };
 

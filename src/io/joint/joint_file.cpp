@@ -260,18 +260,27 @@ PoseDegrees reference_pose(io::TomlTable& file, const JointDescription& joint, c
   return pose;
 }
 
-Uncertainty uncertainty(io::TomlTable& file, const Lengths& lengths) {
-  Uncertainty sigma;
+/// Names of the table of the reference pose elsewhere, farther from its own than a slip of the pen.
+void refuse_other_names(const io::TomlTable& file) {
+  for (const auto key : {"reference", "rest", "rest_pose"})
+    if (file.has(key)) file.fail(key, "unknown key (did you mean \"reference_pose\"?)");
+}
+
+void read_uncertainty(io::TomlTable& file, const Lengths& lengths, JointFile& out) {
+  Uncertainty& sigma = out.uncertainty;
   auto table = file.table("uncertainty");
-  if (!table) return sigma;
+  if (!table) return;
   if (table->has("centre")) sigma.centre_mm = lengths.not_negative(*table, "centre");
   if (table->has("surface")) sigma.surface_mm = lengths.not_negative(*table, "surface");
   if (const auto axes = table->number("axes")) {
     if (*axes < 0) table->fail("axes", "must be 0 or more");
     sigma.axes = Angle::degrees(*axes);
   }
+  if (const auto seed = table->integer("seed")) {
+    if (*seed < 0) table->fail("seed", "must be 0 or more");
+    out.band_seed = static_cast<std::uint64_t>(*seed);
+  }
   table->finish();
-  return sigma;
 }
 
 /// One [[motion]]: the range runs from where the varied angle starts to where it ends at the latest, and says
@@ -354,12 +363,13 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
   joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);
-  out.uncertainty = uncertainty(file, Lengths(joint.units));
+  read_uncertainty(file, Lengths(joint.units), out);
   if (auto table = file.table("contact"))
     out.contact = io::contact_entry(*table, mm_per(joint.units), path.parent_path());
   if (auto table = file.table("recorded_motion"))
     out.recorded_motion =
         io::recorded_motion_mapping(*table, io::coordinate_names_of(joint.kind, joint.anatomy));
+  refuse_other_names(file);
   file.finish();
   return out;
 }

@@ -68,7 +68,8 @@ RangeOptions range_options_of(const LoadedJoint& loaded, const StudyOptions& opt
 }
 
 BandOptions band_options_of(const LoadedJoint& loaded, const StudyBands& bands) {
-  return {bands.sigma.over(loaded.report.file.uncertainty), bands.samples, bands.seed};
+  const JointFile& file = loaded.report.file;
+  return {bands.sigma.over(file.uncertainty), bands.samples, bands.seed.value_or(file.band_seed)};
 }
 
 /// Those columns of `condyle rom` that a study has, by their places there.

@@ -42,7 +42,7 @@ std::string options_json(const StudyOptions& options) {
                    name_of(map->vary, options.anatomy)};
   if (const auto& bands = options.bands)
     json["bands"] = {{"samples", bands->samples},
-                     {"seed", bands->seed},
+                     {"seed", nullable(bands->seed)},
                      {"sigma_centre_mm", nullable(bands->sigma.centre_mm)},
                      {"sigma_axes_deg", nullable(bands->sigma.axes_deg)},
                      {"sigma_surface_mm", nullable(bands->sigma.surface_mm)}};
