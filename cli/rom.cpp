@@ -60,7 +60,7 @@ std::string list_of(const std::vector<Motion>& motions, Anatomy joint) {
   for (const Motion& motion : motions) widest = std::max(widest, motion.name.size());
   std::string text;
   for (const Motion& motion : motions) {
-    const auto degrees = [&](JointAngle angle) { return angle_of(motion.start, angle).degrees(); };
+    const auto degrees = [&](JointAngle angle) { return angle_of(motion.start, angle).degrees() + 0.0; };
     const double from = degrees(motion.vary), to = from + sign_of(motion.sense) * motion.range.degrees();
     text += fmt::format("{:<{}}  {} from {:g} to {:g}", motion.name, widest, name_of(motion.vary, joint),
                         from, to);

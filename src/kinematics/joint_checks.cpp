@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "core/rounded.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
@@ -172,8 +173,8 @@ void check_centres(const Joint& joint, const Sphere& head, const std::optional<S
   if (const double off = head.centre.norm(); off > farthest_from_head_mm)
     notes.add(JointNoteCode::centre_off_head,
               formatted("the joint centre is %.1f mm from that of the head of ", off) + mobile +
-                  formatted(", a sphere of radius %.1f mm about (%.1f, %.1f, %.1f)", head.radius,
-                            head.centre.x(), head.centre.y(), head.centre.z()));
+                  formatted(", a sphere of radius %.1f mm about ", head.radius) +
+                  core::rounded(head.centre, 1));
   if (!socket) return;
   const Sphere& cup = socket->fit.sphere;
   if (const double apart = (cup.centre - head.centre).norm(); apart > farthest_head_from_socket_mm)

@@ -7,6 +7,7 @@
 #include "condyle/error.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
+#include "core/rounded.hpp"
 #include "kinematics/resampling.hpp"
 
 namespace condyle {
@@ -148,11 +149,10 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
         formatted("axes made orthonormal: lengths were off by %.1e and %.1e, the right angle by %.1e",
                   errors.anterior_length, errors.superior_length, errors.right_angle));
   if (const JointAngles& pose = placement.reference_pose.angles; placement.pose_from_landmarks)
-    notes.push_back(
-        formatted("the landmarks of both bodies give the reference pose: flexion %.2f, adduction %.2f, "
-                  "internal rotation "
-                  "%.2f degrees",
-                  pose.flexion.degrees(), pose.adduction.degrees(), pose.internal_rotation.degrees()));
+    notes.push_back("the landmarks of both bodies give the reference pose: flexion " +
+                    core::rounded(pose.flexion.degrees(), 2) + ", adduction " +
+                    core::rounded(pose.adduction.degrees(), 2) + ", internal rotation " +
+                    core::rounded(pose.internal_rotation.degrees(), 2) + " degrees");
   if (placement.sphere) {
     const SphereFit& fit = placement.sphere->fit;
     notes.push_back(

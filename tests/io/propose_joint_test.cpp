@@ -84,6 +84,8 @@ TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
       SCOPED_TRACE(testing::Message() << static_cast<int>(axes) << " " << scale);
       const JointProposal proposal = proposed(axes, scale);
       EXPECT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
+      for (const char* minus_zero : {"-0,", "-0]", "-0.00,", "-0.00)", " -0 "})
+        EXPECT_EQ(proposal.toml.find(minus_zero), std::string::npos) << proposal.toml;
       const LoadedJoint loaded = read(proposal.toml);
       EXPECT_EQ(loaded.joint.side, GetParam().side);
       const auto found = limits(loaded.joint);
@@ -91,6 +93,37 @@ TEST_P(ProposedHip, HasTheLimitsOfAFileWrittenByHand) {
         EXPECT_NEAR(found[i], by_hand[i], 0.1) << hip_motions()[i].name;
     }
   }
+}
+
+/// Bones as finely meshed as they come, in the axes and the unit of an image.
+TEST(ProposedFineHip, InMetresAndLpsHasTheLimitsOfAFileWrittenByHand) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const TemporaryFolder folder;
+  const TriMesh fixed = read_ply(*data / "hip_libhip_m1_left/hip_bone.ply"),
+                mobile = read_ply(*data / "hip_libhip_m1_left/femur.ply");
+  const auto limits_of = [&](const std::string& toml) {
+    std::ofstream(folder / "joint.toml") << toml;
+    const Joint joint = read_joint(folder / "joint.toml").joint;
+    EXPECT_EQ(joint.side, Side::left);
+    return RangeOfMotion(joint).limits(hip_motions());
+  };
+  write_mesh(folder / "bone.ply", fixed);
+  write_mesh(folder / "thigh.ply", mobile);
+  const auto by_hand = limits_of(
+      "condyle = 1\nname = \"hip\"\nkind = \"ball\"\nside = \"left\"\nunits = \"mm\"\n"
+      "[fixed]\nmesh = \"bone.ply\"\n[mobile]\nmesh = \"thigh.ply\"\n"
+      "[frame]\ncentre = \"fit\"\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n");
+  write_mesh(folder / "bone.ply", as_exported(fixed, Axes::lps, 0.001));
+  write_mesh(folder / "thigh.ply", as_exported(mobile, Axes::lps, 0.001));
+  const JointProposal proposal =
+      propose_joint({folder / "bone.ply", folder / "thigh.ply", folder / "joint.toml", {}, {}});
+  ASSERT_TRUE(proposal.to_fill_in.empty()) << proposal.to_fill_in.front();
+  EXPECT_NE(proposal.toml.find("units = \"m\""), std::string::npos) << proposal.toml;
+  EXPECT_NE(proposal.toml.find("anterior = [0, -1, 0]"), std::string::npos) << proposal.toml;
+  const auto found = limits_of(proposal.toml);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_NEAR(found[i].end.turned.degrees(), by_hand[i].end.turned.degrees(), 0.1) << found[i].motion.name;
 }
 
 TEST_P(ProposedHip, OfTheWrongSideIsNotGuessed) {

@@ -13,6 +13,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/version.hpp"
+#include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
@@ -33,7 +34,7 @@ std::string toml_text(std::string_view text) {
 }
 
 std::string numbers(const Vec3& v) {
-  return fmt::format("[{:g}, {:g}, {:g}]", v.x(), v.y(), v.z());
+  return fmt::format("[{:g}, {:g}, {:g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
 }
 
 /// Writes lines of a joint file: keys that are told, and keys that are not as comments.
@@ -128,14 +129,12 @@ JointProposal propose_joint(const ProposalRequest& request) {
   lines.add("\n[frame]");
   if (hip) {
     const Sphere& head = hip->head.fit.sphere;
-    lines.key(
-        "centre", "\"fit\"",
-        fmt::format(
-            "the head's centre, ({:.2f}, {:.2f}, {:.2f}) mm in the frame of the meshes, rms {:.2f} mm{}",
-            head.centre.x(), head.centre.y(), head.centre.z(), hip->head.fit.rms_residual,
-            hip->socket ? fmt::format("; the socket's is {:.2f} mm from it",
-                                      (hip->socket->fit.sphere.centre - head.centre).norm())
-                        : std::string()));
+    lines.key("centre", "\"fit\"",
+              fmt::format("the head's centre, {} mm in the frame of the meshes, rms {:.2f} mm{}",
+                          core::rounded(head.centre, 2), hip->head.fit.rms_residual,
+                          hip->socket ? fmt::format("; the socket's is {:.2f} mm from it",
+                                                    (hip->socket->fit.sphere.centre - head.centre).norm())
+                                      : std::string()));
   } else {
     lines.missing("centre", "[x, y, z]", "nothing was fitted");
   }
@@ -151,11 +150,12 @@ JointProposal propose_joint(const ProposalRequest& request) {
             "way to the midline",
             degrees(-hip->towards_femur.dot(axes->superior())), degrees(-hip->towards_pelvis.dot(lateral))));
     if (hip->opening)
-      lines.add(
-          fmt::format("# the socket opens {:.0f} degrees from straight to the side, {:.0f} forwards of it",
-                      degrees(hip->opening->dot(lateral)),
-                      std::atan2(hip->opening->dot(axes->anterior()), hip->opening->dot(lateral)) * 180 /
-                          std::numbers::pi));
+      lines.add(fmt::format(
+          "# the socket opens {:.0f} degrees from straight to the side, {} forwards of it",
+          degrees(hip->opening->dot(lateral)),
+          core::rounded(std::atan2(hip->opening->dot(axes->anterior()), hip->opening->dot(lateral)) * 180 /
+                            std::numbers::pi,
+                        0)));
   } else {
     std::string why = !hip            ? "no head was found to tell them by"
                       : found.empty() ? "the bones agree with none of the axes in use"

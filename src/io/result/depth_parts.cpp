@@ -1,4 +1,5 @@
 #include "io/result/depth_parts.hpp"
+#include "core/rounded.hpp"
 
 #include <fmt/format.h>
 
@@ -60,14 +61,8 @@ std::string inside_line(const Body& body, std::size_t inside, std::size_t on_sur
   return line + "\n";
 }
 
-std::string fixed_digits(double value, int digits) {
-  const std::string text = fmt::format("{:.{}f}", value, digits);
-  return text.starts_with('-') && text.find_first_not_of("-0.") == text.npos ? text.substr(1) : text;
-}
-
 std::string place_text(const Vec3& p) {
-  return fmt::format("at ({}, {}, {}) mm", fixed_digits(p.x(), 2), fixed_digits(p.y(), 2),
-                     fixed_digits(p.z(), 2));
+  return "at " + core::rounded(p, 2) + " mm";
 }
 
 std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures) {
@@ -84,7 +79,7 @@ std::string measures_text(const DepthQuestion& question, const ContactMeasures& 
     text += fmt::format("  contact area:{}, centred {}\n", areas,
                         place_text(question.frame().fixed_point(*measures.centroid)));
   if (measures.centroid && measures.volume_mm3)
-    text += fmt::format("  penetration volume: {} mm3\n", fixed_digits(*measures.volume_mm3, 1));
+    text += fmt::format("  penetration volume: {} mm3\n", core::rounded(*measures.volume_mm3, 1));
   return text + nearest_text(measures);
 }
 

@@ -104,9 +104,6 @@ void add_deepest(Json& json, const std::optional<Deepest>& deepest) {
 /// "at (17.97, 20.65, 8.54) mm".
 std::string place_text(const Vec3& p);
 
-/// "2.345", and "0.000" for what rounds to it from below, too.
-std::string fixed_digits(double value, int digits);
-
 /// Areas, volume and nearest distance, one line each for those there are; and under the keys of docs/formats.md.
 std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures);
 void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures);

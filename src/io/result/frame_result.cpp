@@ -7,6 +7,7 @@
 
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/repair_text.hpp"
+#include "core/rounded.hpp"
 #include "io/result/json.hpp"
 #include "io/result/movement_words.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -17,7 +18,8 @@ namespace {
 using io::Json;
 
 std::string text_of(const Vec3& v) {
-  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x(), v.y(), v.z());
+  const Vec3 p = v.array() + 0.0;  // no -0
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", p.x(), p.y(), p.z());
 }
 
 /// The frame's axes by their anatomical names.
@@ -34,8 +36,11 @@ std::string text_of(const char* role, const Body& body, const std::vector<BodyMe
                         mesh.part.empty() ? "" : ", " + mesh.part, mesh.mesh.string(), mesh.vertices,
                         mesh.triangles);
   const auto& [low, high] = bounds;
-  return text + fmt::format("           x {:.3f} .. {:.3f}, y {:.3f} .. {:.3f}, z {:.3f} .. {:.3f} mm\n",
-                            low.x(), high.x(), low.y(), high.y(), low.z(), high.z());
+  const auto span = [](double from, double to) {
+    return core::rounded(from, 3) + " .. " + core::rounded(to, 3);
+  };
+  return text + fmt::format("           x {}, y {}, z {} mm\n", span(low.x(), high.x()),
+                            span(low.y(), high.y()), span(low.z(), high.z()));
 }
 
 void add_mesh(Json& json, const BodyMeshReport& report) {

@@ -28,7 +28,7 @@ std::string text_of(const TriangleCrossing& pair) {
 }
 std::string text_of(const BoundaryLoop& loop) {
   return fmt::format("{} edges from vertex {}, near ({:.6g}, {:.6g}, {:.6g})", loop.edges, loop.first.from,
-                     loop.centre.x(), loop.centre.y(), loop.centre.z());
+                     loop.centre.x() + 0.0, loop.centre.y() + 0.0, loop.centre.z() + 0.0);
 }
 
 Json json_of(Index element) {
@@ -86,7 +86,7 @@ void append(std::string& out, const MeshInspection& mesh) {
     if (finding.count > 0)
       out += fmt::format("  {} {}, the first: {}\n", finding.count, words, text_of(*finding.first));
   });
-  const auto &low = r.bounds.low, &high = r.bounds.high;
+  const Vec3 low = r.bounds.low.array() + 0.0, high = r.bounds.high.array() + 0.0;  // no -0
   out += fmt::format("  bounds x {:.6g} .. {:.6g}, y {:.6g} .. {:.6g}, z {:.6g} .. {:.6g}\n", low.x(),
                      high.x(), low.y(), high.y(), low.z(), high.z());
   out += fmt::format("  area {:.6g}", r.area);

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "condyle/io/output_folder.hpp"
+#include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/contact_terms.hpp"
@@ -50,19 +51,15 @@ Json regions_json(const ContactEntry& contact, const Body& body,
   return regions;
 }
 
-std::string vector_text(const Vec3& v) {
-  return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
-}
-
 std::string surface_text(const Body& body, const std::optional<SurfaceContact>& surface) {
   if (!surface) return "";
   const ContactTotals& totals = surface->totals;
   if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name);
   std::string text = fmt::format("  {}: {:.2f} mm2 in contact, depth {:.3f} mm in the mean, {:.3f} at most\n",
                                  body.name, totals.area_mm2, totals.mean_depth_mm, totals.max_depth_mm);
-  text +=
-      fmt::format("    pressure {:.3f} MPa in the mean, {:.3f} at most, centre {} mm of its own frame\n",
-                  totals.mean_pressure_mpa, totals.max_pressure_mpa, vector_text(*totals.centre_of_pressure));
+  text += fmt::format("    pressure {:.3f} MPa in the mean, {:.3f} at most, centre {} mm of its own frame\n",
+                      totals.mean_pressure_mpa, totals.max_pressure_mpa,
+                      core::rounded(*totals.centre_of_pressure, 2));
   if (surface->met_from_front > 0)
     text += fmt::format("    {} rays met the open surface from its front: overlap there may be none\n",
                         surface->met_from_front);
@@ -80,7 +77,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
     const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
     if (answer.balanced->outcome == BalanceOutcome::balanced)
       text += fmt::format("  balanced after {} steps, {} mm from the pose given\n", answer.balanced->steps,
-                          vector_text(moved));
+                          core::rounded(moved, 2));
     else
       text += fmt::format("  {}\n", reason_of(*answer.balanced));
   }
@@ -89,7 +86,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   const Wrench& load = answer.contact.on_mobile;
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
-                  vector_text(load.force_n), load.force_n.norm(), vector_text(load.moment_nmm));
+                  core::rounded(load.force_n, 2), load.force_n.norm(), core::rounded(load.moment_nmm, 2));
   if (answer.cut_off_by_reach > 0)
     text += fmt::format("  the reach of {} mm cuts off {} rays that would be in contact\n",
                         question.contact.rays.reach_mm, answer.cut_off_by_reach);

@@ -22,7 +22,7 @@ std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMoti
 std::string term_of_held(const Vec3& translation_mm) {
   return fmt::format(
       "translation held at x {:g}, y {:g}, z {:g} mm: the mobile body turns about its own origin",
-      translation_mm.x(), translation_mm.y(), translation_mm.z());
+      translation_mm.x() + 0.0, translation_mm.y() + 0.0, translation_mm.z() + 0.0);
 }
 
 }  // namespace condyle

@@ -7,6 +7,7 @@
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
+#include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/clock_hour.hpp"
 #include "io/result/json.hpp"
@@ -114,9 +115,6 @@ std::string band_text(const RomResult& result) {
 }  // namespace
 
 std::string rom_text(const RomResult& result) {
-  const auto point_text = [](const Vec3& p) {
-    return fmt::format("({:.2f}, {:.2f}, {:.2f})", p.x(), p.y(), p.z());
-  };
   const auto limit_text = [&](std::size_t i) {
     const Angle turned = result.limits[i].end.turned;
     return result.bands.empty() ? fmt::format("{:.2f}", turned.degrees())
@@ -132,8 +130,9 @@ std::string rom_text(const RomResult& result) {
     name.cells.push_back(limit.motion.name);
     turned.cells.push_back(limit_text(i));
     reason.cells.emplace_back(words_of(limit));
-    point.cells.push_back(
-        limit.end.contact ? point_text(frame_of(result).fixed_point(limit.end.contact->fixed_point)) : "-");
+    point.cells.push_back(limit.end.contact
+                              ? core::rounded(frame_of(result).fixed_point(limit.end.contact->fixed_point), 2)
+                              : "-");
     const auto& sliding = limit.end.bearing_contact;
     bearing.cells.push_back(sliding ? fmt::format("{:.2f}", sliding->turned.degrees()) : "-");
     const bool distance = limit.head && limit.head->centre_distance_mm;
