@@ -184,6 +184,36 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
   EXPECT_NE(lines[6].find(" 40.00 "), std::string::npos);
 }
 
+TEST(RomText, SaysWhereNoRimWasFoundAndNoMinusBeforeZero) {
+  const Joint joint = arm_and_post();
+  const std::vector<MotionLimit> limits = some_limits();
+  BearingSurface bearing = some_bearing();
+  const auto text = [&] { return rom_text({.joint = joint, .limits = limits, .bearing = {bearing, {}}}); };
+  EXPECT_NE(text().find("(radius 24.50 mm, rim 2.25 mm from it)"), std::string::npos) << text();
+  bearing.rim_gap_mm.reset();
+  EXPECT_NE(text().find("(radius 24.50 mm, no rim was found)"), std::string::npos) << text();
+  bearing.margin_mm = usual_bearing_margin_mm;
+  EXPECT_NE(
+      text().find(
+          "within 2.00 mm of the head's sphere\n    (radius 24.50 mm, no rim was found: the usual margin)"),
+      std::string::npos)
+      << text();
+  bearing.parts = {"cartilage"};
+  EXPECT_EQ(text().find("no rim"), std::string::npos) << text();
+  // The contact point of the first limit has z = -2e-17.
+  EXPECT_NE(text().find("(0.10, 0.33, 0.00)"), std::string::npos) << text();
+}
+
+TEST(RomJson, SaysThatTheTwoBedsideTestsAreAsDefinedHere) {
+  const Joint joint = arm_and_post();
+  std::vector<MotionLimit> limits(3);
+  for (std::size_t i = 0; i < 3; ++i) limits[i].motion.name = (std::array{"fadir", "flexion", "faber"})[i];
+  const Json motions = Json::parse(rom_json({joint, limits}))["motions"];
+  for (const std::size_t i : {0, 2})
+    EXPECT_EQ(motions[i]["definition"], "as defined here; no angles are agreed on");
+  EXPECT_TRUE(motions[1]["definition"].is_null());
+}
+
 TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
   EXPECT_EQ(normal_hip_range("flexion"), Angle::degrees(120));
   EXPECT_EQ(normal_hip_range("extension"), Angle::degrees(30));

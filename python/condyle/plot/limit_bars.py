@@ -10,7 +10,7 @@ from matplotlib.ticker import MultipleLocator
 
 from . import style
 from .motion_ends import Band, MotionEnd, motion_ends
-from .words import in_two_lines, motion_name, of, step_of_ticks
+from .words import AS_DEFINED_HERE, in_two_lines, is_as_defined_here, motion_name, of, step_of_ticks
 
 
 class End(NamedTuple):
@@ -80,6 +80,8 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
                               label="band, 5 to 95 %"))
     if any(end.normal_deg is not None for end in ends):
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
+    if any(is_as_defined_here(end.name) for end in ends):
+        handles.append(Line2D([], [], linestyle="none", label=AS_DEFINED_HERE))
     return handles
 
 

@@ -14,6 +14,15 @@ OPPOSITE = {
 _SHORT = {"fadir": "FADIR", "faber": "FABER"}
 
 
+AS_DEFINED_HERE = "FADIR, FABER: as defined here"
+"""What a figure says of the two tests, whose angles nobody has agreed on."""
+
+
+def is_as_defined_here(name: str) -> bool:
+    """Whether a motion is one of these."""
+    return name in _SHORT
+
+
 def spaced(name: str) -> str:
     """Blanks for underscores: "internal rotation" of "internal_rotation"."""
     return name.replace("_", " ")

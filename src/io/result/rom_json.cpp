@@ -138,6 +138,8 @@ Json motion_json(const RomResult& result, std::size_t i) {
       {"range_deg", io::given_degrees(limit.motion.range)},
       {"start_deg", start_json(limit.motion.start, joint)},
       {"held_deg", held_json(limit.motion, joint)},
+      {"definition", io::is_as_defined_here(limit.motion) ? Json("as defined here; no angles are agreed on")
+                                                          : Json(nullptr)},
       {"normal_range_deg", normal ? Json(io::given_degrees(*normal)) : Json(nullptr)},
       {"at_limit_deg", angles_json(limit.angles_at_limit(), joint)},
       {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};

@@ -24,6 +24,11 @@ inline bool ends_in_contact(const MotionLimit& limit) noexcept {
   return limit.end.reason != LimitReason::end_of_range;
 }
 
+/// The two bedside tests, whose angles nobody has agreed on.
+inline bool is_as_defined_here(const Motion& motion) noexcept {
+  return motion.name == "fadir" || motion.name == "faber";
+}
+
 /// Of the living, behind the limit of a hip's motion; none where no source has a value.
 inline std::optional<Angle> normal_range(const RomResult& result, const MotionLimit& limit) noexcept {
   return result.joint.is_hip() ? normal_hip_range(limit.motion.name) : std::nullopt;

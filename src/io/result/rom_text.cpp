@@ -12,6 +12,7 @@
 #include "io/result/clock_hour.hpp"
 #include "io/result/json.hpp"
 #include "io/result/quoted_limit.hpp"
+#include "io/result/rom_parts.hpp"
 
 namespace condyle {
 namespace {
@@ -20,8 +21,11 @@ namespace {
 std::string bearing_text(const RomResult& result) {
   const auto& surface = result.bearing.surface;
   if (!surface) return fmt::format("  every contact counts: {}\n", result.bearing.why_none);
-  const std::string rim =
-      surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm) : std::string();
+  const std::string rim = surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm)
+                          : !surface->parts.empty() ? ""
+                          : surface->margin_mm == usual_bearing_margin_mm
+                              ? ", no rim was found: the usual margin"
+                              : ", no rim was found";
   const std::string told =
       surface->parts.empty() ? fmt::format("within {:.2f} mm of the head's sphere", surface->margin_mm)
                              : fmt::format("{}, as the joint file says", fmt::join(surface->parts, " and "));
@@ -152,9 +156,8 @@ std::string rom_text(const RomResult& result) {
           : joint.is_hip() ? table_text(std::array{name, turned, reason, clock, point})
                            : table_text(std::array{name, turned, reason, point});
   text += band_text(result);
-  if (std::any_of(result.limits.begin(), result.limits.end(), [](const MotionLimit& limit) {
-        return limit.motion.name == "fadir" || limit.motion.name == "faber";
-      }))
+  if (std::any_of(result.limits.begin(), result.limits.end(),
+                  [](const MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   if (result.map) text += map_text(*result.map);
   return text + fmt::format("  {}\n", io::scope_note);

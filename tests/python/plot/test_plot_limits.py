@@ -66,6 +66,15 @@ def test_normal_ranges_stand_behind_where_a_source_has_one():
     assert not bars(figures.limits(RESULT, normal_ranges=False), "normal_range")
 
 
+def test_fadir_and_faber_are_said_to_be_as_defined_here():
+    def said(*names):
+        ax = figures.limits({"motions": [motion(name, 20.0) for name in names]})
+        return [text.get_text() for text in ax.get_legend().get_texts()]
+
+    assert "FADIR, FABER: as defined here" in said("flexion", "faber")
+    assert "FADIR, FABER: as defined here" not in said("flexion")
+
+
 def test_whiskers_reach_from_5_to_95_percent_with_the_median_between():
     ax = figures.limits(RESULT)
     (whisker,) = [c for c in ax.containers if hasattr(c, "has_xerr")]
