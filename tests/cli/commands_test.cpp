@@ -1,14 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "support/temporary_folder.hpp"
 #include "condyle/io/file_digest.hpp"
-#include "support/test_meshes.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/version.hpp"
 #include "io/file/whole_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
 
 namespace condyle::test {
 namespace {
@@ -75,8 +77,6 @@ TEST_F(Command, InspectAnswersInTextAndJson) {
   EXPECT_EQ(answer["meshes"][0]["closed"], true);
   EXPECT_EQ(answer["meshes"][0]["components"].size(), 2u);
   EXPECT_EQ(answer["meshes"][0]["likely_unit"], "mm");
-}
-
   const Json& from = answer["provenance"];
   EXPECT_EQ(from["version"], version);
   EXPECT_EQ(from["command"], (Json{"inspect", "femur.ply", "hip_bone.ply"}));
@@ -84,6 +84,8 @@ TEST_F(Command, InspectAnswersInTextAndJson) {
   EXPECT_EQ(from["meshes"][1]["path"], "hip_bone.ply");
   EXPECT_EQ(from["meshes"][1]["bytes"], fs::file_size(here / "hip_bone.ply"));
   EXPECT_EQ(from["meshes"][1]["sha256"], digest_of(io::read_whole_file(here / "hip_bone.ply")).sha256);
+}
+
 TEST_F(Command, InspectRepairsOnRequestAndWritesTheResult) {
   TriMesh dirty = flipped(femur);
   dirty.vertices.push_back({5, 5, 5});
@@ -194,8 +196,9 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
 }
 
 TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
-  for (const char* command : {"", "inspect", "frame", "depth", "rom", "sample", "sample hip",
-                              "sample cartilages", "sample cohort", "study", "merge"}) {
+  for (const char* command :
+       {"", "init", "inspect", "frame", "depth", "rom", "load", "motion", "picture", "report", "sample",
+        "sample hip", "sample cartilages", "sample cohort", "study", "merge"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
     bool has_example = false;
@@ -220,8 +223,10 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
 
 /// The examples in the help of every command, run as they stand.
 TEST_F(Command, TheExamplesOfHelpWork) {
-  for (const char* command : {"inspect", "frame", "study"}) {
-    const std::string help = run(std::string(command) + " --help").out;
+  for (const char* command : {"init", "inspect", "frame", "load", "picture", "report", "study"}) {
+    // Where a line was too long for a terminal it goes on, indented by two.
+    const std::string help =
+        std::regex_replace(run(std::string(command) + " --help").out, std::regex("\n  (?=[^ ])"), " ");
     std::size_t examples = 0;
     for (auto at = help.find("Example"); at != help.npos && (at = help.find("condyle ", at)) != help.npos;
          ++at) {
@@ -232,6 +237,17 @@ TEST_F(Command, TheExamplesOfHelpWork) {
     }
     EXPECT_GT(examples, 0u) << help;
   }
+}
+
+TEST_F(Command, InitReplacesNoJointFile) {
+  const std::string edited = io::read_whole_file(here / "right_hip.toml");
+  expect_refused(3, "init hip_bone.ply femur.ply -o right_hip.toml", "right_hip.toml: is there already");
+  EXPECT_EQ(io::read_whole_file(here / "right_hip.toml"), edited);
+  const Ran ran = run("init hip_bone.ply femur.ply -o new.toml");
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const std::string proposed = io::read_whole_file(here / "new.toml");
+  EXPECT_EQ(run("init hip_bone.ply femur.ply").out, proposed);
+  expect_refused(3, "init hip_bone.ply femur.ply -o new.toml", "is not replaced");
 }
 
 TEST_F(Command, AnswersDoNotDependOnTheNumberOfThreads) {
