@@ -98,6 +98,36 @@ TEST(LimitBand, IsTheSameBytesOnAnyNumberOfThreadsAndAnotherWithAnotherSeed) {
   EXPECT_GE(different, 5u) << "of those that end by contact";
 }
 
+TEST(LimitBand, OfAJointWithABearingSurfaceIsTheSameBytesOnAnyNumberOfThreads) {
+  const Joint joint = head_and_post_joint({0.1, -0.05, 0.15});
+  ASSERT_TRUE(find_bearing_surface(joint).surface);
+  const std::vector<Motion> motions = hip_motions();
+  const auto bands_on = [&](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return *limit_bands(joint, motions, {}, {.samples = 40, .seed = 3}, {});
+  };
+  const auto one = bands_on(1);
+  ASSERT_EQ(one.size(), motions.size());
+  std::size_t with_width = 0;
+  for (const LimitBand& band : one) with_width += band.p5 < band.p95;
+  EXPECT_GT(with_width, 0u);
+  for (const std::size_t threads : {2, 7}) {
+    const auto other = bands_on(threads);
+    ASSERT_EQ(other.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      SCOPED_TRACE(testing::Message() << motions[i].name << " on " << threads << " threads");
+      EXPECT_EQ(other[i].p5, one[i].p5);
+      EXPECT_EQ(other[i].median, one[i].median);
+      EXPECT_EQ(other[i].p95, one[i].p95);
+      EXPECT_EQ(other[i].width_from.centre, one[i].width_from.centre);
+      EXPECT_EQ(other[i].width_from.axes, one[i].width_from.axes);
+      EXPECT_EQ(other[i].width_from.surface, one[i].width_from.surface);
+      EXPECT_EQ(other[i].share_without_contact, one[i].share_without_contact);
+      EXPECT_EQ(other[i].share_in_contact_at_start, one[i].share_in_contact_at_start);
+    }
+  }
+}
+
 TEST(LimitBand, RefusesWhatIsNoUncertainty) {
   const Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
   const std::vector<Motion> motions{flexion()};

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
 /// Maps against single limits, volumes against integrals.
@@ -49,6 +51,56 @@ Joint free_joint() {
           Side::right,
           {"far", box({90, 90, 90}, {100, 100, 100})},
           {"near", box({-10, -10, -10}, {10, 10, 10})}};
+}
+
+/// Whether the joint without its bearing surface meets at a pose, exactly.
+class ImpingesAt {
+ public:
+  explicit ImpingesAt(const Joint& joint)
+      : coordinates_(joint.coordinates()), contact_(without_bearing(joint)) {}
+  bool operator()(const JointAngles& angles) const {
+    return contact_.in_contact(pose_at(coordinates_, angles));
+  }
+
+ private:
+  static Joint without_bearing(Joint joint) {
+    const auto surface = find_bearing_surface(joint).surface.value();
+    TriMesh rest{joint.mobile.mesh.vertices(), {}};
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      if (!surface.triangles[t]) rest.triangles.push_back(joint.mobile.mesh.triangles()[t]);
+    joint.mobile.mesh = rest;
+    return joint;
+  }
+  CoordinateSystem coordinates_;
+  JointContact contact_;
+};
+
+/// Most points of this map that are in contact at zero internal rotation are free a few degrees away.
+TEST(MotionMap, OfARealHipHasWhatIsFreeBesideAStartInContactAndIslands) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const Joint joint{"vhf",
+                    JointKind::ball,
+                    Side::right,
+                    {"hip bone", read_ply(*data / "hip_vhf_right/hip_bone.ply")},
+                    {"femur", read_ply(*data / "hip_vhf_right/femur.ply")}};
+  const MapGrid grid{.row = {JointAngle::adduction, -40, 30, 10},
+                     .column = {JointAngle::flexion, -20, 120, 10},
+                     .vary = JointAngle::internal_rotation};
+  const MotionMap map = motion_map(grid, RangeOfMotion(joint));
+  const ImpingesAt impinges(joint);
+  std::size_t free_elsewhere = 0, islands = 0;
+  for (std::size_t i = 0; i < map.points.size(); ++i) {
+    const FreeAngles& point = map.points[i];
+    const JointAngles start = grid.start_of(i);
+    EXPECT_EQ(impinges(start), !point.from_start.free_at_start()) << i;
+    free_elsewhere += !point.from_start.free_at_start() && !point.intervals.empty();
+    islands += point.intervals.size() > 1;
+    for (const FreeInterval& free : point.intervals)
+      EXPECT_FALSE(impinges(turned_by(start, grid.vary, (free.low + free.high) * 0.5))) << i;
+  }
+  EXPECT_GT(free_elsewhere, 0u);
+  EXPECT_GT(islands, 0u);
 }
 
 TEST(GridAxis, CountsItsLastValueWhereStepsAreDecimal) {

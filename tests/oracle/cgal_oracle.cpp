@@ -3,6 +3,7 @@
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Distance_3/Triangle_3_Triangle_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
@@ -143,6 +144,20 @@ std::vector<double> CgalOracle::distances(PointsView points) const {
   for (std::size_t i = 0; i < points.size(); ++i)
     distances[i] = std::sqrt(trees_->tree.squared_distance(point(points[i])));
   return distances;
+}
+
+double CgalOracle::surface_distance(const TriMesh& other) const {
+  double least = min_distance(other.vertices);  // no surface is farther than its vertices
+  for (const Kernel::Triangle_3& triangle : triangles_of(other)) {
+    const CGAL::Bbox_3 box = triangle.bbox();
+    std::vector<Triangles::const_iterator> near;
+    trees_->tree.all_intersected_primitives(
+        Kernel::Iso_cuboid_3(box.xmin() - least, box.ymin() - least, box.zmin() - least, box.xmax() + least,
+                             box.ymax() + least, box.zmax() + least),
+        std::back_inserter(near));
+    for (const auto& each : near) least = std::min(least, std::sqrt(CGAL::squared_distance(*each, triangle)));
+  }
+  return least;
 }
 
 double CgalOracle::min_distance(PointsView points) const {

@@ -33,6 +33,9 @@ class CgalOracle {
   /// Smallest distance from a point to the surface, mm.
   double min_distance(PointsView points) const;
 
+  /// Smallest distance of the two surfaces, mm; 0 where they meet.
+  double surface_distance(const TriMesh& other) const;
+
   /// From each point to the surface, mm.
   std::vector<double> distances(PointsView points) const;
 

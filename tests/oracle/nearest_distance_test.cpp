@@ -6,6 +6,7 @@
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/hip.hpp"
 #include "oracle/cgal_oracle.hpp"
+#include "support/shared_data.hpp"
 
 namespace condyle::test {
 namespace {
@@ -21,7 +22,8 @@ TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
     const RadialContact contact = joint.radial(X_FM);
     const ContactMeasures found = measure_contact(joint, X_FM, VertexStates(contact));
     const TriMesh femur_in_F = posed(X_FM, hip.femur);
-    const auto of_mobile = CgalOracle(hip.hip_bone).distances(femur_in_F.vertices);
+    const CgalOracle oracle(hip.hip_bone);
+    const auto of_mobile = oracle.distances(femur_in_F.vertices);
     const auto of_fixed = CgalOracle(femur_in_F).distances(hip.hip_bone.vertices);
     ASSERT_EQ(found.distances.mobile.size(), of_mobile.size());
     ASSERT_EQ(found.distances.fixed.size(), of_fixed.size());
@@ -33,8 +35,32 @@ TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
     const double least = std::min(*std::min_element(of_mobile.begin(), of_mobile.end()),
                                   *std::min_element(of_fixed.begin(), of_fixed.end()));
     EXPECT_LE(found.nearest.distance_mm, least + 1e-9);
+    EXPECT_NEAR(found.nearest.distance_mm, oracle.surface_distance(femur_in_F), 1e-9);
     EXPECT_EQ(found.nearest.distance_mm == 0, !contact.pairs.empty());
   }
+}
+
+/// Of real bones, posed, and where edges are nearer to each other than any vertex is to a triangle.
+TEST(NearestDistance, OfTwoSurfacesIsWhatCgalFinds) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const TriMesh hip_bone = read_ply(*data / "hip_vhf_right/hip_bone.ply"),
+                femur = read_ply(*data / "hip_vhf_right/femur.ply");
+  const JointContact joint(hip_bone, femur);
+  const CgalOracle oracle(hip_bone);
+  std::size_t apart = 0, between_edges = 0;
+  for (const double flexion : {0.0, 25.0, 50.0, 75.0, 100.0, 140.0}) {
+    const Pose X_FM = pose_at({.side = Side::right}, {Angle::degrees(flexion), Angle(), Angle::degrees(5)});
+    const TriMesh femur_in_F = posed(X_FM, femur);
+    const ContactMeasures found = measure_contact(joint, X_FM, VertexStates(joint.radial(X_FM)));
+    EXPECT_NEAR(found.nearest.distance_mm, oracle.surface_distance(femur_in_F), 1e-9) << flexion;
+    apart += found.nearest.distance_mm > 0;
+    const double by_vertices = std::min(oracle.min_distance(femur_in_F.vertices),
+                                        CgalOracle(femur_in_F).min_distance(hip_bone.vertices));
+    between_edges += found.nearest.distance_mm > 0 && found.nearest.distance_mm < by_vertices - 1e-9;
+  }
+  EXPECT_GT(apart, 1u);
+  EXPECT_GT(between_edges, 0u);
 }
 
 }  // namespace
