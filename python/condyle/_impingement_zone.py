@@ -34,7 +34,8 @@ class BodyZone:
 class ImpingementZone:
     """What overlaps `past_deg` past a limit. Hours are on the socket's sagittal clock, angles around the neck.
 
-    An hour is None for joints other than hips, and farther than 1.6 head radii from the joint centre, where no rim is."""
+    An hour is None for joints other than hips, and farther than 1.6 head radii from the joint centre, where no rim is.
+    """
 
     limit: MotionLimit
     past_deg: float

@@ -144,8 +144,9 @@ class RangeOfMotion:
         return which, first, last, step
 
     def bands(self, motions: Optional[Sequence[MotionLike]] = None, *, samples: int = 200,
-              seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None, sigma_axes_deg: Optional[float] = None,
-              sigma_surface_mm: Optional[float] = None, progress: Progress = None) -> tuple[LimitBand, ...]:
+              seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
+              sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None,
+              progress: Progress = None) -> tuple[LimitBand, ...]:
         """How far each limit moves with what is uncertain: 5 to 95 % of `samples` displaced joints, 20 to 100,000.
 
         Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1. The
@@ -160,8 +161,8 @@ class RangeOfMotion:
             (sigma_surface_mm, usual[2], "sigma_surface_mm"))]
         found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked],
                                     count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES),
-                                    usual[3] if seed is None else count(seed, "seed", high=2**64 - 1), sigma[0], sigma[1], sigma[2],
-                                    progress_of(progress))
+                                    usual[3] if seed is None else count(seed, "seed", high=2**64 - 1),
+                                    sigma[0], sigma[1], sigma[2], progress_of(progress))
         return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
     def zones(self, motions: Optional[Sequence[MotionLike]] = None, *, past_deg: float = 5,
@@ -196,7 +197,8 @@ class RangeOfMotion:
         _native.write_report(
             self._native, self._joint._native, path_of(path), None if title is None else text_of(title, "title"),
             [self._motions.tuple_of(limit.motion) for limit in self.limits], samples,
-            None if seed is None else count(seed, "seed", high=2**64 - 1), None if past_deg is None else number(past_deg, "past_deg"),
+            None if seed is None else count(seed, "seed", high=2**64 - 1),
+            None if past_deg is None else number(past_deg, "past_deg"),
             progress_of(progress))
 
     def _zone_of(self, found: Optional[dict[str, Any]]) -> Optional[ImpingementZone]:

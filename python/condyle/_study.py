@@ -248,8 +248,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError(f"load: a StudyLoad is needed, not {type(load).__name__}")
     out = path_of(folder, "folder")
     _native.run_study(path_of(table, "table"), out, names, count(band_samples, "band_samples", high=100_000),
-                      None if seed is None else count(seed, "seed", high=2**64 - 1), depth_at, None if load is None else load._checked(), part,
-                      bool(strict), progress_of(progress))
+                      None if seed is None else count(seed, "seed", high=2**64 - 1), depth_at,
+                      None if load is None else load._checked(), part, bool(strict), progress_of(progress))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))
 
 
