@@ -35,9 +35,10 @@ struct JointQuestion {
   std::vector<std::string_view> scenes, quick_scenes;
 };
 
-const std::array<JointQuestion, 5> joint_questions = {{
+const std::array<JointQuestion, 6> joint_questions = {{
     {"first_contact", ask_first_contact, {"sample_1", "sample_2", "sample_3", "sample_4"}, {"sample_1"}},
     {"motion_map", ask_motion_map, {"hip_vhf_right", "sample_3"}, {"sample_1"}},
+    {"limit_bands", ask_limit_bands, {"hip_vhf_right"}, {"sample_1"}},
     {"radial_table",
      ask_radial_table,
      {"libhip_1", "libhip_2", "libhip_3", "libhip_4", "ball_0.1mm_4"},

@@ -56,7 +56,7 @@ void ask_motion_map(const Scene& scene, Effort effort, Report& report) {
                               points / wall, processor * 1e3 / points});
   const auto mean = [&](std::int64_t sum) { return static_cast<double>(sum) / points; };
   if (effort == Effort::full) {
-    add_goal({"1° map, 71 x 141 points, all threads", joint.name, Bound::at_most, 20, "s on the wall"}, wall,
+    add_goal({"1° map, 71 x 141 points, all threads", joint.name, Bound::at_most, 15, "s on the wall"}, wall,
              report);
     add_goal({"the same, processors kept busy", joint.name, Bound::at_least, 1.8, "of 2 threads"},
              processor / wall, report);

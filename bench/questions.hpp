@@ -17,6 +17,9 @@ void ask_first_contact(const Scene& scene, Effort effort, Report& report);
 /// Both limits of internal rotation over a grid of flexion and adduction, on all threads.
 void ask_motion_map(const Scene& scene, Effort effort, Report& report);
 
+/// Bands of all motions of the hip, 200 samples, on all threads.
+void ask_limit_bands(const Scene& scene, Effort effort, Report& report);
+
 /// What the radial table costs beside its queries at single poses: building it and following a deformation,
 /// other instruction sets.
 void ask_radial_table(const Scene& scene, Effort effort, Report& report);
