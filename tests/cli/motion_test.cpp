@@ -3,47 +3,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include <iomanip>
 #include <numbers>
 #include <sstream>
 
-#include "command.hpp"
-#include "condyle/io/mesh_file.hpp"
-#include "support/cup.hpp"
-#include "support/knee.hpp"
+#include "motion_scene.hpp"
 #include "support/shared_data.hpp"
-#include "support/temporary_folder.hpp"
 
 /// Recorded motions and loads on the command line.
 
 namespace condyle::test {
 namespace {
-
-namespace fs = std::filesystem;
-using Json = nlohmann::json;
-
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-/// A CSV file's numbers; an empty field is NaN.
-NumberTable csv_of(const fs::path& path) {
-  std::ifstream file(path);
-  NumberTable table;
-  std::string line, field;
-  std::getline(file, line);
-  for (std::istringstream names(line); std::getline(names, field, ',');) table.columns.push_back(field);
-  while (std::getline(file, line)) {
-    std::vector<double> row;
-    line += ",";
-    for (std::istringstream fields(line); std::getline(fields, field, ',');)
-      row.push_back(field.empty() ? std::nan("") : std::stod(field));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
 
 const std::vector<std::string> contact_columns = {"time_s",
                                                   "area_mm2",
@@ -115,38 +85,39 @@ TEST_P(PublishedMotion, TheExampleGivesThePublishedCurves) {
   EXPECT_EQ(json["contact"]["casting"], "mobile");
 }
 
+TEST_P(PublishedMotion, StatesInDegreesGiveTheCurvesOfThoseInRadians) {
+  const auto knee = shared_knee();
+  if (!knee) GTEST_SKIP() << "the shared knee is missing";
+  ::setenv("CONDYLE_DATA", fs::absolute(shared_data_folder()).c_str(), 1);
+  const TemporaryFolder folder;
+  for (const bool in_degrees : {false, true}) {
+    std::ostringstream text;
+    text << std::setprecision(17) << "inDegrees=" << (in_degrees ? "yes" : "no") << "\nendheader\n";
+    for (const std::string& name : knee->states.columns) text << name << '\t';
+    for (const std::size_t frame : {0u, 100u, 250u}) {
+      text << '\n';
+      for (std::size_t c = 0; c < knee->states.columns.size(); ++c) {
+        const std::string& name = knee->states.columns[c];
+        const auto has = [&](const char* part) { return name.find(part) != name.npos; };
+        const bool turns = name != "time" && !has("_tx") && !has("_ty") && !has("_tz");
+        text << knee->states.rows[frame][c] * (turns && in_degrees ? 180 / std::numbers::pi : 1) << '\t';
+      }
+    }
+    const std::string unit = in_degrees ? "deg" : "rad";
+    std::ofstream(folder / (unit + ".sto")) << text.str() << '\n';
+    const Ran ran = run_condyle(folder / ".", std::string("motion " CONDYLE_EXAMPLES "/") + GetParam().file +
+                                                  " --motion " + unit + ".sto --load --out " + unit);
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  }
+  const std::string of_radians = text_of(folder / "rad/curves.csv");
+  EXPECT_EQ(csv_of(folder / "rad/curves.csv").rows.size(), 3u);
+  EXPECT_EQ(text_of(folder / "deg/curves.csv"), of_radians);
+}
+
 INSTANTIATE_TEST_SUITE_P(Examples, PublishedMotion,
                          ::testing::Values(Example{"tibiofemoral.toml", "tf"},
                                            Example{"patellofemoral.toml", "pf"}),
                          [](const auto& param) { return std::string(param.param.contact); });
-
-/// A ball in a cup, and a shank that swings against a post.
-class Motion : public ::testing::Test {
- protected:
-  void SetUp() override {
-    write_mesh(folder / "cup.ply", cup(25, 5));
-    write_mesh(folder / "ball.ply", sphere(Vec3::Zero(), 24.8, 5));
-    write("cup.toml",
-          joint("free", "cup.ply", "ball.ply", "[contact]\ncasting = \"fixed\"\n" + layer("fixed")));
-    write_mesh(folder / "post.ply", box({40, -120, -50}, {60, -80, 50}));
-    write_mesh(folder / "shank.ply", box({-1, -100, -2}, {1, -10, 2}));
-    write("shank.toml", joint("ball", "post.ply", "shank.ply", ""));
-  }
-  static std::string layer(const std::string& body) {
-    return "[contact." + body + "]\nyoungs_modulus_mpa = 10\npoisson_ratio = 0.45\nthickness = 6\n";
-  }
-  static std::string joint(const std::string& kind, const std::string& fixed, const std::string& mobile,
-                           const std::string& more) {
-    return "condyle = 1\nname = \"hip\"\nkind = \"" + kind +
-           "\"\njoint = \"hip\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"" + fixed +
-           "\"\n[mobile]\nmesh = \"" + mobile +
-           "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" + more;
-  }
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-  Ran run(const std::string& arguments) const { return run_condyle(folder / ".", arguments); }
-
-  const TemporaryFolder folder;
-};
 
 TEST_F(Motion, ContactBetweenTwoSamplesIsFound) {
   // The shank, 1 mm before its axis, meets the post where its front corner does: at 100 mm below and 40 in front.

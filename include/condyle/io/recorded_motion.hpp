@@ -24,7 +24,7 @@ struct ColumnOfCoordinate {
   /// The column's name. For "/jointset/knee_r/knee_flex_r/value", as OpenSim writes states, "knee_flex_r" does too where
   /// no other column has it.
   std::string column = {};
-  /// Of the column. An angle without one is as the file's header says; a length must have one.
+  /// Of the column. An angle without one is as the file's header says, and must not contradict it; a length must have one.
   std::optional<ColumnUnit> unit = {};
   double sign = 1;    ///< 1 or -1
   double offset = 0;  ///< degrees or mm
@@ -48,7 +48,7 @@ struct NamedCoordinates {
 };
 
 /// Raises FileError for a column that is not there (naming one that was most likely meant) or could be two, and for an
-/// angle whose unit neither the mapping nor the file's header gives. Lengths must have a unit.
+/// angle whose unit neither the mapping nor the file's header gives, or both and not the same. Lengths must have a unit.
 NamedCoordinates recorded_coordinates(const MotionTable& table,
                                       const std::vector<ColumnOfCoordinate>& mapping);
 

@@ -14,7 +14,17 @@ namespace condyle {
 namespace {
 
 ColumnUnit unit_of(const MotionTable& table, const ColumnOfCoordinate& entry) {
-  if (entry.unit) return *entry.unit;
+  if (entry.unit) {
+    const bool is_degrees = entry.unit == ColumnUnit::degrees;
+    // Which of the two is wrong cannot be told, and either answer would look like one.
+    if (entry.kind == CoordinateKind::angle && table.in_degrees && *table.in_degrees != is_degrees)
+      throw FileError(fmt::format(
+          "{}: column {}: its unit is given as {}, and the header says inDegrees={}: leave the unit out, or "
+          "correct the header",
+          table.path.string(), io::in_quotes(entry.column), is_degrees ? "degrees" : "radians",
+          *table.in_degrees ? "yes" : "no"));
+    return *entry.unit;
+  }
   assert(entry.kind == CoordinateKind::angle && "a length has a unit");
   if (!table.in_degrees)
     throw FileError(

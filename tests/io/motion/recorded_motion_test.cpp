@@ -39,7 +39,7 @@ TEST(RecordedCoordinates, UnitSignAndOffsetAreApplied) {
   EXPECT_EQ(out.notes, Strings{});
 }
 
-TEST(RecordedCoordinates, AnglesAreAsTheHeaderSaysUnlessTheMappingSays) {
+TEST(RecordedCoordinates, AnglesAreAsTheHeaderSays) {
   const std::string sto = "inDegrees=no\nendheader\ntime a\n0 1\n";
   const auto angle = [](const std::string& text, std::optional<ColumnUnit> unit) {
     return recorded_coordinates(read_table("a.sto", text),
@@ -49,7 +49,26 @@ TEST(RecordedCoordinates, AnglesAreAsTheHeaderSaysUnlessTheMappingSays) {
   };
   EXPECT_EQ(angle(sto, {}), 180 / std::numbers::pi);
   EXPECT_EQ(angle(replaced(sto, "=no", "=yes"), {}), 1);
-  EXPECT_EQ(angle(sto, ColumnUnit::degrees), 1);
+  EXPECT_EQ(angle(sto, ColumnUnit::radians), 180 / std::numbers::pi);
+  EXPECT_EQ(angle(replaced(sto, "=no", "=yes"), ColumnUnit::degrees), 1);
+}
+
+TEST(RecordedCoordinates, AUnitThatContradictsTheHeaderIsRefused) {
+  const auto refused = [](const char* header, ColumnUnit unit) {
+    return test::refusal("a.sto", std::string(header) + "\nendheader\ntime /j/k/a/value\n0 1\n",
+                         [&](const auto& path) {
+                           recorded_coordinates(read_motion_table(path),
+                                                {{.coordinate = "flexion", .column = "a", .unit = unit}});
+                         });
+  };
+  EXPECT_EQ(
+      refused("inDegrees=yes", ColumnUnit::radians),
+      "column 'a': its unit is given as radians, and the header says inDegrees=yes: leave the unit out, "
+      "or correct the header");
+  EXPECT_EQ(refused("inDegrees=no", ColumnUnit::degrees),
+            "column 'a': its unit is given as degrees, and the header says inDegrees=no: leave the unit out, "
+            "or correct the header");
+  EXPECT_EQ(refused("title", ColumnUnit::radians), "accepted") << "no header says it";
 }
 
 TEST(RecordedCoordinates, AFrameWithAGapIsAGapAndOnlyInColumnsThatAreNeeded) {
