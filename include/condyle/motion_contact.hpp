@@ -32,6 +32,11 @@ struct FrameContact {
   /// Of the surface that casts, in its body's frame: the mobile one's where both are cast.
   SurfaceContact surface = {};
   Wrench on_mobile = {};  ///< by the fixed body, in F, about the origin of M; with pressure only
+  /// Rays that a longer reach would find in contact: NormalDepth::cut_off_by_reach(). That costs as much as the depths, so it
+  /// is asked where depths near the reach or their absence give reason to: the largest is beyond half of it, or no ray ends in
+  /// contact though bodies meet or one is open. Else 0, as the depth does not go from below a half to beyond the whole of the
+  /// reach from one ray to the next, steps of a surface aside.
+  std::size_t cut_off_by_reach = 0;
 };
 
 struct AlongMotionOptions {

@@ -108,6 +108,7 @@ py::list along(const JointHandle& handle, const py::object& poses, const Elastic
     dict["surface"] = dict_of(SurfaceContact(frame->surface), caster, rays.rule);
     dict["force_n"] = array_of(frame->on_mobile.force_n);
     dict["moment_nmm"] = array_of(frame->on_mobile.moment_nmm);
+    dict["cut_off_by_reach"] = frame->cut_off_by_reach;
     answers.append(dict);
   }
   return answers;

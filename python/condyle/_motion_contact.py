@@ -35,6 +35,9 @@ class FrameContact:
         Of the surface that casts, in its body's frame: the mobile one's where both are cast.
     force_n, moment_nmm : (3,) float64
         By the fixed body on the mobile one, in F, about the origin of M; 0 where no pressure was asked for.
+    cut_off_by_reach : int
+        Rays that a longer reach would find in contact; looked for where the largest depth is beyond half of the reach, or no
+        ray ends in contact though the bodies meet or one is open.
     """
 
     X_FM: NDArray[np.float64]
@@ -44,6 +47,7 @@ class FrameContact:
     surface: SurfaceContact
     force_n: NDArray[np.float64]
     moment_nmm: NDArray[np.float64]
+    cut_off_by_reach: int
 
     def __repr__(self) -> str:
         return f"FrameContact({'in contact' if self.in_contact else 'apart'}; {self.surface!r})"

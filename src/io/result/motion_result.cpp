@@ -19,7 +19,7 @@ using io::Json;
 
 /// What a person wants to know of a motion before looking at its curves.
 struct Summary {
-  std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0;
+  std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0, cut_off = 0;
   struct Largest {
     double value = 0, at = 0;
   };
@@ -39,6 +39,7 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     if (!frame) continue;
     if (frame->in_contact) ++summary.in_contact;
     if (frame->surface.met_from_front > 0) ++summary.from_front;
+    if (frame->cut_off_by_reach > 0) ++summary.cut_off;
     const ContactTotals& totals = frame->surface.totals;
     const auto consider = [&](Summary::Largest& largest, double value) {
       if (value > largest.value) largest = {value, question.motion.times.values[i]};
@@ -163,6 +164,9 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   if (summary.from_front > 0)
     text += fmt::format("  in {} frames rays met the open target from its front: overlap there may be none\n",
                         summary.from_front);
+  if (summary.cut_off > 0)
+    text += fmt::format("  in {} frames the reach of {} mm cuts off rays that would be in contact\n",
+                        summary.cut_off, question.contact.rays.reach_mm);
   return text;
 }
 
@@ -190,6 +194,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
             {"along", axis},
             {"frames_in_contact", summary.in_contact},
             {"frames_met_from_front", summary.from_front},
+            {"frames_cut_off_by_reach", summary.cut_off},
             {"largest_area_mm2", largest(summary.area)},
             {"largest_depth_mm", largest(summary.depth)}};
   if (question.with_pressure) {

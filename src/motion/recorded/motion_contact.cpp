@@ -1,5 +1,6 @@
 #include "condyle/motion_contact.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -44,13 +45,28 @@ auto named(std::size_t frame, const Answer& answer) {
   }
 }
 
+/// Whether rays may be cut off by the reach: FrameContact::cut_off_by_reach.
+bool may_cut_off(const FrameContact& frame, double max_depth_mm, double reach_mm, bool both_closed) {
+  return max_depth_mm > 0 ? max_depth_mm > reach_mm / 2 : frame.in_contact || !both_closed;
+}
+
 void ask(const ElasticContact& surfaces, const AlongMotionOptions&, FrameContact& frame) {
   ElasticContactResults results = surfaces.at(frame.X_FM);
+  double max_depth_mm = 0;
+  for (const auto* surface : {&results.fixed, &results.mobile})
+    if (*surface) max_depth_mm = std::max(max_depth_mm, (*surface)->totals.max_depth_mm);
+  const bool closed = surfaces.fixed().is_closed() && surfaces.mobile().is_closed();
+  if (may_cut_off(frame, max_depth_mm, surfaces.options().rays.reach_mm, closed))
+    frame.cut_off_by_reach = surfaces.cut_off_by_reach(frame.X_FM);
   frame.surface = std::move(results.mobile ? *results.mobile : *results.fixed);
   frame.on_mobile = results.on_mobile;
 }
 void ask(const NormalDepth& surfaces, const AlongMotionOptions& options, FrameContact& frame) {
-  surfaces.at(options.casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM), frame.surface);
+  const Pose X_CT = options.casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM);
+  surfaces.at(X_CT, frame.surface);
+  const bool closed = surfaces.casting().is_closed() && surfaces.target().is_closed();
+  if (may_cut_off(frame, frame.surface.totals.max_depth_mm, surfaces.options().reach_mm, closed))
+    frame.cut_off_by_reach = surfaces.cut_off_by_reach(X_CT);
 }
 
 /// The smallest gap, frame after frame: where the surfaces were nearest before they are near now.

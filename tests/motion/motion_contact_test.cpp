@@ -1,0 +1,64 @@
+#include "condyle/motion_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "condyle/contact.hpp"
+#include "support/cup.hpp"
+
+/// Frames of a motion tell what single poses do.
+
+namespace condyle {
+namespace {
+
+using test::translated;
+
+std::vector<std::optional<Pose>> lowered(std::initializer_list<double> by_mm) {
+  std::vector<std::optional<Pose>> X_FM;
+  for (const double y : by_mm) X_FM.emplace_back(translated({0, -y, 0}));
+  return X_FM;
+}
+
+/// A ball of 24.8 mm in a cup of 25 mm is y - 0.2 deep once lowered by y.
+TEST(MotionContact, FramesCountTheRaysThatTheReachCutsOff) {
+  const TriMesh cup = test::cup(25, 4), ball = test::sphere(Vec3::Zero(), 24.8, 4);
+  const JointContact joint(cup, ball);
+  const auto X_FM = lowered({0, 0.25, 0.35, 0.45, 0.6, 1.5, 5});
+  for (const Casting casting : {Casting::fixed, Casting::mobile, Casting::both}) {
+    const ElasticContact surfaces(
+        cup, ball, {.casting = casting, .rays = {.reach_mm = 0.2}, .fixed = test::layer_of_stiffness(1)});
+    const auto frames = contact_along(joint, &surfaces, X_FM);
+    std::size_t cut_off = 0;
+    for (std::size_t i = 0; i < X_FM.size(); ++i) {
+      EXPECT_EQ((*frames)[i]->cut_off_by_reach, surfaces.cut_off_by_reach(*X_FM[i])) << i;
+      if ((*frames)[i]->cut_off_by_reach > 0) ++cut_off;
+    }
+    EXPECT_GE(cut_off, 2u);
+    EXPECT_EQ((*frames)[1]->cut_off_by_reach, 0u) << "0.05 mm deep at most";
+  }
+  const NormalDepth depths(cup, ball, {.reach_mm = 0.2});
+  const auto frames = contact_along(joint, &depths, X_FM, {.casting = BodyRole::fixed});
+  for (std::size_t i = 0; i < X_FM.size(); ++i)
+    EXPECT_EQ((*frames)[i]->cut_off_by_reach, depths.cut_off_by_reach(*X_FM[i])) << i;
+}
+
+/// Sheets bound nothing: one that is wholly past the other meets it nowhere, and its rays end beyond the reach.
+TEST(MotionContact, ASheetWhollyBeyondTheReachIsCutOff) {
+  const auto sheet = [](double half, const Vec3& normal) {
+    TriMesh mesh;
+    for (const auto& [x, z] : {std::pair{-1.0, -1.0}, {-1.0, 1.0}, {1.0, 1.0}, {1.0, -1.0}})
+      mesh.vertices.push_back(Vec3(half * x, 0, half * z));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return normal.y() > 0 ? mesh : test::flipped(std::move(mesh));
+  };
+  const TriMesh floor = sheet(10, Vec3::UnitY()), plate = sheet(5, -Vec3::UnitY());
+  const JointContact joint(floor, plate);
+  const NormalDepth depths(plate, floor, {.reach_mm = 0.2});
+  const auto frames = contact_along(joint, &depths, lowered({0.1, 0.3}));
+  EXPECT_GT((*frames)[0]->surface.totals.area_mm2, 0);
+  EXPECT_EQ((*frames)[0]->cut_off_by_reach, 0u);
+  EXPECT_EQ((*frames)[1]->surface.totals.area_mm2, 0);
+  EXPECT_GT((*frames)[1]->cut_off_by_reach, 0u);
+}
+
+}  // namespace
+}  // namespace condyle
