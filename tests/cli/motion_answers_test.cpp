@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <sstream>
+
 #include "motion_scene.hpp"
 
 /// What answers on recorded motions say beside their curves.
@@ -33,6 +36,73 @@ TEST_F(Motion, FramesMetFromTheFrontAreCounted) {
   EXPECT_EQ(met("60"), 3);
   const std::string text = run("motion cup.toml --motion lower.csv --casting mobile --reach 60").out;
   EXPECT_NE(text.find("in 3 frames rays met the open target from its front"), text.npos) << text;
+}
+
+/// A body of two meshes: the one that touches is named wherever contact is told.
+TEST_F(Motion, AnswersNameThePartThatTouches) {
+  const TriMesh bone = box({-5, 100, -5}, {5, 110, 5});
+  write_mesh(folder / "bone.ply", bone);
+  write("parts.toml",
+        of_bodies("free",
+                  "meshes = [{ name = \"bone\", mesh = \"bone.ply\" }, { name = \"cartilage\", mesh = "
+                  "\"cup.ply\" }]",
+                  "mesh = \"ball.ply\"", "[contact]\ncasting = \"fixed\"\n" + layer("fixed")));
+  write("lower.csv", "time,y_mm\n0,0\n0.1,-0.5\n");
+
+  const Ran load = run("load parts.toml --pose y=-0.5 --json --out load --ascii");
+  ASSERT_EQ(load.exit_code, 0) << load.err;
+  const Json surface = Json::parse(load.out)["fixed_surface"];
+  EXPECT_EQ(surface["deepest_part"]["name"], "cartilage");
+  EXPECT_EQ(surface["deepest_part"]["triangle"].get<std::size_t>() + bone.triangles.size(),
+            surface["deepest_triangle"].get<std::size_t>());
+  EXPECT_NE(text_of(folder / "load/fixed.vtp").find("Name=\"part\""), std::string::npos);
+  EXPECT_EQ(text_of(folder / "load/mobile.vtp").find("Name=\"part\""), std::string::npos);
+  EXPECT_NE(run("load parts.toml --pose y=-0.5").out.find(" of cartilage)"), std::string::npos);
+
+  const Ran motion = run("motion parts.toml --motion lower.csv --load --maps --json --out motion --ascii");
+  ASSERT_EQ(motion.exit_code, 0) << motion.err;
+  const Json deepest = Json::parse(motion.out)["largest_depth_mm"];
+  EXPECT_EQ(deepest["time_s"], 0.1);
+  EXPECT_EQ(deepest["triangle"], surface["deepest_triangle"]);
+  EXPECT_EQ(deepest["part"], surface["deepest_part"]);
+  EXPECT_NE(text_of(folder / "motion/map_fixed_00001.vtp").find("Name=\"part\""), std::string::npos);
+  EXPECT_NE(run("motion parts.toml --motion lower.csv").out.find(" of cartilage)"), std::string::npos);
+
+  // One mesh: no part is named, and the answer is the same.
+  const Json whole = Json::parse(run("load cup.toml --pose y=-0.5 --json").out)["fixed_surface"];
+  EXPECT_FALSE(whole.contains("deepest_part"));
+  EXPECT_EQ(whole["deepest_triangle"], surface["deepest_part"]["triangle"]);
+  EXPECT_EQ(whole["area_mm2"], surface["area_mm2"]);
+}
+
+TEST_F(Motion, ContactBetweenSamplesTellsWhereAndOfWhichParts) {
+  write_mesh(folder / "upper.ply", box({-1, -60, -2}, {1, -10, 2}));
+  write_mesh(folder / "lower.ply", box({-1, -100, -2}, {1, -60, 2}));
+  write("parts.toml",
+        of_bodies("ball", "mesh = \"post.ply\"",
+                  "meshes = [{ name = \"upper\", mesh = \"upper.ply\" }, { name = \"lower\", mesh = "
+                  "\"lower.ply\" }]",
+                  ""));
+  write("swing.csv", "time,flexion_deg\n0,0\n0.1,30\n");
+  const Ran ran = run("motion parts.toml --motion swing.csv --json --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const Json contact = Json::parse(ran.out)["between_samples"]["contacts"][0];
+  EXPECT_EQ(contact["entry"]["mobile_part"], "lower");
+  EXPECT_FALSE(contact["entry"].contains("fixed_part")) << "one mesh";
+  // The front corner of the shank goes round with radius hypot(1, 100) and meets the post at x = 40.
+  EXPECT_NEAR(contact["entry"]["point_mm"][0].get<double>(), 40, 1e-9);
+  EXPECT_NEAR(contact["entry"]["point_mm"][1].get<double>(), -std::sqrt(1 + 100 * 100 - 40 * 40), 1e-9);
+  EXPECT_EQ(contact["exit"]["point_mm"], nullptr) << "the recording ends in contact";
+  std::istringstream lines(text_of(folder / "out/contacts.csv"));
+  std::string names, row;
+  std::getline(lines, names);
+  std::getline(lines, row);
+  EXPECT_TRUE(
+      names.ends_with("is_certain,entry_x_mm,entry_y_mm,entry_z_mm,entry_fixed_part,entry_mobile_part,"
+                      "exit_x_mm,exit_y_mm,exit_z_mm,exit_fixed_part,exit_mobile_part"))
+      << names;
+  EXPECT_TRUE(row.ends_with(",,lower,,,,,")) << row;
+  EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(names.begin(), names.end(), ','));
 }
 
 }  // namespace

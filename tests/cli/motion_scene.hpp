@@ -60,10 +60,14 @@ class Motion : public ::testing::Test {
   }
   static std::string joint(const std::string& kind, const std::string& fixed, const std::string& mobile,
                            const std::string& more) {
+    return of_bodies(kind, "mesh = \"" + fixed + "\"", "mesh = \"" + mobile + "\"", more);
+  }
+  /// The same with what the tables of the bodies say.
+  static std::string of_bodies(const std::string& kind, const std::string& fixed, const std::string& mobile,
+                               const std::string& more) {
     return "condyle = 1\nname = \"hip\"\nkind = \"" + kind +
-           "\"\njoint = \"hip\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\nmesh = \"" + fixed +
-           "\"\n[mobile]\nmesh = \"" + mobile +
-           "\"\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" + more;
+           "\"\njoint = \"hip\"\nside = \"right\"\nunits = \"mm\"\n[fixed]\n" + fixed + "\n[mobile]\n" +
+           mobile + "\n[frame]\ncentre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n" + more;
   }
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
   Ran run(const std::string& arguments) const { return run_condyle(folder / ".", arguments); }

@@ -133,7 +133,7 @@ std::vector<double> read_thickness(const LayerEntry& entry, const Body& surface)
 
 ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint) {
   const auto surface = [](const Body& body, const std::string& part) {
-    return part.empty() ? Body{body.name, body.mesh} : Body{part, mesh_of_part(body, part)};
+    return part.empty() ? body : Body{part, mesh_of_part(body, part)};
   };
   return {surface(joint.fixed, entry.fixed_part), surface(joint.mobile, entry.mobile_part)};
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace condyle::io {
 namespace {
 
@@ -83,6 +85,23 @@ Json totals_json(const ContactTotals& totals, bool with_pressure) {
   json["force_n"] = numbers(totals.force_n);
   json["moment_nmm"] = numbers(totals.moment_nmm);
   return json;
+}
+
+const FaceContact* deepest_of(const SurfaceContact& surface) {
+  const auto deepest =
+      std::max_element(surface.faces.begin(), surface.faces.end(),
+                       [](const auto& a, const auto& b) { return a.max_depth_mm < b.max_depth_mm; });
+  return deepest == surface.faces.end() ? nullptr : &*deepest;
+}
+
+void add_triangle_part(Json& json, const char* key, const Body& body, Index triangle) {
+  if (const BodyPart* part = part_of_triangle(body, triangle))
+    json[key] = {{"name", part->name}, {"triangle", triangle - part->first_triangle}};
+}
+
+std::string triangle_part_text(const Body& body, Index triangle) {
+  const BodyPart* part = part_of_triangle(body, triangle);
+  return part ? fmt::format(" ({} of {})", triangle - part->first_triangle, part->name) : "";
 }
 
 }  // namespace condyle::io

@@ -26,4 +26,11 @@ std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces&
 
 Json totals_json(const ContactTotals& totals, bool with_pressure);
 
+/// The face in contact with the greatest depth; null without contact.
+const FaceContact* deepest_of(const SurfaceContact& surface);
+/// The part of the body that a triangle is of and its number there, under this key; nothing where the body is one mesh.
+void add_triangle_part(Json& json, const char* key, const Body& body, Index triangle);
+/// " (12 of meniscus)": the same behind the number of a triangle.
+std::string triangle_part_text(const Body& body, Index triangle);
+
 }  // namespace condyle::io

@@ -28,9 +28,12 @@ Json wrench_json(const Wrench& wrench) {
   return {{"force_n", io::numbers(wrench.force_n)}, {"moment_nmm", io::numbers(wrench.moment_nmm)}};
 }
 
-Json surface_json(const std::optional<SurfaceContact>& surface) {
+Json surface_json(const Body& body, const std::optional<SurfaceContact>& surface) {
   if (!surface) return nullptr;
   Json json = io::totals_json(surface->totals, true);
+  const FaceContact* deepest = io::deepest_of(*surface);
+  json["deepest_triangle"] = deepest ? Json(deepest->face) : Json(nullptr);
+  if (deepest) io::add_triangle_part(json, "deepest_part", body, deepest->face);
   json["met_from_front"] = surface->met_from_front;
   json["rim_faces"] = surface->rim_faces;
   return json;
@@ -55,8 +58,11 @@ std::string surface_text(const Body& body, const std::optional<SurfaceContact>& 
   if (!surface) return "";
   const ContactTotals& totals = surface->totals;
   if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name);
-  std::string text = fmt::format("  {}: {:.2f} mm2 in contact, depth {:.3f} mm in the mean, {:.3f} at most\n",
-                                 body.name, totals.area_mm2, totals.mean_depth_mm, totals.max_depth_mm);
+  const Index deepest = io::deepest_of(*surface)->face;
+  std::string text =
+      fmt::format("  {}: {:.2f} mm2 in contact, depth {:.3f} mm in the mean, {:.3f} at most, triangle {}{}\n",
+                  body.name, totals.area_mm2, totals.mean_depth_mm, totals.max_depth_mm, deepest,
+                  io::triangle_part_text(body, deepest));
   text += fmt::format("    pressure {:.3f} MPa in the mean, {:.3f} at most, centre {} mm of its own frame\n",
                       totals.mean_pressure_mpa, totals.max_pressure_mpa,
                       core::rounded(*totals.centre_of_pressure, 2));
@@ -117,8 +123,8 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
                        {"moved_mm", io::numbers(answer.X_FM.translation() - question.X_FM.translation())},
                        {"residual", wrench_json(answer.balanced->residual)}};
   }
-  json["fixed_surface"] = surface_json(answer.contact.fixed);
-  json["mobile_surface"] = surface_json(answer.contact.mobile);
+  json["fixed_surface"] = surface_json(question.surfaces.fixed, answer.contact.fixed);
+  json["mobile_surface"] = surface_json(question.surfaces.mobile, answer.contact.mobile);
   if (!question.contact.regions.empty()) {
     json["fixed_regions"] = regions_json(question.contact, question.surfaces.fixed, answer.contact.fixed);
     json["mobile_regions"] = regions_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
@@ -139,14 +145,15 @@ std::vector<std::filesystem::path> write_load(const std::filesystem::path& folde
   OutputFolder out(folder, is_of_load);
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
-  const auto write = [&](const char* name, const TriMesh& mesh,
+  const auto write = [&](const char* name, const Body& body, const TriMesh& in_F,
                          const std::optional<SurfaceContact>& surface) {
-    std::vector<MeshArray> arrays;
-    if (surface) arrays = io::pressure_map(*surface, mesh.triangles.size(), true);
-    write_vtp(out.file(name), frame.fixed_mesh(mesh), {}, arrays, options);
+    const std::vector<MeshArray> arrays =
+        surface ? io::pressure_map(*surface, body, true) : io::part_map(body);
+    write_vtp(out.file(name), frame.fixed_mesh(in_F), {}, arrays, options);
   };
-  write("fixed.vtp", question.surfaces.fixed.mesh, answer.contact.fixed);
-  write("mobile.vtp", posed(answer.X_FM, question.surfaces.mobile.mesh), answer.contact.mobile);
+  const auto& [fixed, mobile] = question.surfaces;
+  write("fixed.vtp", fixed, fixed.mesh, answer.contact.fixed);
+  write("mobile.vtp", mobile, posed(answer.X_FM, mobile.mesh), answer.contact.mobile);
   io::write_whole_file(out.file("load.json"), load_json(question, answer));
   return out.commit();
 }

@@ -11,8 +11,10 @@
 #include "condyle/io/output_folder.hpp"
 #include "io/file/figure_ending.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/csv_field.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/rom_parts.hpp"
 
 namespace condyle {
 namespace {
@@ -45,13 +47,31 @@ std::vector<double> per_triangle(const FrameContact& frame, std::size_t triangle
   return values;
 }
 
-std::string contacts_csv(const RecordedContact& between) {
+/// Where the bodies meet as a contact begins or ends; empty where no features are known to.
+std::string meeting_fields(const MotionQuestion& question, const ContactEnd& end) {
+  if (!end.contact) return ",,,,,";
+  const auto& [fixed, mobile] = question.surfaces;
+  const auto part = [](const Body& body, const Feature& feature) {
+    const BodyPart* of = io::part_of(body, feature);
+    return of ? io::csv_field(of->name) : std::string();
+  };
+  const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
+  const Vec3 at = frame.fixed_point(end.contact->fixed_point) + Vec3::Zero();  // without the sign of 0
+  return fmt::format(",{},{},{},{},{}", at.x(), at.y(), at.z(), part(fixed, end.contact->fixed_feature),
+                     part(mobile, end.contact->mobile_feature));
+}
+
+std::string contacts_csv(const MotionQuestion& question, const RecordedContact& between) {
   std::string text =
-      "entry_s,entry_uncertainty_s,entry_turned_deg,exit_s,exit_uncertainty_s,exit_turned_deg,is_certain\n";
+      "entry_s,entry_uncertainty_s,entry_turned_deg,exit_s,exit_uncertainty_s,exit_turned_deg,is_certain";
+  for (const char* end : {"entry", "exit"})
+    text += fmt::format(",{0}_x_mm,{0}_y_mm,{0}_z_mm,{0}_fixed_part,{0}_mobile_part", end);
+  text += "\n";
   for (const ContactInterval& contact : between.contacts)
-    text += fmt::format("{},{},{},{},{},{},{}\n", contact.entry.time_s, contact.entry.uncertainty_s,
+    text += fmt::format("{},{},{},{},{},{},{}{}{}\n", contact.entry.time_s, contact.entry.uncertainty_s,
                         contact.entry.turned.degrees(), contact.exit.time_s, contact.exit.uncertainty_s,
-                        contact.exit.turned.degrees(), contact.is_certain ? 1 : 0);
+                        contact.exit.turned.degrees(), contact.is_certain ? 1 : 0,
+                        meeting_fields(question, contact.entry), meeting_fields(question, contact.exit));
   return text;
 }
 
@@ -61,20 +81,21 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
   const AnswerFrame frame_of_answer = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
   const bool fixed_casts = question.contact.casting == Casting::fixed;
-  const Mesh& casting = fixed_casts ? surfaces.fixed.mesh : surfaces.mobile.mesh;
+  const Body& casting = fixed_casts ? surfaces.fixed : surfaces.mobile;
+  const std::vector<MeshArray> of_target = io::part_map(fixed_casts ? surfaces.mobile : surfaces.fixed);
   std::vector<SeriesFile> series;
   if (!fixed_casts)
-    write_vtp(out.file("map_fixed.vtp"), frame_of_answer.fixed_mesh(surfaces.fixed.mesh), {}, {}, options);
+    write_vtp(out.file("map_fixed.vtp"), frame_of_answer.fixed_mesh(surfaces.fixed.mesh), {}, of_target,
+              options);
   for (std::size_t i = 0; i < answer.frames.size(); ++i) {
     if (!answer.frames[i]) continue;
     const FrameContact& frame = *answer.frames[i];
-    const auto arrays = io::pressure_map(frame.surface, casting.triangles().size(), question.with_pressure);
+    const auto arrays = io::pressure_map(frame.surface, casting, question.with_pressure);
     const double time = question.motion.times.values[i];
     const std::string mobile = fmt::format("map_mobile_{:05}.vtp", i);
     const std::string fixed = fixed_casts ? fmt::format("map_fixed_{:05}.vtp", i) : "map_fixed.vtp";
-    const std::vector<MeshArray> none;
     write_vtp(out.file(mobile), frame_of_answer.fixed_mesh(posed(frame.X_FM, surfaces.mobile.mesh)), {},
-              fixed_casts ? none : arrays, options);
+              fixed_casts ? of_target : arrays, options);
     if (fixed_casts)
       write_vtp(out.file(fixed), frame_of_answer.fixed_mesh(surfaces.fixed.mesh), {}, arrays, options);
     series.push_back({time, "fixed", fixed});
@@ -147,7 +168,7 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
   }
   if (!question.contact.regions.empty())
     write_curves_csv(out.file("regions.csv"), region_curves_of(question, answer));
-  if (answer.between) io::write_whole_file(out.file("contacts.csv"), contacts_csv(*answer.between));
+  if (answer.between) io::write_whole_file(out.file("contacts.csv"), contacts_csv(question, *answer.between));
   if (files.maps) write_maps(out, question, answer, files.encoding);
   if (files.jam) write_jam(out.file("jam.h5"), question, answer);
   io::write_whole_file(out.file("motion.json"), motion_json(question, answer));

@@ -11,6 +11,7 @@
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/rom_parts.hpp"
 
 namespace condyle {
 namespace {
@@ -22,6 +23,7 @@ struct Summary {
   std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0, cut_off = 0;
   struct Largest {
     double value = 0, at = 0;
+    const FrameContact* frame = nullptr;
   };
   Largest area, depth, pressure, force;
 };
@@ -42,7 +44,7 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     if (frame->cut_off_by_reach > 0) ++summary.cut_off;
     const ContactTotals& totals = frame->surface.totals;
     const auto consider = [&](Summary::Largest& largest, double value) {
-      if (value > largest.value) largest = {value, question.motion.times.values[i]};
+      if (value > largest.value) largest = {value, question.motion.times.values[i], &*frame};
     };
     consider(summary.area, totals.area_mm2);
     consider(summary.depth, totals.max_depth_mm);
@@ -54,20 +56,31 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
   return summary;
 }
 
-Json end_json(const ContactEnd& end) {
-  return {{"time_s", end.time_s},
-          {"kind", name_of(end.kind)},
-          {"uncertainty_s", end.uncertainty_s},
-          {"after_frame", end.sample},
-          {"turned_deg", end.turned.degrees()}};
+/// The body whose surface FrameContact::surface is of.
+const Body& casting_body(const MotionQuestion& question) {
+  return question.contact.casting == Casting::fixed ? question.surfaces.fixed : question.surfaces.mobile;
 }
 
-Json between_json(const RecordedContact& between) {
+Json end_json(const MotionQuestion& question, const ContactEnd& end) {
+  Json json{
+      {"time_s", end.time_s},      {"kind", name_of(end.kind)},          {"uncertainty_s", end.uncertainty_s},
+      {"after_frame", end.sample}, {"turned_deg", end.turned.degrees()}, {"point_mm", nullptr}};
+  if (!end.contact) return json;
+  const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
+  json["point_mm"] = io::numbers(frame.fixed_point(end.contact->fixed_point));
+  const auto& [fixed, mobile] = question.surfaces;
+  if (const BodyPart* part = io::part_of(fixed, end.contact->fixed_feature)) json["fixed_part"] = part->name;
+  if (const BodyPart* part = io::part_of(mobile, end.contact->mobile_feature))
+    json["mobile_part"] = part->name;
+  return json;
+}
+
+Json between_json(const MotionQuestion& question, const RecordedContact& between) {
   const auto exact = std::count(between.searched.begin(), between.searched.end(), BetweenSamples::exact);
   Json contacts = Json::array();
   for (const ContactInterval& contact : between.contacts)
-    contacts.push_back({{"entry", end_json(contact.entry)},
-                        {"exit", end_json(contact.exit)},
+    contacts.push_back({{"entry", end_json(question, contact.entry)},
+                        {"exit", end_json(question, contact.exit)},
                         {"is_certain", contact.is_certain},
                         {"undecided_s", contact.undecided_s}});
   return {{"ways_exact", exact},
@@ -140,12 +153,18 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
   text += io::contact_terms_text(question.contact, question.surfaces, question.with_pressure);
   text += fmt::format("  {} frames in contact\n", summary.in_contact);
-  const auto line = [&](const char* what, const Summary::Largest& largest, const char* of) {
+  const auto line = [&](const char* what, const Summary::Largest& largest, const char* of,
+                        const std::string& where = "") {
     if (largest.value > 0)
-      text += fmt::format("  largest {} {:.4g} {} at {:g}{}\n", what, largest.value, of, largest.at, unit);
+      text += fmt::format("  largest {} {:.4g} {} at {:g}{}{}\n", what, largest.value, of, largest.at, unit,
+                          where);
   };
   line("contact area", summary.area, "mm2");
-  line("depth", summary.depth, "mm");
+  const Index deepest = summary.depth.frame ? io::deepest_of(summary.depth.frame->surface)->face : no_index;
+  line("depth", summary.depth, "mm",
+       deepest == no_index ? ""
+                           : fmt::format(", triangle {}{}", deepest,
+                                         io::triangle_part_text(casting_body(question), deepest)));
   if (question.with_pressure) {
     line("pressure", summary.pressure, "MPa");
     line("force", summary.force, "N");
@@ -197,6 +216,11 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
             {"frames_cut_off_by_reach", summary.cut_off},
             {"largest_area_mm2", largest(summary.area)},
             {"largest_depth_mm", largest(summary.depth)}};
+  if (summary.depth.frame) {
+    const Index deepest = io::deepest_of(summary.depth.frame->surface)->face;
+    json["largest_depth_mm"]["triangle"] = deepest;
+    io::add_triangle_part(json["largest_depth_mm"], "part", casting_body(question), deepest);
+  }
   if (question.with_pressure) {
     json["largest_pressure_mpa"] = largest(summary.pressure);
     json["largest_force_n"] = largest(summary.force);
@@ -214,7 +238,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
                            {"reason", reason_of(*answer.balanced[i])}});
     json["without_balance"] = without;
   }
-  json["between_samples"] = answer.between ? between_json(*answer.between) : Json(nullptr);
+  json["between_samples"] = answer.between ? between_json(question, *answer.between) : Json(nullptr);
   json["done"] = question.motion.notes;
   json["notes"] = io::notes_json(question.notes);
   json["scope"] = io::scope_note;

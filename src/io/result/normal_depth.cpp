@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "io/result/contact_terms.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/pressure_map.hpp"
@@ -21,14 +19,6 @@ const View& other_of(const Views& bodies, const View& view) {
   return &view == &bodies.mobile ? bodies.fixed : bodies.mobile;
 }
 
-/// Of a body that casts, the triangle with the greatest depth; null without contact.
-const FaceContact* deepest_of(const SurfaceContact& surface) {
-  const auto deepest =
-      std::max_element(surface.faces.begin(), surface.faces.end(),
-                       [](const auto& a, const auto& b) { return a.max_depth_mm < b.max_depth_mm; });
-  return deepest == surface.faces.end() ? nullptr : &*deepest;
-}
-
 /// Where the contact of a body that is in contact has its centre, in F.
 Vec3 centre_of(const View& view) {
   return view.frame.fixed_point(posed(view.X_F, *view.summary->surface.totals.centre_of_depth));
@@ -38,7 +28,7 @@ io::Json body_json(const Views& bodies, const View& view) {
   if (!view.summary) return nullptr;
   const auto& [surface, cut_off_by_reach] = *view.summary;
   const ContactTotals& totals = surface.totals;
-  const FaceContact* deepest = deepest_of(surface);
+  const FaceContact* deepest = io::deepest_of(surface);
   io::Json json{{"target", other_of(bodies, view).body.name},
                 {"triangles", view.body.mesh.triangles().size()},
                 {"triangles_in_contact", totals.triangles},
@@ -46,9 +36,7 @@ io::Json body_json(const Views& bodies, const View& view) {
                 {"mean_normal_depth_mm", totals.mean_depth_mm},
                 {"max_normal_depth_mm", totals.max_depth_mm},
                 {"deepest_triangle", deepest ? io::Json(deepest->face) : io::Json(nullptr)}};
-  if (deepest)
-    if (const BodyPart* part = part_of_triangle(view.body, deepest->face))
-      json["deepest_part"] = {{"name", part->name}, {"triangle", deepest->face - part->first_triangle}};
+  if (deepest) io::add_triangle_part(json, "deepest_part", view.body, deepest->face);
   const auto& centre = totals.centre_of_depth;
   json["centre_mm"] = centre ? io::numbers(centre_of(view)) : io::Json(nullptr);
   json["centre_own_mm"] = !centre                   ? io::Json(nullptr)
@@ -79,14 +67,12 @@ std::string body_text(const Views& bodies, const View& view, double reach_mm) {
   const ContactTotals& totals = surface.totals;
   const std::string& target = other_of(bodies, view).body.name;
   std::string text = fmt::format("  from {} to {}: ", view.body.name, target);
-  if (const FaceContact* deepest = deepest_of(surface)) {
-    const BodyPart* part = part_of_triangle(view.body, deepest->face);
+  if (const FaceContact* deepest = io::deepest_of(surface)) {
     text += fmt::format(
         "{:.2f} mm2 of {} triangles, centred {}\n"
         "    depth along normals {:.3f} mm in the mean, {:.3f} at most, triangle {}{}\n",
         totals.area_mm2, totals.triangles, io::place_text(centre_of(view)), totals.mean_depth_mm,
-        totals.max_depth_mm, deepest->face,
-        part ? fmt::format(" ({} of {})", deepest->face - part->first_triangle, part->name) : "");
+        totals.max_depth_mm, deepest->face, io::triangle_part_text(view.body, deepest->face));
   } else {
     text += "no depth along normals\n";
   }
@@ -120,7 +106,7 @@ std::string text_of(const DepthQuestion& question, const ContactEntry& rays, con
 
 std::vector<MeshArray> arrays_of(const std::optional<NormalCast>& cast, const Body& body) {
   if (!cast) return {};
-  return io::pressure_map(cast->surface, body.mesh.triangles().size(), false);
+  return io::pressure_map(cast->surface, body, false);
 }
 
 }  // namespace
