@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "command.hpp"
 #include "condyle/angle.hpp"
@@ -134,9 +137,31 @@ TEST_F(FreeJoint, MotionsOfAKneeAreListedByItsNames) {
   EXPECT_EQ(ran.out.find("fadir"), std::string::npos);
 }
 
+/// What says something: members that are null do not.
+Json said(const Json& json) {
+  if (!json.is_structured()) return json;
+  Json out = json.is_array() ? Json::array() : Json::object();
+  for (const auto& [key, value] : json.items()) {
+    if (value.is_null()) continue;
+    json.is_array() ? out.push_back(said(value)) : void(out[key] = said(value));
+  }
+  return out;
+}
+
+void expect_nothing_of_a_hip(std::string text, const std::string& where) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  for (const char* word : {"hip", "clock", "neck", "head", "fadir", "femor", "acetab"})
+    EXPECT_EQ(text.find(word), text.npos) << where << " speaks of " << word;
+}
+
 TEST_F(FreeJoint, AnAnklesResultsHaveItsNames) {
   write_joint("ankle.toml", "ball", "joint = \"ankle\"\n", "post.ply", "");
-  const Json motion = answer("rom ankle.toml --motion plantarflexion --out out")["motions"][0];
+  const Json whole = answer("rom ankle.toml --motion plantarflexion --past 5 --band=20 --out out");
+  const Json motion = whole["motions"][0];
+  EXPECT_TRUE(whole["clock_plane"].is_null());
+  Json words = said(whole);
+  words.erase("provenance");  // folders may have any name
+  expect_nothing_of_a_hip(words.dump(), "rom.json");
   EXPECT_EQ(motion["vary"], "dorsiflexion");
   EXPECT_EQ(motion["sense"], "negative");
   EXPECT_TRUE(motion["start_deg"].contains("inversion"));
@@ -144,6 +169,15 @@ TEST_F(FreeJoint, AnAnklesResultsHaveItsNames) {
   EXPECT_TRUE(motion["normal_range_deg"].is_null()) << "the ranges known are those of a hip";
   std::ifstream csv(folder / "out/limits.csv");
   const std::string text{std::istreambuf_iterator<char>(csv), {}};
+  std::string lines;
+  std::istringstream read(text);
+  for (std::string line; std::getline(read, line);)
+    if (!line.starts_with('#')) lines += line + '\n';
+  expect_nothing_of_a_hip(lines, "limits.csv");
+  EXPECT_EQ(std::count(lines.begin(), lines.end(), ',') % 2, 0) << "two lines of as many fields";
+  const Ran told = run("rom ankle.toml --motion plantarflexion --past 5");
+  EXPECT_NE(told.out.find("every contact counts"), std::string::npos) << told.out;
+  expect_nothing_of_a_hip(told.out, "the text");
   EXPECT_NE(text.find("start_dorsiflexion_deg,start_inversion_deg,start_internal_rotation_deg"),
             std::string::npos);
   const Ran map = run("rom ankle.toml --map inversion=-5:5:5 internal_rotation=0:10:5 --out map");

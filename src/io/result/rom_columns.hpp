@@ -7,7 +7,8 @@
 
 namespace condyle::io {
 
-/// Names of the columns of rom_csv(), which has what each one means in docs/formats-rom.md.
+/// Names of the columns of rom_csv(), which has what each one means in docs/formats-rom.md and leaves clock_hour out where the
+/// joint is no hip.
 std::vector<std::string> rom_columns(Anatomy joint);
 
 /// The fields of one limit in that order, quoted where they must be, empty where there is no answer.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "io/joint/given_degrees.hpp"
@@ -131,9 +133,14 @@ std::string io::csv_line(const std::vector<std::string>& fields) {
 }
 
 std::string rom_csv(const RomResult& result) {
-  std::string text =
-      io::provenance_comments(result.provenance) + io::csv_line(io::rom_columns(result.joint.anatomy));
-  for (std::size_t i = 0; i < result.limits.size(); ++i) text += io::csv_line(io::rom_fields(result, i));
+  const Fields columns = io::rom_columns(result.joint.anatomy);
+  const auto clock = std::find(columns.begin(), columns.end(), "clock_hour") - columns.begin();
+  const auto line = [&](Fields fields) {
+    if (!result.joint.is_hip()) fields.erase(fields.begin() + clock);  // a hip's socket has a clock face
+    return io::csv_line(fields);
+  };
+  std::string text = io::provenance_comments(result.provenance) + line(columns);
+  for (std::size_t i = 0; i < result.limits.size(); ++i) text += line(io::rom_fields(result, i));
   return text;
 }
 

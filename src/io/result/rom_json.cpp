@@ -243,7 +243,9 @@ std::string rom_json(const RomResult& result) {
             {"anatomy", io::anatomy_json(result.joint)},
             {"side", name_of(result.joint.side)},
             {"bearing", bearing_json(result)},
-            {"clock_plane", result.clock_plane == ClockPlane::rim ? "rim" : "sagittal"},
+            {"clock_plane", !result.joint.is_hip()                  ? Json(nullptr)
+                            : result.clock_plane == ClockPlane::rim ? Json("rim")
+                                                                    : Json("sagittal")},
             {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},

@@ -74,8 +74,7 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   const auto none = [](std::string why) { return BearingFinding{std::nullopt, std::move(why)}; };
   if (options.margin_mm && !(*options.margin_mm >= 0 && std::isfinite(*options.margin_mm)))
     throw UsageError("bearing margin: must be 0 mm or more");
-  if (joint.kind == JointKind::hinge) return none("a hinge has no head");
-  if (!joint.is_hip()) return none("heads are looked for in hips only");
+  if (!joint.is_hip()) return none("bearing contact is not told apart in this joint");
   const TriMesh& mobile = joint.mobile.mesh;
   if (options.surface) {
     if (options.surface->triangles.size() != mobile.triangles.size())
