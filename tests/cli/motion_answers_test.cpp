@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 #include "motion_scene.hpp"
+#include "support/shared_data.hpp"
 
 /// What answers on recorded motions say beside their curves.
 
@@ -36,6 +38,39 @@ TEST_F(Motion, FramesMetFromTheFrontAreCounted) {
   EXPECT_EQ(met("60"), 3);
   const std::string text = run("motion cup.toml --motion lower.csv --casting mobile --reach 60").out;
   EXPECT_NE(text.find("in 3 frames rays met the open target from its front"), text.npos) << text;
+}
+
+/// Matrices of both bones in the scanner's frame; the bodies are what the frames of the meshes are.
+TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "the shared motion is missing";
+  std::string knee = joint("free", "post.ply", "shank.ply",
+                           "[recorded_motion]\nfixed_body = \"femur_distal_r\"\nmobile_body = "
+                           "\"tibia_proximal_r\"\nunits = \"m\"\n");
+  knee.replace(knee.find("joint = \"hip\""), 13, "joint = \"knee\"");
+  write("knee.toml", knee);
+  const auto file = fs::absolute(*data / "motion_mri_knee" / "passive_body_transformations.sto");
+  const Ran ran = run("motion knee.toml --motion " + file.string() + " --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("promises 48 rows and the file has 60"), std::string::npos) << ran.err;
+  EXPECT_NE(ran.err.find("the nearest ones are used"), std::string::npos) << ran.err;
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  ASSERT_EQ(curves.rows.size(), 60u);
+  struct Row {
+    std::size_t row;
+    std::array<double, 3> mm, deg;
+  };
+  for (const Row& known : {Row{0, {1.97015, -0.38414, -2.39974}, {26.30480, -0.27747, -0.44750}},
+                           Row{20, {2.44138, -1.15345, -2.36312}, {41.61138, 1.66967, -1.78322}},
+                           Row{40, {-0.51856, -0.27445, -1.47515}, {9.40304, -0.55334, -3.55086}}}) {
+    const auto value = [&](const char* name) { return curves.rows[known.row][curves.column(name)]; };
+    const std::array lengths = {"x_mm", "y_mm", "z_mm"};
+    const std::array angles = {"flexion_deg", "adduction_deg", "internal_rotation_deg"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(value(lengths[i]), known.mm[i], 0.001) << known.row << lengths[i];
+      EXPECT_NEAR(value(angles[i]), known.deg[i], 0.01) << known.row << angles[i];
+    }
+  }
 }
 
 /// A body of two meshes: the one that touches is named wherever contact is told.

@@ -1,0 +1,132 @@
+#include "condyle/io/joint_motion.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+/// Recorded poses of both bodies become poses of the joint, whatever its frame.
+
+namespace condyle {
+namespace {
+
+Pose some_pose(double angle, const Vec3& axis, const Vec3& place) {
+  Pose X = Pose::Identity();
+  X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  X.translation() = place;
+  return X;
+}
+
+/// Where the mobile body's frame is in the fixed body's, and the fixed body's in that of a laboratory.
+const Pose X_FM_recorded = some_pose(0.6, {1, -2, 3}, {12, -40, 7});
+const Pose X_LF = some_pose(2.1, {3, 1, -1}, {500, 120, -80});
+
+/// A mobile body, and as the fixed one the same where the recording has it: in the pose read, each vertex of the one is at
+/// that of the other, without any arithmetic of frames here.
+class RecordedBodies {
+ public:
+  /// Lengths of all files are in mm / mm_per_unit.
+  explicit RecordedBodies(double mm_per_unit, const Pose& X_FM = X_FM_recorded) {
+    const auto scaled = [&](const TriMesh& mesh) {
+      TriMesh out = mesh;
+      for (auto* of : {&out.vertices.x, &out.vertices.y, &out.vertices.z})
+        for (double& value : *of) value /= mm_per_unit;
+      return out;
+    };
+    const TriMesh body = test::box({-11, -95, -7}, {13, -20, 9});
+    write_mesh(folder_ / "mobile.ply", scaled(body));
+    write_mesh(folder_ / "fixed.ply", scaled(posed(X_FM, Mesh(body))));
+    std::string names, numbers;
+    const auto add = [&](const char* name, const Pose& X) {
+      for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) {
+          const bool is_length = column == 3 && row < 3;
+          names += fmt::format("{}{}_T{}{}", names.empty() ? "" : ",", name, row + 1, column + 1);
+          numbers += fmt::format("{}{}", numbers.empty() ? "" : ",",
+                                 X.matrix()(row, column) / (is_length ? mm_per_unit : 1));
+        }
+    };
+    add("F", X_LF), add("M", X_LF * X_FM);
+    folder_.file("motion.csv", names + "\n" + numbers + "\n");
+  }
+
+  /// The joint with this in its tables, and the motion it has.
+  std::string joint(const std::string& kind, const std::string& units, const std::string& of_fixed,
+                    const std::string& of_mobile, const std::string& frame, const std::string& more) const {
+    return fmt::format(
+        "condyle = 1\nname = \"knee\"\nkind = \"{0}\"\njoint = \"knee\"\nside = \"right\"\nunits = "
+        "\"{1}\"\n[fixed]\nmesh = \"fixed.ply\"\n{2}\n[mobile]\nmesh = "
+        "\"mobile.ply\"\n{3}\n[frame]\n{4}\n{5}\n"
+        "[recorded_motion]\nfixed_body = \"F\"\nmobile_body = \"M\"\nunits = \"{1}\"\n",
+        kind, units, of_fixed, of_mobile, frame, more);
+  }
+  void expect_bodies_together(const std::string& joint_file) const {
+    const LoadedJoint loaded = read_joint(folder_.file("knee.toml", joint_file));
+    const JointMotion motion = motion_of(loaded, read_motion_table(folder_ / "motion.csv"));
+    ASSERT_EQ(motion.X_FM.size(), 1u);
+    const auto &fixed = loaded.joint.fixed.mesh, &mobile = loaded.joint.mobile.mesh;
+    ASSERT_EQ(fixed.vertices().size(), mobile.vertices().size());
+    for (std::size_t v = 0; v < fixed.vertices().size(); ++v) {
+      // Some ten products of coordinates below 1000 mm, each rounded.
+      EXPECT_LE((*motion.X_FM[0] * mobile.vertices()[v] - fixed.vertices()[v]).norm(), 1e-11) << joint_file;
+    }
+  }
+  const test::TemporaryFolder& folder() const { return folder_; }
+
+ private:
+  test::TemporaryFolder folder_;
+};
+
+const std::string standard = "centre = [0, 0, 0]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
+
+TEST(JointMotion, RecordedPosesMoveTheMeshesAlikeInAnyJointFrame) {
+  const RecordedBodies bodies(1);
+  const std::string elsewhere = "centre = [5, -6, 70]\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
+  const std::string turned = "centre = [5, -6, 70]\nanterior = [0, -0.6, 0.8]\nsuperior = [0, 0.8, 0.6]";
+  const std::string posed_body = "pose = [0.6, -0.8, 0, 5,  0.8, 0.6, 0, -6,  0, 0, 1, 7,  0, 0, 0, 1]";
+  const std::string in_reference = "[reference_pose]\nflexion = 33\nadduction = -4\nx = 3\nz = -8";
+  for (const std::string& frame : {standard, elsewhere, turned})
+    for (const std::string& of_fixed : {std::string(), posed_body})
+      for (const std::string& of_mobile : {std::string(), posed_body})
+        for (const std::string& more : {std::string(), in_reference})
+          bodies.expect_bodies_together(bodies.joint("free", "mm", of_fixed, of_mobile, frame, more));
+}
+
+TEST(JointMotion, RecordedPosesInMetresAreThoseInMillimetres) {
+  const RecordedBodies bodies(1000);
+  bodies.expect_bodies_together(bodies.joint(
+      "free", "m", "", "pose = [0.6, -0.8, 0, 0.005,  0.8, 0.6, 0, -0.006,  0, 0, 1, 0.007,  0, 0, 0, 1]",
+      "centre = [0.005, -0.006, 0.07]\nanterior = [0, -0.6, 0.8]\nsuperior = [0, 0.8, 0.6]",
+      "[reference_pose]\nflexion = 33\nx = 0.003"));
+}
+
+/// Turns about a point that stays where it is: a ball there, and no ball anywhere else.
+TEST(JointMotion, ABallDoesNotTranslate) {
+  const Vec3 centre(5, -6, 70);
+  Pose about_centre = some_pose(0.6, {1, -2, 3}, Vec3::Zero());
+  about_centre.translation() = centre - about_centre.linear() * centre;
+  const RecordedBodies bodies(1, about_centre);
+  const auto ball = [&](const std::string& frame) {
+    std::string file = bodies.joint("ball", "mm", "", "", frame, "");
+    file.replace(file.find("joint = \"knee\"\n"), 15, "");
+    return file;
+  };
+  const auto axes = "\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]";
+  bodies.expect_bodies_together(ball("centre = [5, -6, 70]" + std::string(axes)));
+  const LoadedJoint off = read_joint(bodies.folder().file("off.toml", ball(standard)));
+  try {
+    motion_of(off, read_motion_table(bodies.folder() / "motion.csv"));
+    ADD_FAILURE() << "accepted";
+  } catch (const FileError& error) {
+    EXPECT_EQ(error.what(),
+              fmt::format("{}: line 2: the mobile body's centre is {:.3f} mm from the fixed "
+                          "body's, and a ball does not translate",
+                          (bodies.folder() / "motion.csv").string(), about_centre.translation().norm()));
+  }
+}
+
+}  // namespace
+}  // namespace condyle
