@@ -18,6 +18,8 @@
 #include "condyle/io/motion_result.hpp"
 #include "contact_options.hpp"
 #include "followed.hpp"
+#include "io/motion/gaps.hpp"
+#include "io/motion/load_table.hpp"
 #include "motion_surfaces.hpp"
 #include "notes.hpp"
 
@@ -36,42 +38,41 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-/// Forces and moments of every frame, from columns force_x_n ... and, where there, moment_x_nmm ...
-std::vector<Load> loads_from(const std::string& path, const BalanceGiven& given, const JointMotion& motion) {
-  const MotionTable table = read_motion_table(path);
-  for (const std::string& remark : table.notes) note(remark);
-  if (frame_times(table).values != motion.times.values)
-    throw FileError(fmt::format("{}: its rows are not at the times of the motion", path));
-  const auto column = [&](const std::string& name) -> const std::vector<double>* {
-    for (std::size_t c = 0; c < table.columns.size(); ++c)
-      if (table.columns[c] == name) return &table.values[c];
-    return nullptr;
-  };
-  std::vector<Load> loads(motion.times.values.size(), Load{.on_mobile = {}, .frame = given.frame});
-  constexpr const char* axes[] = {"x", "y", "z"};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto* force = column(fmt::format("force_{}_n", axes[axis]));
-    if (!force) throw FileError(fmt::format("{}: no column force_{}_n", path, axes[axis]));
-    const auto* moment = column(fmt::format("moment_{}_nmm", axes[axis]));
-    for (std::size_t i = 0; i < loads.size(); ++i) {
-      loads[i].on_mobile.force_n[axis] = (*force)[i];
-      if (moment && given.rotations) loads[i].on_mobile.moment_nmm[axis] = (*moment)[i];
-    }
+/// What each frame has to carry; nothing where no load is given. Frames without their load are gaps of the motion.
+std::vector<Load> loads_of(const Options& options, JointMotion& motion) {
+  if (options.loads.empty())
+    return options.balance->any() ? std::vector<Load>{load_of(*options.balance)} : std::vector<Load>{};
+  const MotionTable table = read_motion_table(options.loads);
+  const auto given = io::loads_of(table, motion.times, options.balance->frame, options.balance->rotations);
+  std::vector<std::string> notes = table.notes;
+  io::note_gaps(table, given, notes);
+  for (const std::string& remark : notes)
+    motion.notes.push_back(fmt::format("{}: {}", options.loads, remark));
+  std::vector<Load> loads(given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i])
+      loads[i] = *given[i];
+    else
+      motion.X_FM[i].reset();
   }
   return loads;
 }
 
-MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
+MotionAnswer answer_of(const Options& options, const MotionQuestion& question,
+                       const std::vector<Load>& loads) {
   const MotionSurfaces surfaces(question);
   MotionAnswer answer;
   std::vector<std::optional<Pose>> X_FM = question.motion.X_FM;
-  if (options.balance->any() || !options.loads.empty()) {
-    const std::vector<Load> loads = options.loads.empty()
-                                        ? std::vector<Load>{load_of(*options.balance)}
-                                        : loads_from(options.loads, *options.balance, question.motion);
+  if (!loads.empty()) {
+    const BalanceOptions balance = balance_options_of(*options.balance);
+    // As in the swing of a gait: there is no pose to look for, in these frames only.
+    for (std::size_t i = 0; i < X_FM.size() && !options.loads.empty(); ++i) {
+      if (!X_FM[i] || !io::is_zero_along(loads[i], *X_FM[i], balance)) continue;
+      answer.without_load.push_back(i);
+      X_FM[i].reset();
+    }
     answer.balanced = followed("balanced frames", [&](const auto& follow, std::stop_token stop) {
-      return balance_along(*surfaces.elastic(), X_FM, loads, balance_options_of(*options.balance),
-                           {.progress = follow, .stop = stop});
+      return balance_along(*surfaces.elastic(), X_FM, loads, balance, {.progress = follow, .stop = stop});
     });
     // What does not carry its load has no contact to tell of.
     for (std::size_t i = 0; i < X_FM.size(); ++i) {
@@ -96,15 +97,16 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question) {
 
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
-  const JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
+  JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
+  const std::vector<Load> loads = loads_of(options, motion);
   for (const std::string& remark : motion.notes) note(remark);
-  const bool with_pressure = options.with_pressure || options.balance->any() || !options.loads.empty();
+  const bool with_pressure = options.with_pressure || !loads.empty();
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   const ContactEntry contact = motion_contact_of(*options.contact, loaded.report.file, with_pressure);
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
   const MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
-  const MotionAnswer answer = answer_of(options, question);
+  const MotionAnswer answer = answer_of(options, question, loads);
   if (!options.out.empty()) {
     MotionFiles files = options.files;
     files.encoding = options.where->vtp_encoding;
@@ -140,7 +142,10 @@ void add_motion(CLI::App& app) {
   add_balance(*command, options->balance);
   command
       ->add_option("--loads", options->loads,
-                   "Balance a force per frame: columns force_x_n, force_y_n, force_z_n")
+                   "Balance a force per frame: columns force_x_n, force_y_n, force_z_n; with "
+                   "--free-rotations also moment_x_nmm, ...")
+      ->excludes(command->get_option("--force"))
+      ->excludes(command->get_option("--moment"))
       ->option_text("FILE");
   command->add_flag_callback(
       "--between", [options] { options->between = true; },

@@ -73,6 +73,58 @@ TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
   }
 }
 
+/// The swing of a gait carries nothing, and a force plate may miss a step: the other frames are answered.
+TEST_F(Motion, FramesWithoutALoadAreLeftUnanswered) {
+  write("rock.csv", "time,flexion_deg\n0,0\n0.1,5\n0.2,10\n0.3,5\n");
+  write("loads.csv",
+        "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n0.1,0,0,0\n0.2,0,nan,0\n0.3,0,-1000,0\n");
+  const Ran ran = run("motion cup.toml --motion rock.csv --loads loads.csv --json --out out");
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_NE(ran.err.find("loads.csv: 1 of 4 frames are gaps, the first in line 4"), std::string::npos)
+      << ran.err;
+  const Json json = Json::parse(ran.out);
+  EXPECT_EQ(json["gaps"], 1);
+  EXPECT_EQ(json["frames_balanced"], 2);
+  ASSERT_EQ(json["without_balance"].size(), 1u);
+  EXPECT_EQ(json["without_balance"][0]["time_s"], 0.1);
+  EXPECT_EQ(json["without_balance"][0]["outcome"], "no_load");
+  EXPECT_EQ(json["without_balance"][0]["carries_load"], false);
+  const NumberTable curves = csv_of(folder / "out/curves.csv");
+  for (const std::size_t row : {1u, 2u})
+    for (std::size_t c = 1; c < curves.columns.size(); ++c)
+      EXPECT_TRUE(std::isnan(curves.rows[row][c])) << row << curves.columns[c];
+  for (const std::size_t row : {0u, 3u})
+    EXPECT_NEAR(curves.rows[row][curves.column("force_y_n")], -1000, 1e-5);
+  const std::string text = run("motion cup.toml --motion rock.csv --loads loads.csv").out;
+  EXPECT_NE(text.find("balanced in 2 of 3 frames"), text.npos) << text;
+  EXPECT_NE(text.find("0.1 s: the load is zero along what is free"), text.npos) << text;
+
+  // Of a load across the only free direction nothing is left either.
+  const Json across =
+      Json::parse(run("motion cup.toml --motion rock.csv --loads loads.csv --along 1 0 0 --json").out);
+  EXPECT_EQ(across["frames_balanced"], 0);
+  EXPECT_EQ(across["without_balance"].size(), 3u);
+}
+
+TEST_F(Motion, LoadsThatNothingWouldAskAreRefused) {
+  write("rock.csv", "time,flexion_deg\n0,0\n0.1,5\n");
+  write("loads.csv", "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n0.1,0,-1000,0\n");
+  write("moments.csv",
+        "time,force_x_n,force_y_n,force_z_n,moment_x_nmm,moment_y_nmm,moment_z_nmm\n0,0,-1000,0,0,0,5\n0.1,0,"
+        "-1000,0,"
+        "0,0,5\n");
+  write("two.csv",
+        "time,force_x_n,force_y_n,force_z_n,moment_x_nmm,moment_y_nmm\n0,0,-1000,0,0,0\n0.1,0,-1000,0,0,0\n");
+  const auto refused = [&](const std::string& options, int exit_code, const char* saying) {
+    expect_refusal(run("motion cup.toml --motion rock.csv " + options), exit_code, saying, options);
+  };
+  refused("--loads loads.csv --force 0 -100 0", 2, "--force");
+  refused("--loads loads.csv --free-rotations --moment 0 0 5", 2, "--moment");
+  refused("--loads moments.csv", 3,
+          "moments.csv: column 'moment_x_nmm': moments are balanced with --free-rotations only");
+  refused("--loads two.csv --free-rotations", 3, "two.csv: has no column 'moment_z_nmm'");
+}
+
 /// A body of two meshes: the one that touches is named wherever contact is told.
 TEST_F(Motion, AnswersNameThePartThatTouches) {
   const TriMesh bone = box({-5, 100, -5}, {5, 110, 5});

@@ -34,6 +34,8 @@ struct MotionQuestion {
 struct MotionAnswer {
   std::vector<std::optional<FrameContact>> frames;
   std::vector<std::optional<BalancedPose>> balanced = {};  ///< none where no load was given
+  /// Frames whose load is zero along what is free, ascending: no pose was looked for, and they have no answer.
+  std::vector<std::size_t> without_load = {};
   /// Contact between the samples too, where that was asked for; samples are numbered as the frames.
   std::optional<RecordedContact> between = {};
 };

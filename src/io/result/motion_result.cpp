@@ -56,6 +56,28 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
   return summary;
 }
 
+/// A frame that is not in balance, and why.
+struct OutOfBalance {
+  std::size_t frame;
+  std::string_view outcome;
+  bool carries_load;
+  std::string reason;
+};
+
+std::vector<OutOfBalance> out_of_balance(const MotionAnswer& answer) {
+  std::vector<OutOfBalance> frames;
+  for (const std::size_t i : answer.without_load)
+    frames.push_back({i, "no_load", false, "the load is zero along what is free: no pose was looked for"});
+  for (std::size_t i = 0; i < answer.balanced.size(); ++i) {
+    const auto& pose = answer.balanced[i];
+    if (pose && pose->outcome != BalanceOutcome::balanced)
+      frames.push_back({i, name_of(pose->outcome), pose->carries_load(), reason_of(*pose)});
+  }
+  std::sort(frames.begin(), frames.end(),
+            [](const OutOfBalance& a, const OutOfBalance& b) { return a.frame < b.frame; });
+  return frames;
+}
+
 /// The body whose surface FrameContact::surface is of.
 const Body& casting_body(const MotionQuestion& question) {
   return question.contact.casting == Casting::fixed ? question.surfaces.fixed : question.surfaces.mobile;
@@ -176,9 +198,10 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
     text += summary.carried > summary.balanced
                 ? fmt::format(", carried unsteadily in {} more\n", summary.carried - summary.balanced)
                 : "\n";
-    for (std::size_t i = 0, said = 0; i < answer.balanced.size() && said < 3; ++i)
-      if (answer.balanced[i] && answer.balanced[i]->outcome != BalanceOutcome::balanced)
-        text += fmt::format("  {:g}{}: {}\n", times.values[i], unit, reason_of(*answer.balanced[i])), ++said;
+    const std::vector<OutOfBalance> frames = out_of_balance(answer);
+    constexpr std::size_t most = 3;
+    for (std::size_t i = 0; i < std::min(most, frames.size()); ++i)
+      text += fmt::format("  {:g}{}: {}\n", times.values[frames[i].frame], unit, frames[i].reason);
   }
   if (summary.from_front > 0)
     text += fmt::format("  in {} frames rays met the open target from its front: overlap there may be none\n",
@@ -230,12 +253,11 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
     json["frames_balanced"] = summary.balanced;
     json["frames_carrying_load"] = summary.carried;
     Json without = Json::array();
-    for (std::size_t i = 0; i < answer.balanced.size(); ++i)
-      if (answer.balanced[i] && answer.balanced[i]->outcome != BalanceOutcome::balanced)
-        without.push_back({{axis, times.values[i]},
-                           {"outcome", name_of(answer.balanced[i]->outcome)},
-                           {"carries_load", answer.balanced[i]->carries_load()},
-                           {"reason", reason_of(*answer.balanced[i])}});
+    for (const OutOfBalance& of : out_of_balance(answer))
+      without.push_back({{axis, times.values[of.frame]},
+                         {"outcome", of.outcome},
+                         {"carries_load", of.carries_load},
+                         {"reason", of.reason}});
     json["without_balance"] = without;
   }
   json["between_samples"] = answer.between ? between_json(question, *answer.between) : Json(nullptr);

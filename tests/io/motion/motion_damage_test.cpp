@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/io/recorded_motion.hpp"
+#include "io/motion/load_table.hpp"
 #include "io/motion/motion_text.hpp"
 
 /// What is wrong with a damaged file is one line that names the place. Each kind of file is damaged in turn.
@@ -14,22 +15,10 @@
 namespace condyle {
 namespace {
 
+using test::expect_complaints;
 using test::replaced;
 
-struct Damage {
-  std::string text;
-  std::string complaint;
-};
-
 const auto only_read = [](const std::filesystem::path& path) { read_motion_table(path); };
-
-void expect_complaints(std::string_view name, const std::string& good, const std::vector<Damage>& damages,
-                       const std::function<void(const std::filesystem::path&)>& question) {
-  ASSERT_EQ(test::refusal(name, good, question), "accepted");
-  EXPECT_GE(damages.size(), 10u);
-  for (const Damage& damage : damages)
-    EXPECT_EQ(test::refusal(name, damage.text, question), damage.complaint);
-}
 
 /// Kinds of damage that any OpenSim table can have.
 const std::string mot =
@@ -231,6 +220,65 @@ TEST(DamagedMotion, Csv) {
         recorded_coordinates(read_motion_table(path),
                              {{.coordinate = "flexion", .column = "flexion", .unit = ColumnUnit::degrees}});
       });
+}
+
+const std::string loads = "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n0.1,0,-1500,0\n0.2,,,\n";
+
+TEST(DamagedMotion, Loads) {
+  const FrameTimes times{{0, 0.1, 0.2}};
+  const auto with = [](std::string_view from, std::string_view to) { return replaced(loads, from, to); };
+  const auto read = [&](bool free_rotations) {
+    return [&times, free_rotations](const std::filesystem::path& path) {
+      io::loads_of(read_motion_table(path), times, BodyRole::fixed, free_rotations);
+    };
+  };
+  const std::string beside =
+      "time,force_x_n,force_y_n,force_z_n,moment_x_nmm,moment_z_nmm\n0,0,-1,0,1,2\n0.1,0,-1,0,1,2\n0.2,0,-1,"
+      "0,"
+      "1,2\n";
+  expect_complaints(
+      "loads.csv", loads,
+      {{"", "is empty"},
+       {"time,force_x_n,force_y_n,force_z_n\n", "has no rows of numbers"},
+       {with("force_y_n", "force_y"), "has no column 'force_y_n' (did you mean \"force_y\"?)"},
+       {with("force_z_n", "force_y_n"), "line 1: column 'force_y_n' is there twice"},
+       {with("-1500", "-15oo"), "line 3: column 'force_y_n': '-15oo' should be a number"},
+       {with("-1500", "-inf"), "line 3: column 'force_y_n': '-inf' is not finite"},
+       {with("-1500,0", "-1500"), "line 3: has 3 values, and there are 4 columns"},
+       {with("0.1,", "0.15,"),
+        "line 3: is at 0.15, and the motion at 0.1: its rows are not at the times of the motion"},
+       {with("0.2,,,\n", ""), "has 2 rows, and the motion 3: its rows are not at the times of the motion"},
+       {with("0.2,", ","), "line 4: column 'time': a time must not be a gap"},
+       {with("\n0.1", "\n\n0.1"), "line 3: is empty, and rows follow"},
+       {beside, "column 'moment_x_nmm': moments are balanced with --free-rotations only"}},
+      read(false));
+  EXPECT_EQ(test::refusal("loads.csv", beside, read(true)), "has no column 'moment_y_nmm'");
+}
+
+TEST(RecordedLoads, AFrameWithAGapHasNone) {
+  const FrameTimes times{{0, 0.1, 0.2}};
+  const auto given = io::loads_of(test::read_table("loads.csv", loads), times, BodyRole::mobile, false);
+  ASSERT_EQ(given.size(), 3u);
+  EXPECT_EQ(given[1]->on_mobile.force_n, Vec3(0, -1500, 0));
+  EXPECT_EQ(given[1]->on_mobile.moment_nmm, Vec3(0, 0, 0));
+  EXPECT_EQ(given[1]->frame, BodyRole::mobile);
+  EXPECT_FALSE(given[2]);
+}
+
+/// Turned by a quarter about z, a force along the mobile body's x is along the fixed one's y.
+TEST(RecordedLoads, AreZeroWhereNothingActsAlongWhatIsFree) {
+  Pose X_FM = Pose::Identity();
+  X_FM.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const Load fixed{.on_mobile = {{3, 0, 0}, {}}},
+      mobile{.on_mobile = {{3, 0, 0}, {}}, .frame = BodyRole::mobile};
+  const Load moment{.on_mobile = {{0, 0, 0}, {0, 1, 0}}};
+  EXPECT_TRUE(io::is_zero_along({}, X_FM, {}));
+  EXPECT_FALSE(io::is_zero_along(fixed, X_FM, {}));
+  const BalanceOptions along_y{.free_directions = {Vec3(0, 2, 0)}};
+  EXPECT_TRUE(io::is_zero_along(fixed, X_FM, along_y));
+  EXPECT_FALSE(io::is_zero_along(mobile, X_FM, along_y));
+  EXPECT_TRUE(io::is_zero_along(moment, X_FM, {}));
+  EXPECT_FALSE(io::is_zero_along(moment, X_FM, {.free_rotations = true}));
 }
 
 /// The same mutations every time: bytes exchanged, pieces left out and repeated, ends cut off.

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "condyle/error.hpp"
 #include "condyle/io/motion_file.hpp"
@@ -38,6 +40,22 @@ std::string refusal(std::string_view name, std::string_view text, const Question
     return message.substr(std::min(message.size(), start.size()));
   }
   return "accepted";
+}
+
+/// A damaged file, and what reading it complains about behind the file's name.
+struct Damage {
+  std::string text;
+  std::string complaint;
+};
+
+/// Ten kinds of damage at least, each with its one line; the file that is not damaged is accepted.
+inline void expect_complaints(std::string_view name, const std::string& good,
+                              const std::vector<Damage>& damages,
+                              const std::function<void(const std::filesystem::path&)>& question) {
+  ASSERT_EQ(refusal(name, good, question), "accepted");
+  EXPECT_GE(damages.size(), 10u);
+  for (const Damage& damage : damages)
+    EXPECT_EQ(refusal(name, damage.text, question), damage.complaint) << damage.text;
 }
 
 }  // namespace condyle::test

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "condyle/io/joint_motion.hpp"
+#include "condyle/load_balance.hpp"
+
+/// Loads of a recorded motion, from a table of its own.
+
+namespace condyle::io {
+
+/// The load of every frame, from the columns force_x_n, force_y_n, force_z_n and, with free rotations, moment_x_nmm,
+/// moment_y_nmm, moment_z_nmm, which may all be left out; nothing where one of them has a gap. FileError where rows are not at
+/// the times of the motion, a column is missing, or moments are given that nothing balances.
+std::vector<std::optional<Load>> loads_of(const MotionTable& table, const FrameTimes& times, BodyRole frame,
+                                          bool free_rotations);
+
+/// Whether nothing of a load acts along what the balance leaves free: no pose is the one that carries it.
+bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options);
+
+}  // namespace condyle::io
