@@ -118,9 +118,28 @@ TEST_F(FreeJoint, AMatrixInAFileOrOnTheLineIsThePoseByItsCoordinates) {
 }
 
 TEST_F(FreeJoint, ABadMatrixFileIsNamed) {
-  std::ofstream(folder / "pose.txt") << "1 0 0 0\n0 1 0 0\n0 0 1 0\n";
-  expect_refusal(run("depth knee.toml --matrix pose.txt"), 3,
-                 "pose.txt: pose: a matrix has 16 numbers, row by row, not 12", "");
+  const std::string turned = "0 1 0 -35\n-1 0 0 4\n0 0 1 0\n";
+  const std::pair<std::string, const char*> damages[] = {
+      {"", "a matrix begins with a number"},
+      {"flexion=90", "a matrix begins with a number"},
+      {turned, "a matrix has 16 numbers, row by row, not 12"},
+      {turned + "0 0 0 1\n0", "a matrix has 16 numbers, row by row, not 17"},
+      {turned + "0 0 0 one", "'one' in the matrix is not a finite number"},
+      {turned + "0 0 nan 1", "'nan' in the matrix is not a finite number"},
+      {turned + "0 0 1e999 1", "'1e999' in the matrix is not a finite number"},
+      {turned + "0 0 0x0 1", "'0x0' in the matrix is not a finite number"},
+      {turned + "0 0 0 2", "the last row of the matrix must be 0 0 0 1, not 0 0 0 2"},
+      {"1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1", "it looks transposed"},
+      {"2 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "is not orthonormal: off by 3"},
+      {"1 0 0 0 0 1 0 0 0 0 -1 0 0 0 0 1", "the matrix mirrors: its determinant is -1"},
+      {"1;0;0;0;0;1;0;0;0;0;1;0;0;0;0;1", "in the matrix is not a finite number"}};
+  for (const auto& [text, complaint] : damages) {
+    std::ofstream(folder / "pose.txt") << text;
+    const Ran ran = run("depth knee.toml --matrix pose.txt");
+    expect_refusal(ran, 3, complaint, text);
+    EXPECT_NE(ran.err.find("condyle: pose.txt: pose: "), std::string::npos) << ran.err;
+  }
+  expect_refusal(run("depth knee.toml --matrix none.txt"), 3, "none.txt", "");
   EXPECT_NE(run("depth knee.toml --matrix pose.txt --pose flexion=1").exit_code, 0);
 }
 

@@ -1,10 +1,12 @@
 #include "io/joint/contact_table.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "io/motion/motion_text.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
@@ -213,21 +215,28 @@ TEST_F(ContactSurfacesOfAJoint, AThicknessCanBeGivenForEachVertex) {
   folder.file("thickness.txt", "1\n1.5\n2\n+2.5\n");
   EXPECT_EQ(std::get<std::vector<double>>(options_of(joint(fixed)).fixed->thickness_mm),
             (std::vector<double>{1, 1.5, 2, 2.5}));
-  const auto refusal = [&](const char* text) {
-    folder.file("thickness.txt", text);
-    const LoadedJoint loaded = joint(fixed);
-    try {
-      options_of(loaded);
-    } catch (const FileError& error) {
-      const std::string what = error.what();
-      return what.substr(what.find("thickness.txt"));
-    }
-    return std::string("accepted");
-  };
-  EXPECT_EQ(refusal("1\n1\n2\n"), "thickness.txt: 3 thicknesses for the 4 vertices of layer");
-  EXPECT_EQ(refusal("1\n0\n2\n2\n"), "thickness.txt: line 2: '0' is no thickness: a number above 0");
-  EXPECT_EQ(refusal("1\n1\nnan\n2\n"), "thickness.txt: line 3: 'nan' is no thickness: a number above 0");
   EXPECT_THROW(joint(fixed + "thickness = 2\n"), FileError) << "both";
+  const auto no_thickness = [](int line, const std::string& what) {
+    return fmt::format("line {}: '{}' is no thickness: a number above 0", line, what);
+  };
+  test::expect_complaints(
+      "thickness.txt", "1\n1\n2\n2\n",
+      {{"", "0 thicknesses for the 4 vertices of layer"},
+       {"1\n1\n2\n", "3 thicknesses for the 4 vertices of layer"},
+       {"1\n1\n2\n2\n3\n", "5 thicknesses for the 4 vertices of layer"},
+       {"1\n0\n2\n2\n", no_thickness(2, "0")},
+       {"1\n-1\n2\n2\n", no_thickness(2, "-1")},
+       {"1\n1\nnan\n2\n", no_thickness(3, "nan")},
+       {"1\n1\n2\ninf\n", no_thickness(4, "inf")},
+       {"1,1,2,2\n", no_thickness(1, "1,1,2,2")},
+       {"1\n1,5\n2\n2\n", no_thickness(2, "1,5")},
+       {"mm\n1\n1\n2\n2\n", no_thickness(1, "mm")},
+       {"1\n1\n2e999\n2\n", no_thickness(3, "2e999")},
+       {"1\n1\n\x01\n2\n", no_thickness(3, "?")}},
+      [&](const std::filesystem::path& path) {
+        options_of(joint("[contact]\nfixed_part = \"layer\"\n[contact.fixed]\n" + std::string(layer) +
+                         "thickness_file = \"" + path.string() + "\"\n"));
+      });
 }
 
 TEST_F(ContactSurfacesOfAJoint, AThicknessIsMeasuredToTheMeshBehind) {

@@ -106,6 +106,21 @@ TEST_F(JointBodyPose, ABadOneIsRefusedByLineAndKey) {
             "line 9: fixed.pose: the rotation of the matrix is not orthonormal: off by 3, more than 1e-06");
   EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1]"),
             "line 9: fixed.pose: the matrix mirrors: its determinant is -1");
+  EXPECT_EQ(
+      refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, -6, 7, 1]"),
+      "line 9: fixed.pose: the last row of the matrix must be 0 0 0 1, not 5 -6 7 1: it looks transposed");
+  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]"),
+            "line 9: fixed.pose: the last row of the matrix must be 0 0 0 1, not 0 0 0 2");
+  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, \"7\", 0, 0, 0, 1]"),
+            "line 9: fixed.pose: must be a number, not a text");
+  EXPECT_EQ(refusal(mesh + "pose = [1, 0, 0, nan, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]"),
+            "line 9: fixed.pose: must be a finite number");
+  EXPECT_EQ(refusal(mesh + "pose = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]"),
+            "line 9: fixed.pose: must be a list of sixteen numbers, not of 4");
+  EXPECT_EQ(refusal(mesh + "pose = { translation = [5, -6] }"),
+            "line 9: fixed.pose.translation: must be a list of three numbers, not of 2");
+  EXPECT_EQ(refusal(mesh + "pose = { flexion = \"30\" }"),
+            "line 9: fixed.pose.flexion: must be a number, not a text");
   EXPECT_EQ(refusal(mesh + "pose = \"scan\""), "line 9: fixed.pose: must be a table, not a text");
   EXPECT_NE(refusal(mesh + "pose = { dorsiflexion = 3 }").find("unknown key"), std::string::npos);
   EXPECT_NE(refusal(mesh + "poze = 1").find("unknown key (did you mean \"pose\"?)"), std::string::npos)
