@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 
 #include "motion_scene.hpp"
@@ -71,6 +72,44 @@ TEST_F(Motion, AMeasuredKneeIsWhereItsReadmeSays) {
       EXPECT_NEAR(value(angles[i]), known.deg[i], 0.01) << known.row << angles[i];
     }
   }
+}
+
+TEST_F(Motion, LoadTellsTheMomentOnTheBodyThatTheJointFileNames) {
+  const auto surface_of = [&](const std::string& moment_on) {
+    write("on.toml",
+          joint("free", "cup.ply", "ball.ply",
+                "[contact]\ncasting = \"fixed\"\nmoment_on = \"" + moment_on +
+                    "\"\n[[contact.region]]\nname = \"all\"\nhalf_space = [{ normal = [0, -1, 0] }]\n" +
+                    layer("fixed")));
+    write("one.csv", "time,x_mm,y_mm\n0,0.2,-0.5\n");
+    const Ran load = run("load on.toml --pose \"x=0.2 y=-0.5\" --json"),
+              motion = run("motion on.toml --motion one.csv --load --out out");
+    EXPECT_EQ(load.exit_code, 0) << load.err;
+    EXPECT_EQ(motion.exit_code, 0) << motion.err;
+    const NumberTable curves = csv_of(folder / "out/curves.csv");
+    const Json json = Json::parse(load.out);
+    EXPECT_EQ(json["contact"]["moment_on"], moment_on);
+    EXPECT_EQ(json["translation_mm"], Json::array({0.2, -0.5, 0.0}));
+    EXPECT_EQ(json["translation_frame"], "fixed");
+    const char* axes[] = {"moment_x_nmm", "moment_y_nmm", "moment_z_nmm"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double moment = json["fixed_surface"]["moment_nmm"][i].get<double>();
+      EXPECT_EQ(curves.rows[0][curves.column(axes[i])], moment) << "as the motion tells it";
+      EXPECT_NEAR(json["fixed_regions"][0]["moment_nmm"][i].get<double>(), moment,
+                  1e-9 * (1 + std::abs(moment)));
+    }
+    return json;
+  };
+  const Json casting = surface_of("casting"), target = surface_of("target");
+  EXPECT_EQ(casting["fixed_surface"]["force_n"], target["fixed_surface"]["force_n"]);
+  EXPECT_EQ(casting["on_mobile"], target["on_mobile"]);
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto moment = [&](const Json& of) { return of["fixed_surface"]["moment_nmm"][i].get<double>(); };
+    EXPECT_EQ(moment(target), -moment(casting));
+    largest = std::max(largest, std::abs(moment(casting)));
+  }
+  EXPECT_GT(largest, 1e-3) << "a sign to tell";
 }
 
 /// The swing of a gait carries nothing, and a force plate may miss a step: the other frames are answered.

@@ -28,9 +28,16 @@ Json wrench_json(const Wrench& wrench) {
   return {{"force_n", io::numbers(wrench.force_n)}, {"moment_nmm", io::numbers(wrench.moment_nmm)}};
 }
 
-Json surface_json(const Body& body, const std::optional<SurfaceContact>& surface) {
+/// The force on the casting body, and the moment on the body that the joint file tells it of.
+Json totals_json(const ContactEntry& contact, ContactTotals totals) {
+  if (contact.moment_on == MomentOn::target) totals.moment_nmm = -totals.moment_nmm;
+  return io::totals_json(totals, true);
+}
+
+Json surface_json(const ContactEntry& contact, const Body& body,
+                  const std::optional<SurfaceContact>& surface) {
   if (!surface) return nullptr;
-  Json json = io::totals_json(surface->totals, true);
+  Json json = totals_json(contact, surface->totals);
   const FaceContact* deepest = io::deepest_of(*surface);
   json["deepest_triangle"] = deepest ? Json(deepest->face) : Json(nullptr);
   if (deepest) io::add_triangle_part(json, "deepest_part", body, deepest->face);
@@ -45,9 +52,8 @@ Json regions_json(const ContactEntry& contact, const Body& body,
   if (!surface) return nullptr;
   Json regions = Json::array();
   for (const RegionEntry& region : contact.regions) {
-    Json json = io::totals_json(
-        totals_of(faces_within(surface->faces, body.mesh, region.half_spaces), body.mesh, contact.rays.rule),
-        true);
+    Json json = totals_json(contact, totals_of(faces_within(surface->faces, body.mesh, region.half_spaces),
+                                               body.mesh, contact.rays.rule));
     json["name"] = region.name;
     regions.push_back(std::move(json));
   }
@@ -109,6 +115,10 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
             {"side", name_of(joint.side)},
             {"pose_deg", io::pose_json(question.pose, joint.anatomy)},
             {"contact", io::contact_terms(question.contact, true)}};
+  if (joint.kind == JointKind::free) {
+    json["translation_mm"] = io::numbers(question.pose.translation_mm);
+    json["translation_frame"] = name_of(joint.translation_frame);
+  }
   Json rows = Json::array();
   for (int r = 0; r < 4; ++r)
     rows.push_back({answer.X_FM.matrix()(r, 0), answer.X_FM.matrix()(r, 1), answer.X_FM.matrix()(r, 2),
@@ -123,8 +133,8 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
                        {"moved_mm", io::numbers(answer.X_FM.translation() - question.X_FM.translation())},
                        {"residual", wrench_json(answer.balanced->residual)}};
   }
-  json["fixed_surface"] = surface_json(question.surfaces.fixed, answer.contact.fixed);
-  json["mobile_surface"] = surface_json(question.surfaces.mobile, answer.contact.mobile);
+  json["fixed_surface"] = surface_json(question.contact, question.surfaces.fixed, answer.contact.fixed);
+  json["mobile_surface"] = surface_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
   if (!question.contact.regions.empty()) {
     json["fixed_regions"] = regions_json(question.contact, question.surfaces.fixed, answer.contact.fixed);
     json["mobile_regions"] = regions_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
