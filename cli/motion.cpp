@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,15 @@ std::vector<Load> loads_of(const Options& options, JointMotion& motion) {
   return loads;
 }
 
+/// Whether the mobile body's origin is in one place in all frames.
+bool holds_centre(std::span<const std::optional<Pose>> X_FM) {
+  std::optional<Vec3> centre;
+  return std::all_of(X_FM.begin(), X_FM.end(), [&](const std::optional<Pose>& X) {
+    if (X && !centre) centre = X->translation();
+    return !X || X->translation() == *centre;
+  });
+}
+
 MotionAnswer answer_of(const Options& options, const MotionQuestion& question,
                        const std::vector<Load>& loads) {
   const MotionSurfaces surfaces(question);
@@ -84,9 +94,8 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question,
     }
   }
   // Between samples of a held centre contact is exact and cheap, so it is always looked for; else on request.
-  const bool held = std::all_of(X_FM.begin(), X_FM.end(),
-                                [](const std::optional<Pose>& X) { return !X || X->translation().isZero(); });
-  if (answer.balanced.empty() && question.motion.times.in_seconds && (options.between || held)) {
+  if (answer.balanced.empty() &&
+      (options.between || (question.motion.times.in_seconds && holds_centre(X_FM)))) {
     answer.between = followed("ways between samples", [&](const auto& follow, std::stop_token stop) {
       return contact_between_frames(surfaces.bodies(), question.motion, {.progress = follow, .stop = stop});
     });
@@ -98,6 +107,8 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question,
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
+  if (options.between && !motion.times.in_seconds)
+    throw UsageError("--between: needs times in seconds, and this motion has frame numbers only");
   const std::vector<Load> loads = loads_of(options, motion);
   for (const std::string& remark : motion.notes) note(remark);
   const bool with_pressure = options.with_pressure || !loads.empty();
@@ -147,10 +158,11 @@ void add_motion(CLI::App& app) {
       ->excludes(command->get_option("--force"))
       ->excludes(command->get_option("--moment"))
       ->option_text("FILE");
-  command->add_flag_callback(
+  auto* between = command->add_flag_callback(
       "--between", [options] { options->between = true; },
       "Contact between the samples too, bounded where the centre moves; where it is held that is exact and "
       "always done");
+  for (const char* load : {"--force", "--moment", "--loads"}) between->excludes(command->get_option(load));
   auto* out = command->add_option("--out", options->out, "Folder for curves.csv, curves.sto and motion.json");
   command
       ->add_option("--cycle", options->cycle,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "motion_scene.hpp"
@@ -110,6 +111,36 @@ TEST_F(Motion, LoadTellsTheMomentOnTheBodyThatTheJointFileNames) {
     largest = std::max(largest, std::abs(moment(casting)));
   }
   EXPECT_GT(largest, 1e-3) << "a sign to tell";
+}
+
+TEST_F(Motion, ACentreHeldOffTheOriginIsExactToo) {
+  write("free.toml", joint("free", "post.ply", "shank.ply", ""));
+  write("swing.csv", "time,flexion_deg,x_mm,y_mm\n0,0,3,-2\n0.1,5,3,-2\n0.2,30,3,-2\n");
+  const Json between = Json::parse(run("motion free.toml --motion swing.csv --json").out)["between_samples"];
+  ASSERT_FALSE(between.is_null());
+  EXPECT_EQ(between["ways_exact"], 2);
+  EXPECT_EQ(between["ways_bounded"], 0);
+  // The front corner (1, -100) goes round (3, -2) and meets the post at x = 40.
+  const double radius = std::hypot(1, 100);
+  const double angle = (std::asin(37 / radius) - std::asin(1 / radius)) * 180 / std::numbers::pi;
+  ASSERT_EQ(between["contacts"].size(), 1u);
+  EXPECT_NEAR(between["contacts"][0]["entry"]["turned_deg"].get<double>(), angle - 5, 1e-9);
+  write("moves.csv", "time,flexion_deg,x_mm\n0,0,3\n0.1,5,3\n0.2,30,3.1\n");
+  EXPECT_TRUE(
+      Json::parse(run("motion free.toml --motion moves.csv --json").out)["between_samples"].is_null());
+}
+
+TEST_F(Motion, BetweenIsRefusedWhereItIsNotLookedFor) {
+  write("good.csv", "time,flexion_deg\n0,0\n0.1,5\n");
+  write("frames.csv", "flexion_deg\n0\n5\n");
+  write("loads.csv", "time,force_x_n,force_y_n,force_z_n\n0,0,-1000,0\n0.1,0,-1000,0\n");
+  const auto refused = [&](const std::string& arguments, const char* saying) {
+    expect_refusal(run(arguments), 2, saying, arguments);
+  };
+  refused("motion cup.toml --motion good.csv --between --force 0 -1000 0", "--between");
+  refused("motion cup.toml --motion good.csv --between --loads loads.csv", "--between");
+  refused("motion cup.toml --motion frames.csv --between", "--between: needs times in seconds");
+  EXPECT_EQ(run("motion cup.toml --motion good.csv --between").exit_code, 0);
 }
 
 /// The swing of a gait carries nothing, and a force plate may miss a step: the other frames are answered.
