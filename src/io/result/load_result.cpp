@@ -46,21 +46,27 @@ Json surface_json(const ContactEntry& contact, const Body& body,
   return json;
 }
 
+/// What the faces of a region add up to.
+ContactTotals region_totals(const ContactEntry& contact, const RegionEntry& region, const Body& body,
+                            const SurfaceContact& surface) {
+  return totals_of(faces_within(surface.faces, body.mesh, region.half_spaces), body.mesh, contact.rays.rule);
+}
+
 /// What each region of a casting surface carries; an empty list where the joint file has none.
 Json regions_json(const ContactEntry& contact, const Body& body,
                   const std::optional<SurfaceContact>& surface) {
   if (!surface) return nullptr;
   Json regions = Json::array();
   for (const RegionEntry& region : contact.regions) {
-    Json json = totals_json(contact, totals_of(faces_within(surface->faces, body.mesh, region.half_spaces),
-                                               body.mesh, contact.rays.rule));
+    Json json = totals_json(contact, region_totals(contact, region, body, *surface));
     json["name"] = region.name;
     regions.push_back(std::move(json));
   }
   return regions;
 }
 
-std::string surface_text(const Body& body, const std::optional<SurfaceContact>& surface) {
+std::string surface_text(const ContactEntry& contact, const Body& body,
+                         const std::optional<SurfaceContact>& surface) {
   if (!surface) return "";
   const ContactTotals& totals = surface->totals;
   if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name);
@@ -72,6 +78,14 @@ std::string surface_text(const Body& body, const std::optional<SurfaceContact>& 
   text += fmt::format("    pressure {:.3f} MPa in the mean, {:.3f} at most, centre {} mm of its own frame\n",
                       totals.mean_pressure_mpa, totals.max_pressure_mpa,
                       core::rounded(*totals.centre_of_pressure, 2));
+  for (const RegionEntry& region : contact.regions) {
+    const ContactTotals of = region_totals(contact, region, body, *surface);
+    text += of.triangles == 0
+                ? fmt::format("    {}: no contact\n", region.name)
+                : fmt::format("    {}: {:.2f} mm2, pressure {:.3f} MPa at most, force {} N, {:.2f} in all\n",
+                              region.name, of.area_mm2, of.max_pressure_mpa, core::rounded(of.force_n, 2),
+                              of.force_n.norm());
+  }
   if (surface->met_from_front > 0)
     text += fmt::format("    {} rays met the open surface from its front: overlap there may be none\n",
                         surface->met_from_front);
@@ -93,8 +107,8 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
     else
       text += fmt::format("  {}\n", reason_of(*answer.balanced));
   }
-  text += surface_text(question.surfaces.fixed, answer.contact.fixed) +
-          surface_text(question.surfaces.mobile, answer.contact.mobile);
+  text += surface_text(question.contact, question.surfaces.fixed, answer.contact.fixed) +
+          surface_text(question.contact, question.surfaces.mobile, answer.contact.mobile);
   const Wrench& load = answer.contact.on_mobile;
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
