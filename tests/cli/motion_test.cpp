@@ -77,6 +77,30 @@ TEST_P(PublishedMotion, TheExampleGivesThePublishedCurves) {
           << of_column[c].first << " frame " << frame;
     }
   }
+  // The compartments of the tibia, on either side of its sagittal plane, carry all of its load.
+  if (fs::exists(folder / "out/regions.csv")) {
+    const NumberTable regions = csv_of(folder / "out/regions.csv");
+    ASSERT_EQ(regions.rows.size(), 251u);
+    for (std::size_t frame = 0; frame < 251; ++frame) {
+      for (const char* name : {"area_mm2", "force_x_n", "force_y_n", "force_z_n", "moment_x_nmm",
+                               "moment_y_nmm", "moment_z_nmm"}) {
+        const double medial = regions.rows[frame][regions.column(std::string("medial_") + name)],
+                     lateral = regions.rows[frame][regions.column(std::string("lateral_") + name)];
+        // Sums of some 1500 faces in another order.
+        EXPECT_NEAR(medial + lateral, curves.rows[frame][curves.column(name)],
+                    1e-12 * (std::abs(medial) + std::abs(lateral) + 1))
+            << name << " frame " << frame;
+      }
+      const auto z = [&](const char* of) { return regions.rows[frame][regions.column(of)]; };
+      if (!std::isnan(z("medial_centre_of_pressure_z_mm"))) {
+        EXPECT_LT(z("medial_centre_of_pressure_z_mm"), 0);
+      }
+      if (!std::isnan(z("lateral_centre_of_pressure_z_mm"))) {
+        EXPECT_GT(z("lateral_centre_of_pressure_z_mm"), 0);
+      }
+    }
+  }
+  EXPECT_EQ(fs::exists(folder / "out/regions.csv"), GetParam().contact == std::string("tf"));
   EXPECT_EQ(csv_of(folder / "out/cycle.csv").rows.size(), 101u);
   EXPECT_GT(fs::file_size(folder / "out/jam.h5"), 1000u);
   EXPECT_EQ(text_of(folder / "out/curves.sto").find("nan"), std::string::npos);
@@ -150,19 +174,42 @@ TEST_F(Motion, AGapStaysAGap) {
 }
 
 TEST_F(Motion, FramesAreTheSameOnAnyNumberOfThreads) {
-  write("rock.csv", "time,y_mm,x_mm\n0,-0.3,0\n0.1,-0.4,0.1\n0.2,-0.5,0\n0.3,-0.4,-0.1\n");
-  for (const char* threads : {"1", "2"})
-    ASSERT_EQ(run(std::string("motion cup.toml --motion rock.csv --load --maps --out t") + threads +
-                  " --threads " + threads)
-                  .exit_code,
-              0);
-  for (const char* file :
-       {"curves.csv", "curves.sto", "map_fixed_00002.vtp", "map_mobile_00003.vtp", "motion.pvd"}) {
-    const std::string one = text_of(folder / "t1" / file);
-    EXPECT_FALSE(one.empty()) << file;
-    if (std::string(file).ends_with(".vtp")) continue;  // their provenance has the command line
-    EXPECT_EQ(one, text_of(folder / "t2" / file)) << file;
-  }
+  write_mesh(folder / "coarse_cup.ply", cup(25, 4));
+  write_mesh(folder / "coarse_ball.ply", sphere(Vec3::Zero(), 24.8, 4));
+  write("coarse.toml",
+        joint("free", "coarse_cup.ply", "coarse_ball.ply",
+              "[contact]\ncasting = \"fixed\"\n[[contact.region]]\nname = \"front\"\nhalf_space = "
+              "[{ normal = [1, 0, 0] }]\n" +
+                  layer("fixed")));
+  // In contact, apart, and apart from the first frame to the last.
+  write("rock.csv", "time,y_mm,x_mm\n0,-0.3,0\n0.1,0,0\n0.2,-0.5,0\n0.3,-0.4,-0.1\n0.4,0.1,0.1\n");
+  write("apart.csv", "time,flexion_deg\n0,0\n0.1,5\n0.2,9\n0.3,14\n");
+  write("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n0.2,30\n0.3,0\n");
+  const auto expect_same = [&](const std::string& question, std::vector<std::string> files) {
+    std::string out[2];
+    for (const char* threads : {"1", "2"}) {
+      const std::string to = "t" + std::string(threads);
+      fs::remove_all(folder / to);
+      const Ran ran = run("motion " + question + " --out " + to + " --threads " + threads);
+      ASSERT_EQ(ran.exit_code, 0) << ran.err;
+      out[threads[0] - '1'] = ran.out;
+    }
+    EXPECT_EQ(out[0], out[1]) << question;
+    // The command line that they keep has neither threads nor folders.
+    for (const auto& file : fs::directory_iterator(folder / "t1")) files.push_back(file.path().filename());
+    for (const std::string& file : files) {
+      EXPECT_FALSE(text_of(folder / "t1" / file).empty()) << question << ": " << file;
+      EXPECT_EQ(text_of(folder / "t1" / file), text_of(folder / "t2" / file)) << question << ": " << file;
+    }
+  };
+  const std::vector<std::string> every = {"curves.csv",  "curves.sto",          "cycle.csv",
+                                          "regions.csv", "map_fixed_00002.vtp", "map_mobile_00003.vtp",
+                                          "motion.pvd",  "motion.json",         "jam.h5"};
+  expect_same("coarse.toml --motion rock.csv --load --maps --jam --cycle 0 0.4", every);
+  expect_same("coarse.toml --motion apart.csv --load --maps --jam --cycle 0 0.3", every);
+  expect_same("shank.toml --motion apart.csv --jam", {"contacts.csv", "jam.h5"});
+  expect_same("shank.toml --motion swing.csv", {"contacts.csv"});
+  expect_same("coarse.toml --motion rock.csv --between", {"contacts.csv"});
 }
 
 TEST_F(Motion, ALoadIsBalancedFrameAfterFrame) {
@@ -255,6 +302,9 @@ TEST_F(Motion, LoadTellsWhatEachRegionCarries) {
   EXPECT_NEAR(y(regions[0]) + y(regions[1]), y(json["fixed_surface"]), 1e-9);
   EXPECT_NEAR(y(regions[0]), y(regions[1]), 20) << "front and back alike up to the facets";
   EXPECT_EQ(json["mobile_regions"], nullptr);
+  const std::string text = run("load cup.toml --force 0 -2000 0").out;
+  for (const char* name : {"    front: ", "    back: "}) EXPECT_NE(text.find(name), text.npos) << text;
+  EXPECT_NE(run("load cup.toml").out.find("no contact"), std::string::npos) << "apart";
 }
 
 TEST(GaitOnAHip, IsFreeInEveryFrameAndBetween) {
