@@ -185,6 +185,7 @@ TEST_F(Motion, FramesAreTheSameOnAnyNumberOfThreads) {
   write("rock.csv", "time,y_mm,x_mm\n0,-0.3,0\n0.1,0,0\n0.2,-0.5,0\n0.3,-0.4,-0.1\n0.4,0.1,0.1\n");
   write("apart.csv", "time,flexion_deg\n0,0\n0.1,5\n0.2,9\n0.3,14\n");
   write("swing.csv", "time,flexion_deg\n0,0\n0.1,10\n0.2,30\n0.3,0\n");
+  write("lower.csv", "time,y_mm\n0,0\n0.1,-0.3\n");
   const auto expect_same = [&](const std::string& question, std::vector<std::string> files) {
     std::string out[2];
     for (const char* threads : {"1", "2"}) {
@@ -209,7 +210,7 @@ TEST_F(Motion, FramesAreTheSameOnAnyNumberOfThreads) {
   expect_same("coarse.toml --motion apart.csv --load --maps --jam --cycle 0 0.3", every);
   expect_same("shank.toml --motion apart.csv --jam", {"contacts.csv", "jam.h5"});
   expect_same("shank.toml --motion swing.csv", {"contacts.csv"});
-  expect_same("coarse.toml --motion rock.csv --between", {"contacts.csv"});
+  expect_same("coarse.toml --motion lower.csv --between", {"contacts.csv"});
 }
 
 TEST_F(Motion, ALoadIsBalancedFrameAfterFrame) {
