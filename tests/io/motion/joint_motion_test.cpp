@@ -103,6 +103,26 @@ TEST(JointMotion, RecordedPosesInMetresAreThoseInMillimetres) {
       "[reference_pose]\nflexion = 33\nx = 0.003"));
 }
 
+/// Along the joint's axes a bent knee's y is along the tibia: at 90 degrees of flexion the femur's X.
+TEST(JointMotion, TranslationsAreRecordedAlongTheAxesThatTheJointNames) {
+  const test::TemporaryFolder folder;
+  write_mesh(folder / "body.ply", test::box({-11, -95, -7}, {13, -20, 9}));
+  const MotionTable table = read_motion_table(
+      folder.file("bent.csv", "time,flexion_deg,x_mm,y_mm,z_mm\n0,90,1,10,2\n1,0,1,10,2\n"));
+  for (const bool along_joint : {false, true}) {
+    const LoadedJoint knee = read_joint(folder.file(
+        "knee.toml",
+        "condyle = 1\nname = \"knee\"\nkind = \"free\"\njoint = \"knee\"\nside = \"right\"\nunits = "
+        "\"mm\"\ntranslation_frame = \"" +
+            std::string(along_joint ? "joint_axes" : "fixed") +
+            "\"\n[fixed]\nmesh = \"body.ply\"\n[mobile]\nmesh = \"body.ply\"\n[frame]\n" + standard));
+    const JointMotion motion = motion_of(knee, table);
+    const Vec3 bent = along_joint ? Vec3(10, -1, 2) : Vec3(1, 10, 2);
+    EXPECT_LE((motion.X_FM[0]->translation() - bent).norm(), 1e-14) << along_joint;
+    EXPECT_EQ(motion.X_FM[1]->translation(), Vec3(1, 10, 2)) << "the same at zero angles";
+  }
+}
+
 /// Turns about a point that stays where it is: a ball there, and no ball anywhere else.
 TEST(JointMotion, ABallDoesNotTranslate) {
   const Vec3 centre(5, -6, 70);
