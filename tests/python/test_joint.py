@@ -91,6 +91,8 @@ def test_frames_of_a_motion_show_what_their_poses_show(hip):
         assert frames[n].in_contact == hip.in_contact(poses[n])
         assert frames[n].intersecting_pairs == len(hip.pairs(poses[n]))
         assert frames[n].smallest_gap_mm == hip.contact_measures(poses[n]).smallest_gap_mm
+    # By 150 degrees the bones are deeper than rays go.
+    assert frames[0].cut_off_by_reach == 0 < frames[3].cut_off_by_reach
     with pytest.raises(condyle.UsageError, match="pose 1: the rotation is not orthonormal"):
         hip.contact_along([np.eye(4), 2 * np.eye(4) - np.diag([0, 0, 0, 1])])
 
