@@ -74,7 +74,9 @@ std::string fault_of_json(FuzzInput& input) {
   const Mesh mesh = input.mesh();
   std::string name;
   for (std::size_t count = input.below(12); count > 0; --count) name += static_cast<char>(input.byte() | 1);
-  const std::vector<MeshInspection> meshes{{name, {}, 0, {}, inspect(mesh)}};
+  std::vector<MeshInspection> meshes(1);
+  meshes[0].path = name;
+  meshes[0].report = inspect(mesh);
   const auto json = nlohmann::json::parse(to_json(meshes));
   const auto& first = json.at("meshes").at(0);
   if (first.at("triangles") != mesh.triangles().size()) return "another number of triangles in the JSON";
