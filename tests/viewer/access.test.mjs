@@ -1,4 +1,4 @@
-// The page for everybody: accessibility rules, keyboard, touch, small and large windows, light and dark, paper.
+// The page for everybody: accessibility rules, keyboard, touch, small and large windows, light and dark.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { axeSource, keep, openPage, pathOf, settled, sharedBrowser } from "./browser.mjs";
@@ -74,15 +74,5 @@ test("fingers turn the joint", async () => {
   for (let x = 100; x <= 220; x += 20) await touch("touchMove", box.x + x);
   await touch("touchEnd");
   await page.waitForFunction((was) => location.hash !== was, before);
-  await page.context().close();
-});
-
-test("on paper there are no buttons", async () => {
-  const { page } = await openPage(browser, pathOf("sample"));
-  await settled(page);
-  await page.emulateMedia({ media: "print" });
-  assert.equal(await page.getByRole("button", { name: "Save as SVG" }).first().isVisible(), false);
-  assert.equal(await page.getByRole("heading", { name: "Numbers" }).isVisible(), true);
-  await keep(page, "paper", { fullPage: true });
   await page.context().close();
 });

@@ -64,6 +64,7 @@ export class DisplayPanel {
         checkbox(words.pairs, true, (on) => scene?.showMarked("contact", on)),
         checkbox(words.bearing, false, (on) => scene?.showMarked("bearing", on)),
         checkbox(words.shading, true, (on) => scene?.setShading(on))));
+    this.element.classList.add("no-print");
     this.drawScale();
   }
 
