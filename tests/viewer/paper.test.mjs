@@ -1,8 +1,10 @@
 // The page on paper, and what is saved from it.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { keep, openPage, pathOf, reports, settled, sharedBrowser } from "./browser.mjs";
+import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
 
@@ -50,5 +52,54 @@ test("on paper the pose is told, and there are no buttons", async () => {
   assert.equal(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).isVisible(), true);
   assert.equal(await page.getByRole("heading", { name: "Numbers" }).isVisible(), true);
   await keep(page, "paper", { fullPage: true });
+  await page.context().close();
+});
+
+async function saved(page, what, of) {
+  const [download] = await Promise.all([page.waitForEvent("download"), page.locator("section", { has: page.getByRole("heading", { name: of }) })
+    .getByRole("button", { name: what }).click()]);
+  return { name: download.suggestedFilename(), text: readFileSync(await download.path(), "utf8") };
+}
+
+test("a figure saved as SVG is the same from a dark page as from a light one, and shows itself", async () => {
+  const files = [];
+  for (const colorScheme of ["light", "dark"]) {
+    const { page } = await openPage(browser, pathOf("sample"), { colorScheme });
+    await settled(page);
+    files.push([await saved(page, "Save as SVG", "Limits"), await saved(page, "Save as SVG", "Range-of-motion map")]);
+    await page.context().close();
+  }
+  const [light, dark] = files;
+  assert.deepEqual(dark, light);
+  assert.deepEqual(light.map(({ name }) => name), ["limits.svg", "map.svg"]);
+  const { page } = await openPage(browser, pathOf("sample"));
+  for (const { name, text } of light) {
+    const { root, black, colours } = await page.evaluate((source) => {
+      const svg = new DOMParser().parseFromString(source, "image/svg+xml");
+      const fills = (selector) => [...svg.querySelectorAll(selector)].map((element) => element.getAttribute("fill"));
+      return { root: svg.documentElement.nodeName, black: fills("text"), colours: fills("rect") };
+    }, text);
+    assert.equal(root, "svg", name);
+    assert.deepEqual([...new Set(black)], ["rgb(27, 31, 36)"], name);
+    assert.ok(!text.includes("var(") && !text.includes("rgba(0, 0, 0, 0)") && !text.includes("class="), name);
+    assert.ok(new Set(colours).size > 1, name);
+  }
+  await page.context().close();
+});
+
+test("a figure saved as data has the numbers of the report, to the last digit", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await settled(page);
+  const { rom, map } = readReport(pathOf("sample")).text;
+  const limits = await saved(page, "Save data", "Limits");
+  assert.equal(limits.name, "limits.csv");
+  const [head, ...rows] = limits.text.trimEnd().split("\n").map((line) => line.split(","));
+  assert.deepEqual(head.slice(0, 3), ["motion", "limit_deg", "reason"]);
+  assert.deepEqual(rows.map(([name, limit, reason]) => [name, Number(limit), reason]),
+    rom.motions.map(({ name, limit_deg, reason }) => [name, limit_deg, reason]));
+  const cells = (await saved(page, "Save data", "Range-of-motion map")).text.trimEnd().split("\n").slice(1).map((line) => line.split(",").map(Number));
+  assert.deepEqual(cells, map.intervals.flatMap((list, point) => list.map((interval) => [
+    map.columns.values_deg[point % map.columns.values_deg.length],
+    map.rows.values_deg[Math.floor(point / map.columns.values_deg.length)], ...interval])));
   await page.context().close();
 });

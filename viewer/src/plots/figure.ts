@@ -21,17 +21,22 @@ export function figure({ name, caption, picture, data }: Drawing): HTMLElement {
       button(words.saveData, () => save(`${name}.csv`, "text/csv", csv(data())))));
 }
 
-/// The SVG with the styles that the page gives it.
+/// What a browser calls transparent, other programs show as black.
+const transparent = "rgba(0, 0, 0, 0)";
+
+/// The SVG with the styles that the page gives it on paper.
 function standalone(picture: SVGSVGElement): string {
   const copy = picture.cloneNode(true) as SVGSVGElement;
+  picture.classList.add("on-paper");
   const originals = [picture, ...picture.querySelectorAll<SVGElement>("*")];
   [copy, ...copy.querySelectorAll<SVGElement>("*")].forEach((element, i) => {
     const style = getComputedStyle(originals[i]!);
     for (const property of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family", "text-anchor", "opacity"])
-      element.setAttribute(property, style.getPropertyValue(property));
+      element.setAttribute(property, style.getPropertyValue(property).replace(transparent, "none"));
     element.removeAttribute("class");
     element.removeAttribute("tabindex");
   });
+  picture.classList.remove("on-paper");
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");
   return new XMLSerializer().serializeToString(copy);
 }
