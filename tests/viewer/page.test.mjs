@@ -1,4 +1,4 @@
-// What the page answers and says, in a browser: against the command line, damaged, without WebAssembly, with hostile names.
+// What the page answers and says, in a browser: against the command line, damaged, with hostile names.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
@@ -412,17 +412,6 @@ test("names stay text: markup, scripts, a megabyte, right to left", async () => 
   assert.deepEqual(complaints, []);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   await keep(page, "hostile");
-  await page.context().close();
-});
-
-test("without WebAssembly there are precomputed poses and a notice", async () => {
-  const { page, complaints } = await openPage(browser, pathOf("sample"), { script: "delete globalThis.WebAssembly", answers: false });
-  await page.getByText("does not run WebAssembly").waitFor();
-  const poses = page.getByRole("combobox", { name: "Poses" });
-  await poses.selectOption({ label: "flexion" });
-  assert.ok(Number(await page.getByRole("spinbutton", { name: "flexion, degrees", exact: true }).inputValue()) > 90);
-  assert.deepEqual(complaints, []);
-  await keep(page, "without_webassembly");
   await page.context().close();
 });
 

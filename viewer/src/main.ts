@@ -7,7 +7,7 @@ import { dropPanel } from "./panels/drop";
 import { MotionPanel } from "./panels/motion";
 import { numbersPanel } from "./panels/numbers";
 import { PointerPanel } from "./panels/pointer";
-import { RecordedPanel } from "./panels/recorded";
+import { RecordedPanel, type Frame } from "./panels/recorded";
 import { ZonePanel } from "./panels/zones";
 import { clockDrawing } from "./plots/clock";
 import { figure } from "./plots/figure";
@@ -23,6 +23,8 @@ import { words } from "./words";
 
 const translationNames = ["x", "y", "z"];
 const quantities = Object.keys(words.quantity) as Quantity[];
+const canCompute = typeof WebAssembly !== "undefined";
+const storedQuantities: readonly Quantity[] = ["gap", "none"];
 
 function found<T extends HTMLElement>(id: string): T {
   return document.getElementById(id) as T;
@@ -55,6 +57,9 @@ class Page {
   private mapPlot: MapPlot | null = null;
   private zones: ZonePanel | null = null;
   private fragmentTimer = 0;
+  /// Of those that the report holds, where the page cannot compute.
+  private storedPose: StoredPose | null = null;
+  private poseChoice: HTMLSelectElement | null = null;
 
   /// `report` holds the arrays of figures and poses that a joint dropped on the page has not.
   constructor(private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null) {
@@ -65,10 +70,12 @@ class Page {
     const names = { fixed: joint.fixed, mobile: joint.mobile };
     this.scene = sceneOf(arrays, words.sceneLabel(joint.fixed, joint.mobile));
     const state = readViewState(location.hash, this.coordinateNames());
-    const shown = quantities.filter((key) => key !== "pressure" || text.layers);
+    const shown = canCompute ? quantities.filter((key) => key !== "pressure" || text.layers) : storedQuantities;
     const quantity = shown.find((key) => key === state.colour) ?? "gap";
-    this.motion = new MotionPanel(text, (at) => this.moved(at), (motion) => this.arrived(motion));
-    this.display = new DisplayPanel(this.scene, names, text.parts, shown, quantity, () => this.moved(this.motion.coordinates));
+    this.motion = new MotionPanel(
+      text, (at) => this.moved(at), (motion) => this.arrived(motion), canCompute ? null : (name) => this.showStored(name));
+    this.display = new DisplayPanel(this.scene, names, text.parts, shown, quantity, canCompute ? ["contact", "bearing"] : ["bearing"],
+      () => this.recolour());
     if (report && text.zones.length) {
       this.zones = new ZonePanel(this.scene, report, text.zones);
       this.display.element.append(this.zones.element);
@@ -99,7 +106,7 @@ class Page {
       },
       values: (values) => this.show(values),
       limit: (at, limit) => this.motion.setLimit(at, limit),
-      bearing: (triangles) => this.scene?.setMarked("bearing", [], [...triangles.keys()].filter((t) => triangles[t])),
+      bearing: (triangles) => this.markBearing(triangles),
       mapPoint: (point, intervals) => {
         this.mapPlot?.set(point, intervals);
         found("map-progress").textContent = this.mapPlot?.progress() ?? "";
@@ -119,22 +126,49 @@ class Page {
     this.scene?.draw();
   }
 
+  private markBearing(triangles: Uint8Array): void {
+    this.scene?.setMarked("bearing", [], [...triangles.keys()].filter((t) => triangles[t]));
+  }
+
   /// For browsers without WebAssembly: poses that the report holds.
   useStoredPoses(): void {
     warn(words.noWebAssembly);
-    const poses = this.text.poses;
-    if (poses.length === 0) return;
-    const options = Object.fromEntries(poses.map((pose, i) => [String(i), spaced(pose.name)]));
-    found("panels").prepend(section(words.precomputed,
-      choice<string>(words.precomputed, options, "0", (key) => this.showStored(poses[Number(key)]!))));
-    this.showStored(poses[0]!);
+    if ("bearing" in this.text.arrays) this.markBearing(this.report!.array("bearing", "u8"));
+    const names = this.text.poses.map(({ name }) => name);
+    if (names.length === 0) return;
+    const poses = choice<string>(
+      words.precomputed, Object.fromEntries(names.map((name) => [name, spaced(name)])), names[0]!, (name) => this.showStored(name));
+    this.poseChoice = poses.querySelector("select");
+    found("panels").prepend(section(words.precomputed, poses));
+    this.showStored(names[0]!);
   }
 
-  private showStored(pose: StoredPose): void {
+  private showStored(name: string): void {
+    const pose = this.text.poses.find((stored) => stored.name === name);
+    if (!pose) return;
+    if (this.poseChoice) this.poseChoice.value = name;
     this.motion.set(pose.coordinates_deg);
+    this.storedPose = pose;
     this.scene?.setPose(pose.pose);
-    this.show({ fixed: this.storedGaps(pose.fixed_gaps), mobile: this.storedGaps(pose.mobile_gaps) });
+    this.recolour();
     this.scene?.showContactPoint(pose.contact_point_mm);
+    this.zones?.show(name);
+  }
+
+  /// Another quantity is asked for.
+  private recolour(): void {
+    if (canCompute) return this.moved(this.motion.coordinates);
+    const pose = this.display.quantity === "gap" ? this.storedPose : null;
+    this.show(pose && { fixed: this.storedGaps(pose.fixed_gaps), mobile: this.storedGaps(pose.mobile_gaps) });
+  }
+
+  /// A frame of the recorded motion: its pose is in the report, its colours are computed.
+  private showFrame({ angles, translation, X_FM }: Frame): void {
+    this.motion.set(angles, translation);
+    if (canCompute || X_FM.some(Number.isNaN)) return;
+    this.storedPose = null;
+    this.scene?.setPose(X_FM);
+    this.recolour();
   }
 
   private storedGaps(name: string): Values {
@@ -148,14 +182,14 @@ class Page {
     const { rom, map, recorded } = this.text;
     const made: HTMLElement[] = [];
     if (recorded && this.report)
-      made.push(new RecordedPanel(this.report, recorded, (angles, translation) => this.motion.set(angles, translation)).element);
-    const go = (motion: MotionAnswer) => this.motion.goToEnd(motion);
+      made.push(new RecordedPanel(this.report, recorded, (frame) => this.showFrame(frame)).element);
+    const go = canCompute || this.text.poses.length ? (motion: MotionAnswer) => this.motion.goToEnd(motion) : null;
     if (rom) {
       made.push(section(words.limits, figure(limitsDrawing(rom.motions, go))));
       const clock = clockDrawing(rom.motions, go);
       if (clock) made.push(section(words.clock, figure(clock)));
     }
-    if (this.text.joint.kind !== "hinge") made.push(this.mapSection(map));
+    if (this.text.joint.kind !== "hinge" && (map || canCompute)) made.push(this.mapSection(map));
     return made;
   }
 
@@ -164,13 +198,13 @@ class Page {
     const place = section(words.map);
     const showMap = (answer: MapAnswer) => {
       const angle = (name: string) => this.text.coordinates.findIndex((c) => c.name === name);
-      this.mapPlot = new MapPlot(answer, (column, row) => {
+      this.mapPlot = new MapPlot(answer, canCompute ? (column, row) => {
         const angles: number[] = [0, 0, 0];
         angles[angle(answer.columns.angle)] = column;
         angles[angle(answer.rows.angle)] = row;
         angles[angle(answer.vary)] = answer.start_deg;
         this.motion.goTo(angles);
-      });
+      } : null);
       place.append(this.mapPlot.element);
     };
     if (map) {
@@ -240,7 +274,7 @@ function wasmBytes(): Promise<ArrayBuffer> {
 
 /// The page without a joint takes one from files.
 function openEmpty(): void {
-  if (typeof WebAssembly === "undefined") return warn(words.noWebAssembly);
+  if (!canCompute) return warn(words.noWebAssemblyToRead);
   found("subtitle").textContent = words.noData;
   const panel = dropPanel(async (fixed, mobile) => {
     found("messages").replaceChildren();
@@ -265,7 +299,7 @@ async function open(): Promise<void> {
   const report = await Report.read(data);
   const arrays = jointArraysOf(report);
   const page = new Page(report.text, arrays, report);
-  if (typeof WebAssembly === "undefined") return page.useStoredPoses();
+  if (!canCompute) return page.useStoredPoses();
   page.compute(await CoreClient.open(await wasmBytes(), structuredClone(arrays)));
 }
 

@@ -7,6 +7,7 @@ export const words = {
   loading: "Making the joint ready…",
   noWebAssembly:
     "This browser does not run WebAssembly: the page shows poses that were computed when it was made, and none in between.",
+  noWebAssemblyToRead: "This browser does not run WebAssembly, by which the page reads meshes and computes.",
   noWebGl: "This browser shows no 3D graphics: the numbers and figures below are complete without.",
   damaged: "The data of this report cannot be read: ",
   wrongMagic: "it does not begin as a block of Condyle does.",

@@ -19,10 +19,10 @@ export class DisplayPanel {
   private clipAt = 0;
   private readonly unit = html("span", {});
 
-  /// `parts` of a body that is one mesh: none. `quantities` that can be shown.
+  /// `parts` of a body that is one mesh: none. `quantities` that can be shown; `marks` of triangles too.
   constructor(
     private readonly scene: JointScene | null, names: Record<BodyName, string>, parts: Record<BodyName, readonly Part[]>,
-    quantities: readonly Quantity[], quantity: Quantity, changed: () => void) {
+    quantities: readonly Quantity[], quantity: Quantity, marks: readonly ("contact" | "bearing")[], changed: () => void) {
     this.chosen = quantity;
     this.scaleEnd.addEventListener("input", () => {
       if (this.chosen === "none" || !(this.scaleEnd.valueAsNumber > 0)) return;
@@ -61,8 +61,7 @@ export class DisplayPanel {
           scene?.clip(axis, this.clipAt);
         }), clipAt),
       html("div", { class: "row" },
-        checkbox(words.pairs, true, (on) => scene?.showMarked("contact", on)),
-        checkbox(words.bearing, false, (on) => scene?.showMarked("bearing", on)),
+        ...marks.map((as) => checkbox(as === "contact" ? words.pairs : words.bearing, as === "contact", (on) => scene?.showMarked(as, on))),
         checkbox(words.shading, true, (on) => scene?.setShading(on))));
     this.element.classList.add("no-print");
     this.drawScale();

@@ -29,20 +29,22 @@ export class MotionPanel {
   private animation = 0;
   private toldAt = 0;
 
-  /// `arrived` where a motion that was asked for has come to its end.
+  /// `arrived` where a motion that was asked for has come to its end. `showStored` where the page cannot compute: the joint then
+  /// takes the poses that the report holds, by their names, and none in between.
   constructor(
     private readonly report: ReportText, private readonly moved: (at: Coordinates) => void,
-    private readonly arrived: (motion: MotionAnswer) => void) {
+    private readonly arrived: (motion: MotionAnswer) => void, private readonly showStored: ((name: string) => void) | null) {
     const count = report.joint.kind === "hinge" ? 1 : 3;
     this.sliders = report.coordinates.slice(0, count).map((_, angle) => this.slider(angle));
     const rows = this.sliders.map(({ name, input, number, strip, told }) =>
       html("div", { class: "slider" }, html("label", { for: `angle-${name}` }, spaced(name)), number, input, strip, told));
     if (report.joint.kind === "free") rows.push(html("div", { class: "row" }, ...axes.map((axis) => this.translation(axis))));
     const manoeuvres = (report.rom?.motions ?? []).map((motion) =>
-      button(shortened(spaced(motion.name)), () => this.goToEnd(motion), { class: "manoeuvre" }));
+      button(shortened(spaced(motion.name)), () => this.goToEnd(motion), { class: "manoeuvre", disabled: !this.hasPose(motion.name) }));
     this.element = section(words.motion, ...rows, this.answer, this.took,
       html("div", { class: "row no-print" },
-        button(words.reset, () => this.goTo([...report.reference_deg])),
+        button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg])),
+          { disabled: !this.hasPose("reference") }),
         ...(manoeuvres.length ? [html("span", {}, words.manoeuvres)] : []), ...manoeuvres));
   }
 
@@ -63,6 +65,7 @@ export class MotionPanel {
 
   /// To where a motion ends: the angle that varies to its last bit, the others as they were given.
   goToEnd(motion: MotionAnswer): void {
+    if (this.showStored) return this.showStored(motion.name);
     const angles = this.report.coordinates.map(({ name }) =>
       (name === motion.vary ? motion.at_limit_deg : motion.start_deg)[name] ?? 0);
     this.goTo(angles, () => this.arrived(motion));
@@ -117,14 +120,19 @@ export class MotionPanel {
     this.took.textContent = words.stepTook(roundTrip_ms);
   }
 
+  private hasPose(name: string): boolean {
+    return !this.showStored || this.report.poses.some((pose) => pose.name === name);
+  }
+
   private slider(angle: number): Slider {
     const { name } = this.report.coordinates[angle]!;
     const [low, high] = this.rangeOf(angle);
     const input = html("input", {
       type: "range", id: `angle-${name}`, min: low, max: high, step: 0.1, value: 0, "aria-label": words.coordinate(spaced(name)),
+      disabled: this.showStored !== null,
     });
     const number = html("input", { type: "number", min: -farthest_deg, max: farthest_deg, step: 0.1, value: 0,
-      "aria-label": words.coordinate(spaced(name)) });
+      "aria-label": words.coordinate(spaced(name)), disabled: this.showStored !== null });
     const slider: Slider = {
       name, input, number, low, high, limits: { negative: null, positive: null },
       strip: svg("svg", { viewBox: `0 0 ${stripWidth} ${stripHeight}`, class: "strip", preserveAspectRatio: "none",
@@ -145,7 +153,7 @@ export class MotionPanel {
 
   private translation(axis: (typeof axes)[number]): HTMLLabelElement {
     const input = html("input", { type: "number", min: -translationRange_mm, max: translationRange_mm, step: 0.1,
-      value: this.report.reference_mm[axes.indexOf(axis)]! });
+      value: this.report.reference_mm[axes.indexOf(axis)]!, disabled: this.showStored !== null });
     input.addEventListener("input", () => this.moved(this.coordinates));
     this.translations.push(input);
     return html("label", {}, `${words.translation(axis)} `, input);

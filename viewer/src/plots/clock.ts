@@ -6,7 +6,7 @@ import { pressable, type Drawing } from "./figure";
 const size = 300, middle = size / 2, radius = 92;
 
 /// The end of each motion at its hour on the socket; null where none has one.
-export function clockDrawing(motions: readonly MotionAnswer[], go: (motion: MotionAnswer) => void): Drawing | null {
+export function clockDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing | null {
   const placed = motions.filter((motion) => motion.clock_hour !== null);
   if (placed.length === 0) return null;
   const at = (hour: number, r: number): [number, number] => {
@@ -31,7 +31,7 @@ export function clockDrawing(motions: readonly MotionAnswer[], go: (motion: Moti
       svg("text", { x: x + (toLeft ? -8 : 8), y: y + 4, "text-anchor": toLeft ? "end" : "start", class: "small" },
         abbreviated(motion.name)),
       svg("title", {}, `${name}: ${motion.clock_hour!.toFixed(1)}`));
-    picture.append(pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, () => go(motion)));
+    picture.append(pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, go && (() => go(motion))));
   });
   return {
     name: "clock",

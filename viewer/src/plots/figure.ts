@@ -41,8 +41,9 @@ function standalone(picture: SVGSVGElement): string {
   return new XMLSerializer().serializeToString(copy);
 }
 
-/// An element of a drawing that is pressed with mouse, finger or keyboard.
-export function pressable<E extends SVGElement>(element: E, label: string, pressed: () => void): E {
+/// An element of a drawing that is pressed with mouse, finger or keyboard; as it is where there is nothing to press it for.
+export function pressable<E extends SVGElement>(element: E, label: string, pressed: (() => void) | null): E {
+  if (!pressed) return element;
   element.setAttribute("role", "button");
   element.setAttribute("tabindex", "0");
   element.setAttribute("aria-label", label);

@@ -16,7 +16,7 @@ export function limitText(motion: MotionAnswer): string {
 }
 
 /// A bar for each motion, with band and normal range; one pressed goes to its end.
-export function limitsDrawing(motions: readonly MotionAnswer[], go: (motion: MotionAnswer) => void): Drawing {
+export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing {
   const height = top + motions.length * rowHeight + bottom;
   const most = Math.max(10, ...motions.map((m) => Math.max(m.limit_deg, m.band?.p95_deg ?? 0, m.normal_range_deg ?? 0)));
   const x = scaleLinear([0, most], [left, width - right]).nice();
@@ -43,7 +43,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: (motion: Mot
         x1: x(motion.normal_range_deg), x2: x(motion.normal_range_deg), y1: y + 2, y2: y + rowHeight - 2, class: "normal",
       }));
     row.append(svg("title", {}, `${name}: ${limitText(motion)}`));
-    picture.append(pressable(row, `${words.goThere(name)}: ${limitText(motion)}`, () => go(motion)));
+    picture.append(pressable(row, `${words.goThere(name)}: ${limitText(motion)}`, go && (() => go(motion))));
   });
   return {
     name: "limits",

@@ -22,7 +22,7 @@ export class MapPlot {
   private readonly told = html("p", { "aria-live": "polite" });
   private readonly colour;
 
-  constructor(private readonly map: MapAnswer, private readonly go: (column_deg: number, row_deg: number) => void) {
+  constructor(private readonly map: MapAnswer, private readonly go: ((column_deg: number, row_deg: number) => void) | null) {
     const { columns, rows } = map;
     const cellsHigh = Math.max(120, Math.min(300, (width - left - right) * (rows.values_deg.length / columns.values_deg.length)));
     const height = top + cellsHigh + bottom;
@@ -40,7 +40,7 @@ export class MapPlot {
       const label = `${spaced(columns.angle)} ${columnDeg}°, ${spaced(rows.angle)} ${rowDeg}°`;
       picture.append(pressable(cell, label, () => {
         this.tell(point);
-        this.go(columnDeg, rowDeg);
+        this.go?.(columnDeg, rowDeg);
       }));
       this.cells.push(cell);
     }));
