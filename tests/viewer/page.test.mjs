@@ -1,7 +1,7 @@
 // What the page answers and says, in a browser: against the command line, damaged, with hostile names.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { readFileSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { deflateSync, inflateSync } from "node:zlib";
@@ -10,16 +10,6 @@ import { dataElement, readReport } from "./report_block.mjs";
 
 const condyle = join(root, "build/release/condyle");
 const browser = await sharedBrowser();
-
-/// As condyle sample writes it: doubles, and triangles as a count and three numbers.
-function readPly(path) {
-  const bytes = readFileSync(path), end = bytes.indexOf("end_header\n") + 11, head = bytes.toString("latin1", 0, end);
-  const [vertexCount, count] = ["vertex", "face"].map((name) => Number(new RegExp(`element ${name} (\\d+)`).exec(head)[1]));
-  const vertices = Float64Array.from({ length: 3 * vertexCount }, (_, i) => bytes.readDoubleLE(end + 8 * i));
-  const triangles = Int32Array.from({ length: 3 * count }, (_, i) =>
-    bytes.readInt32LE(end + 24 * vertexCount + 13 * Math.floor(i / 3) + 1 + 4 * (i % 3)));
-  return { vertices, triangles };
-}
 
 const textOf = (name) => readReport(pathOf(name)).text;
 
@@ -276,124 +266,6 @@ for (const [what, change, says] of [
     assert.deepEqual(complaints, []);
     await page.context().close();
   });
-
-const empty = join(root, "viewer/report_template.html");
-
-test("two meshes dropped on the empty page answer as the same files do on the command line", async (t) => {
-  const { page, complaints, requests } = await openPage(browser, empty, { answers: false });
-  await page.getByText("This page holds no joint").waitFor();
-  const files = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name));
-  await page.locator("#files").setInputFiles(files);
-  await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
-  await settled(page);
-  const joint = join(reports, "dropped.toml");
-  const run = (...words) => execFileSync(condyle, words, { stdio: ["ignore", "pipe", "ignore"] });
-  rmSync(joint, { force: true });
-  run("init", ...files, "--out", joint);
-  const { motions } = JSON.parse(run("rom", joint, "--json"));
-  const bound = Math.max(...motions.map(({ error_bound_deg }) => error_bound_deg));
-  let equal = 0;
-  for (const [i, motion] of motions.entries()) {
-    const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
-      start: Object.values(motion.start_deg), vary: Object.keys(motion.start_deg).indexOf(motion.vary),
-      positive: motion.sense === "positive", range_deg: motion.range_deg,
-    });
-    assert.ok(Math.abs(limit.turned_deg - motion.limit_deg) <= bound, `${motion.name}: ${limit.turned_deg} and not ${motion.limit_deg}`);
-    equal += limit.turned_deg === motion.limit_deg;
-    const row = await page.locator(".plot title").nth(i).textContent();
-    assert.ok(row.includes(motion.limit_deg.toFixed(1)), row);
-  }
-  t.diagnostic(`${equal} of ${motions.length} limits equal to the bit`);
-  await keep(page, "dropped");
-  assert.deepEqual(complaints, []);
-  assert.deepEqual(requests, []);
-  await page.context().close();
-});
-
-/// A mesh of condyle sample as VTK writes VTP: numbers in base64, compressed by zlib in blocks of 32 kB.
-function writeCompressedVtp(name, path) {
-  const { vertices, triangles } = readPly(join(reports, "sample", name));
-  const array = (numbers) => {
-    const bytes = Buffer.from(numbers.buffer), blocks = [];
-    for (let at = 0; at < bytes.length; at += 32768) blocks.push(bytes.subarray(at, at + 32768));
-    const packed = blocks.map((block) => deflateSync(block));
-    const header = Uint32Array.of(blocks.length, 32768, bytes.length % 32768, ...packed.map(({ length }) => length));
-    return Buffer.from(header.buffer).toString("base64") + Buffer.concat(packed).toString("base64");
-  };
-  const data = (type, attributes, numbers) => `<DataArray type="${type}" ${attributes} format="binary">${array(numbers)}</DataArray>`;
-  const count = triangles.length / 3;
-  writeFileSync(path, `<?xml version="1.0"?>
-<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian" header_type="UInt32" compressor="vtkZLibDataCompressor"><PolyData>
-<Piece NumberOfPoints="${vertices.length / 3}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="${count}">
-<Points>${data("Float64", 'Name="Points" NumberOfComponents="3"', vertices)}</Points>
-<Polys>${data("Int32", 'Name="connectivity"', triangles)}${data("Int32", 'Name="offsets"', Int32Array.from({ length: count }, (_, t) => 3 * t + 3))}</Polys>
-</Piece></PolyData></VTKFile>
-`);
-}
-
-test("meshes compressed as VTK compresses them are read, and damaged ones told as on the command line", async () => {
-  const folder = join(reports, "compressed");
-  mkdirSync(folder, { recursive: true });
-  const files = ["hip_bone", "femur"].map((name) => {
-    writeCompressedVtp(`${name}.ply`, join(folder, `${name}.vtp`));
-    return join(folder, `${name}.vtp`);
-  });
-  const limitsOf = async (dropped) => {
-    const { page } = await openPage(browser, empty, { answers: false });
-    await page.locator("#files").setInputFiles(dropped);
-    await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
-    await settled(page);
-    const limits = await page.locator(".plot title").allTextContents();
-    await page.context().close();
-    return limits;
-  };
-  assert.deepEqual(await limitsOf(files), await limitsOf(["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name))));
-
-  // A bit of the sum that ends the last block of the points, and one of what is compressed.
-  const whole = readFileSync(files[1], "utf8"), [before, text] = /^[^]*?NumberOfComponents="3" format="binary">([^<]*)/.exec(whole);
-  const end = before.length;
-  assert.ok(text.length > 1000);
-  const { page } = await openPage(browser, empty, { answers: false });
-  for (const back of [2, 200]) {
-    const bytes = Buffer.from(whole), last = end - 4 - back;
-    bytes[last] = bytes[last] === 65 ? 66 : 65;
-    const path = join(folder, "damaged.vtp");
-    writeFileSync(path, bytes);
-    let told = "";
-    try {
-      execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
-    } catch (error) {
-      told = String(error.stderr).trim().replace(`condyle: ${path}`, "damaged.vtp");
-    }
-    assert.match(told, /^damaged.vtp: .*block/);
-    await page.locator("#files").setInputFiles([files[0], path]);
-    await page.waitForFunction((line) => document.querySelector("[role=alert]")?.textContent === line, told);
-  }
-  await page.context().close();
-});
-
-test("a wrong dropped file is told as on the command line, and the page takes another", async () => {
-  const path = join(reports, "broken.ply");
-  writeFileSync(path, "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n0 0\n1 0\n0 1\n");
-  let told = "";
-  try {
-    execFileSync(condyle, ["inspect", path], { stdio: "pipe" });
-  } catch (error) {
-    told = String(error.stderr).trim().replace(`condyle: ${path}`, "broken.ply");
-  }
-  assert.match(told, /^broken.ply: /);
-  const { page } = await openPage(browser, empty, { answers: false });
-  const files = ["hip_bone.ply", "femur.ply"].map((name) => join(reports, "sample", name));
-  await page.locator("#files").setInputFiles([path, files[1]]);
-  await page.getByRole("alert").waitFor();
-  assert.equal(await page.getByRole("alert").textContent(), told);
-  await page.locator("#files").setInputFiles([files[0]]);
-  await page.getByText("now the one that moves").waitFor();
-  await page.locator("#files").setInputFiles([files[1]]);
-  await page.waitForFunction(() => Number(document.documentElement.dataset.answered) > 0);
-  assert.equal(await page.getByRole("alert").count(), 0);
-  await page.context().close();
-});
 
 test("names stay text: markup, scripts, a megabyte, right to left", async () => {
   const hostile = '<img src=x onerror="globalThis.broken=1"><script>globalThis.broken=1</script> & "quotes" ‮עברית العربية';

@@ -3,7 +3,7 @@ import { lineOf } from "./core/error_line";
 import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
 import { button, choice, html, section, shortened, spaced } from "./dom";
 import { DisplayPanel } from "./panels/display";
-import { dropPanel } from "./panels/drop";
+import { DropPanel } from "./panels/drop";
 import { MotionPanel } from "./panels/motion";
 import { numbersPanel } from "./panels/numbers";
 import { PointerPanel } from "./panels/pointer";
@@ -276,18 +276,24 @@ function wasmBytes(): Promise<ArrayBuffer> {
 function openEmpty(): void {
   if (!canCompute) return warn(words.noWebAssemblyToRead);
   found("subtitle").textContent = words.noData;
-  const panel = dropPanel(async (fixed, mobile) => {
+  found("scene").append(html("p", { class: "drop-hint" }, words.dropHint));
+  const panel = new DropPanel(async (fixed, mobile) => {
     found("messages").replaceChildren();
     try {
       const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixed, mobile);
-      panel.remove();
-      const text = textOfProposal(proposal, fixed.name, mobile.name);
-      new Page(text, proposal.joint, null).compute(core);
+      panel.element.remove();
+      found("scene").replaceChildren();
+      new Page(textOfProposal(proposal, fixed.name, mobile.name), proposal.joint, null).compute(core);
+      return true;
     } catch (error) {
       warn(lineOf(error));
+      return false;
     }
+  }, (why) => {
+    found("messages").replaceChildren();
+    warn(why);
   });
-  found("panels").append(panel);
+  found("panels").append(panel.element);
 }
 
 async function open(): Promise<void> {

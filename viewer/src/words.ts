@@ -108,6 +108,10 @@ export const words = {
     "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). They stay " +
     "on this computer.",
   dropSecond: (name: string) => `${name} is the bone that stays; now the one that moves.`,
+  dropHint: "Drop the meshes of a hip on this page",
+  dropTwo: "A joint has two meshes: drop these two, or one after the other.",
+  dropBusy: "The page is still reading the meshes that were dropped before.",
+  dropDone: "This page shows the joint of the meshes that were dropped first: reload it, then drop others.",
   dropped: (fixed: string, mobile: string) => `${mobile} in ${fixed}`,
   saveSvg: "Save as SVG",
   saveData: "Save data",
