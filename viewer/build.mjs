@@ -47,7 +47,11 @@ const licences = [
   }),
 ].join("\n\n--------\n\n").replaceAll("<", "‹").replaceAll(">", "›");
 
-const parts = { policy, style, licences, core, script };
+// What is shown where the script does not run.
+const { outputFiles: [table] } = await build({ entryPoints: [join(here, "src/words.ts")], write: false, format: "esm" });
+const { words } = await import(`data:text/javascript;base64,${Buffer.from(table.contents).toString("base64")}`);
+
+const parts = { policy, style, licences, core, script, noScripts: words.noScripts, unfinished: words.unfinished };
 const page = source("src/page.html").replaceAll(/@(\w+)@/g, (_, part) => parts[part]);
 writeFileSync(template, page);
 console.log(`${template}: ${(page.length / 1e6).toFixed(2)} MB, of it script ${(script.length / 1e6).toFixed(2)}, core ${(core.length / 1e6).toFixed(2)}`);

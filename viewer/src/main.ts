@@ -297,6 +297,7 @@ function openEmpty(): void {
 }
 
 async function open(): Promise<void> {
+  found("unfinished").remove();
   found("licences-title").textContent = words.licences;
   found("licences").textContent = textOf("licence-texts") ?? "";
   found("scope").textContent = words.scope;

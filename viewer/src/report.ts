@@ -1,5 +1,6 @@
 import type { Proposal } from "./core/protocol";
 import type { Part } from "./scene/body";
+import { checkedText, ReportError } from "./report_shape";
 import { words } from "./words";
 
 /// What `condyle report` puts into the page; docs/report.md has every key.
@@ -113,6 +114,7 @@ export interface StoredPose {
 
 export interface Recorded {
   name: string;
+  axis: "time_s" | "frame";
   times_s: string;
   coordinates_deg: string;
   coordinates_mm: string;
@@ -145,9 +147,6 @@ export interface ReportText {
   poses: StoredPose[];
   recorded: Recorded | null;
 }
-
-/// Damage that the page reports in one line.
-export class ReportError extends Error {}
 
 const headBytes = 16;
 const magic = "CONDYLE\0";
@@ -188,7 +187,7 @@ export class Report {
     if (version !== 1) throw new ReportError(words.damaged + words.wrongVersion(version));
     const textEnd = headBytes + head.getUint32(12, true);
     if (textEnd > bytes.length) throw new ReportError(words.damaged + words.truncated);
-    const text = JSON.parse(new TextDecoder().decode(bytes.subarray(headBytes, textEnd))) as ReportText;
+    const text = checkedText(new TextDecoder().decode(bytes.subarray(headBytes, textEnd)));
     const report = new Report(text, block.slice(textEnd));
     for (const { type, offset, length } of Object.values(text.arrays))
       if (offset + length * elementTypes[type].BYTES_PER_ELEMENT > report.arrays.byteLength)

@@ -14,6 +14,10 @@ export const words = {
   wrongVersion: (found: number) => `its version is ${found}, this page reads version 1.`,
   truncated: "it ends before the arrays it names.",
   notCompressed: "it is incomplete or was changed after it was made.",
+  notJson: "its text is no JSON.",
+  wrongKey: (key: string) => `${key.slice(0, 200)} is missing or is not what a report has there.`,
+  unfinished: "This file is incomplete, or no scripts run here: it shows a joint only when it is whole and opened in a browser that runs scripts.",
+  noScripts: "Scripts are off: this page needs them to show its joint. It asks nothing of any network.",
   noData: "This page holds no joint.",
 
   scene: "Scene",

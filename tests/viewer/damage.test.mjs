@@ -1,0 +1,111 @@
+// Files that are damaged or incomplete, and text that nobody expects: one clear message, and text stays text.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { deflateSync, inflateSync } from "node:zlib";
+import { keep, openPage, pathOf, reports, settled, sharedBrowser } from "./browser.mjs";
+import { changed, withText } from "./report_block.mjs";
+
+const browser = await sharedBrowser();
+
+for (const [what, change, says] of [
+  ["cut short", (zipped) => zipped.subarray(0, zipped.length / 2), /incomplete or was changed/],
+  ["one byte changed", (zipped) => (zipped[Math.floor(zipped.length / 2)] ^= 1, zipped), /cannot be read/],
+  ["not a block", () => deflateSync(Buffer.from("something else that is longer than a head")), /does not begin as a block/],
+  ["of a later version", (zipped) => {
+    const block = inflateSync(zipped);
+    block.writeUInt32LE(2, 8);
+    return deflateSync(block);
+  }, /version is 2/],
+  ["without its arrays", (zipped) => deflateSync(inflateSync(zipped).subarray(0, 16 + inflateSync(zipped).readUInt32LE(12))), /ends before/],
+])
+  test(`a data block ${what} is told in one line`, async () => {
+    const { page, complaints } = await openPage(browser, changed("damaged", change), { answers: false });
+    const warning = page.getByRole("alert");
+    await warning.waitFor();
+    assert.match(await warning.textContent(), says);
+    assert.equal(await warning.count(), 1);
+    assert.deepEqual(complaints, []);
+    await page.context().close();
+  });
+
+test("names stay text: markup, scripts, a megabyte, right to left", async () => {
+  const hostile = '<img src=x onerror="globalThis.broken=1"><script>globalThis.broken=1</script> & "quotes" ‮עברית العربية';
+  const path = withText("hostile", (text) => {
+    text.title = hostile;
+    text.joint.fixed = hostile;
+    text.joint.mobile = "x".repeat(1e6);
+    text.rom.motions[0].name = hostile;
+    text.rom.notes.push({ code: "wrong_side", text: hostile });
+  });
+  const { page, complaints } = await openPage(browser, path);
+  await settled(page);
+  assert.equal(await page.locator("#title").textContent(), hostile);
+  assert.equal(await page.evaluate(() => globalThis.broken), undefined);
+  assert.equal(await page.locator("img").count(), 0);
+  assert.deepEqual(complaints, []);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await keep(page, "hostile");
+  await page.context().close();
+});
+
+async function onlyMessage(path) {
+  const { page, complaints } = await openPage(browser, path, { answers: false });
+  await page.getByRole("alert").waitFor();
+  const lines = await page.getByRole("alert").allTextContents();
+  assert.equal(lines.length, 1);
+  assert.deepEqual(complaints, []);
+  await page.context().close();
+  return lines[0];
+}
+
+for (const [what, change, names] of [
+  ["without a key", (text) => delete text.coordinates, "coordinates"],
+  ["with a key of another type", (text) => (text.rom.motions[3].limit_deg = "far"), "rom.motions[3].limit_deg"],
+  ["with a word that is not one of the known", (text) => (text.joint.kind = "saddle"), "joint.kind"],
+  ["with an array before its place", (text) => (text.arrays.fixed_vertices.offset = -8), "arrays.fixed_vertices.offset"],
+  ["with half an element", (text) => (text.arrays.mobile_triangles.length += 0.5), "arrays.mobile_triangles.length"],
+  ["with an array of another type", (text) => (text.arrays.mobile_triangles.type = "f64"), "arrays.mobile_triangles"],
+  ["with a pose that names no array", (text) => (text.poses[1].fixed_gaps = "toString"), "poses[1].fixed_gaps"],
+  ["with fewer gaps than vertices", (text) => (text.arrays[text.poses[1].mobile_gaps].length -= 1), "arrays.pose_1_mobile_gaps"],
+  ["with a map of other points", (text) => text.map.intervals.pop(), "map.intervals"],
+])
+  test(`a data block ${what} is told by the key`, async () => {
+    const line = await onlyMessage(withText("damaged", change));
+    assert.equal(line, `The data of this report cannot be read: ${names} is missing or is not what a report has there.`);
+  });
+
+test("a data block whose text is no JSON is told in one line", async () => {
+  const path = changed("damaged", (zipped) => {
+    const block = inflateSync(zipped);
+    block[16] = "[".charCodeAt(0);
+    return deflateSync(block);
+  });
+  assert.match(await onlyMessage(path), /its text is no JSON/);
+});
+
+for (const share of [0.3, 0.7, 0.99])
+  test(`a file cut at ${100 * share} % says that it is incomplete`, async () => {
+    const whole = readFileSync(pathOf("sample"));
+    const path = join(reports, "cut.html");
+    writeFileSync(path, whole.subarray(0, Math.floor(share * whole.length)));
+    const { page } = await openPage(browser, path, { answers: false });
+    await page.getByText("This file is incomplete").waitFor({ state: "visible", timeout: 10000 });
+    assert.equal(await page.locator("noscript p").count(), 0);
+    await page.context().close();
+  });
+
+test("with scripts off the page says so, once", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { answers: false, javaScriptEnabled: false });
+  await page.locator("noscript p").waitFor({ state: "visible" });
+  assert.equal(await page.getByText("This file is incomplete").isVisible(), false);
+  await page.context().close();
+});
+
+test("a whole report says nothing of the kind", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  assert.equal(await page.getByText("This file is incomplete").count(), 0);
+  assert.equal(await page.locator("noscript p").count(), 0);
+  await page.context().close();
+});

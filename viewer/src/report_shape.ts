@@ -1,0 +1,136 @@
+import type { ArrayPlace, ReportText } from "./report";
+import { words } from "./words";
+
+/// Damage that the page reports in one line.
+export class ReportError extends Error {}
+
+/// Throws ReportError where a value is not what its key has to hold.
+type Check = (value: unknown, key: string) => void;
+
+function wrong(key: string): never {
+  throw new ReportError(words.damaged + words.wrongKey(key));
+}
+
+const text: Check = (value, key) => typeof value === "string" || wrong(key);
+const number: Check = (value, key) => typeof value === "number" || wrong(key);
+const count: Check = (value, key) => (Number.isSafeInteger(value) && (value as number) >= 0) || wrong(key);
+const flag: Check = (value, key) => typeof value === "boolean" || wrong(key);
+const oneOf = (...known: readonly string[]): Check => (value, key) => known.includes(value as string) || wrong(key);
+const orNull = (check: Check): Check => (value, key) => value === null || check(value, key);
+const ifThere = (check: Check): Check => (value, key) => value === undefined || check(value, key);
+const list = (check: Check, length?: number): Check => (value, key) => {
+  if (!Array.isArray(value) || (length !== undefined && value.length !== length)) return wrong(key);
+  value.forEach((item, i) => check(item, `${key}[${i}]`));
+};
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}
+const object = (keys: Record<string, Check>): Check => (value, key) => {
+  if (!isObject(value)) return wrong(key);
+  for (const [name, check] of Object.entries(keys)) check(value[name], key ? `${key}.${name}` : name);
+};
+const each = (check: Check): Check => (value, key) => {
+  if (!isObject(value)) return wrong(key);
+  for (const [name, item] of Object.entries(value)) check(item, `${key}.${name}`);
+};
+
+const three = list(number, 3);
+const meshFile = object({ path: text, bytes: number, sha256: text });
+const meshFiles: Check = (value, key) => (isObject(value) && "files" in value ? object({ files: list(meshFile) }) : meshFile)(value, key);
+
+const motion = object({
+  name: text, limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start"), contact_kind: orNull(text),
+  bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
+  sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
+  normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
+});
+
+const rom = object({
+  held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), terms: list(text),
+  normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({ rule: oneOf("count", "leave_out") })),
+  provenance: ifThere(object({
+    version: text, command: list(text), joint_file: meshFile, fixed_mesh: meshFiles, mobile_mesh: meshFiles,
+  })),
+});
+
+const mapAxis = object({ angle: text, opposite: text, values_deg: list(number) });
+const surface = object({
+  first_vertex: count, vertices: count, first_triangle: count, triangles: count, youngs_modulus_mpa: ifThere(number),
+  poisson_ratio: ifThere(number), thickness_mm: ifThere(text),
+});
+const part = object({ name: text, first_vertex: count, vertices: count });
+
+const report = object({
+  version: text, title: text,
+  joint: object({
+    name: text, kind: oneOf("ball", "hinge", "free"), anatomy: oneOf("hip", "knee", "ankle", "elbow", "shoulder"),
+    side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),
+  }),
+  coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
+  rom: orNull(rom), rom_error: ifThere(text),
+  map: orNull(object({
+    columns: mapAxis, rows: mapAxis, vary: text, vary_opposite: text, start_deg: number, intervals: list(list(list(number, 4))),
+  })),
+  zones: list(object({ motion: text, past_deg: number, fixed: text, mobile: text })),
+  layers: orNull(object({
+    casting: oneOf("fixed", "mobile", "both"), law: oneOf("linear", "logarithmic"), rule: oneOf("face_centre", "cut_faces"),
+    reach_mm: number, fixed: surface, mobile: surface,
+  })),
+  parts: object({ fixed: list(part), mobile: list(part) }),
+  arrays: each(object({ type: oneOf("f64", "u32", "i16", "u8"), offset: count, length: count })),
+  poses: list(object({
+    name: text, coordinates_deg: three, pose: list(number, 16), in_contact: flag, contact_point_mm: orNull(three), fixed_gaps: text,
+    mobile_gaps: text,
+  })),
+  recorded: orNull(object({
+    name: text, axis: oneOf("time_s", "frame"), times_s: text, coordinates_deg: text, coordinates_mm: text, poses: text,
+    curves: list(object({ name: text, unit: text, values: text })),
+  })),
+});
+
+/// The text of a block, every key that the page reads with it; throws ReportError that names the first one that is wrong.
+export function checkedText(json: string): ReportText {
+  let said: unknown;
+  try {
+    said = JSON.parse(json);
+  } catch {
+    throw new ReportError(words.damaged + words.notJson);
+  }
+  report(said, "");
+  const read = said as ReportText;
+  if (read.map && read.map.intervals.length !== read.map.columns.values_deg.length * read.map.rows.values_deg.length) wrong("map.intervals");
+  checkArrays(read);
+  return read;
+}
+
+/// Arrays are as many as what they are of.
+function checkArrays(read: ReportText): void {
+  const needed = (key: string, name: string, type: ArrayPlace["type"], right: (length: number) => boolean) => {
+    const place = Object.hasOwn(read.arrays, name) ? read.arrays[name]! : wrong(key);
+    if (place.type !== type || !right(place.length)) wrong(`arrays.${name}`);
+    return place.length;
+  };
+  const threes = (length: number) => length > 0 && length % 3 === 0;
+  const many = (wanted: number) => (length: number) => length === wanted;
+  const any = () => true;
+  for (const body of ["fixed", "mobile"] as const) {
+    const vertices = needed("arrays", `${body}_vertices`, "f64", threes) / 3;
+    const triangles = needed("arrays", `${body}_triangles`, "u32", threes) / 3;
+    if (body === "mobile" && "bearing" in read.arrays) needed("arrays", "bearing", "u8", many(triangles));
+    read.poses.forEach((pose, i) => needed(`poses[${i}].${body}_gaps`, pose[`${body}_gaps`], "i16", many(vertices)));
+    read.zones.forEach((zone, i) => needed(`zones[${i}].${body}`, zone[body], "u32", any));
+    read.parts[body].forEach((known, i) => known.first_vertex + known.vertices <= vertices || wrong(`parts.${body}[${i}]`));
+    const loaded = read.layers?.[body];
+    if (!loaded) continue;
+    if (loaded.first_vertex + loaded.vertices > vertices || loaded.first_triangle + loaded.triangles > triangles) wrong(`layers.${body}`);
+    if (loaded.thickness_mm !== undefined)
+      needed(`layers.${body}.thickness_mm`, loaded.thickness_mm, "f64", many(loaded.vertices));
+  }
+  if (!read.recorded) return;
+  const { times_s, coordinates_deg, coordinates_mm, poses, curves } = read.recorded;
+  const frames = needed("recorded.times_s", times_s, "f64", (length) => length > 0);
+  needed("recorded.coordinates_deg", coordinates_deg, "f64", many(3 * frames));
+  needed("recorded.coordinates_mm", coordinates_mm, "f64", many(3 * frames));
+  needed("recorded.poses", poses, "f64", many(16 * frames));
+  curves.forEach(({ values }, i) => needed(`recorded.curves[${i}].values`, values, "f64", many(frames)));
+}
