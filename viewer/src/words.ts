@@ -79,6 +79,8 @@ export const words = {
   limits: "Limits",
   limitsCaption:
     "How far each motion goes before bone meets bone. Bar: the limit; whisker: 5 to 95 % of its band; line: normal range.",
+  over: (limit: string) => `over ${limit}`,
+  bandOf: (low: string, high: string) => `(${low} to ${high})`,
   limit: "limit",
   normal: "normal range",
   bearingContact: "bearing contact",

@@ -1,6 +1,7 @@
 import { scaleLinear } from "d3-scale";
 import { button, html, section, shortened, spaced, svg } from "../dom";
 import type { Coordinates, LiveLimit, Shown } from "../core/protocol";
+import { toldBand } from "../plots/limits";
 import type { MotionAnswer, ReportText } from "../report";
 import { words } from "../words";
 
@@ -191,12 +192,15 @@ export class MotionPanel {
     for (const motion of this.report.rom?.motions ?? []) {
       if (motion.vary !== slider.name || Object.values(motion.start_deg).some((start) => start !== 0)) continue;
       const sign = motion.sense === "positive" ? 1 : -1;
-      if (motion.band) {
-        const ends = [sign * motion.band.p5_deg, sign * motion.band.p95_deg].sort((a, b) => a - b);
+      const band = toldBand(motion);
+      if (band) {
+        const ends = [sign * band.p5_deg, sign * band.p95_deg].sort((a, b) => a - b);
         marks.push(svg("rect", { x: x(ends[0]!), y: 0, width: Math.max(1, x(ends[1]!) - x(ends[0]!)), height: stripHeight,
           class: "band" }));
       }
-      marks.push(svg("rect", { x: x(sign * motion.limit_deg) - 1, y: 0, width: 2, height: stripHeight, class: "limit" }));
+      // Where the range ends nothing meets.
+      if (motion.reason !== "end_of_range")
+        marks.push(svg("rect", { x: x(sign * motion.limit_deg) - 1, y: 0, width: 2, height: stripHeight, class: "limit" }));
     }
     slider.strip.replaceChildren(...marks);
     const end = (deg: number, { reason }: LiveLimit) =>

@@ -1,18 +1,21 @@
 import { scaleLinear } from "d3-scale";
 import { shortened, spaced, svg } from "../dom";
-import type { MotionAnswer } from "../report";
+import type { Band, MotionAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
 const width = 460, rowHeight = 24, left = 206, right = 44, top = 6, bottom = 30;
 
+/// The band that says something: where nothing ends a motion in its range, nothing does so in most displaced joints either.
+export function toldBand({ band, reason }: MotionAnswer): Band | null {
+  return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
+}
+
 export function limitText(motion: MotionAnswer): string {
-  const number = `${motion.limit_deg.toFixed(1)}°`;
   if (motion.reason === "contact_at_start") return words.reasons.contact_at_start;
-  const ends = [motion.band?.p5_deg, motion.band?.p95_deg].map((end) => end?.toFixed(0));
-  // Where nothing ends a motion in its range, nothing does so in most displaced joints either.
-  const band = motion.band && (motion.reason === "contact" || ends[0] !== ends[1]) ? ` (${ends[0]} to ${ends[1]})` : "";
-  return (motion.reason === "end_of_range" ? `over ${number}` : number) + band;
+  const number = `${motion.limit_deg.toFixed(1)}°`, band = toldBand(motion);
+  const limit = motion.reason === "end_of_range" ? words.over(number) : number;
+  return band ? `${limit} ${words.bandOf(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0))}` : limit;
 }
 
 /// A bar for each motion, with band and normal range; one pressed goes to its end.
@@ -33,10 +36,11 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
       svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),
       svg("rect", { x: x(0), y: y + 6, width: Math.max(0, x(motion.limit_deg) - x(0)), height: rowHeight - 12, class: "bar" }));
-    if (motion.band)
+    const band = toldBand(motion);
+    if (band)
       row.append(
-        svg("line", { x1: x(motion.band.p5_deg), x2: x(motion.band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
-        ...[motion.band.p5_deg, motion.band.p95_deg].map((end) =>
+        svg("line", { x1: x(band.p5_deg), x2: x(band.p95_deg), y1: middle, y2: middle, class: "whisker" }),
+        ...[band.p5_deg, band.p95_deg].map((end) =>
           svg("line", { x1: x(end), x2: x(end), y1: middle - 5, y2: middle + 5, class: "whisker" })));
     if (motion.normal_range_deg !== null)
       row.append(svg("line", {
