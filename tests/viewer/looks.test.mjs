@@ -109,18 +109,43 @@ test("colours are those of the scale", async (t) => {
   await page.context().close();
 });
 
-test("depths that are only bounds are hatched grey, others on the scale", async () => {
+test("depths that are only bounds are hatched grey, and never a colour of the scale", async (t) => {
   const { page } = await openPage(browser, pathOf("scenario_3"));
   await page.getByLabel("Colour", { exact: true }).selectOption("depth");
-  await turnTo(page, { flexion: 110, adduction: 20, internal_rotation: 45 });
+  await turnTo(page, { flexion: 130, adduction: 40, internal_rotation: 90 });
   await page.getByLabel("Shading").uncheck();
   await page.getByLabel("Mark triangles in contact").uncheck();
   await page.getByLabel("Show hip bone").uncheck();
+  await page.getByRole("button", { name: "left", exact: true }).click();
+  const box = await page.locator("#scene canvas").boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  for (let i = 0; i < 12; ++i) await page.mouse.wheel(0, -200);
   await settled(page);
   await keep(page, "depths");
   const seen = await pixels(page);
-  const grey = region(seen, (r, g, b) => Math.abs(r - g) < 6 && Math.abs(g - b) < 6 && r < 200);
-  assert.ok(grey.count > 0, "hatched");
+  const isGrey = (r, g, b) => Math.abs(r - g) < 6 && Math.abs(g - b) < 6 && r < 200;
+  const grey = region(seen, isGrey);
+  t.diagnostic(`${grey.count} hatched pixels`);
+  assert.ok(grey.count > 500, `${grey.count} hatched pixels`);
+  const coloured = [];
+  for (let row = 0; row < seen.height - 150; ++row)
+    for (let column = 0; column < seen.width; ++column) {
+      const [r, g, b, a] = seen.at(column, row);
+      // The bone is bluish and never that deep a colour.
+      if (a === 255 && (r > b + 20 || Math.max(r, g, b) < 110) && !isGrey(r, g, b)) coloured.push([column, row]);
+    }
+  t.diagnostic(`${coloured.length} coloured pixels`);
+  assert.ok(coloured.length > 200, `${coloured.length} coloured pixels`);
+  let values = 0;
+  for (let i = 0; i < 150; ++i) {
+    const [column, row] = coloured[Math.floor(coloured.length * ((i * 0.618) % 1))];
+    await page.mouse.move(box.x + ((column + 0.5) / seen.width) * box.width, box.y + ((row + 0.5) / seen.height) * box.height);
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+    const told = await page.locator("#hover").textContent();
+    assert.ok(!told.includes("at least"), `${told} is shown as a colour`);
+    values += / mm$/.test(told);
+  }
+  assert.ok(values > 100, `${values} values`);
   await page.context().close();
 });
 

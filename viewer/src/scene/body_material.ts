@@ -21,20 +21,21 @@ export class BodyMaterial extends MeshLambertMaterial {
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", `#include <common>
           attribute float shown; attribute float mark; attribute vec3 tints; attribute float hidden;
-          varying float vShown; varying float vMark; varying vec3 vTints; varying float vHidden;`)
+          varying float vShown; varying float vHasValue; varying float vIsBound; varying vec3 vTints; varying float vHidden;`)
         .replace("#include <begin_vertex>", `#include <begin_vertex>
-          vShown = shown; vMark = mark; vTints = tints; vHidden = hidden;`);
+          vShown = shown; vHasValue = min(mark, 1.0); vIsBound = max(mark - 1.0, 0.0); vTints = tints; vHidden = hidden;`);
       shader.fragmentShader = shader.fragmentShader
         .replace("#include <common>", `#include <common>
           uniform sampler2D scaleColours; uniform float scaleLow; uniform float scaleHigh; uniform bool plainAbove;
           uniform bool isFlat;
-          varying float vShown; varying float vMark; varying vec3 vTints; varying float vHidden;`)
+          varying float vShown; varying float vHasValue; varying float vIsBound; varying vec3 vTints; varying float vHidden;`)
         .replace("#include <color_fragment>", `#include <color_fragment>
           if (vHidden > 0.5) discard;
-          if (vMark > 0.5 && !(plainAbove && vShown > scaleHigh)) {
+          if (vHasValue > 0.5 && !(plainAbove && vShown > scaleHigh)) {
             float along = clamp((vShown - scaleLow) / (scaleHigh - scaleLow), 0.0, 1.0);
             diffuseColor.rgb = texture2D(scaleColours, vec2(along, 0.5)).rgb;
-            if (vMark > 1.5)
+            // A triangle with one bound among its corners has no value between them.
+            if (vIsBound > 1e-3)
               diffuseColor.rgb = mod(gl_FragCoord.x + gl_FragCoord.y, 8.0) < 3.0 ? vec3(0.2) : vec3(0.55);
           }
           if (vTints.x > 0.5) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.1, 0.55, 0.35), 0.35);
