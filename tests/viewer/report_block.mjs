@@ -21,15 +21,15 @@ export function readReport(path) {
 }
 
 /// A report whose data block was changed.
-export function changed(name, change) {
+export function changed(name, change, from = "sample") {
   const path = join(reports, `${name}.html`);
-  writeFileSync(path, readFileSync(pathOf("sample"), "utf8").replace(dataElement, (_, before, data, end) =>
+  writeFileSync(path, readFileSync(pathOf(from), "utf8").replace(dataElement, (_, before, data, end) =>
     before + change(Buffer.from(data, "base64")).toString("base64") + end));
   return path;
 }
 
 /// The same with other text in it; arrays follow the text at a multiple of 8.
-export function withText(name, change) {
+export function withText(name, change, from = "sample") {
   return changed(name, (zipped) => {
     const block = inflateSync(zipped);
     const end = 16 + block.readUInt32LE(12);
@@ -40,5 +40,5 @@ export function withText(name, change) {
     const head = Buffer.from(block.subarray(0, 16));
     head.writeUInt32LE(text.length, 12);
     return deflateSync(Buffer.concat([head, text, block.subarray(end)]));
-  });
+  }, from);
 }

@@ -186,7 +186,7 @@ class Page {
     const go = canCompute || this.text.poses.length ? (motion: MotionAnswer) => this.motion.goToEnd(motion) : null;
     if (rom) {
       made.push(section(words.limits, figure(limitsDrawing(rom.motions, go))));
-      const clock = clockDrawing(rom.motions, go);
+      const clock = clockDrawing(rom.motions, rom.clock_plane, go);
       if (clock) made.push(section(words.clock, figure(clock)));
     }
     if (this.text.joint.kind !== "hinge" && (map || canCompute)) made.push(this.mapSection(map));

@@ -42,6 +42,7 @@ export interface MeshSource {
 
 export interface RomAnswer {
   bearing?: { rule: "count" | "leave_out" };
+  clock_plane?: "sagittal" | "rim";
   held_translation_mm?: [number, number, number] | null;
   motions: MotionAnswer[];
   notes: { code: string; text: string }[];

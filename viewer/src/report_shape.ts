@@ -46,6 +46,7 @@ const motion = object({
 });
 
 const rom = object({
+  clock_plane: ifThere(oneOf("sagittal", "rim")),
   held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), terms: list(text),
   normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({ rule: oneOf("count", "leave_out") })),
   provenance: ifThere(object({

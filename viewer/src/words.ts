@@ -96,18 +96,28 @@ export const words = {
   mapProgress: (done: number, total: number) => `Computing the map: ${done} of ${total} points`,
   mapCaption: (vary: string, column: string, row: string) =>
     `How far ${vary} goes at every ${column} and ${row}, from its start. Hatched: not free at the start.`,
-  mapPoint: (column: string, row: string, intervals: string) => `${column}, ${row}: ${intervals}`,
+  mapPlace: (column: string, column_deg: number, row: string, row_deg: number) => `${column} ${column_deg}°, ${row} ${row_deg}°`,
+  mapPoint: (place: string, vary: string, intervals: string) => `${place}: ${vary} ${intervals}`,
+  severalFree: "more than one free interval: press to see all",
   freeFrom: (low: string, high: string) => `free from ${low}° to ${high}°`,
   orMore: (degrees: number) => `${degrees}° or more`,
   notFree: "nowhere free",
 
   clock: "Contacts on the clock face",
-  clockCaption: "Where on the socket's rim each motion ends, as a clock seen from the side: 12 is superior, 3 anterior.",
+  clockCaption: {
+    sagittal: "Sagittal clock position of the contact that ends each motion, seen from the side: 12 is superior, 3 anterior.",
+    rim: "Where on the socket's rim each motion ends, in the plane fitted to the rim: 6 is the acetabular notch, 3 anterior.",
+  },
 
   recorded: "Recorded motion",
   play: "Play",
   pause: "Pause",
   frame: "Frame",
+  recordedAxis: { time_s: "time, s", frame: "frame" },
+  recordedFrames: (count: number) => `${count} frames`,
+  recordedOver: (count: number, first: string, last: string) => `${count} frames from ${first} to ${last} s`,
+  zeroCurves: (names: string) => `Zero throughout: ${names}`,
+  emptyCurves: (names: string) => `Without values: ${names}`,
 
   drop: "Drop your own",
   dropHere:

@@ -1,12 +1,13 @@
 import { shortened, spaced, svg } from "../dom";
-import type { MotionAnswer } from "../report";
+import type { MotionAnswer, RomAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
-const size = 300, middle = size / 2, radius = 92;
+const size = 320, middle = size / 2, radius = 92, labelRadius = radius + 26, lineHeight = 15;
 
-/// The end of each motion at its hour on the socket; null where none has one.
-export function clockDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing | null {
+/// The end of each motion at its hour on the clock face; null where none has one.
+export function clockDrawing(
+  motions: readonly MotionAnswer[], plane: RomAnswer["clock_plane"], go: ((motion: MotionAnswer) => void) | null): Drawing | null {
   const placed = motions.filter((motion) => motion.clock_hour !== null);
   if (placed.length === 0) return null;
   const at = (hour: number, r: number): [number, number] => {
@@ -19,26 +20,38 @@ export function clockDrawing(motions: readonly MotionAnswer[], go: ((motion: Mot
     const [x, y] = at(hour, radius - 14);
     picture.append(svg("text", { x, y: y + 4, "text-anchor": "middle", class: "hour" }, String(hour)));
   }
-  // Those near in hour are drawn one outside the other.
   const sorted = [...placed].sort((a, b) => a.clock_hour! - b.clock_hour!);
-  sorted.forEach((motion, i) => {
-    const before = sorted.slice(0, i).filter((other) => Math.abs(other.clock_hour! - motion.clock_hour!) < 0.5).length;
-    const [x, y] = at(motion.clock_hour!, radius + 8 + 13 * before);
-    const name = shortened(spaced(motion.name));
-    const toLeft = x < middle;
-    const mark = svg("g", {},
-      svg("circle", { cx: x, cy: y, r: 5, class: "mark" }),
-      svg("text", { x: x + (toLeft ? -8 : 8), y: y + 4, "text-anchor": toLeft ? "end" : "start", class: "small" },
-        abbreviated(motion.name)),
-      svg("title", {}, `${name}: ${motion.clock_hour!.toFixed(1)}`));
-    picture.append(pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, go && (() => go(motion))));
-  });
+  for (const side of [sorted.filter(({ clock_hour }) => clock_hour! < 6), sorted.filter(({ clock_hour }) => clock_hour! >= 6).reverse()]) {
+    const heights = spread(side.map(({ clock_hour }) => at(clock_hour!, labelRadius)[1]));
+    side.forEach((motion, i) => {
+      const [x, y] = at(motion.clock_hour!, radius);
+      const toLeft = motion.clock_hour! >= 6, labelY = heights[i]!;
+      const out = Math.sqrt(Math.max(0, labelRadius ** 2 - (labelY - middle) ** 2)), labelX = middle + (toLeft ? -out : out);
+      const name = shortened(spaced(motion.name));
+      const mark = svg("g", {},
+        svg("line", { x1: x, y1: y, x2: labelX, y2: labelY, class: "leader" }),
+        svg("circle", { cx: x, cy: y, r: 5, class: "mark" }),
+        svg("text", { x: labelX + (toLeft ? -3 : 3), y: labelY + 4, "text-anchor": toLeft ? "end" : "start", class: "small" },
+          abbreviated(motion.name)),
+        svg("title", {}, `${name}: ${motion.clock_hour!.toFixed(1)}`));
+      picture.append(
+        pressable(mark, `${abbreviated(motion.name)}, ${words.goThere(name)}: ${motion.clock_hour!.toFixed(1)}`, go && (() => go(motion))));
+    });
+  }
   return {
     name: "clock",
-    caption: `${words.clockCaption} ${sorted.map((m) => `${abbreviated(m.name)}: ${spaced(m.name)}`).join("; ")}.`,
+    caption: `${words.clockCaption[plane ?? "sagittal"]} ${sorted.map((m) => `${abbreviated(m.name)}: ${spaced(m.name)}`).join("; ")}.`,
     picture,
     data: () => [["motion", "clock_hour", "limit_deg"], ...sorted.map((m) => [m.name, m.clock_hour, m.limit_deg])],
   };
+}
+
+/// Ascending heights moved no nearer than a line of text, and not below the lowest label of the dial.
+function spread(heights: readonly number[]): number[] {
+  const lowest = middle + labelRadius, moved: number[] = [];
+  for (const height of heights) moved.push(Math.max(height, (moved.at(-1) ?? -Infinity) + lineHeight));
+  for (let i = moved.length - 1; i >= 0; --i) moved[i] = Math.min(moved[i]!, i + 1 < moved.length ? moved[i + 1]! - lineHeight : lowest);
+  return moved;
 }
 
 /// "internal_rotation_at_90_flexion" as "IR90".

@@ -7,11 +7,13 @@ export interface Drawing {
   name: string;
   caption: string;
   picture: SVGSVGElement;
+  /// "slider" where arrow keys move through it, else it is a group of what is in it.
+  role?: "slider";
   data: () => (string | number | null)[][];
 }
 
-export function figure({ name, caption, picture, data }: Drawing): HTMLElement {
-  picture.setAttribute("role", "group");
+export function figure({ name, caption, picture, role, data }: Drawing): HTMLElement {
+  picture.setAttribute("role", role ?? "group");
   picture.setAttribute("aria-label", caption);
   return html("figure", {},
     picture,

@@ -4,7 +4,9 @@ import type { Band, MotionAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
-const width = 460, rowHeight = 24, left = 206, right = 44, top = 6, bottom = 30;
+const width = 460, rowHeight = 24, left = 206, right = 20, top = 6, bottom = 30;
+/// Labels of four digits stay apart from each other.
+const tickCount = 4;
 
 /// The band that says something: where nothing ends a motion in its range, nothing does so in most displaced joints either.
 export function toldBand({ band, reason }: MotionAnswer): Band | null {
@@ -22,10 +24,10 @@ export function limitText(motion: MotionAnswer): string {
 export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: MotionAnswer) => void) | null): Drawing {
   const height = top + motions.length * rowHeight + bottom;
   const most = Math.max(10, ...motions.map((m) => Math.max(m.limit_deg, m.band?.p95_deg ?? 0, m.normal_range_deg ?? 0)));
-  const x = scaleLinear([0, most], [left, width - right]).nice();
+  const x = scaleLinear([0, most], [left, width - right]).nice(tickCount);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot" });
   const axisY = height - bottom;
-  for (const tick of x.ticks(5))
+  for (const tick of x.ticks(tickCount))
     picture.append(
       svg("line", { x1: x(tick), x2: x(tick), y1: top, y2: axisY, class: "grid" }),
       svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));

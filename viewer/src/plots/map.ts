@@ -37,8 +37,7 @@ export class MapPlot {
       const cell = svg("rect", {
         x: x(column)!, y: y(row)!, width: x.bandwidth() + 0.4, height: y.bandwidth() + 0.4, class: "cell",
       });
-      const label = `${spaced(columns.angle)} ${columnDeg}°, ${spaced(rows.angle)} ${rowDeg}°`;
-      picture.append(pressable(cell, label, () => {
+      picture.append(pressable(cell, this.placeOf(point), () => {
         this.tell(point);
         this.go?.(columnDeg, rowDeg);
       }));
@@ -78,7 +77,10 @@ export class MapPlot {
     const cell = this.cells[point]!;
     const free = intervals ? fromStart(intervals, this.map.start_deg) : null;
     cell.setAttribute("fill", !intervals ? "none" : free ? this.colour(free[1] - this.map.start_deg) : "url(#unfree)");
-    if (intervals) cell.replaceChildren(svg("title", {}, this.textOf(point)));
+    if (intervals) {
+      cell.replaceChildren(svg("title", {}, this.textOf(point)));
+      cell.setAttribute("aria-label", this.textOf(point));
+    }
     cell.classList.toggle("has-islands", (intervals?.length ?? 0) > 1);
   }
 
@@ -89,15 +91,21 @@ export class MapPlot {
       context.fillStyle = this.colour((scaleEnd_deg * i) / (canvas.width - 1));
       context.fillRect(i, 0, 1, 1);
     }
-    return html("p", { class: "small" }, "0° ", canvas, ` ${words.orMore(scaleEnd_deg)}`);
+    return html("p", { class: "small" }, "0° ", canvas, ` ${words.orMore(scaleEnd_deg)}`,
+      html("span", { class: "key" }, html("span", { class: "has-islands-key", "aria-hidden": "true" }), ` ${words.severalFree}`));
+  }
+
+  /// The held angles of a point.
+  private placeOf(point: number): string {
+    const { columns, rows } = this.map;
+    const column = columns.values_deg[point % columns.values_deg.length]!;
+    const row = rows.values_deg[Math.floor(point / columns.values_deg.length)]!;
+    return words.mapPlace(spaced(columns.angle), column, spaced(rows.angle), row);
   }
 
   private textOf(point: number): string {
-    const { columns, rows, intervals } = this.map;
-    const column = columns.values_deg[point % columns.values_deg.length]!;
-    const row = rows.values_deg[Math.floor(point / columns.values_deg.length)]!;
-    const free = intervals[point]!.map(([low, high]) => words.freeFrom(low.toFixed(1), high.toFixed(1))).join(", ");
-    return words.mapPoint(`${spaced(columns.angle)} ${column}°`, `${spaced(rows.angle)} ${row}°`, free || words.notFree);
+    const free = this.map.intervals[point]!.map(([low, high]) => words.freeFrom(low.toFixed(1), high.toFixed(1))).join(", ");
+    return words.mapPoint(this.placeOf(point), spaced(this.map.vary), free || words.notFree);
   }
 
   /// All free intervals of a point, as a strip.
@@ -109,8 +117,7 @@ export class MapPlot {
       ...intervals.map(([low, high]) =>
         svg("rect", { x: x(low), y: 9, width: Math.max(1, x(high) - x(low)), height: 14, class: "bar" })),
       ...[-180, -90, 0, 90, 180].map((tick) => svg("text", { x: x(tick), y: 40, "text-anchor": "middle" }, `${tick}°`)));
-    const text = `${spaced(this.map.vary)}: ${this.textOf(point)}`;
-    this.told.textContent = text;
+    this.told.textContent = this.map.intervals[point] ? this.textOf(point) : this.placeOf(point);
   }
 
   private data(): (string | number | null)[][] {
