@@ -30,8 +30,9 @@ for (const [what, change, says] of [
     await page.context().close();
   });
 
+const hostile = '<img src=x onerror="globalThis.broken=1"><script>globalThis.broken=1</script> & "quotes" \u202eעברית العربية';
+
 test("names stay text: markup, scripts, a megabyte, right to left", async () => {
-  const hostile = '<img src=x onerror="globalThis.broken=1"><script>globalThis.broken=1</script> & "quotes" ‮עברית العربية';
   const path = withText("hostile", (text) => {
     text.title = hostile;
     text.joint.fixed = hostile;
@@ -47,6 +48,51 @@ test("names stay text: markup, scripts, a megabyte, right to left", async () => 
   assert.deepEqual(complaints, []);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
   await keep(page, "hostile");
+  await page.context().close();
+});
+
+test("a megabyte of text leaves the page as long as it was", async () => {
+  const long = "many words ".repeat(1e5);
+  const usual = await openPage(browser, pathOf("sample"));
+  const height = (page) => page.evaluate(() => document.documentElement.scrollHeight);
+  const before = await height(usual.page);
+  await usual.page.context().close();
+  const path = withText("long", (text) => {
+    text.title = text.joint.fixed = text.joint.mobile = long;
+    text.rom.motions[1].name = long;
+    text.rom.notes.push({ code: "long", text: long });
+    text.rom.terms.push(long);
+    text.rom.provenance.command.push(long);
+    text.rom.provenance.joint_file.path = long;
+  });
+  const { page } = await openPage(browser, path);
+  await settled(page);
+  const after = await height(page);
+  assert.ok(after < before + 2500, `${before} pixels became ${after}`);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+  await page.context().close();
+});
+
+test("a name that runs from right to left does not turn the sentence around it", async () => {
+  const path = withText("right_to_left", (text) => {
+    text.joint.fixed = "עצם \u202eהירך (1)";
+    text.joint.mobile = "عظم الفخذ 2";
+  });
+  const { page } = await openPage(browser, path);
+  assert.equal(await page.locator("#subtitle").textContent(), "right hip: \u2068عظم الفخذ 2\u2069 in \u2068עצם הירך (1)\u2069");
+  // Each of them in its place, from left to right.
+  const lefts = await page.evaluate(() => {
+    const [text] = document.getElementById("subtitle").childNodes;
+    const left = (from, to) => {
+      const range = document.createRange();
+      range.setStart(text, from);
+      range.setEnd(text, to);
+      return range.getBoundingClientRect().left;
+    };
+    const at = (wanted) => text.data.indexOf(wanted);
+    return [left(0, 5), left(at("عظم"), at("عظم") + 9), left(at(" in "), at(" in ") + 4), left(at("עצם"), text.length)];
+  });
+  assert.deepEqual(lefts, [...lefts].sort((a, b) => a - b));
   await page.context().close();
 });
 

@@ -175,3 +175,26 @@ test("a motion recorded without times plays frame by frame and says so", { skip:
   assert.match(readFileSync(await download.path(), "utf8"), /^frame,/);
   await page.context().close();
 });
+
+test("the numbers say how they were found: bounds, bands, bearing contact, normal ranges", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  const { rom } = textOf("sample");
+  const panel = page.locator("[aria-labelledby=section-numbers]");
+  const told = await panel.textContent();
+  for (const wanted of ["free before it, in contact at it or past it by at most its error bound", `of ${rom.band.samples} displaced joints, seed ${rom.band.seed}`,
+    `centre ${rom.band.sigma.centre_mm} mm, axes ${rom.band.sigma.axes_deg}°, surfaces ${rom.band.sigma.surface_mm} mm`,
+    "Contact of the bearing surface does not end a motion", `radius ${rom.bearing.head.radius_mm.toFixed(2)} mm`,
+    `radius ${rom.bearing.socket.radius_mm.toFixed(2)} mm`, `reaches ${rom.bearing.margin_mm.toFixed(2)} mm`, "Normal ranges: AAOS 1965", "right, ball joint"])
+    assert.ok(told.includes(wanted), wanted);
+  const rows = await panel.locator("table").nth(1).locator("tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  rows.forEach((cells, i) => {
+    const motion = rom.motions[i];
+    assert.equal(cells[0], motion.name.replaceAll("_", " "));
+    assert.ok(cells[1].includes(motion.limit_deg.toFixed(1)), cells[1]);
+    assert.equal(cells[3], motion.reason === "contact" ? "contact (impingement)" : "end of range");
+    assert.equal(cells[6], `${motion.error_bound_deg.toPrecision(2)}°`);
+  });
+  const heights = await panel.locator("tbody tr").evaluateAll((all) => all.map((row) => row.getBoundingClientRect().height));
+  assert.ok(Math.max(...heights) < 75, `a row of ${Math.max(...heights)} pixels`);
+  await page.context().close();
+});

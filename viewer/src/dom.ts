@@ -56,7 +56,16 @@ export function spaced(name: string): string {
 
 const longest = 60;
 
-/// A name that fits into a sentence.
-export function shortened(name: string): string {
-  return name.length > longest ? `${name.slice(0, longest - 1)}…` : name;
+/// A text of which no more is shown than can be read.
+export function shortened(text: string, most = longest): string {
+  return text.length > most ? `${text.slice(0, most - 1)}…` : text;
+}
+
+/// Latin, Greek and Cyrillic letters, digits and punctuation: all of them run as the page's own sentences do.
+const runsAlong = /^[\x20-\x7e\u00a0-\u052f\u2010-\u2027\u2030-\u205e]*$/;
+
+/// A name that fits into a sentence and leaves the direction of what is around it as it is.
+export function named(name: string): string {
+  const short = shortened(spaced(name)).replaceAll(/\p{Bidi_Control}/gu, "");
+  return runsAlong.test(short) ? short : `\u2068${short}\u2069`;
 }

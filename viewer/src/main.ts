@@ -1,7 +1,7 @@
 import { CoreClient } from "./core/client";
 import { lineOf } from "./core/error_line";
 import type { BothValues, Coordinates, JointArrays, MapQuestion, Quantity, Query, Values } from "./core/protocol";
-import { button, choice, html, section, shortened, spaced } from "./dom";
+import { button, choice, html, named, section, shortened, spaced } from "./dom";
 import { DisplayPanel } from "./panels/display";
 import { DropPanel } from "./panels/drop";
 import { MotionPanel } from "./panels/motion";
@@ -63,12 +63,11 @@ class Page {
 
   /// `report` holds the arrays of figures and poses that a joint dropped on the page has not.
   constructor(private readonly text: ReportText, private readonly arrays: JointArrays, private readonly report: Report | null) {
-    const joint = { ...text.joint, fixed: shortened(text.joint.fixed), mobile: shortened(text.joint.mobile) };
-    document.title = `${shortened(text.title)} – ${words.appName}`;
+    const { anatomy, side } = text.joint, names = { fixed: named(text.joint.fixed), mobile: named(text.joint.mobile) };
+    document.title = words.pageTitle(shortened(text.title));
     found("title").textContent = text.title;
-    found("subtitle").textContent = `${joint.side} ${joint.anatomy}: ${joint.mobile} in ${joint.fixed}`;
-    const names = { fixed: joint.fixed, mobile: joint.mobile };
-    this.scene = sceneOf(arrays, words.sceneLabel(joint.fixed, joint.mobile));
+    found("subtitle").textContent = words.subtitle(words.sides[side], words.anatomies[anatomy], names);
+    this.scene = sceneOf(arrays, words.sceneLabel(names.fixed, names.mobile));
     const state = readViewState(location.hash, this.coordinateNames());
     const shown = canCompute ? quantities.filter((key) => key !== "pressure" || text.layers) : storedQuantities;
     const quantity = shown.find((key) => key === state.colour) ?? "gap";

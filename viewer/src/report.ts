@@ -1,4 +1,5 @@
 import type { Proposal } from "./core/protocol";
+import { named } from "./dom";
 import type { Part } from "./scene/body";
 import { checkedText, ReportError } from "./report_shape";
 import { words } from "./words";
@@ -32,6 +33,7 @@ export interface MotionAnswer {
   at_limit_deg: Record<string, number>;
   normal_range_deg: number | null;
   band: Band | null;
+  error_bound_deg?: number;
 }
 
 export interface MeshSource {
@@ -40,8 +42,19 @@ export interface MeshSource {
   sha256: string;
 }
 
+export interface FittedSphere {
+  radius_mm: number;
+}
+
 export interface RomAnswer {
-  bearing?: { rule: "count" | "leave_out" };
+  bearing?: {
+    rule: "count" | "leave_out";
+    why_none?: string;
+    head?: FittedSphere | null;
+    socket?: FittedSphere | null;
+    margin_mm?: number | null;
+  };
+  band?: { samples: number; seed: number; sigma: { centre_mm: number; axes_deg: number; surface_mm: number } } | null;
   clock_plane?: "sagittal" | "rim";
   held_translation_mm?: [number, number, number] | null;
   motions: MotionAnswer[];
@@ -209,8 +222,8 @@ export class Report {
 export function textOfProposal(proposal: Proposal, fixed: string, mobile: string): ReportText {
   const side = proposal.joint.side === 0 ? "right" : "left";
   return {
-    version: "", title: words.dropped(fixed, mobile),
-    joint: { name: words.dropped(fixed, mobile), kind: "ball", anatomy: "hip", side, fixed, mobile, translation_frame: "fixed" },
+    version: "", title: words.dropped(named(fixed), named(mobile)),
+    joint: { name: words.dropped(named(fixed), named(mobile)), kind: "ball", anatomy: "hip", side, fixed, mobile, translation_frame: "fixed" },
     coordinates: [
       { name: "flexion", opposite: "extension" }, { name: "adduction", opposite: "abduction" },
       { name: "internal_rotation", opposite: "external_rotation" },

@@ -43,12 +43,20 @@ const motion = object({
   bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
   sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
   normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
+  error_bound_deg: ifThere(number),
 });
 
+const sphere = object({ radius_mm: number });
 const rom = object({
   clock_plane: ifThere(oneOf("sagittal", "rim")),
   held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), terms: list(text),
-  normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({ rule: oneOf("count", "leave_out") })),
+  normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
+    rule: oneOf("count", "leave_out"), why_none: ifThere(text), head: ifThere(orNull(sphere)), socket: ifThere(orNull(sphere)),
+    margin_mm: ifThere(orNull(number)),
+  })),
+  band: ifThere(orNull(object({
+    samples: count, seed: number, sigma: object({ centre_mm: number, axes_deg: number, surface_mm: number }),
+  }))),
   provenance: ifThere(object({
     version: text, command: list(text), joint_file: meshFile, fixed_mesh: meshFiles, mobile_mesh: meshFiles,
   })),

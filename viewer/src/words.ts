@@ -1,6 +1,20 @@
+interface BandSource {
+  samples: number;
+  seed: number;
+  centre_mm: number;
+  axes_deg: number;
+  surface_mm: number;
+}
+
 /// Every text of the page, in one table: another language is another table.
 export const words = {
   appName: "Condyle",
+  pageTitle: (title: string) => `${title} – Condyle`,
+  subtitle: (side: string, anatomy: string, { fixed, mobile }: { fixed: string; mobile: string }) =>
+    `${side} ${anatomy}: ${mobile} in ${fixed}`,
+  sides: { right: "right", left: "left" },
+  anatomies: { hip: "hip", knee: "knee", ankle: "ankle", elbow: "elbow", shoulder: "shoulder" },
+  kinds: { ball: "ball joint", hinge: "hinge", free: "free joint" },
   scope:
     "Osseous contact of the meshes given; soft tissue is not modelled. Research software, not a medical device. " +
     "Everything is computed in this page: no data leaves this computer.",
@@ -24,6 +38,8 @@ export const words = {
   sceneLabel: (fixed: string, mobile: string) =>
     `The joint in three dimensions: ${fixed} and ${mobile}. Drag to turn, wheel or pinch to zoom, drag with two fingers or the ` +
     "right button to move; with the keyboard arrows turn, plus and minus zoom.",
+  /// Anterior, superior, right.
+  axisLetters: ["A", "S", "R"] as const,
   views: "Look from",
   view: {
     anterior: "front", posterior: "back", superior: "above", inferior: "below", right: "right", left: "left",
@@ -85,7 +101,11 @@ export const words = {
   normal: "normal range",
   bearingContact: "bearing contact",
   reason: "ends by",
-  contactKind: "kind of contact",
+  endsBy: (reason: string, kind: string) => `${reason} (${kind})`,
+  contactKinds: { impingement: "impingement", bearing: "bearing", unknown: "kind unknown" } as Record<string, string>,
+  band: "band",
+  bandEnds: (low: string, high: string) => `${low} to ${high}°`,
+  errorBound: "error bound",
   goThere: (name: string) => `Go to the end of ${name}`,
   noLimits: "Limits cannot be told: ",
   noBand: "Bands are unknown: the report was made without them.",
@@ -133,8 +153,21 @@ export const words = {
   saveData: "Save data",
 
   numbers: "Numbers",
-  side: "side",
-  kind: "kind",
+  ofBodies: (side: string, kind: string) => `Bodies of the joint: ${side}, ${kind}`,
+  how: "How limits were found",
+  guarantee: "A limit is the first contact of the surfaces as the angle turns: free before it, in contact at it or past it by at most " +
+    "its error bound.",
+  bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm }: BandSource) =>
+    `Bands: 5 to 95 % of ${samples} displaced joints, seed ${seed}; standard deviations: centre ${centre_mm} mm, axes ${axes_deg}°, ` +
+    `surfaces ${surface_mm} mm.`,
+  bearingRules: {
+    leave_out: "Contact of the bearing surface does not end a motion.", count: "Every contact ends a motion.",
+  },
+  bearingWhy: (why: string) => `No bearing surface: ${why}.`,
+  bearingHead: (mm: string) => `Sphere fitted to the head: radius ${mm} mm.`,
+  bearingSocket: (mm: string) => `Sphere fitted to the socket: radius ${mm} mm.`,
+  bearingMargin: (mm: string) => `The bearing surface reaches ${mm} mm outside the head's sphere.`,
+  normalFrom: (source: string) => `Normal ranges: ${source}.`,
   vertices: "vertices",
   triangles: "triangles",
   notes: "Notes of the checks",
@@ -143,7 +176,6 @@ export const words = {
   file: "file",
   sha256: "SHA-256",
   bytes: "bytes",
-  made: "made by",
-  command: "command",
+  madeBy: (version: string, command: string) => `made by condyle ${version}, command: ${command}`,
   licences: "Licences of the software in this page",
 };

@@ -1,4 +1,4 @@
-import { button, checkbox, choice, html, section } from "../dom";
+import { button, checkbox, choice, html, named, section } from "../dom";
 import type { Quantity } from "../core/protocol";
 import type { Part } from "../scene/body";
 import type { BodyName, ClipAxis, JointScene, View } from "../scene/scene";
@@ -34,7 +34,7 @@ export class DisplayPanel {
       opacity.addEventListener("input", () => scene?.setOpacity(body, opacity.valueAsNumber));
       return html("div", { class: "row" },
         checkbox(words.shown(names[body]), true, (on) => scene?.setVisible(body, on)), opacity,
-        ...parts[body].map((part) => checkbox(words.shown(part.name), true, (on) => scene?.setPartVisible(body, part, on))));
+        ...parts[body].map((part) => checkbox(words.shown(named(part.name)), true, (on) => scene?.setPartVisible(body, part, on))));
     });
     const clipAt = html("input", { type: "range", min: -clipRange_mm, max: clipRange_mm, step: 1, value: 0, "aria-label": words.clipAt });
     clipAt.addEventListener("input", () => {

@@ -1,4 +1,4 @@
-import { html, section } from "../dom";
+import { html, named, section } from "../dom";
 import type { DroppedFile } from "../core/protocol";
 import { words } from "../words";
 
@@ -39,7 +39,7 @@ export class DropPanel {
     this.state = "busy";
     for (const file of files) this.waiting.push({ name: file.name, bytes: await file.arrayBuffer() });
     const [first, second] = this.waiting;
-    this.told.textContent = second ? words.loading : words.dropSecond(first!.name);
+    this.told.textContent = second ? words.loading : words.dropSecond(named(first!.name));
     if (!second) {
       this.state = "open";
       return;

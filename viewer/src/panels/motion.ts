@@ -1,5 +1,5 @@
 import { scaleLinear } from "d3-scale";
-import { button, html, section, shortened, spaced, svg } from "../dom";
+import { button, html, named, section, shortened, spaced, svg } from "../dom";
 import type { Coordinates, LiveLimit, Shown } from "../core/protocol";
 import { toldBand } from "../plots/limits";
 import type { MotionAnswer, ReportText } from "../report";
@@ -103,7 +103,7 @@ export class MotionPanel {
   }
 
   show(shown: Shown, roundTrip_ms: number): void {
-    const fixed = shortened(this.report.joint.fixed), mobile = shortened(this.report.joint.mobile);
+    const fixed = named(this.report.joint.fixed), mobile = named(this.report.joint.mobile);
     const inside = ([["mobile", mobile], ["fixed", fixed]] as const)
       .filter(([key]) => shown.inside[key].count > 0)
       .map(([key, name]) => words.inside(name, shown.inside[key]));

@@ -1,50 +1,78 @@
-import { html, section, spaced } from "../dom";
-import { limitText } from "../plots/limits";
-import type { MeshSource, ReportText } from "../report";
+import { html, named, section, shortened } from "../dom";
+import { limitAlone, toldBand } from "../plots/limits";
+import type { MeshSource, ReportText, RomAnswer } from "../report";
 import { words } from "../words";
+
+/// More of a name or a note than this is not read in a table.
+const longestLine = 1000;
 
 function filesOf(mesh: MeshSource | { files: MeshSource[] }): MeshSource[] {
   return "files" in mesh ? mesh.files : [mesh];
 }
 
-function table(head: readonly string[], rows: readonly (readonly string[])[], caption: string): HTMLElement {
+function table(head: readonly string[], rows: readonly (readonly string[])[], title: string): HTMLElement {
+  const caption = shortened(title, longestLine);
   return html("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     html("table", {}, html("caption", {}, caption),
       html("thead", {}, html("tr", {}, ...head.map((text) => html("th", { scope: "col" }, text)))),
       html("tbody", {}, ...rows.map(([first, ...cells]) =>
-        html("tr", {}, html("th", { scope: "row" }, first!), ...cells.map((cell) => html("td", {}, cell)))))));
+        html("tr", {}, html("th", { scope: "row" }, shortened(first!, longestLine)), ...cells.map((cell) => html("td", {}, cell)))))));
 }
 
 /// All numbers of the report with their units, where they come from, and what they are not.
 export function numbersPanel(report: ReportText, counts: { fixed: [number, number]; mobile: [number, number] }): HTMLElement {
   const { joint, rom } = report;
   const parts: HTMLElement[] = [
-    table(["", words.vertices, words.triangles],
-      (["fixed", "mobile"] as const).map((body) => [joint[body], ...counts[body].map(String)]), `${words.kind}: ${joint.kind}, ${words.side}: ${joint.side}`),
+    table(["", words.vertices, words.triangles], (["fixed", "mobile"] as const).map((body) => [named(joint[body]), ...counts[body].map(String)]),
+      words.ofBodies(words.sides[joint.side], words.kinds[joint.kind])),
   ];
   if (rom) {
-    const degrees = (value: number | null) => (value === null ? "–" : `${value.toFixed(1)}°`);
-    parts.push(
-      table(["", words.limit, words.reason, words.contactKind, words.bearingContact, words.normal],
-        rom.motions.map((m) => [
-          spaced(m.name), limitText(m), words.reasons[m.reason], m.contact_kind ?? "–", degrees(m.bearing_contact_deg),
-          degrees(m.normal_range_deg),
-        ]), words.limits),
-      html("h3", {}, words.notes),
-      rom.notes.length ? html("ul", {}, ...rom.notes.map(({ code, text }) => html("li", {}, `${text} (${code})`)))
-        : html("p", {}, words.noNotes));
-    if (rom.terms.length)
-      parts.push(html("h3", {}, words.terms), html("ul", {}, ...rom.terms.map((term) => html("li", {}, term))));
-    if (!rom.motions.some((m) => m.band)) parts.push(html("p", {}, words.noBand));
+    parts.push(limitsTable(rom), html("h3", {}, words.how), lines(howFound(rom)), html("h3", {}, words.notes));
+    parts.push(rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
+    if (rom.terms.length) parts.push(html("h3", {}, words.terms), lines(rom.terms));
     if (rom.provenance) {
       const { provenance } = rom;
       const files = [provenance.joint_file, ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
       parts.push(
         table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]),
-          `${words.made} condyle ${provenance.version}, ${words.command}: ${provenance.command.join(" ")}`));
+          words.madeBy(provenance.version, provenance.command.join(" "))));
     }
   } else {
     parts.push(html("p", { class: "warning" }, words.noLimits + (report.rom_error ?? "")));
   }
   return section(words.numbers, ...parts, html("p", {}, words.scope));
+}
+
+function limitsTable({ motions }: RomAnswer): HTMLElement {
+  const degrees = (value: number | null) => (value === null ? "–" : `${value.toFixed(1)}°`);
+  return table(
+    ["", words.limit, words.band, words.reason, words.bearingContact, words.normal, words.errorBound],
+    motions.map((motion) => {
+      const band = toldBand(motion), reason = words.reasons[motion.reason];
+      return [
+        named(motion.name), limitAlone(motion), band ? words.bandEnds(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0)) : "–",
+        motion.contact_kind === null ? reason : words.endsBy(reason, words.contactKinds[motion.contact_kind] ?? motion.contact_kind),
+        degrees(motion.bearing_contact_deg), degrees(motion.normal_range_deg),
+        motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,
+      ];
+    }), words.limits);
+}
+
+/// By what rules and with what uncertainty limits were found, a line each.
+function howFound({ band, bearing, normal_range_source }: RomAnswer): string[] {
+  const mm = (value: number) => value.toFixed(2);
+  return [
+    words.guarantee,
+    band ? words.bandsFrom({ samples: band.samples, seed: band.seed, ...band.sigma }) : words.noBand,
+    ...(bearing ? [words.bearingRules[bearing.rule]] : []),
+    ...(bearing?.why_none ? [words.bearingWhy(bearing.why_none)] : []),
+    ...(bearing?.head ? [words.bearingHead(mm(bearing.head.radius_mm))] : []),
+    ...(bearing?.socket ? [words.bearingSocket(mm(bearing.socket.radius_mm))] : []),
+    ...(typeof bearing?.margin_mm === "number" ? [words.bearingMargin(mm(bearing.margin_mm))] : []),
+    ...(normal_range_source ? [words.normalFrom(normal_range_source)] : []),
+  ];
+}
+
+function lines(texts: readonly string[]): HTMLElement {
+  return html("ul", {}, ...texts.map((text) => html("li", {}, shortened(text, longestLine))));
 }

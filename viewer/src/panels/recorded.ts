@@ -1,4 +1,4 @@
-import { button, html, section, shortened } from "../dom";
+import { button, html, named, section } from "../dom";
 import { CurvePlot, type CurveKind } from "../plots/curves";
 import { figure } from "../plots/figure";
 import type { Report, Recorded } from "../report";
@@ -39,7 +39,7 @@ export class RecordedPanel {
     this.playButton = button(words.play, () => this.toggle());
     const span = recorded.axis === "frame" ? words.recordedFrames(last + 1)
       : words.recordedOver(last + 1, String(this.times[0]!), String(this.times[last]!));
-    this.element = section(words.recorded, html("p", {}, `${shortened(recorded.name)}: ${span}`),
+    this.element = section(words.recorded, html("p", {}, `${named(recorded.name)}: ${span}`),
       html("div", { class: "row no-print" }, this.playButton, this.slider), ...this.figuresOf("changes"),
       ...this.folded("zero", words.zeroCurves), ...this.folded("empty", words.emptyCurves));
   }
@@ -52,7 +52,7 @@ export class RecordedPanel {
   private folded(kind: CurveKind, line: (names: string) => string): HTMLElement[] {
     const names = this.plots.filter((plot) => plot.kind === kind).map(({ title }) => title);
     if (names.length === 0) return [];
-    return [html("details", { class: "folded" }, html("summary", {}, line(names.join(", "))), ...this.figuresOf(kind))];
+    return [html("details", { class: "folded" }, html("summary", {}, line(names.map(named).join(", "))), ...this.figuresOf(kind))];
   }
 
   private show(frame: number): void {

@@ -1,5 +1,5 @@
 import { scaleLinear } from "d3-scale";
-import { shortened, spaced, svg } from "../dom";
+import { named, svg } from "../dom";
 import type { Band, MotionAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -13,11 +13,16 @@ export function toldBand({ band, reason }: MotionAnswer): Band | null {
   return band && (reason === "contact" || band.p5_deg.toFixed(0) !== band.p95_deg.toFixed(0)) ? band : null;
 }
 
-export function limitText(motion: MotionAnswer): string {
+/// Without its band.
+export function limitAlone({ reason, limit_deg }: MotionAnswer): string {
+  const number = `${limit_deg.toFixed(1)}°`;
+  return reason === "end_of_range" ? words.over(number) : number;
+}
+
+function limitText(motion: MotionAnswer): string {
   if (motion.reason === "contact_at_start") return words.reasons.contact_at_start;
-  const number = `${motion.limit_deg.toFixed(1)}°`, band = toldBand(motion);
-  const limit = motion.reason === "end_of_range" ? words.over(number) : number;
-  return band ? `${limit} ${words.bandOf(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0))}` : limit;
+  const band = toldBand(motion);
+  return limitAlone(motion) + (band ? ` ${words.bandOf(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0))}` : "");
 }
 
 /// A bar for each motion, with band and normal range; one pressed goes to its end.
@@ -33,7 +38,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
       svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
   motions.forEach((motion, i) => {
     const y = top + i * rowHeight, middle = y + rowHeight / 2;
-    const name = shortened(spaced(motion.name));
+    const name = named(motion.name);
     const row = svg("g", {},
       svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),

@@ -7,6 +7,7 @@ import { ViewHelper } from "three/addons/helpers/ViewHelper.js";
 import type { Surface } from "../core/protocol";
 import { SceneBody, type Marked, type Part } from "./body";
 import type { ColourScale } from "./colour_scale";
+import { words } from "../words";
 
 /// From where the joint is looked at, in the joint frame: X anterior, Y superior, Z right.
 export const viewDirections = {
@@ -66,7 +67,7 @@ export class JointScene {
     canvas.addEventListener("keydown", (event) => this.turnByKey(event));
     this.controls.addEventListener("change", () => this.draw());
     this.gizmo = new ViewHelper(this.camera, canvas);
-    this.gizmo.setLabels("A", "S", "R");
+    this.gizmo.setLabels(...words.axisLetters);
     new ResizeObserver(() => this.fit()).observe(place);
 
     const box = new Box3().setFromObject(this.bodies.mobile.mesh).union(new Box3().setFromObject(this.bodies.fixed.mesh));
