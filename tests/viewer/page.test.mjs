@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { has, keep, openPage, pathOf, pixels, region, reports, root, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { has, keep, openPage, pathOf, pixels, region, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const condyle = join(root, "build/release/condyle");
@@ -105,20 +105,6 @@ test("depths, pairs and contact are those of condyle depth", async () => {
   }
   assert.ok(inside > 100, `${inside} vertices inside`);
   await page.context().close();
-});
-
-test("a slider turns the joint, the address remembers it, and another page opened there shows the same", async () => {
-  const { page } = await openPage(browser, pathOf("sample"));
-  await turnTo(page, { flexion: 110, adduction: 20, internal_rotation: 40 });
-  const answer = await page.locator("#answer").textContent();
-  assert.match(answer, /^In contact/);
-  await page.waitForFunction(() => location.hash.includes("internal_rotation=40"));
-  const fragment = new URL(page.url()).hash;
-  const again = await openPage(browser, pathOf("sample"), { fragment });
-  await settled(again.page);
-  assert.equal(await again.page.locator("#answer").textContent(), answer);
-  await page.context().close();
-  await again.page.context().close();
 });
 
 test("a figure goes where it is pressed", async () => {

@@ -68,15 +68,14 @@ class Page {
     found("title").textContent = text.title;
     found("subtitle").textContent = words.subtitle(words.sides[side], words.anatomies[anatomy], names);
     this.scene = sceneOf(arrays, words.sceneLabel(names.fixed, names.mobile));
-    const state = readViewState(location.hash, this.coordinateNames());
-    const shown = canCompute ? quantities.filter((key) => key !== "pressure" || text.layers) : storedQuantities;
-    const quantity = shown.find((key) => key === state.colour) ?? "gap";
     this.motion = new MotionPanel(
       text, (at) => this.moved(at), (motion) => this.arrived(motion), canCompute ? null : (name) => this.showStored(name));
-    this.display = new DisplayPanel(this.scene, names, text.parts, shown, quantity, canCompute ? ["contact", "bearing"] : ["bearing"],
-      () => this.recolour());
+    this.display = new DisplayPanel(this.scene, {
+      names, parts: text.parts, marks: canCompute ? ["contact", "bearing"] : ["bearing"],
+      quantities: canCompute ? quantities.filter((key) => key !== "pressure" || text.layers) : storedQuantities,
+    }, () => this.recolour(), () => this.rememberView());
     if (report && text.zones.length) {
-      this.zones = new ZonePanel(this.scene, report, text.zones);
+      this.zones = new ZonePanel(this.scene, report, text.zones, () => this.rememberView());
       this.display.element.append(this.zones.element);
     }
     found("legend-place").append(this.display.legend);
@@ -85,11 +84,19 @@ class Page {
       found("pointer-place").append(new PointerPanel(this.scene, names, unit).element);
       this.scene.onViewChange(() => this.rememberView());
     }
-    if (state.camera && this.scene) this.scene.viewpoint = state.camera;
     found("panels").append(this.motion.element, this.display.element, ...this.plots(), numbersPanel(text, this.counts()));
-    const angles = text.coordinates.map(({ name }, i) => state.coordinates[name] ?? text.reference_deg[i]!);
-    const translation = translationNames.map((name, i) => state.coordinates[name] ?? text.reference_mm[i]!);
-    this.motion.set(angles, translation);
+    this.applyFragment();
+    window.addEventListener("hashchange", () => this.applyFragment());
+  }
+
+  /// The view that the address says.
+  private applyFragment(): void {
+    const { coordinates, display, zone, camera } = readViewState(location.hash, Object.keys(this.referencePose()));
+    const values = Object.entries(this.referencePose()).map(([name, reference]) => coordinates[name] ?? reference);
+    if (camera && this.scene) this.scene.viewpoint = camera;
+    this.display.apply(display);
+    this.zones?.show(zone);
+    if (canCompute) this.motion.set(values.slice(0, 3), values.slice(3));
   }
 
   /// The joint is ready in the worker; poses are answered from now on.
@@ -238,8 +245,13 @@ class Page {
     this.rememberView();
   }
 
-  private coordinateNames(): string[] {
-    return [...this.text.coordinates.map(({ name }) => name), ...translationNames];
+  /// Coordinates by the names they have in the address.
+  private referencePose(): Record<string, number> {
+    const { coordinates, reference_deg, reference_mm } = this.text;
+    return Object.fromEntries([
+      ...coordinates.map(({ name }, i) => [name, reference_deg[i]!] as const),
+      ...translationNames.map((name, i) => [name, reference_mm[i]!] as const),
+    ]);
   }
 
   /// Browsers refuse an address that changes at every frame.
@@ -248,9 +260,11 @@ class Page {
     this.fragmentTimer = window.setTimeout(() => {
       const { angles, translation } = this.motion.coordinates;
       const values = [...angles, ...translation];
-      const coordinates = Object.fromEntries(this.coordinateNames().map((name, i) => [name, values[i]!]));
+      const coordinates = Object.fromEntries(
+        Object.entries(this.referencePose()).map(([name, reference], i) => [name, values[i]!, reference] as const)
+          .filter(([, value, reference]) => value !== reference));
       history.replaceState(null, "", writeViewState({
-        coordinates, colour: this.display.quantity, camera: this.scene?.viewpoint ?? null,
+        coordinates, display: this.display.state, zone: this.zones?.motion ?? "", camera: this.scene?.viewpoint ?? null,
       }));
     }, 300);
   }

@@ -1,7 +1,24 @@
-/// What a shared link brings back: coordinates of the joint, colours and the camera, as the fragment of the address.
-export interface ViewState {
-  coordinates: Record<string, number>;
+import { bodyNames, type BodyName, type ClipAxis } from "./scene/scene";
+
+/// What the scene shows and how.
+export interface DisplayState {
   colour: string | null;
+  /// End of the colour scale; null for the usual one of that quantity.
+  scale: number | null;
+  /// "fixed", "mobile", or the number of a part behind one of them: "mobile.1".
+  hidden: string[];
+  opacity: Record<BodyName, number>;
+  clip: ClipAxis;
+  clipAt_mm: number;
+}
+
+/// What a shared link brings back: coordinates of the joint, what is shown of it and the camera, as the fragment of the address.
+export interface ViewState {
+  /// Those that are not the reference pose's.
+  coordinates: Record<string, number>;
+  display: DisplayState;
+  /// Motion whose impingement zone is marked; none if empty.
+  zone: string;
   camera: number[] | null;
 }
 
@@ -9,23 +26,43 @@ const cameraNumbers = 6;
 
 export function readViewState(fragment: string, names: readonly string[]): ViewState {
   const fields = new URLSearchParams(fragment.replace(/^#/, ""));
+  const number = (text: string | null | undefined): number | null => {
+    const value = Number.parseFloat(text ?? "");
+    return Number.isFinite(value) ? value : null;
+  };
   const coordinates: Record<string, number> = {};
   for (const name of names) {
-    const value = Number.parseFloat(fields.get(name) ?? "");
-    if (Number.isFinite(value)) coordinates[name] = value;
+    const value = number(fields.get(name));
+    if (value !== null) coordinates[name] = value;
   }
   const camera = (fields.get("camera") ?? "").split(",").map(Number);
+  const [axis, at] = (fields.get("clip") ?? "").split(":");
+  const clip: ClipAxis = axis === "x" || axis === "y" || axis === "z" ? axis : "none";
+  const scale = number(fields.get("scale"));
+  const opacity = (body: BodyName) => Math.min(1, Math.max(0.1, number(fields.get(`${body}_opacity`)) ?? 1));
   return {
     coordinates,
-    colour: fields.get("colour"),
+    display: {
+      colour: fields.get("colour"), scale: scale !== null && scale > 0 ? scale : null,
+      hidden: (fields.get("hidden") ?? "").split(",").filter((name) => name !== ""),
+      opacity: { fixed: opacity("fixed"), mobile: opacity("mobile") },
+      clip, clipAt_mm: clip === "none" ? 0 : (number(at) ?? 0),
+    },
+    zone: fields.get("zone") ?? "",
     camera: camera.length === cameraNumbers && camera.every(Number.isFinite) ? camera : null,
   };
 }
 
-export function writeViewState({ coordinates, colour, camera }: ViewState): string {
+/// What is as usual is left out. Coordinates keep all of their digits: the end of a motion is free, a hair beyond it is not.
+export function writeViewState({ coordinates, display, zone, camera }: ViewState): string {
   const fields = new URLSearchParams();
-  for (const [name, value] of Object.entries(coordinates)) if (value !== 0) fields.set(name, String(Number(value.toFixed(4))));
-  if (colour) fields.set("colour", colour);
+  for (const [name, value] of Object.entries(coordinates)) fields.set(name, String(value));
+  if (display.colour) fields.set("colour", display.colour);
+  if (display.scale !== null) fields.set("scale", String(display.scale));
+  if (display.hidden.length) fields.set("hidden", display.hidden.join(","));
+  for (const body of bodyNames) if (display.opacity[body] < 1) fields.set(`${body}_opacity`, String(display.opacity[body]));
+  if (display.clip !== "none") fields.set("clip", `${display.clip}:${display.clipAt_mm}`);
+  if (zone) fields.set("zone", zone);
   if (camera) fields.set("camera", camera.map((n) => n.toFixed(1)).join(","));
   return `#${fields}`;
 }

@@ -1,65 +1,77 @@
 import { button, checkbox, choice, html, named, section } from "../dom";
 import type { Quantity } from "../core/protocol";
-import type { Part } from "../scene/body";
-import type { BodyName, ClipAxis, JointScene, View } from "../scene/scene";
+import type { Marked, Part } from "../scene/body";
+import { bodyNames, type BodyName, type ClipAxis, type JointScene, type View } from "../scene/scene";
 import { colourScale } from "../scene/colour_scale";
+import type { DisplayState } from "../view_state";
 import { words } from "../words";
 
 const usualEnd = { gap: 8, depth: 4, nearest: 8, pressure: 5 };
 const clipRange_mm = 150;
 
+/// What of a joint can be shown.
+export interface Showable {
+  names: Record<BodyName, string>;
+  /// Of a body that is one mesh: none.
+  parts: Record<BodyName, readonly Part[]>;
+  quantities: readonly Quantity[];
+  marks: readonly Exclude<Marked, "zone">[];
+}
+
+/// A check box for a body or a part of one, by its name in a shared link.
+interface Shown {
+  box: HTMLInputElement;
+  set: (on: boolean) => void;
+}
+
 /// What the scene shows and how; the colour scale with it.
 export class DisplayPanel {
   readonly element: HTMLElement;
   readonly legend = html("div", { id: "legend" });
-  private chosen: Quantity;
+  private chosen: Quantity = "gap";
   private readonly ends = { ...usualEnd };
   private readonly scaleEnd = html("input", { type: "number", min: 0.1, step: 0.5 });
-  private clipAxis: ClipAxis = "none";
-  private clipAt = 0;
   private readonly unit = html("span", {});
+  private readonly colour: HTMLSelectElement;
+  private readonly shown = new Map<string, Shown>();
+  private readonly opacity: Record<BodyName, HTMLInputElement>;
+  private readonly clipAxis: HTMLSelectElement;
+  private readonly clipAt = html("input", {
+    type: "range", min: -clipRange_mm, max: clipRange_mm, step: 1, value: 0, "aria-label": words.clipAt,
+  });
 
-  /// `parts` of a body that is one mesh: none. `quantities` that can be shown; `marks` of triangles too.
+  /// `recoloured` where another quantity is asked for, `changed` where anything is.
   constructor(
-    private readonly scene: JointScene | null, names: Record<BodyName, string>, parts: Record<BodyName, readonly Part[]>,
-    quantities: readonly Quantity[], quantity: Quantity, marks: readonly ("contact" | "bearing")[], changed: () => void) {
-    this.chosen = quantity;
+    private readonly scene: JointScene | null, private readonly showable: Showable, private readonly recoloured: () => void,
+    private readonly changed: () => void) {
+    const { names, parts, quantities, marks } = showable;
     this.scaleEnd.addEventListener("input", () => {
       if (this.chosen === "none" || !(this.scaleEnd.valueAsNumber > 0)) return;
       this.ends[this.chosen] = this.scaleEnd.valueAsNumber;
       this.drawScale();
+      changed();
     });
-    const bodies = (["fixed", "mobile"] as const).map((body) => {
-      const opacity = html("input", { type: "range", min: 0.1, max: 1, step: 0.05, value: 1, "aria-label": words.opacity(names[body]) });
-      opacity.addEventListener("input", () => scene?.setOpacity(body, opacity.valueAsNumber));
-      return html("div", { class: "row" },
-        checkbox(words.shown(names[body]), true, (on) => scene?.setVisible(body, on)), opacity,
-        ...parts[body].map((part) => checkbox(words.shown(named(part.name)), true, (on) => scene?.setPartVisible(body, part, on))));
+    this.opacity = { fixed: this.opacityOf("fixed"), mobile: this.opacityOf("mobile") };
+    const bodies = bodyNames.map((body) => html("div", { class: "row" },
+      this.shownBox(body, names[body], (on) => scene?.setVisible(body, on)), this.opacity[body],
+      ...parts[body].map((part, i) => this.shownBox(`${body}.${i}`, named(part.name), (on) => scene?.setPartVisible(body, part, on)))));
+    const colour = choice(words.colour, only(words.quantity, quantities), this.chosen, (key) => {
+      this.choose(key);
+      changed();
     });
-    const clipAt = html("input", { type: "range", min: -clipRange_mm, max: clipRange_mm, step: 1, value: 0, "aria-label": words.clipAt });
-    clipAt.addEventListener("input", () => {
-      this.clipAt = clipAt.valueAsNumber;
-      scene?.clip(this.clipAxis, this.clipAt);
-    });
+    const clipAxis = choice<ClipAxis>(words.clip, words.clipAxis, "none", () => this.cut());
+    this.colour = colour.querySelector("select")!;
+    this.clipAxis = clipAxis.querySelector("select")!;
+    this.clipAt.addEventListener("input", () => this.cut());
     this.element = section(words.scene,
       html("div", { class: "row" }, html("span", {}, words.views), ...(Object.keys(words.view) as View[]).map((view) =>
         button(words.view[view], () => {
           scene?.look(view);
           changed();
         }))),
-      html("div", { class: "row" },
-        choice(words.colour, only(words.quantity, quantities), quantity, (key) => {
-          this.chosen = key;
-          this.drawScale();
-          changed();
-        }),
-        html("label", {}, `${words.scaleEnd} `, this.scaleEnd, " ", this.unit)),
+      html("div", { class: "row" }, colour, html("label", {}, `${words.scaleEnd} `, this.scaleEnd, " ", this.unit)),
       ...bodies,
-      html("div", { class: "row" },
-        choice(words.clip, words.clipAxis, "none", (axis) => {
-          this.clipAxis = axis;
-          scene?.clip(axis, this.clipAt);
-        }), clipAt),
+      html("div", { class: "row" }, clipAxis, this.clipAt),
       html("div", { class: "row" },
         ...marks.map((as) => checkbox(as === "contact" ? words.pairs : words.bearing, as === "contact", (on) => scene?.showMarked(as, on))),
         checkbox(words.shading, true, (on) => scene?.setShading(on))));
@@ -69,6 +81,65 @@ export class DisplayPanel {
 
   get quantity(): Quantity {
     return this.chosen;
+  }
+
+  get state(): DisplayState {
+    const scale = this.chosen === "none" || this.ends[this.chosen] === usualEnd[this.chosen] ? null : this.ends[this.chosen];
+    return {
+      colour: this.chosen, scale, hidden: [...this.shown].filter(([, { box }]) => !box.checked).map(([name]) => name),
+      opacity: { fixed: this.opacity.fixed.valueAsNumber, mobile: this.opacity.mobile.valueAsNumber },
+      clip: this.clipAxis.value as ClipAxis, clipAt_mm: this.clipAt.valueAsNumber,
+    };
+  }
+
+  /// As a shared link says; what it does not know is as usual.
+  apply(state: DisplayState): void {
+    const quantity = this.showable.quantities.find((key) => key === state.colour) ?? "gap";
+    if (quantity !== "none") this.ends[quantity] = state.scale ?? usualEnd[quantity];
+    for (const [name, { box, set }] of this.shown) {
+      box.checked = !state.hidden.includes(name);
+      set(box.checked);
+    }
+    for (const body of bodyNames) {
+      this.opacity[body].valueAsNumber = state.opacity[body];
+      this.scene?.setOpacity(body, state.opacity[body]);
+    }
+    this.clipAxis.value = state.clip;
+    this.clipAt.valueAsNumber = state.clipAt_mm;
+    this.scene?.clip(state.clip, state.clipAt_mm);
+    this.colour.value = quantity;
+    this.choose(quantity);
+  }
+
+  private choose(quantity: Quantity): void {
+    this.chosen = quantity;
+    this.drawScale();
+    this.recoloured();
+  }
+
+  private shownBox(key: string, name: string, set: (on: boolean) => void): HTMLElement {
+    const label = checkbox(words.shown(name), true, (on) => {
+      set(on);
+      this.changed();
+    });
+    this.shown.set(key, { box: label.querySelector("input")!, set });
+    return label;
+  }
+
+  private opacityOf(body: BodyName): HTMLInputElement {
+    const input = html("input", {
+      type: "range", min: 0.1, max: 1, step: 0.05, value: 1, "aria-label": words.opacity(this.showable.names[body]),
+    });
+    input.addEventListener("input", () => {
+      this.scene?.setOpacity(body, input.valueAsNumber);
+      this.changed();
+    });
+    return input;
+  }
+
+  private cut(): void {
+    this.scene?.clip(this.clipAxis.value as ClipAxis, this.clipAt.valueAsNumber);
+    this.changed();
   }
 
   private drawScale(): void {

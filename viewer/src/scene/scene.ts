@@ -15,7 +15,8 @@ export const viewDirections = {
 } as const;
 export type View = keyof typeof viewDirections;
 
-export type BodyName = "fixed" | "mobile";
+export const bodyNames = ["fixed", "mobile"] as const;
+export type BodyName = (typeof bodyNames)[number];
 export type ClipAxis = "none" | "x" | "y" | "z";
 
 /// A vertex that was pointed at.
