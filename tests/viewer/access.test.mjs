@@ -59,6 +59,43 @@ for (const [name, size] of [["phone", { width: 390, height: 844, isMobile: true,
     await page.context().close();
   });
 
+test("all of the scene, its scale and what the pointer tells are on the first screen", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await settled(page);
+  for (const part of ["#scene", "#legend", "#hover"]) {
+    const { y, height } = await page.locator(part).evaluate((element) => element.getBoundingClientRect().toJSON());
+    assert.ok(y >= 0 && y + height <= 800, `${part} ends at ${y + height} of 800`);
+  }
+  await page.context().close();
+});
+
+test("on a large screen letters are larger and panels take their share", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { width: 3840, height: 2160 });
+  await settled(page);
+  const [scene, panels] = [await page.locator("#scene").boundingBox(), await page.locator("#panels").boundingBox()];
+  assert.ok(panels.width > 0.6 * scene.width, `${panels.width} beside ${scene.width}`);
+  assert.ok(Number.parseFloat(await page.evaluate(() => getComputedStyle(document.body).fontSize)) >= 20);
+  const [motion, map] = await page.evaluate(() => ["motion", "range-of-motion-map"].map((name) =>
+    document.querySelector(`[aria-labelledby=section-${name}]`).getBoundingClientRect().left));
+  assert.ok(map > motion + 400, "in two columns");
+  await page.context().close();
+});
+
+test("fields show all digits of a limit", async () => {
+  const { page } = await openPage(browser, pathOf("sample"), { reducedMotion: "reduce" });
+  await page.getByRole("button", { name: "flexion", exact: true }).click();
+  await settled(page);
+  const field = page.getByRole("spinbutton", { name: "flexion, degrees", exact: true });
+  assert.ok((await field.inputValue()).length > 12);
+  assert.ok(await field.evaluate((input) => {
+    const context = document.createElement("canvas").getContext("2d");
+    context.font = getComputedStyle(input).font;
+    // The stepper takes a sixth of an inch.
+    return context.measureText(input.value).width < input.clientWidth - 16 - 16;
+  }));
+  await page.context().close();
+});
+
 test("fingers turn the joint", async () => {
   const { page } = await openPage(browser, pathOf("sample"), { width: 390, height: 844, isMobile: true, hasTouch: true });
   await settled(page);

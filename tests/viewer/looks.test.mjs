@@ -148,16 +148,3 @@ test("depths that are only bounds are hatched grey, and never a colour of the sc
   assert.ok(values > 100, `${values} values`);
   await page.context().close();
 });
-
-test("two picked points have a distance", async () => {
-  const { page } = await openPage(browser, pathOf("sample"));
-  await page.getByLabel("Measure between two points").check();
-  const box = await page.locator("#scene canvas").boundingBox();
-  await plain(page);
-  const femur = region(await pixels(page), isFemur), hip = region(await pixels(page), isHipBone);
-  for (const { x, y } of [femur, { x: hip.x, y: hip.y - 0.1 }]) await page.mouse.click(box.x + x * box.width, box.y + y * box.height);
-  const text = await page.locator("#hover").textContent();
-  const mm = Number(/Distance ([\d.]+) mm/.exec(text)?.[1]);
-  assert.ok(mm > 30 && mm < 300, text);
-  await page.context().close();
-});

@@ -39,9 +39,9 @@ function warn(message: string): void {
 }
 
 /// A scene, or nothing but a line where the browser shows none.
-function sceneOf(arrays: JointArrays, label: string): JointScene | null {
+function sceneOf(arrays: JointArrays, parts: ReportText["parts"], label: string): JointScene | null {
   try {
-    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, label);
+    return new JointScene(found("scene"), arrays.fixed, arrays.mobile, parts, label);
   } catch {
     warn(words.noWebGl);
     return null;
@@ -67,7 +67,7 @@ class Page {
     document.title = words.pageTitle(shortened(text.title));
     found("title").textContent = text.title;
     found("subtitle").textContent = words.subtitle(words.sides[side], words.anatomies[anatomy], names);
-    this.scene = sceneOf(arrays, words.sceneLabel(names.fixed, names.mobile));
+    this.scene = sceneOf(arrays, text.parts, words.sceneLabel(names.fixed, names.mobile));
     this.motion = new MotionPanel(
       text, (at) => this.moved(at), (motion) => this.arrived(motion), canCompute ? null : (name) => this.showStored(name));
     this.display = new DisplayPanel(this.scene, {

@@ -67,7 +67,7 @@ const surface = object({
   first_vertex: count, vertices: count, first_triangle: count, triangles: count, youngs_modulus_mpa: ifThere(number),
   poisson_ratio: ifThere(number), thickness_mm: ifThere(text),
 });
-const part = object({ name: text, first_vertex: count, vertices: count });
+const part = object({ name: text, first_vertex: count, vertices: count, is_bearing: flag });
 
 const report = object({
   version: text, title: text,

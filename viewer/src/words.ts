@@ -69,10 +69,14 @@ export const words = {
   zoneHelp: (past: string) => `The triangles that meet ${past}° past the end of the motion.`,
   shading: "Shading",
   measure: "Measure between two points",
-  measureFirst: "Choose the first point on a bone.",
+  measureFirst: "Choose the first point on a bone, or give the number of a vertex.",
   measureSecond: "Choose the second point.",
   measured: (mm: number) => `Distance ${mm.toFixed(2)} mm`,
   hover: (body: string, vertex: number, value: string) => `${body}, vertex ${vertex}: ${value}`,
+  vertexOf: "Vertex of",
+  vertexNumber: "Number of a vertex",
+  tellVertex: "Tell",
+  noVertex: (body: string, last: number) => `${body} has vertices 0 to ${last}`,
   bound: "at least",
   noValue: "no value",
 
@@ -89,7 +93,7 @@ export const words = {
     `${count} vertices of ${body} inside` + (deepest_mm > 0 ? `, deepest ${deepest_mm.toFixed(2)} mm` : "") +
     (without > 0 ? `, ${without} of them where the ray tells no depth` : ""),
   pairsCount: (count: number) => `${count} pairs of triangles meet`,
-  stepTook: (ms: number) => `computed in ${ms.toFixed(1)} ms`,
+  stepTook: (ms: number) => `answered in ${ms.toFixed(1)} ms`,
   precomputed: "Poses",
 
   limits: "Limits",

@@ -29,6 +29,7 @@ export class MotionPanel {
   private readonly took = html("p", { class: "small", "aria-hidden": "true" });
   private animation = 0;
   private toldAt = 0;
+  private isWarm = false;
 
   /// `arrived` where a motion that was asked for has come to its end. `showStored` where the page cannot compute: the joint then
   /// takes the poses that the report holds, by their names, and none in between.
@@ -118,7 +119,9 @@ export class MotionPanel {
       this.toldAt = now;
     }
     this.answer.classList.toggle("contact", shown.inContact);
-    this.took.textContent = words.stepTook(roundTrip_ms);
+    // The first answer waits for tables that are made once.
+    if (this.isWarm) this.took.textContent = words.stepTook(roundTrip_ms);
+    this.isWarm = true;
   }
 
   private hasPose(name: string): boolean {

@@ -1,10 +1,10 @@
-import { checkbox, html } from "../dom";
+import { button, checkbox, choice, html } from "../dom";
 import type { BodyName, JointScene, Picked } from "../scene/scene";
 import { words } from "../words";
 
 const clickTolerance_px = 4;
 
-/// What the pointer tells: the vertex under it and its value, and the distance between two vertices.
+/// What the pointer tells, or a vertex's number: the vertex and its value, and the distance between two vertices.
 export class PointerPanel {
   readonly element: HTMLElement;
   private readonly told = html("p", { id: "hover", "aria-live": "polite" });
@@ -15,13 +15,13 @@ export class PointerPanel {
   /// `unit` of what vertices show now.
   constructor(
     private readonly scene: JointScene, private readonly names: Record<BodyName, string>, private readonly unit: () => string) {
-    this.element = html("div", {},
+    this.element = html("div", {}, html("div", { class: "row" },
       checkbox(words.measure, false, (on) => {
         this.measures = on;
         this.first = null;
         scene.showDistance(null);
         this.told.textContent = on ? words.measureFirst : "";
-      }), this.told);
+      }), ...this.byNumber()), this.told);
     let asked = false;
     scene.canvas.addEventListener("pointermove", (event) => {
       if (asked || event.buttons !== 0) return;
@@ -35,10 +35,33 @@ export class PointerPanel {
     scene.canvas.addEventListener("click", (event) => {
       const [x, y] = this.pressedAt;
       if (Math.hypot(event.clientX - x, event.clientY - y) > clickTolerance_px) return;
-      const picked = scene.pick(event);
-      if (this.measures) this.choose(picked);
-      else this.tell(picked);
+      this.take(scene.pick(event));
     });
+  }
+
+  /// A vertex by its number, for who has no pointer.
+  private byNumber(): HTMLElement[] {
+    let body: BodyName = "mobile";
+    const most = (name: BodyName) => this.scene.bodies[name].surface.vertices.length / 3 - 1;
+    const number = html("input", { type: "number", min: 0, max: most(body), step: 1, value: 0, "aria-label": words.vertexNumber });
+    const bodies = choice<BodyName>(words.vertexOf, { mobile: this.names.mobile, fixed: this.names.fixed }, body, (chosen) => {
+      body = chosen;
+      number.max = String(most(body));
+    });
+    const tell = () => {
+      const vertex = number.valueAsNumber;
+      if (Number.isInteger(vertex) && vertex >= 0 && vertex <= most(body)) this.take({ body, vertex });
+      else this.told.textContent = words.noVertex(this.names[body], most(body));
+    };
+    number.addEventListener("keydown", ({ key }) => {
+      if (key === "Enter") tell();
+    });
+    return [bodies, number, button(words.tellVertex, tell)];
+  }
+
+  private take(picked: Picked | null): void {
+    if (this.measures) this.choose(picked);
+    else this.tell(picked);
   }
 
   private tell(picked: Picked | null): void {

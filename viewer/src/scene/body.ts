@@ -11,6 +11,7 @@ export interface Part {
   name: string;
   first_vertex: number;
   vertices: number;
+  is_bearing: boolean;
 }
 
 /// One bone of the scene. Its vertices have the numbers they have everywhere.
@@ -24,7 +25,8 @@ export class SceneBody {
   private readonly markedVertices: Record<Marked, number[]> = { bearing: [], contact: [], zone: [] };
   private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
-  constructor(readonly surface: Surface, bone: string) {
+  /// Of a body of several meshes, what is not bone has a colour of its own.
+  constructor(readonly surface: Surface, bone: string, cartilage: string, parts: readonly Part[]) {
     const count = surface.vertices.length / 3;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(surface.vertices), 3));
@@ -33,10 +35,13 @@ export class SceneBody {
     this.mark = dynamic(count);
     this.tints = dynamic(count, 3);
     this.hidden = dynamic(count);
-    Object.entries({ shown: this.shown, mark: this.mark, tints: this.tints, hidden: this.hidden })
+    const isCartilage = new BufferAttribute(new Float32Array(count), 1);
+    for (const { first_vertex, vertices } of parts.filter(({ is_bearing }) => is_bearing))
+      isCartilage.array.fill(1, first_vertex, first_vertex + vertices);
+    Object.entries({ shown: this.shown, mark: this.mark, tints: this.tints, hidden: this.hidden, isCartilage })
       .forEach(([name, attribute]) => geometry.setAttribute(name, attribute));
     geometry.computeVertexNormals();
-    this.mesh = new Mesh(geometry, new BodyMaterial(bone));
+    this.mesh = new Mesh(geometry, new BodyMaterial(bone, cartilage));
   }
 
   /// Null: no colours.

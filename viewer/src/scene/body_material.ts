@@ -1,4 +1,4 @@
-import { DataTexture, DoubleSide, LinearFilter, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, UnsignedByteType } from "three";
+import { Color, DataTexture, DoubleSide, LinearFilter, MeshLambertMaterial, RGBAFormat, SRGBColorSpace, UnsignedByteType } from "three";
 import { colourTable, type ColourScale } from "./colour_scale";
 
 const steps = 512;
@@ -12,25 +12,28 @@ export class BodyMaterial extends MeshLambertMaterial {
     scaleHigh: { value: 1 },
     plainAbove: { value: false },
     isFlat: { value: false },
+    cartilageColour: { value: new Color() },
   };
 
-  constructor(bone: string) {
+  constructor(bone: string, cartilage: string) {
     super({ color: bone, side: DoubleSide });
+    this.shared.cartilageColour.value.set(cartilage);
     this.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, this.shared);
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", `#include <common>
-          attribute float shown; attribute float mark; attribute vec3 tints; attribute float hidden;
-          varying float vShown; varying float vHasValue; varying float vIsBound; varying vec3 vTints; varying float vHidden;`)
+          attribute float shown; attribute float mark; attribute vec3 tints; attribute float hidden; attribute float isCartilage;
+          varying float vShown; varying float vHasValue; varying float vIsBound; varying vec3 vTints; varying float vHidden; varying float vCartilage;`)
         .replace("#include <begin_vertex>", `#include <begin_vertex>
-          vShown = shown; vHasValue = min(mark, 1.0); vIsBound = max(mark - 1.0, 0.0); vTints = tints; vHidden = hidden;`);
+          vShown = shown; vHasValue = min(mark, 1.0); vIsBound = max(mark - 1.0, 0.0); vTints = tints; vHidden = hidden; vCartilage = isCartilage;`);
       shader.fragmentShader = shader.fragmentShader
         .replace("#include <common>", `#include <common>
           uniform sampler2D scaleColours; uniform float scaleLow; uniform float scaleHigh; uniform bool plainAbove;
-          uniform bool isFlat;
-          varying float vShown; varying float vHasValue; varying float vIsBound; varying vec3 vTints; varying float vHidden;`)
+          uniform bool isFlat; uniform vec3 cartilageColour;
+          varying float vShown; varying float vHasValue; varying float vIsBound; varying vec3 vTints; varying float vHidden; varying float vCartilage;`)
         .replace("#include <color_fragment>", `#include <color_fragment>
           if (vHidden > 0.5) discard;
+          if (vCartilage > 0.5) diffuseColor.rgb = cartilageColour;
           if (vHasValue > 0.5 && !(plainAbove && vShown > scaleHigh)) {
             float along = clamp((vShown - scaleLow) / (scaleHigh - scaleLow), 0.0, 1.0);
             diffuseColor.rgb = texture2D(scaleColours, vec2(along, 0.5)).rgb;

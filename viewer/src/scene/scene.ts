@@ -23,10 +23,11 @@ export type ClipAxis = "none" | "x" | "y" | "z";
 export interface Picked {
   body: BodyName;
   vertex: number;
-  point: Vector3;
 }
 
 const boneColours = { fixed: "#d9cfb8", mobile: "#b9c7d6" };
+/// Paler than the bone that carries it, of the same hue: colours of the scale stay those of values.
+const cartilageColours = { fixed: "#f7f1e2", mobile: "#e4ecf5" };
 
 /// Both bones before a camera. Drawn only when something changed.
 export class JointScene {
@@ -44,7 +45,7 @@ export class JointScene {
   private middle = new Vector3();
 
   /// Throws where the browser has no WebGL.
-  constructor(private readonly place: HTMLElement, fixed: Surface, mobile: Surface, label: string) {
+  constructor(private readonly place: HTMLElement, fixed: Surface, mobile: Surface, parts: Record<BodyName, readonly Part[]>, label: string) {
     this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.localClippingEnabled = true;
     this.renderer.autoClear = false;
@@ -55,7 +56,8 @@ export class JointScene {
     canvas.setAttribute("aria-label", label);
     place.append(canvas);
 
-    this.bodies = { fixed: new SceneBody(fixed, boneColours.fixed), mobile: new SceneBody(mobile, boneColours.mobile) };
+    const body = (name: BodyName, surface: Surface) => new SceneBody(surface, boneColours[name], cartilageColours[name], parts[name]);
+    this.bodies = { fixed: body("fixed", fixed), mobile: body("mobile", mobile) };
     this.bodies.mobile.mesh.matrixAutoUpdate = false;
     this.contactPoint = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ color: "#ff7f0e", depthTest: false }));
     this.contactPoint.visible = false;
@@ -185,7 +187,7 @@ export class JointScene {
       const planes = this.bodies[body].mesh.material.clippingPlanes ?? [];
       const vertex = nearestCorner(hit);
       if (planes.every((plane) => plane.distanceToPoint(hit.point) >= 0) && !this.bodies[body].isHidden(vertex))
-        return { body, vertex, point: hit.point };
+        return { body, vertex };
     }
     return null;
   }
