@@ -12,15 +12,22 @@ const here = dirname(fileURLToPath(import.meta.url));
 const [coreFolder, template] = process.argv.slice(2).map((path) => resolve(path));
 const source = (path) => readFileSync(join(here, path), "utf8");
 
+/// Names of packages that the bundles were made of.
+const taken = new Set();
+
 async function bundled(entry, define = {}) {
-  const { outputFiles } = await build({
+  const { outputFiles, metafile } = await build({
     entryPoints: [join(here, "src", entry)],
-    bundle: true, minify: true, write: false, format: "iife", target: "es2022", charset: "ascii", legalComments: "none", define,
+    bundle: true, metafile: true, minify: true, write: false, format: "iife", target: "es2022", charset: "ascii", legalComments: "none", define,
     alias: { "page-core": join(coreFolder, "page_core.js") },
     // Of emscripten's glue, for node.
     external: ["fs", "path", "crypto"],
     absWorkingDir: here,
   });
+  for (const path of Object.keys(metafile.inputs)) {
+    const name = /node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(path)?.[1];
+    if (name) taken.add(name);
+  }
   return outputFiles[0].text;
 }
 
@@ -32,26 +39,26 @@ const worker = await bundled("core/worker.ts");
 const script = inScript(await bundled("main.ts", { workerSource: JSON.stringify(worker) }));
 const style = (await transform(source("src/page.css"), { loader: "css", minify: true })).code;
 // The level and the date are said, so that the bytes are those of every machine.
-const core = Buffer.from(gzipSync(readFileSync(join(coreFolder, "page_core.wasm")), { level: 9, mtime: 0 })).toString("base64");
+const packed = (bytes) => Buffer.from(gzipSync(bytes, { level: 9, mtime: 0 })).toString("base64");
+const core = packed(readFileSync(join(coreFolder, "page_core.wasm")));
 const policy = `default-src 'none'; script-src ${hashOf(script)} 'wasm-unsafe-eval'; style-src ${hashOf(style)}; worker-src blob:; ` +
   "img-src data: blob:; base-uri 'none'; form-action 'none'";
 
-const packages = ["three", "d3-array", "d3-color", "d3-format", "d3-interpolate", "d3-path", "d3-scale", "d3-scale-chromatic", "d3-shape",
-  "d3-time", "d3-time-format", "fflate", "internmap"];
-const licences = [
-  source("../NOTICE").trim(),
-  source("licences.txt").trim(),
-  ...packages.map((name) => {
-    const { version } = JSON.parse(source(`node_modules/${name}/package.json`));
-    return `${name} ${version}\n\n${source(`node_modules/${name}/LICENSE`).trim()}`;
-  }),
-].join("\n\n--------\n\n").replaceAll("<", "‹").replaceAll(">", "›");
+// Of the packages that the bundles were made of name, version and licence; texts in full behind them, compressed as the core is.
+const packages = [...taken].sort().map((name) => {
+  const { version, license } = JSON.parse(source(`node_modules/${name}/package.json`));
+  return { title: `${name} ${version}: ${license}`, text: source(`node_modules/${name}/LICENSE`).trim() };
+});
+const licenceList = [source("../NOTICE").trim(), packages.map(({ title }) => title).join("\n")].join("\n\n");
+const texts = [
+  source("licences/core.txt"), ...packages.map(({ title, text }) => `${title}\n\n${text}`), source("../LICENSE"), source("licences/MPL-2.0.txt"),
+].map((text) => text.trim()).join("\n\n--------\n\n");
 
 // What is shown where the script does not run.
 const { outputFiles: [table] } = await build({ entryPoints: [join(here, "src/words.ts")], write: false, format: "esm" });
 const { words } = await import(`data:text/javascript;base64,${Buffer.from(table.contents).toString("base64")}`);
 
-const parts = { policy, style, licences, core, script, noScripts: words.noScripts, unfinished: words.unfinished };
+const parts = { policy, style, licenceList, licences: packed(Buffer.from(texts)), core, script, noScripts: words.noScripts, unfinished: words.unfinished };
 const page = source("src/page.html").replaceAll(/@(\w+)@/g, (_, part) => parts[part]);
 writeFileSync(template, page);
 console.log(`${template}: ${(page.length / 1e6).toFixed(2)} MB, of it script ${(script.length / 1e6).toFixed(2)}, core ${(core.length / 1e6).toFixed(2)}`);

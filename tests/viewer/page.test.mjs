@@ -1,7 +1,7 @@
 // What the page answers and says, in a browser: against the command line.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { statSync } from "node:fs";
+import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { has, keep, openPage, pathOf, pixels, region, reports, root, settled, sharedBrowser } from "./browser.mjs";
@@ -27,6 +27,21 @@ for (const name of ["sample", "scenario_3", "vhf_right", "libhip_left"])
 test("the template and a report of scenario 3 are as small as was promised", () => {
   assert.ok(statSync(join(root, "viewer/report_template.html")).size <= 1.5e6);
   assert.ok(statSync(pathOf("scenario_3")).size <= 6e6);
+});
+
+test("the licence of everything in the page is in the page, in full", async () => {
+  const { page } = await openPage(browser, pathOf("sample"));
+  await page.getByText("Licences of the software in this page").click();
+  await page.waitForFunction(() => document.getElementById("licences").textContent.length > 1000);
+  const told = await page.locator("#licences").textContent();
+  const { packages } = JSON.parse(readFileSync(join(root, "viewer/package-lock.json"), "utf8"));
+  for (const name of ["three", "d3-scale", "d3-shape", "d3-scale-chromatic", "fflate"])
+    assert.ok(told.includes(`${name} ${packages[`node_modules/${name}`].version}: ${packages[`node_modules/${name}`].license}`), name);
+  for (const wanted of ["fmt 9.1", "nlohmann/json", "Eigen 3.4", "Highway 1.0.3", "Emscripten 3.1.6", "Copyright © 2010-2026 three.js authors",
+    "TERMS AND CONDITIONS FOR USE, REPRODUCTION, AND DISTRIBUTION", "9. Accepting Warranty or Additional Liability", "LLVM Exceptions",
+    "Mozilla Public License Version 2.0", "Exhibit B - \"Incompatible With Secondary Licenses\" Notice", "Boost Software License"])
+    assert.ok(told.includes(wanted), wanted);
+  await page.context().close();
 });
 
 for (const name of ["sample", "shifted", "counted", "parts", "knee"])

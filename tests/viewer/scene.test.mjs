@@ -151,7 +151,7 @@ test("meshes of a body are told apart by their colour", async () => {
   await settled(page);
   const seen = await pixels(page);
   await keep(page, "parts");
-  const [bone, cartilage] = [[185, 199, 214], [228, 236, 245]].map((wanted) =>
+  const [bone, cartilage] = [[185, 199, 214], [143, 169, 198]].map((wanted) =>
     region(seen, (...colour) => colour.every((value, k) => Math.abs(value - wanted[k]) <= 2)));
   assert.ok(bone.count > 1000 && cartilage.count > 200, `${bone.count} and ${cartilage.count}`);
   assert.ok(cartilage.y < bone.y, "the cartilage is on the head, above");

@@ -281,6 +281,12 @@ function coarseMap(): MapQuestion {
   return { columnAngle: 0, rowAngle: 1, vary: 2, columns: every10(-20, 120), rows: every10(-40, 30) };
 }
 
+/// In full, once they are asked for.
+async function showLicences(): Promise<void> {
+  const texts = new TextDecoder().decode(await inflated(bytesOf(textOf("licence-texts") ?? ""), "gzip"));
+  found("licences").textContent = `${textOf("licence-list") ?? ""}\n\n${texts}`;
+}
+
 function wasmBytes(): Promise<ArrayBuffer> {
   return inflated(bytesOf(textOf("core") ?? ""), "gzip");
 }
@@ -312,7 +318,7 @@ function openEmpty(): void {
 async function open(): Promise<void> {
   found("unfinished").remove();
   found("licences-title").textContent = words.licences;
-  found("licences").textContent = textOf("licence-texts") ?? "";
+  found("licences-place").addEventListener("toggle", () => void showLicences(), { once: true });
   found("scope").textContent = words.scope;
   const data = textOf("condyle-data");
   if (data === null) return openEmpty();

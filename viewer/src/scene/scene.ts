@@ -26,8 +26,8 @@ export interface Picked {
 }
 
 const boneColours = { fixed: "#d9cfb8", mobile: "#b9c7d6" };
-/// Paler than the bone that carries it, of the same hue: colours of the scale stay those of values.
-const cartilageColours = { fixed: "#f7f1e2", mobile: "#e4ecf5" };
+/// Darker than the bone that carries it, of the same hue: colours of the scale stay those of values.
+const cartilageColours = { fixed: "#c2b186", mobile: "#8fa9c6" };
 
 /// Both bones before a camera. Drawn only when something changed.
 export class JointScene {
