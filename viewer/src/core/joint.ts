@@ -1,7 +1,8 @@
 import pageCore, { type PageCore } from "page-core";
 import {
-  quantityNumber, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside, type JointArrays, type Layers,
-  type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations, type Proposal, type Quantity, type Shown, type Surface, type Values,
+  quantityNumber, type BothPenetrations, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside,
+  type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations, type Proposal, type Quantity,
+  type Shown, type Surface, type Values,
 } from "./protocol";
 import { unzip } from "./unzip";
 
@@ -123,12 +124,21 @@ export class CoreJoint {
     return this.detailsHere();
   }
 
+  penetrationsAt(at: Coordinates): BothPenetrations {
+    this.place(at);
+    return this.penetrationsHere();
+  }
+
+  private penetrationsHere(): BothPenetrations {
+    return { mobileInFixed: this.penetrations(0), fixedInMobile: this.penetrations(1) };
+  }
+
   private detailsHere(): Details {
-    const mobileInFixed = this.penetrations(0), fixedInMobile = this.penetrations(1);
+    const penetrations = this.penetrationsHere();
     const inContact = this.checked(this.core._condyle_in_contact(this.joint, this.pose)) === 1;
     const count = this.checked(this.core._condyle_pairs(this.joint, this.pose));
     const pairs = this.u32(this.core._condyle_pair_triangles(this.joint), 2 * count);
-    return { pose: this.f64(this.pose, 16), inContact, mobileInFixed, fixedInMobile, pairs };
+    return { pose: this.f64(this.pose, 16), inContact, ...penetrations, pairs };
   }
 
   /// Free intervals of a point of a map, as angles of the joint.

@@ -100,12 +100,15 @@ export interface Penetrations {
   depths_mm: Float64Array;
 }
 
-/// All that a script may want to know of a pose.
-export interface Details {
-  pose: Float64Array;
-  inContact: boolean;
+export interface BothPenetrations {
   mobileInFixed: Penetrations;
   fixedInMobile: Penetrations;
+}
+
+/// All that a script may want to know of a pose.
+export interface Details extends BothPenetrations {
+  pose: Float64Array;
+  inContact: boolean;
   pairs: Uint32Array;
 }
 
@@ -121,12 +124,14 @@ export type Query =
   | { of: "pose"; at: Coordinates }
   /// 16 numbers, row by row.
   | { of: "poseMatrix"; X_FM: number[] }
+  /// Both bodies' vertices inside, without what else a pose tells.
+  | { of: "penetrations"; at: Coordinates }
   | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
   | { of: "limit"; limit: LimitQuestion }
   | { of: "mapPoint"; question: MapQuestion; point: number }
   /// Bytes that the core has taken.
   | { of: "memory" };
-export type QueryAnswer = number | Details | BothValues | LiveLimit | [number, number, number, number][];
+export type QueryAnswer = number | Details | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
 
 /// A mesh file and its name, whose ending tells the format.
 export interface DroppedFile {

@@ -68,6 +68,8 @@ function answerTo(query: Query): QueryAnswer {
       return joint!.details(query.at);
     case "poseMatrix":
       return joint!.detailsOf(query.X_FM);
+    case "penetrations":
+      return joint!.penetrationsAt(query.at);
     case "values":
       return joint!.values(query.at, query.quantity);
     case "limit":
