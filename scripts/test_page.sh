@@ -9,7 +9,7 @@ out=build/page
 mkdir -p "$out/seen"
 
 "$condyle" sample hip --out "$out/sample" >/dev/null
-"$condyle" report "$out/sample/hip.toml" --band=20 --map flexion=0:120:20 adduction=-30:20:10 --out "$out/sample.html"
+"$condyle" report "$out/sample/hip.toml" --band=20 --map flexion=0:120:10 adduction=-30:20:10 --out "$out/sample.html"
 # Turned about a point beside the head's centre, head and socket touch before the rim does.
 sed 's/^centre = .*/centre = [-2, -2, 0]/' "$out/sample/hip.toml" >"$out/sample/shifted.toml"
 "$condyle" report "$out/sample/shifted.toml" --out "$out/shifted.html"
