@@ -1,0 +1,19 @@
+// Makes docs/images/page.png anew: the page of a report of the sample hip, in a browser. Needs a release build and, in viewer/, npm ci.
+// Usage: node scripts/draw_page.mjs
+import { execFileSync } from "node:child_process";
+import { join } from "node:path";
+import { launchedBrowser, openPage, root, settled } from "../tests/viewer/browser.mjs";
+
+const folder = join(root, "out/docs/page");
+const condyle = (...words) => execFileSync(join(root, "build/release/condyle"), words, { stdio: "ignore" });
+condyle("sample", "hip", "--scenario", "3", "--out", folder);
+condyle("report", join(folder, "hip.toml"), "--band=20", "--out", join(folder, "report.html"));
+const browser = await launchedBrowser();
+try {
+  const { page } = await openPage(browser, join(folder, "report.html"), { width: 1200, height: 760, fragment: "#flexion=70&internal_rotation=20" });
+  await settled(page);
+  await page.waitForFunction(() => [...document.querySelectorAll(".told")].every(({ textContent }) => textContent !== ""));
+  await page.screenshot({ path: join(root, "docs/images/page.png") });
+} finally {
+  await browser.close();
+}
