@@ -174,14 +174,16 @@ test("files dropped while others are read, or three at once, are refused in one 
   await drop(page, [...sampleFiles, sampleFiles[0]]);
   await page.getByText("A joint has two meshes").waitFor();
   // Both within one turn: the first pair is still being read.
-  await page.evaluate(() => {
+  const refused = await page.evaluate(() => {
     const transfer = new DataTransfer();
     for (const name of ["a.stl", "b.stl"]) transfer.items.add(new File(["solid\nendsolid\n"], name));
     for (let i = 0; i < 2; ++i) document.body.dispatchEvent(new DragEvent("drop", { bubbles: true, cancelable: true, dataTransfer: transfer }));
+    return document.querySelector("[role=alert]").textContent;
   });
-  await page.getByText("still reading the meshes").waitFor();
+  assert.match(refused, /still reading the meshes/);
   // What was wrong with the first pair; then the page takes another.
-  await page.waitForFunction(() => /^[ab].stl: /.test(document.querySelector("[role=alert]")?.textContent ?? ""));
+  await page.waitForFunction(() => /^[ab].stl: /.test(document.querySelector("[role=alert]").textContent));
+  assert.equal(await page.getByRole("alert").count(), 1);
   await drop(page, sampleFiles);
   await answered(page);
   assert.equal(await page.locator("#scene canvas").count(), 1);

@@ -296,22 +296,23 @@ function openEmpty(): void {
   if (!canCompute) return warn(words.noWebAssemblyToRead);
   found("subtitle").textContent = words.noData;
   found("scene").append(html("p", { class: "drop-hint" }, words.dropHint));
-  const panel = new DropPanel(async (fixed, mobile) => {
+  const warnOnly = (message: string) => {
     found("messages").replaceChildren();
+    warn(message);
+  };
+  const panel = new DropPanel(async (fixed, mobile) => {
     try {
       const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixed, mobile);
+      found("messages").replaceChildren();
       panel.element.remove();
       found("scene").replaceChildren();
       new Page(textOfProposal(proposal, fixed.name, mobile.name), proposal.joint, null).compute(core);
       return true;
     } catch (error) {
-      warn(lineOf(error));
+      warnOnly(lineOf(error));
       return false;
     }
-  }, (why) => {
-    found("messages").replaceChildren();
-    warn(why);
-  });
+  }, warnOnly);
   found("panels").append(panel.element);
 }
 

@@ -180,6 +180,8 @@ export const words = {
   file: "file",
   sha256: "SHA-256",
   bytes: "bytes",
-  madeBy: (version: string, command: string) => `made by condyle ${version}, command: ${command}`,
+  made: "Made of",
+  files: "Files",
+  madeBy: (version: string, command: string) => `By condyle ${version}, command: ${command}`,
   licences: "Licences of the software in this page",
 };

@@ -26,7 +26,7 @@ export class MotionPanel {
   private readonly sliders: Slider[];
   private readonly translations: HTMLInputElement[] = [];
   private readonly answer = html("p", { id: "answer", "aria-live": "polite" });
-  private readonly took = html("p", { class: "small", "aria-hidden": "true" });
+  private readonly took = html("p", { class: "small no-print", "aria-hidden": "true" });
   private animation = 0;
   private toldAt = 0;
   private isWarm = false;

@@ -34,8 +34,8 @@ export function numbersPanel(report: ReportText, counts: { fixed: [number, numbe
       const { provenance } = rom;
       const files = [provenance.joint_file, ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
       parts.push(
-        table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]),
-          words.madeBy(provenance.version, provenance.command.join(" "))));
+        html("h3", {}, words.made), html("p", {}, shortened(words.madeBy(provenance.version, provenance.command.join(" ")), longestLine)),
+        table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), words.files));
     }
   } else {
     parts.push(html("p", { class: "warning" }, words.noLimits + (report.rom_error ?? "")));

@@ -3,7 +3,9 @@ import type { MotionAnswer, RomAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
-const size = 320, middle = size / 2, radius = 92, labelRadius = radius + 26, lineHeight = 15;
+const width = 320, radius = 92, labelRadius = radius + 26, lineHeight = 15, height = 2 * (labelRadius + lineHeight);
+/// Of the dial; names stand beside it, so that the picture is wider than high.
+const middle = { x: width / 2, y: height / 2 };
 
 /// The end of each motion at its hour on the clock face; null where none has one.
 export function clockDrawing(
@@ -12,10 +14,10 @@ export function clockDrawing(
   if (placed.length === 0) return null;
   const at = (hour: number, r: number): [number, number] => {
     const angle = (hour / 12) * 2 * Math.PI;
-    return [middle + r * Math.sin(angle), middle - r * Math.cos(angle)];
+    return [middle.x + r * Math.sin(angle), middle.y - r * Math.cos(angle)];
   };
-  const picture = svg("svg", { viewBox: `0 0 ${size} ${size}`, class: "plot clock" },
-    svg("circle", { cx: middle, cy: middle, r: radius, class: "dial" }));
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, class: "plot clock" },
+    svg("circle", { cx: middle.x, cy: middle.y, r: radius, class: "dial" }));
   for (let hour = 1; hour <= 12; ++hour) {
     const [x, y] = at(hour, radius - 14);
     picture.append(svg("text", { x, y: y + 4, "text-anchor": "middle", class: "hour" }, String(hour)));
@@ -26,7 +28,7 @@ export function clockDrawing(
     side.forEach((motion, i) => {
       const [x, y] = at(motion.clock_hour!, radius);
       const toLeft = motion.clock_hour! >= 6, labelY = heights[i]!;
-      const out = Math.sqrt(Math.max(0, labelRadius ** 2 - (labelY - middle) ** 2)), labelX = middle + (toLeft ? -out : out);
+      const out = Math.sqrt(Math.max(0, labelRadius ** 2 - (labelY - middle.y) ** 2)), labelX = middle.x + (toLeft ? -out : out);
       const name = named(motion.name);
       const mark = svg("g", {},
         svg("line", { x1: x, y1: y, x2: labelX, y2: labelY, class: "leader" }),
@@ -48,7 +50,7 @@ export function clockDrawing(
 
 /// Ascending heights moved no nearer than a line of text, and not below the lowest label of the dial.
 function spread(heights: readonly number[]): number[] {
-  const lowest = middle + labelRadius, moved: number[] = [];
+  const lowest = middle.y + labelRadius, moved: number[] = [];
   for (const height of heights) moved.push(Math.max(height, (moved.at(-1) ?? -Infinity) + lineHeight));
   for (let i = moved.length - 1; i >= 0; --i) moved[i] = Math.min(moved[i]!, i + 1 < moved.length ? moved[i + 1]! - lineHeight : lowest);
   return moved;
