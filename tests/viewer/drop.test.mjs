@@ -156,6 +156,7 @@ test("files dropped into the scene make a joint, and others after them are refus
   await answered(page);
   await settled(page);
   assert.equal(await page.getByText("Drop the meshes of a hip on this page").count(), 0);
+  assert.equal(await page.locator("#title").textContent(), "femur.ply in hip_bone.ply");
   for (let again = 0; again < 2; ++again) {
     await drop(page, sampleFiles);
     await page.getByRole("alert").waitFor();

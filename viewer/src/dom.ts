@@ -66,6 +66,6 @@ const runsAlong = /^[\x20-\x7e\u00a0-\u052f\u2010-\u2027\u2030-\u205e]*$/;
 
 /// A name that fits into a sentence and leaves the direction of what is around it as it is.
 export function named(name: string): string {
-  const short = shortened(spaced(name)).replaceAll(/\p{Bidi_Control}/gu, "");
+  const short = shortened(name).replaceAll(/\p{Bidi_Control}/gu, "");
   return runsAlong.test(short) ? short : `\u2068${short}\u2069`;
 }

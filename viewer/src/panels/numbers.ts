@@ -1,10 +1,10 @@
-import { html, named, section, shortened } from "../dom";
+import { html, named, section, shortened, spaced } from "../dom";
 import { limitAlone, toldBand } from "../plots/limits";
 import type { MeshSource, ReportText, RomAnswer } from "../report";
 import { words } from "../words";
 
-/// More of a name or a note than this is not read in a table.
-const longestLine = 1000;
+/// More of a note, or of a path in the first column of a table, is not read.
+const longestLine = 1000, longestHead = 200;
 
 function filesOf(mesh: MeshSource | { files: MeshSource[] }): MeshSource[] {
   return "files" in mesh ? mesh.files : [mesh];
@@ -16,7 +16,7 @@ function table(head: readonly string[], rows: readonly (readonly string[])[], ti
     html("table", {}, html("caption", {}, caption),
       html("thead", {}, html("tr", {}, ...head.map((text) => html("th", { scope: "col" }, text)))),
       html("tbody", {}, ...rows.map(([first, ...cells]) =>
-        html("tr", {}, html("th", { scope: "row" }, shortened(first!, longestLine)), ...cells.map((cell) => html("td", {}, cell)))))));
+        html("tr", {}, html("th", { scope: "row" }, shortened(first!, longestHead)), ...cells.map((cell) => html("td", {}, cell)))))));
 }
 
 /// All numbers of the report with their units, where they come from, and what they are not.
@@ -50,10 +50,10 @@ function limitsTable({ motions }: RomAnswer): HTMLElement {
     motions.map((motion) => {
       const band = toldBand(motion), reason = words.reasons[motion.reason];
       return [
-        named(motion.name), limitAlone(motion), band ? words.bandEnds(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0)) : "–",
+        named(spaced(motion.name)), limitAlone(motion), band ? words.bandEnds(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0)) : "–",
         motion.contact_kind === null ? reason : words.endsBy(reason, words.contactKinds[motion.contact_kind] ?? motion.contact_kind),
         degrees(motion.bearing_contact_deg), degrees(motion.normal_range_deg),
-        motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,
+        motion.reason !== "contact" || motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,
       ];
     }), words.limits);
 }

@@ -1,4 +1,4 @@
-import { named, svg } from "../dom";
+import { named, spaced, svg } from "../dom";
 import type { MotionAnswer, RomAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -29,7 +29,7 @@ export function clockDrawing(
       const [x, y] = at(motion.clock_hour!, radius);
       const toLeft = motion.clock_hour! >= 6, labelY = heights[i]!;
       const out = Math.sqrt(Math.max(0, labelRadius ** 2 - (labelY - middle.y) ** 2)), labelX = middle.x + (toLeft ? -out : out);
-      const name = named(motion.name);
+      const name = named(spaced(motion.name));
       const mark = svg("g", {},
         svg("line", { x1: x, y1: y, x2: labelX, y2: labelY, class: "leader" }),
         svg("circle", { cx: x, cy: y, r: 5, class: "mark" }),
@@ -42,7 +42,7 @@ export function clockDrawing(
   }
   return {
     name: "clock",
-    caption: `${words.clockCaption[plane ?? "sagittal"]} ${sorted.map((m) => `${abbreviated(m.name)}: ${named(m.name)}`).join("; ")}.`,
+    caption: `${words.clockCaption[plane ?? "sagittal"]} ${sorted.map((m) => `${abbreviated(m.name)}: ${named(spaced(m.name))}`).join("; ")}.`,
     picture,
     data: () => [["motion", "clock_hour", "limit_deg"], ...sorted.map((m) => [m.name, m.clock_hour, m.limit_deg])],
   };
@@ -58,7 +58,7 @@ function spread(heights: readonly number[]): number[] {
 
 /// "internal_rotation_at_90_flexion" as "IR90".
 function abbreviated(name: string): string {
-  const [movement, held] = named(name).replaceAll(" ", "_").split("_at_");
+  const [movement, held] = named(name).split("_at_");
   const letters = movement!.length <= 5 ? movement!.toUpperCase() : movement!.split("_").map((word) => word.slice(0, 1).toUpperCase()).join("");
   const unique = movement === "abduction" ? "Ab" : movement === "adduction" ? "Ad" : letters;
   return unique + (held ? held.split("_")[0]! : "");

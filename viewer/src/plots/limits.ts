@@ -1,5 +1,5 @@
 import { scaleLinear } from "d3-scale";
-import { named, svg } from "../dom";
+import { named, spaced, svg } from "../dom";
 import type { Band, MotionAnswer } from "../report";
 import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
@@ -38,7 +38,7 @@ export function limitsDrawing(motions: readonly MotionAnswer[], go: ((motion: Mo
       svg("text", { x: x(tick), y: axisY + 15, "text-anchor": "middle" }, `${tick}°`));
   motions.forEach((motion, i) => {
     const y = top + i * rowHeight, middle = y + rowHeight / 2;
-    const name = named(motion.name);
+    const name = named(spaced(motion.name));
     const row = svg("g", {},
       svg("rect", { x: 0, y, width, height: rowHeight, class: "row-back" }),
       svg("text", { x: left - 8, y: middle + 4, "text-anchor": "end" }, name),
