@@ -44,9 +44,12 @@ const core = packed(readFileSync(join(coreFolder, "page_core.wasm")));
 const policy = `default-src 'none'; script-src ${hashOf(script)} 'wasm-unsafe-eval'; style-src ${hashOf(style)}; worker-src blob:; ` +
   "img-src data: blob:; base-uri 'none'; form-action 'none'";
 
-// Of the packages that the bundles were made of name, version and licence; texts in full behind them, compressed as the core is.
+const manifest = (name) => JSON.parse(source(`node_modules/${name}/package.json`));
+// With what they need, as the list of materials has it. A set is gone through to the names that are added meanwhile.
+for (const name of taken) for (const needed of Object.keys(manifest(name).dependencies ?? {})) taken.add(needed);
+// Name, version and licence of each; texts in full behind them, compressed as the core is.
 const packages = [...taken].sort().map((name) => {
-  const { version, license } = JSON.parse(source(`node_modules/${name}/package.json`));
+  const { version, license } = manifest(name);
   return { title: `${name} ${version}: ${license}`, text: source(`node_modules/${name}/LICENSE`).trim() };
 });
 const licenceList = [source("../NOTICE").trim(), packages.map(({ title }) => title).join("\n")].join("\n\n");
