@@ -8,21 +8,27 @@
 #include <string>
 #include <string_view>
 
+#include "condyle/clock_face.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/io/normal_range.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
+#include "condyle/version.hpp"
+#include "core/rounded.hpp"
 #include "io/mesh/uncompress.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
+#include "motion/rom/socket_hour.hpp"
 #include "page_joint.hpp"
 
 using namespace condyle;
 
 struct CondyleMesh {
   TriMesh mesh;
+  PageFile file;
 };
 
 namespace {
@@ -49,25 +55,29 @@ kinematics::AgreeingAxes told_axes(const kinematics::HipAnatomy& hip, const std:
                                  : "axes: the bones agree with more than one of the axes in use");
 }
 
-CondyleJoint* proposed_joint(const TriMesh& fixed, const TriMesh& mobile, const std::optional<Side>& side) {
-  const LengthUnit unit = told_unit(fixed, mobile);
-  const auto hip = kinematics::hip_anatomy(in_mm(fixed, unit), in_mm(mobile, unit));
+CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile,
+                             const std::optional<Side>& side) {
+  const LengthUnit unit = told_unit(fixed.mesh, mobile.mesh);
+  const auto hip = kinematics::hip_anatomy(in_mm(fixed.mesh, unit), in_mm(mobile.mesh, unit));
   if (!hip)
     throw UsageError("no head was found on the mobile body near the fixed one: the page proposes hips");
   const auto [axes, told_side] = told_axes(*hip, side);
   JointDescription description{.name = "dropped joint", .side = told_side, .units = unit};
   description.frame.centre = CentreFit{};
   description.frame.axes = axes->directions;
-  PlacedJoint placed = make_joint(description, {"fixed body", fixed}, {"mobile body", mobile});
+  PlacedJoint placed = make_joint(description, {"fixed body", fixed.mesh}, {"mobile body", mobile.mesh});
   PageProposal proposal;
+  const auto& [head, rms] = std::pair(hip->head.fit.sphere, hip->head.fit.rms_residual);
   proposal.told = {
-      fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", hip->head.fit.sphere.radius,
-                  100 * hip->head.coverage),
+      fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", head.radius, 100 * hip->head.coverage),
+      fmt::format("centre: the head's, {} mm in the frame of the meshes, rms {:.2f} mm",
+                  core::rounded(head.centre, 2), rms),
       fmt::format("side: {}", told_side == Side::right ? "right" : "left"),
       fmt::format("axes: {}", axes->name),
       fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"),
   };
   proposal.notes = check_joint(placed.joint, placed.placement);
+  proposal.fixed = fixed.file, proposal.mobile = mobile.file;
   JointContact bodies(placed.joint);
   return new CondyleJoint{
       .joint = std::move(placed.joint), .bodies = std::move(bodies), .proposal = std::move(proposal)};
@@ -81,27 +91,50 @@ Json angles_json(const JointAngles& angles) {
   return json;
 }
 
-Json motion_json(const MotionLimit& limit) {
+template <class T>
+Json nullable(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+/// The keys of rom.json that the page reads.
+Json motion_json(const MotionLimit& limit, const std::optional<BearingSurface>& surface) {
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
   const auto vary = static_cast<std::size_t>(limit.motion.vary);
+  const auto normal = normal_hip_range(limit.motion.name);
   Json point = nullptr;
   if (contact) point = {contact->fixed_point.x(), contact->fixed_point.y(), contact->fixed_point.z()};
   return {
       {"name", limit.motion.name},
       {"limit_deg", limit.end.turned.degrees()},
       {"reason", name_of(limit.end.reason)},
-      {"contact_kind", limit.end.kind() == ContactKind::impingement ? Json("impingement") : Json(nullptr)},
+      {"contact_kind",
+       limit.end.reason == LimitReason::end_of_range ? Json(nullptr) : Json(name_of(limit.end.kind()))},
       {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
       {"contact_point_mm", point},
-      {"clock_hour", nullptr},
+      {"clock_hour", contact ? nullable(motion::socket_hour(sagittal_clock(), surface, contact->fixed_point))
+                             : Json(nullptr)},
+      {"error_bound_deg", limit.end.error_bound.degrees()},
       {"vary", coordinate_names(Anatomy::hip)[vary].positive},
       {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
       {"range_deg", limit.motion.range.degrees()},
       {"start_deg", angles_json(limit.motion.start)},
       {"at_limit_deg", angles_json(limit.angles_at_limit())},
-      {"normal_range_deg", nullptr},
+      {"normal_range_deg", normal ? Json(normal->degrees()) : Json(nullptr)},
       {"band", nullptr}};
+}
+
+Json bearing_json(const BearingFinding& found) {
+  if (!found.surface) return {{"rule", "count"}, {"why_none", found.why_none}};
+  const auto& surface = *found.surface;
+  return {{"rule", "leave_out"},
+          {"head", {{"radius_mm", surface.head.radius}}},
+          {"socket", surface.socket ? Json{{"radius_mm", surface.socket->radius}} : Json(nullptr)},
+          {"margin_mm", surface.margin_mm}};
+}
+
+Json file_json(const PageFile& file) {
+  return {{"path", file.name}, {"bytes", file.digest.bytes}, {"sha256", file.digest.sha256}};
 }
 
 }  // namespace
@@ -130,7 +163,8 @@ CondyleMesh* condyle_read_mesh(const char* name, const std::uint8_t* bytes, int 
   return guarded(static_cast<CondyleMesh*>(nullptr), [&] {
     const std::string_view contents(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
     try {
-      return new CondyleMesh{read_mesh(contents, mesh_format_of(name), name).mesh};
+      return new CondyleMesh{read_mesh(contents, mesh_format_of(name), name).mesh,
+                             {name, digest_of(contents)}};
     } catch (const io::UnknownCompression&) {
       throw FileError(std::string(name) +
                       ": compressed by LZ4: the page reads VTP compressed by zlib or not at all");
@@ -146,7 +180,7 @@ CondyleJoint* condyle_propose(const CondyleMesh* fixed, const CondyleMesh* mobil
   return guarded(static_cast<CondyleJoint*>(nullptr), [&] {
     const std::optional<Side> given =
         side < 0 ? std::nullopt : std::optional(side == 0 ? Side::right : Side::left);
-    return proposed_joint(fixed->mesh, mobile->mesh, given);
+    return proposed_joint(*fixed, *mobile, given);
   });
 }
 
@@ -172,14 +206,24 @@ void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std
 
 const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
+    const RangeOfMotion& range = range_of(*joint);
+    const PageProposal& proposal = joint->proposal;
     Json notes = Json::array(), motions = Json::array();
-    for (const JointNote& note : joint->proposal.notes)
+    for (const JointNote& note : proposal.notes)
       notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
-    for (const MotionLimit& limit : range_of(*joint).limits(hip_motions()))
-      motions.push_back(motion_json(limit));
-    joint->description =
-        Json{{"told", joint->proposal.told}, {"notes", std::move(notes)}, {"motions", std::move(motions)}}
-            .dump();
+    for (const MotionLimit& limit : range.limits(hip_motions()))
+      motions.push_back(motion_json(limit, range.bearing().surface));
+    const Json rom{{"clock_plane", "sagittal"},
+                   {"motions", std::move(motions)},
+                   {"notes", std::move(notes)},
+                   {"terms", proposal.told},
+                   {"normal_range_source", normal_hip_range_source},
+                   {"bearing", bearing_json(range.bearing())},
+                   {"provenance",
+                    {{"version", version},
+                     {"fixed_mesh", file_json(proposal.fixed)},
+                     {"mobile_mesh", file_json(proposal.mobile)}}}};
+    joint->description = rom.dump(-1, ' ', false, Json::error_handler_t::replace);
     return joint->description.c_str();
   });
 }

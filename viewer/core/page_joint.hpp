@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/io/file_digest.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
@@ -27,10 +28,17 @@ struct PagePressure {
   std::optional<condyle::ElasticContactResults> results = {};
 };
 
+/// A file that was dropped.
+struct PageFile {
+  std::string name;
+  condyle::FileDigest digest;
+};
+
 /// What a joint was proposed by.
 struct PageProposal {
   std::vector<std::string> told;
   std::vector<condyle::JointNote> notes;
+  PageFile fixed, mobile;
 };
 
 /// A joint of the page, and what its last answers left.

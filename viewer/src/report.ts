@@ -64,8 +64,9 @@ export interface RomAnswer {
   scope: string;
   provenance?: {
     version: string;
-    command: string[];
-    joint_file: MeshSource;
+    /// Of a report; a joint of files dropped on the page has neither.
+    command?: string[];
+    joint_file?: MeshSource;
     fixed_mesh: MeshSource | { files: MeshSource[] };
     mobile_mesh: MeshSource | { files: MeshSource[] };
   };
@@ -229,7 +230,7 @@ export function textOfProposal(proposal: Proposal, fixed: string, mobile: string
       { name: "internal_rotation", opposite: "external_rotation" },
     ],
     reference_deg: [0, 0, 0], reference_mm: [0, 0, 0],
-    rom: { motions: proposal.motions, notes: proposal.notes, terms: proposal.told, scope: words.scope },
+    rom: { ...proposal.rom, scope: words.scope },
     map: null, zones: [], layers: null, parts: { fixed: [], mobile: [] }, arrays: {}, poses: [], recorded: null,
   };
 }

@@ -182,6 +182,7 @@ export const words = {
   bytes: "bytes",
   made: "Made of",
   files: "Files",
+  madeHere: (version: string) => `By condyle ${version} in this page, from files dropped on it`,
   madeBy: (version: string, command: string) => `By condyle ${version}, command: ${command}`,
   licences: "Licences of the software in this page",
 };

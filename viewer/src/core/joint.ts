@@ -62,7 +62,7 @@ export class CoreJoint {
           kind: 0, anatomy: 0, side: core._condyle_side(joint.joint), translationFrame: 0, fixed: joint.surface(1),
           mobile: joint.surface(0), bearing: "found", layers: null,
         },
-        ...(JSON.parse(core.UTF8ToString(description)) as Omit<Proposal, "joint">),
+        rom: JSON.parse(core.UTF8ToString(description)) as Proposal["rom"],
       },
     };
   }

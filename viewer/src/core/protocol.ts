@@ -1,4 +1,4 @@
-import type { MotionAnswer } from "../report";
+import type { RomAnswer } from "../report";
 
 /// What page and worker say to each other.
 
@@ -142,10 +142,8 @@ export interface DroppedFile {
 /// The joint that was proposed for two files.
 export interface Proposal {
   joint: JointArrays;
-  /// What told it, what looks wrong with it, and where its motions end.
-  told: string[];
-  notes: { code: string; text: string }[];
-  motions: MotionAnswer[];
+  /// What a report would have of its limits; `terms` are what told the joint.
+  rom: Omit<RomAnswer, "scope">;
 }
 
 export type ToWorker =

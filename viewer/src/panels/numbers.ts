@@ -32,9 +32,10 @@ export function numbersPanel(report: ReportText, counts: { fixed: [number, numbe
     if (rom.terms.length) parts.push(html("h3", {}, words.terms), lines(rom.terms));
     if (rom.provenance) {
       const { provenance } = rom;
-      const files = [provenance.joint_file, ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
+      const { version, command, joint_file } = provenance;
+      const files = [...(joint_file ? [joint_file] : []), ...filesOf(provenance.fixed_mesh), ...filesOf(provenance.mobile_mesh)];
       parts.push(
-        html("h3", {}, words.made), html("p", {}, shortened(words.madeBy(provenance.version, provenance.command.join(" ")), longestLine)),
+        html("h3", {}, words.made), html("p", {}, shortened(command ? words.madeBy(version, command.join(" ")) : words.madeHere(version), longestLine)),
         table([words.file, words.bytes, words.sha256], files.map(({ path, bytes, sha256 }) => [path, String(bytes), sha256]), words.files));
     }
   } else {
