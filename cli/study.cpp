@@ -142,8 +142,7 @@ void add_study(CLI::App& app) {
   command->add_flag_callback(
       "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
       "A joint that cannot be answered, or with which something looks wrong (exit code 4), ends the run; "
-      "nothing is "
-      "written");
+      "nothing is written");
   command->callback([options] { run(*options); });
 }
 

@@ -87,8 +87,8 @@ constexpr Pair quotient(Pair a, Pair b) noexcept {
   return ordered_sum(high, rest.high / b.high);
 }
 
-/// Of at most a sixty-fourth, by Taylor's series: the terms from r^3 / 3 on are a part in 10^4 of it, and doubles do, some 2^-67
-/// of it off.
+/// Of at most 1/128 and a little, by Taylor's series: the terms from r^3 / 3 on are at most 2^-15 of it, so that doubles do: some
+/// roundings of 2^-53 make 2^-67.
 constexpr Pair arctangent_of_small(Pair r) noexcept {
   const double x = r.high * r.high;
   const double more = r.high * x * (-1.0 / 3 + x * (1.0 / 5 - x * (1.0 / 7 - x * (1.0 / 9))));

@@ -65,6 +65,7 @@ HWY_INLINE unsigned bits_of(Tag tag, hn::Mask<Tag> mask) {
 /// A ray in the target's frame, and its nearest hit so far.
 class PlacedRay {
  public:
+  PlacedRay() = default;
   /// Of the target, `size` is the largest coordinate.
   PlacedRay(const Pose& X, const Ray& ray, double reach, float size)
       : origin_(placed(X, ray.origin) + X.translation()),
@@ -285,25 +286,23 @@ void gather(const RayTarget& target, const Hull& hull, std::vector<RayTarget::Bo
 void nearest_hits_any(const RayTarget& target, const Pose& X_TR, std::span<const Ray> rays, double reach,
                       std::span<const Index> first, RayHits& out) {
   constexpr std::size_t together = 8;
-  std::vector<PlacedRay> some;
-  some.reserve(together);
-  std::vector<RayTarget::Boxes> leaves;
+  std::array<PlacedRay, together> some;
   Index likely = no_index;
   const auto try_likely = [&](PlacedRay& ray) {
     if (likely != no_index) ray.meet(target.leaves()[target.leaf_of(likely)]);
   };
   for (std::size_t begin = 0; begin < rays.size(); begin += together) {
     const std::size_t end = std::min(begin + together, rays.size());
-    some.clear();
     for (std::size_t i = begin; i < end; ++i) {
       if (!first.empty()) likely = first[i];
-      try_likely(some.emplace_back(X_TR, rays[i], reach, target.size()));
+      some[i - begin] = PlacedRay(X_TR, rays[i], reach, target.size());
+      try_likely(some[i - begin]);
     }
-    gather(target, Hull(some), leaves);
+    gather(target, Hull(std::span(some).first(end - begin)), out.leaves);
     for (std::size_t i = begin; i < end; ++i) {
       PlacedRay& ray = some[i - begin];
       if (first.empty() && !ray.is_hit()) try_likely(ray);
-      for (const auto& boxes : leaves)
+      for (const auto& boxes : out.leaves)
         for (unsigned bits = ray.boxes_met(boxes); bits != 0; bits &= bits - 1)
           ray.meet(target.leaves()[boxes.below[static_cast<std::size_t>(std::countr_zero(bits))]]);
       out.distance[i] = ray.distance();

@@ -62,6 +62,8 @@ struct RayHits {
   std::vector<Index> triangle;   ///< of the target's mesh; no_index where nothing is met
 
   bool is_hit(std::size_t ray) const noexcept { return triangle[ray] != no_index; }
+
+  std::vector<RayTarget::Boxes> leaves;  ///< nearest_hits()' own, kept for the next question
 };
 
 /// The nearest hit of each ray, given in R, with the target, at 0 <= distance <= reach; X_TR is the pose of the rays' frame in

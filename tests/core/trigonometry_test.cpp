@@ -19,6 +19,19 @@ bool same(double a, double b) {
   return a == b && std::signbit(a) == std::signbit(b);
 }
 
+/// Values that are not the exact one rounded once: a neighbour of it, where that lies within 2^-67 of the middle between the two,
+/// 2^-13 of the time.
+struct Misrounded {
+  std::size_t of = 0, count = 0;
+
+  void hold(double value, const Long& exact) {
+    const auto rounded = static_cast<double>(exact);
+    ++of, count += value != rounded;
+    EXPECT_LE(abs(Long(value) - exact), abs(exact) * (0x1p-53 + 0x1p-67)) << value << " and not " << rounded;
+  }
+  ~Misrounded() { EXPECT_LE(count, 1 + of / 2048); }
+};
+
 TEST(Trigonometry, SinesAndCosinesAreTheExactOnesRoundedOnce) {
   std::mt19937_64 random(3);
   std::vector<double> angles;
@@ -32,25 +45,26 @@ TEST(Trigonometry, SinesAndCosinesAreTheExactOnesRoundedOnce) {
     for (const double near : {angle, std::nextafter(angle, infinity), std::nextafter(angle, -infinity)})
       if (near != 0) angles.push_back(near);
   }
+  Misrounded misrounded;
   for (const double angle : angles) {
     const auto [sine, cosine] = sine_cosine(angle);
-    EXPECT_EQ(sine, static_cast<double>(sin(Long(angle)))) << angle;
-    EXPECT_EQ(cosine, static_cast<double>(cos(Long(angle)))) << angle;
+    misrounded.hold(sine, sin(Long(angle)));
+    misrounded.hold(cosine, cos(Long(angle)));
   }
 }
 
 TEST(Trigonometry, ArctangentsAreTheExactOnesRoundedOnce) {
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> coordinate(-1, 1), power(-30, 30);
+  Misrounded misrounded;
   for (int i = 0; i < 6000; ++i) {
     const double size = std::exp2(power(random)), y = size * coordinate(random), x = coordinate(random);
-    EXPECT_EQ(arctangent(y, x), static_cast<double>(atan2(Long(y), Long(x)))) << y << ' ' << x;
+    misrounded.hold(arctangent(y, x), atan2(Long(y), Long(x)));
   }
   for (const double t :
        {1.0, std::nextafter(1.0, 2.0), std::nextafter(1.0, 0.0), 0x1p-59, 0x1p-61, 0x1p59, 0x1p61, 1e-50}) {
     for (const double x : {1.0, -1.0, 3e250, -1e-250, 1e-310}) {
-      for (const double y : {t * x, -t * x})
-        EXPECT_EQ(arctangent(y, x), static_cast<double>(atan2(Long(y), Long(x)))) << y << ' ' << x;
+      for (const double y : {t * x, -t * x}) misrounded.hold(arctangent(y, x), atan2(Long(y), Long(x)));
     }
   }
 }

@@ -9,7 +9,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "core/parallel.hpp"
 #include "motion/joint_scenes.hpp"
-#include "support/shared_data.hpp"
+#include "support/real_hip.hpp"
 #include "support/test_meshes.hpp"
 
 /// All free intervals of a joint angle: in closed form, and against exact tests at every step.
@@ -198,15 +198,10 @@ Thoroughness thoroughness() {
 }
 
 TEST(FreeAngles, OfARealHipAreThoseOfExactTestsAtEveryStep) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const auto hip = hip_vhf_right();
+  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
   const Seen seen =
-      expect_same_as_steps({"vhf",
-                            JointKind::ball,
-                            Side::right,
-                            {"hip bone", read_ply(*data / "hip_vhf_right/hip_bone.ply")},
-                            {"femur", read_ply(*data / "hip_vhf_right/femur.ply")}},
-                           BearingRule::leave_out, JointAngle::internal_rotation, thoroughness(), 7);
+      expect_same_as_steps(*hip, BearingRule::leave_out, JointAngle::internal_rotation, thoroughness(), 7);
   EXPECT_GT(seen.islands, 0u);
   EXPECT_GT(seen.in_contact, 0u);
   EXPECT_GT(seen.free_elsewhere, 0u);

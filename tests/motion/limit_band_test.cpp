@@ -8,7 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
-#include "support/shared_data.hpp"
+#include "support/real_hip.hpp"
 
 /// Bands of limits: in closed form, the same on any number of threads, and those of an independent run on real hips.
 
@@ -174,13 +174,9 @@ constexpr std::array<Expected, 12> vhf_bands{{{127.0, 133.7, 138.0, 10.1, 7.3, 5
                                               {85.8, 120.0, 120.0, 0.0, 30.7, 0.0}}};
 
 TEST(RealHipBands, AgreeWithAnIndependentRun) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const Joint joint{"vhf",
-                    JointKind::ball,
-                    Side::right,
-                    {"hip bone", read_ply(*data / "hip_vhf_right/hip_bone.ply")},
-                    {"femur", read_ply(*data / "hip_vhf_right/femur.ply")}};
+  const auto hip = hip_vhf_right();
+  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const Joint& joint = *hip;
   const auto motions = hip_motions();
   // The quantiles of that run are of centre and axes: their widths are less than the surface alone would make them.
   const auto bands = limit_bands(joint, motions, {}, {.sigma = {.surface_mm = 0}});

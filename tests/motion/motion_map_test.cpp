@@ -9,7 +9,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
-#include "support/shared_data.hpp"
+#include "support/real_hip.hpp"
 #include "support/test_meshes.hpp"
 
 /// Maps against single limits, volumes against integrals.
@@ -77,13 +77,9 @@ class ImpingesAt {
 
 /// Most points of this map that are in contact at zero internal rotation are free a few degrees away.
 TEST(MotionMap, OfARealHipHasWhatIsFreeBesideAStartInContactAndIslands) {
-  const auto data = shared_data();
-  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
-  const Joint joint{"vhf",
-                    JointKind::ball,
-                    Side::right,
-                    {"hip bone", read_ply(*data / "hip_vhf_right/hip_bone.ply")},
-                    {"femur", read_ply(*data / "hip_vhf_right/femur.ply")}};
+  const auto hip = hip_vhf_right();
+  if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const Joint& joint = *hip;
   const MapGrid grid{.row = {JointAngle::adduction, -40, 30, 10},
                      .column = {JointAngle::flexion, -20, 120, 10},
                      .vary = JointAngle::internal_rotation};

@@ -104,3 +104,14 @@ export async function keep(page, name, options = {}) {
   mkdirSync(join(reports, "seen"), { recursive: true });
   await page.screenshot({ path: join(reports, "seen", `${name}.png`), ...options });
 }
+
+// The hip bone is the colour of sand, the femur bluish; shading changes how bright they are.
+export const isHipBone = (r, g, b) => r > b + 12 && r >= g;
+export const isFemur = (r, g, b) => b > r + 8;
+
+/// Plain bones, without colours of contact.
+export async function plain(page) {
+  await page.getByLabel("Colour", { exact: true }).selectOption("none");
+  await page.getByLabel("Mark triangles in contact").uncheck();
+  await settled(page);
+}

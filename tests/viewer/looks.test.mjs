@@ -1,20 +1,9 @@
 // What the scene shows, pixel by pixel: bones where they should be, colours as the scale says, after slider, clip and hide.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep, openPage, pathOf, pixels, region, settled, turnTo, sharedBrowser } from "./browser.mjs";
+import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo } from "./browser.mjs";
 
 const browser = await sharedBrowser();
-
-// The hip bone is the colour of sand, the femur bluish; shading changes how bright they are.
-const isHipBone = (r, g, b) => r > b + 12 && r >= g;
-const isFemur = (r, g, b) => b > r + 8;
-
-/// Plain bones, without colours of contact.
-async function plain(page) {
-  await page.getByLabel("Colour", { exact: true }).selectOption("none");
-  await page.getByLabel("Mark triangles in contact").uncheck();
-  await settled(page);
-}
 
 test("bones stand where they should, from the front and from the right", async () => {
   const { page } = await openPage(browser, pathOf("sample"));

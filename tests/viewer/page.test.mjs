@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { has, keep, openPage, pathOf, pixels, region, reports, root, settled, sharedBrowser } from "./browser.mjs";
+import { has, isFemur, keep, openPage, pathOf, pixels, region, reports, root, settled, sharedBrowser } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const condyle = join(root, "build/release/condyle");
@@ -165,7 +165,6 @@ test("where a layer carries load its pressure is shown, in MPa, on open sheets t
 
 test("meshes of a body are shown one by one", async () => {
   const { page } = await openPage(browser, pathOf("parts"));
-  const isFemur = (r, g, b) => b > r + 8;
   await page.getByLabel("Colour", { exact: true }).selectOption("none");
   await page.getByLabel("Show hip bone").uncheck();
   await settled(page);

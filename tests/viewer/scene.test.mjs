@@ -1,18 +1,10 @@
 // What hands do in the scene: turn, move and zoom by mouse and fingers, point and measure, see through, mark, colour.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { keep, openPage, pathOf, pixels, region, settled, sharedBrowser, turnTo } from "./browser.mjs";
+import { isFemur, isHipBone, keep, openPage, pathOf, pixels, plain, region, settled, sharedBrowser, turnTo } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
-const isHipBone = (r, g, b) => r > b + 12 && r >= g;
-const isFemur = (r, g, b) => b > r + 8;
-
-async function plain(page) {
-  await page.getByLabel("Colour", { exact: true }).selectOption("none");
-  await page.getByLabel("Mark triangles in contact").uncheck();
-  await settled(page);
-}
 
 /// Position of the camera and what it looks at, once the address has changed from `before`.
 async function camera(page, before = "") {

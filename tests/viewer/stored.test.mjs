@@ -1,7 +1,7 @@
 // The page in a browser without WebAssembly: poses that the report holds, and nothing that looks as if it computed.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { has, keep, openPage, pathOf, pixels, region, sharedBrowser } from "./browser.mjs";
+import { has, isFemur, keep, openPage, pathOf, pixels, region, sharedBrowser } from "./browser.mjs";
 import { readReport } from "./report_block.mjs";
 
 const browser = await sharedBrowser();
@@ -58,7 +58,6 @@ test("without WebAssembly a recorded motion plays by its stored poses", { skip: 
   await page.getByRole("button", { name: "right", exact: true }).click();
   await page.getByRole("slider", { name: "Frame" }).fill("0");
   await page.waitForTimeout(200);
-  const isFemur = (r, g, b) => b > r + 8;
   const first = region(await pixels(page), isFemur);
   await page.getByRole("slider", { name: "Frame" }).fill("30");
   await page.waitForTimeout(200);

@@ -11,13 +11,13 @@
 #include "condyle/clock_face.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/normal_range.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/version.hpp"
 #include "core/rounded.hpp"
 #include "io/mesh/uncompress.hpp"
+#include "io/result/json.hpp"
+#include "io/result/rom_parts.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
@@ -33,7 +33,7 @@ struct CondyleMesh {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using io::Json;
 
 /// In mm, by what their sizes say.
 LengthUnit told_unit(const TriMesh& fixed, const TriMesh& mobile) {
@@ -91,37 +91,29 @@ Json angles_json(const JointAngles& angles) {
   return json;
 }
 
-template <class T>
-Json nullable(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
 /// The keys of rom.json that the page reads.
 Json motion_json(const MotionLimit& limit, const std::optional<BearingSurface>& surface) {
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
   const auto vary = static_cast<std::size_t>(limit.motion.vary);
   const auto normal = normal_hip_range(limit.motion.name);
-  Json point = nullptr;
-  if (contact) point = {contact->fixed_point.x(), contact->fixed_point.y(), contact->fixed_point.z()};
-  return {
-      {"name", limit.motion.name},
-      {"limit_deg", limit.end.turned.degrees()},
-      {"reason", name_of(limit.end.reason)},
-      {"contact_kind",
-       limit.end.reason == LimitReason::end_of_range ? Json(nullptr) : Json(name_of(limit.end.kind()))},
-      {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
-      {"contact_point_mm", point},
-      {"clock_hour", contact ? nullable(motion::socket_hour(sagittal_clock(), surface, contact->fixed_point))
-                             : Json(nullptr)},
-      {"error_bound_deg", limit.end.error_bound.degrees()},
-      {"vary", coordinate_names(Anatomy::hip)[vary].positive},
-      {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
-      {"range_deg", limit.motion.range.degrees()},
-      {"start_deg", angles_json(limit.motion.start)},
-      {"at_limit_deg", angles_json(limit.angles_at_limit())},
-      {"normal_range_deg", normal ? Json(normal->degrees()) : Json(nullptr)},
-      {"band", nullptr}};
+  return {{"name", limit.motion.name},
+          {"limit_deg", limit.end.turned.degrees()},
+          {"reason", name_of(limit.end.reason)},
+          {"contact_kind", io::ends_in_contact(limit) ? Json(name_of(limit.end.kind())) : Json(nullptr)},
+          {"bearing_contact_deg", bearing ? Json(bearing->turned.degrees()) : Json(nullptr)},
+          {"contact_point_mm", contact ? io::numbers(contact->fixed_point) : Json(nullptr)},
+          {"clock_hour",
+           contact ? io::nullable(motion::socket_hour(sagittal_clock(), surface, contact->fixed_point))
+                   : Json(nullptr)},
+          {"error_bound_deg", limit.end.error_bound.degrees()},
+          {"vary", coordinate_names(Anatomy::hip)[vary].positive},
+          {"sense", limit.motion.sense == RotationSense::positive ? "positive" : "negative"},
+          {"range_deg", limit.motion.range.degrees()},
+          {"start_deg", angles_json(limit.motion.start)},
+          {"at_limit_deg", angles_json(limit.angles_at_limit())},
+          {"normal_range_deg", normal ? Json(normal->degrees()) : Json(nullptr)},
+          {"band", nullptr}};
 }
 
 Json bearing_json(const BearingFinding& found) {
@@ -208,14 +200,12 @@ const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
     const RangeOfMotion& range = range_of(*joint);
     const PageProposal& proposal = joint->proposal;
-    Json notes = Json::array(), motions = Json::array();
-    for (const JointNote& note : proposal.notes)
-      notes.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+    Json motions = Json::array();
     for (const MotionLimit& limit : range.limits(hip_motions()))
       motions.push_back(motion_json(limit, range.bearing().surface));
     const Json rom{{"clock_plane", "sagittal"},
                    {"motions", std::move(motions)},
-                   {"notes", std::move(notes)},
+                   {"notes", io::notes_json(proposal.notes)},
                    {"terms", proposal.told},
                    {"normal_range_source", normal_hip_range_source},
                    {"bearing", bearing_json(range.bearing())},

@@ -8,7 +8,6 @@ interface BandSource {
 
 /// Every text of the page, in one table: another language is another table.
 export const words = {
-  appName: "Condyle",
   pageTitle: (title: string) => `${title} – Condyle`,
   subtitle: (side: string, anatomy: string, { fixed, mobile }: { fixed: string; mobile: string }) =>
     `${side} ${anatomy}: ${mobile} in ${fixed}`,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "condyle/points.hpp"
 #include "simd/packed_interval.hpp"
 
 namespace condyle::radial {
@@ -21,7 +22,14 @@ using simd::PackedInterval;
 struct alignas(64) EdgeFunctions {
   float x[4], y[4], z[4], low[3];
   PackedInterval radii;
+
+  Vec3 scaled_normal() const noexcept {
+    return {double{x[3]} + double{low[0]}, double{y[3]} + double{low[1]}, double{z[3]} + double{low[2]}};
+  }
 };
+
+/// Lengths that floats square and multiply without overflow or loss, mm.
+inline constexpr double least_length = 0x1p-40, greatest_length = 0x1p40;
 
 /// Relative error of a form's coefficients beyond their rounding to float: with that, a form of a point v
 /// errs by less than form_error * max|v_k| * (|x| + |y| + |z|), and `form_error_of_translation` times |t| / r

@@ -52,14 +52,10 @@ class RoughRay {
   /// The normal of a triangle as gap_to_plane() wants it; NaN where it is not kept.
   Vec3 scaled_normal(Index triangle) const noexcept {
     if (!functions_) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-    const EdgeFunctions& f = functions_[triangle];
-    return {double{f.x[3]} + double{f.low[0]}, double{f.y[3]} + double{f.low[1]},
-            double{f.z[3]} + double{f.low[2]}};
+    return functions_[triangle].scaled_normal();
   }
 
  private:
-  /// Lengths that floats multiply without overflow or loss, mm.
-  static constexpr double least_length = 0x1p-40, greatest_length = 0x1p40;
   static constexpr float least_error = 0x1p-90f, greatest_error = 0x1p90f;
   /// Taking 1 from what is near 1 is exact, and from the rest rounds by less than half of what is left.
   static constexpr float rounding_of_beyond = 0x1p-23f;

@@ -11,9 +11,6 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Lengths that floats square and multiply without overflow or loss, mm.
-constexpr double least_length = 0x1p-40, greatest_length = 0x1p40;
-
 /// Winding numbers that FoundPoint holds, with those of the most crossings that a Ray holds beside.
 constexpr int largest_winding = 1000;
 
@@ -85,16 +82,14 @@ void find_gaps(const PointBlocks& points, const EdgeFunctions* all_functions, co
   constexpr std::size_t ahead = 16;
   constexpr EdgeFunctions none{};  // what becomes of one that is uncertain is not read
   const Vec3* const all_points = &points[0];
-  const auto sum = [](float high, float low) { return static_cast<double>(high) + static_cast<double>(low); };
   for (std::size_t i = 0; i < count; ++i) {
     const FoundPoint& at = found.point[first + i];
     __builtin_prefetch(all_points + found.point[std::min(first + i + ahead, found.count - 1)].point);
     const Vec3& p = all_points[at.point];
     const EdgeFunctions& functions = at.uncertain ? none : all_functions[at.triangle];
     out.point[0][i] = p.x(), out.point[1][i] = p.y(), out.point[2][i] = p.z();
-    out.normal[0][i] = sum(functions.x[3], functions.low[0]);
-    out.normal[1][i] = sum(functions.y[3], functions.low[1]);
-    out.normal[2][i] = sum(functions.z[3], functions.low[2]);
+    const Vec3 normal = functions.scaled_normal();
+    for (int k = 0; k < 3; ++k) out.normal[k][i] = normal[k];
   }
   out.count = count;
   gaps_to_planes(X_FM, out);
