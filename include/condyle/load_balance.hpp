@@ -40,7 +40,7 @@ struct BalanceOptions {
 
 enum class BalanceOutcome {
   balanced,
-  at_jump,  ///< all but a little of the load is carried, and no step was found that leaves less: as where the force jumps
+  at_jump,  ///< all but a little of the load is carried, and the force jumps just beyond, or no step was found that leaves less
   pulled_apart,  ///< along the load the bodies do not meet, or they part
   over_the_rim,  ///< in contact, and nowhere near was a pose found in which the contact carries the load
   unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
@@ -66,11 +66,12 @@ struct BalancedPose {
 /// One line that says why there is no balance, or what is wrong with it; empty where nothing is.
 std::string reason_of(const BalancedPose& pose);
 
-/// From a start nearby, with its rotation held unless rotations are free: Newton's method on the load of the contact, steps
-/// halved while they leave more of the load, or store more energy than the load gives. A start without contact is moved along the load to
+/// From a start nearby, with its rotation held unless rotations are free: Newton's method on the load of the contact, of each
+/// step as much as leaves less of the load and stores no more energy than the load gives. A start without contact is moved along the load to
 /// where the contact carries that part of it. What is called balanced is stable: the contact pushes back whichever way the
 /// body is moved. The contact's force jumps where a ray begins or ceases to meet the other surface, at a rim or a side wall: a
-/// load of which no step leaves less, and little is left, is taken to lie within such a jump, and told with what is left.
+/// load of which little is left just before a jump, or of which no step leaves less, is taken to lie within it, and told with
+/// what is left.
 ///
 /// UsageError where a share is not from 0 to 1, the load is zero or not finite along what is free, or directions depend on each other. Some ten times
 /// the cost of a pose.

@@ -54,8 +54,9 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     const AlongMotionOptions& options = {});
 
 /// The poses that balance a load, frame after frame: rotations are the recorded ones, and each frame starts from its
-/// translation as the last frame that carries its load has moved its own. One load for all frames, or one for each. Frames that
-/// do not carry it say so in their outcome and hand nothing on; gaps stay gaps. Not parallel.
+/// translation as the last frame that carries its load has moved its own, and on as that changed between two balanced frames
+/// next to each other. One load for all frames, or one for each. Frames that do not carry it say so in their outcome and hand
+/// nothing on; gaps stay gaps. Not parallel.
 std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
     const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
     const BalanceOptions& balance = {}, const AlongMotionOptions& options = {});

@@ -159,7 +159,7 @@ ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
   core::require_in_range(X_FM);
   auto answers = parts_->spare.take();
   parts_->answer(X_FM, *answers);
-  ElasticContactResults results = parts_->results_of(*answers, X_FM);
+  ElasticContactResults results = parts_->results_of(*answers, parts_->load_of(*answers, X_FM));
   parts_->spare.put_back(std::move(answers));
   return results;
 }
@@ -188,7 +188,8 @@ contact::LoadChange ElasticContact::Parts::change_of(const Answers& answers, con
   return change;
 }
 
-ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, const Pose& X_FM) const {
+ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers,
+                                                        const contact::MobileLoad& load) const {
   ElasticContactResults out;
   const auto add = [](const contact::ElasticCast& cast, const contact::ElasticCast::Answer& answer,
                       SurfaceContact& surface) {
@@ -196,7 +197,6 @@ ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers, 
   };
   if (from_fixed) add(*from_fixed, answers.of_fixed, out.fixed.emplace());
   if (from_mobile) add(*from_mobile, answers.of_mobile, out.mobile.emplace());
-  const contact::MobileLoad load = load_of(answers, X_FM);
   out.on_mobile = {load.wrench.head<3>(), load.wrench.tail<3>()};
   out.energy_nmm = load.energy;
   return out;

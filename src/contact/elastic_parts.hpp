@@ -59,7 +59,7 @@ struct ElasticContact::Parts {
   contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM) const;
   contact::LoadChange change_of(const Answers& answers, const Pose& X_FM) const;
   void for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const;
-  ElasticContactResults results_of(const Answers& answers, const Pose& X_FM) const;
+  ElasticContactResults results_of(const Answers& answers, const contact::MobileLoad& load) const;
 
   mutable core::Spare<Answers> spare;
 };

@@ -24,7 +24,10 @@ constexpr double longest_step = 1;
 constexpr double search_step = 0.1;
 /// The same where the contact already tells how far it is.
 constexpr double longest_search_step = 0.3;
-constexpr int most_halvings = 5;
+/// The part of a step that is enough to know how far it leads.
+constexpr double least_part = 1.0 / 16;
+/// Where the load changes by this many times what the stiffness tells, it jumps.
+constexpr double steepest_change = 4;
 /// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
 /// then pass its rim.
 constexpr double measured_way = 0.05;
@@ -75,7 +78,7 @@ class Search {
   BalancedPose run() {
     answers_ = contact_.parts().spare.take(), tried_ = contact_.parts().spare.take();
     out_.outcome = find();
-    out_.contact = contact_.parts().results_of(*answers_, out_.X_FM);
+    out_.contact = contact_.parts().results_of(*answers_, now_);
     contact_.parts().spare.put_back(std::move(answers_));
     out_.residual = {residual_.head<3>(), residual_.tail<3>()};
     return std::move(out_);
@@ -166,10 +169,13 @@ class Search {
         return BalanceOutcome::unstable;
       }
       if (out_.steps >= options_.most_steps) return given_up();
-      if (!try_step(svd.solve(free_.transpose() * residual_)) &&
-          !try_step(measured_stiffness().colPivHouseholderQr().solve(free_.transpose() * residual_)))
-        return left_share() <= options_.most_left_at_jump ? BalanceOutcome::at_jump : given_up();
+      const auto little_is_left = [&] { return left_share() <= options_.most_left_at_jump; };
+      StepEnd end = try_step(svd.solve(free_.transpose() * residual_));
+      if (!end.moved && !(end.at_jump && little_is_left()))
+        end = try_step(measured_stiffness().colPivHouseholderQr().solve(free_.transpose() * residual_));
       if (!is_near(out_.X_FM)) return given_up();
+      if ((end.at_jump || !end.moved) && little_is_left()) return BalanceOutcome::at_jump;
+      if (!end.moved) return given_up();
       ++out_.steps;
     }
   }
@@ -198,26 +204,40 @@ class Search {
     return resisted_ ? BalanceOutcome::over_the_rim : BalanceOutcome::pulled_apart;
   }
 
-  /// The step, or as many halves of it as leave less of the load without climbing: what is stored beyond what the load
+  struct StepEnd {
+    bool moved;    ///< less of the load is left than before
+    bool at_jump;  ///< just beyond more is left, and no stiffness explains how much
+  };
+  /// The step, or the part of it beyond which more of the load is left or the body climbs: what is stored beyond what the load
   /// gives grows at a saddle, where the load still falls.
-  bool try_step(const Eigen::VectorXd& along_free) {
+  StepEnd try_step(const Eigen::VectorXd& along_free) {
     Vector6 step = free_ * along_free;
     if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
-    for (int halving = 0; halving <= most_halvings; ++halving, step /= 2) {
-      const Pose X = moved(out_.X_FM, step);
+    const Pose from = out_.X_FM;
+    const double energy = now_.energy, size = size_of(residual_);
+    const Vector6 given = load_at(from);
+    // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
+    const double doubtful = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
+                                   given.tail<3>().norm() * step.tail<3>().norm());
+    Vector6 beyond = residual_;
+    bool meets_beyond = false;
+    double low = 0, high = 1;
+    for (double part = 1; high - low > least_part; part = (low + high) / 2) {
+      const Pose X = moved(from, part * step);
       const MobileLoad next = tried(X);
-      if (next.samples == 0) continue;
-      const Vector6 given = load_at(out_.X_FM);
-      // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
-      const bool climbs = next.energy - now_.energy - given.dot(step) >
-                          0.1 * (given.head<3>().norm() * step.head<3>().norm() +
-                                 given.tail<3>().norm() * step.tail<3>().norm()) +
-                              1e-9 * now_.energy;
-      if (climbs || !(size_of(left(X, next)) < size_of(residual_))) continue;
-      take(X, next);
-      return true;
+      const Vector6 residual = left(X, next);
+      const bool climbs = next.energy - energy - part * given.dot(step) > part * doubtful + 1e-9 * energy;
+      if (next.samples > 0 && !climbs && size_of(residual) < size_of(residual_)) {
+        take(X, next);
+        if (part == 1) return {true, false};
+        low = part;
+      } else {
+        high = part;
+        beyond = residual;
+        meets_beyond = next.samples > 0;
+      }
     }
-    return false;
+    return {low > 0, meets_beyond && size_of(beyond - residual_) > steepest_change * (high - low) * size};
   }
 
   const ElasticContact& contact_;

@@ -287,24 +287,32 @@ void nearest_hits_any(const RayTarget& target, const Pose& X_TR, std::span<const
                       std::span<const Index> first, RayHits& out) {
   constexpr std::size_t together = 8;
   std::array<PlacedRay, together> some;
+  std::array<Index, together> tried;  // the leaf that each ray was held against before all others
   Index likely = no_index;
   const auto try_likely = [&](PlacedRay& ray) {
-    if (likely != no_index) ray.meet(target.leaves()[target.leaf_of(likely)]);
+    if (likely == no_index) return no_index;
+    const Index leaf = target.leaf_of(likely);
+    ray.meet(target.leaves()[leaf]);
+    return leaf;
   };
   for (std::size_t begin = 0; begin < rays.size(); begin += together) {
     const std::size_t end = std::min(begin + together, rays.size());
     for (std::size_t i = begin; i < end; ++i) {
       if (!first.empty()) likely = first[i];
       some[i - begin] = PlacedRay(X_TR, rays[i], reach, target.size());
-      try_likely(some[i - begin]);
+      tried[i - begin] = try_likely(some[i - begin]);
     }
     gather(target, Hull(std::span(some).first(end - begin)), out.leaves);
     for (std::size_t i = begin; i < end; ++i) {
       PlacedRay& ray = some[i - begin];
-      if (first.empty() && !ray.is_hit()) try_likely(ray);
-      for (const auto& boxes : out.leaves)
-        for (unsigned bits = ray.boxes_met(boxes); bits != 0; bits &= bits - 1)
-          ray.meet(target.leaves()[boxes.below[static_cast<std::size_t>(std::countr_zero(bits))]]);
+      Index& before = tried[i - begin];
+      if (first.empty() && !ray.is_hit()) before = try_likely(ray);
+      for (const auto& boxes : out.leaves) {
+        for (unsigned bits = ray.boxes_met(boxes); bits != 0; bits &= bits - 1) {
+          const Index leaf = boxes.below[static_cast<std::size_t>(std::countr_zero(bits))];
+          if (leaf != before) ray.meet(target.leaves()[leaf]);
+        }
+      }
       out.distance[i] = ray.distance();
       out.triangle[i] = ray.triangle();
       if (ray.is_hit()) likely = ray.triangle();

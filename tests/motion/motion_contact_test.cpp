@@ -60,5 +60,47 @@ TEST(MotionContact, ASheetWhollyBeyondTheReachIsCutOff) {
   EXPECT_GT((*frames)[1]->cut_off_by_reach, 0u);
 }
 
+/// A block on a plane carries 300 N at 0.5 mm: 100 mm^2 at 6 MPa per mm.
+class BlockInBalance {
+ public:
+  /// Of each frame, where it was found and in how many steps; no step where it started in balance.
+  std::vector<BalancedPose> along(std::span<const std::optional<Pose>> X_FM) const {
+    std::vector<BalancedPose> poses;
+    const auto frames = balance_along(contact_, X_FM, std::span(&load_, 1), along_y_);
+    for (const auto& frame : *frames) {
+      if (!frame) continue;
+      EXPECT_EQ(frame->outcome, BalanceOutcome::balanced) << reason_of(*frame);
+      EXPECT_NEAR(frame->X_FM.translation().y(), -0.5, 1e-9);
+      poses.push_back(*frame);
+    }
+    return poses;
+  }
+
+ private:
+  const ElasticContact contact_{test::box({-40, -10, -40}, {40, 0, 40}),
+                                test::box({-5, 0, -5}, {5, 5, 5}),
+                                {.casting = Casting::mobile, .fixed = test::layer_of_stiffness(6)}};
+  const Load load_{.on_mobile = {.force_n = {0, -300, 0}}};
+  const BalanceOptions along_y_{.free_directions = {Vec3::UnitY()}};
+};
+
+TEST(MotionContact, ABalancedFrameStartsWhereTheLastOnesLead) {
+  const BlockInBalance block;
+  const auto steady = block.along(lowered({0.1, 0.15, 0.2, 0.25, 0.3}));
+  ASSERT_EQ(steady.size(), 5u);
+  EXPECT_GT(steady[0].steps, 0);
+  EXPECT_GT(steady[1].steps, 0);
+  for (std::size_t i = 2; i < 5; ++i) EXPECT_EQ(steady[i].steps, 0) << i;
+
+  // A gap leads nowhere: the frame behind it starts as the last one before it was moved.
+  auto with_gap = lowered({0.1, 0.1, 0.2, 0.3, 0.3});
+  with_gap[2].reset();
+  const auto after_gap = block.along(with_gap);
+  ASSERT_EQ(after_gap.size(), 4u);
+  EXPECT_EQ(after_gap[1].steps, 0);
+  EXPECT_GT(after_gap[2].steps, 0);
+  EXPECT_EQ(after_gap[3].steps, 0);
+}
+
 }  // namespace
 }  // namespace condyle

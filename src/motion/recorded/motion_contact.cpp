@@ -130,15 +130,24 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
     throw UsageError(std::to_string(loads.size()) + " loads for " + std::to_string(X_FM.size()) + " frames");
   std::vector<std::optional<BalancedPose>> frames(X_FM.size());
   Followed followed(options, frames.size());
-  Vec3 moved = Vec3::Zero();
+  // How the load moved the body at the last frame, and how that changes from frame to frame where it does so smoothly.
+  Vec3 moved = Vec3::Zero(), change = Vec3::Zero();
+  bool was_balanced = false;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (followed.stopped()) return std::nullopt;
     if (X_FM[i]) {
       Pose start = *X_FM[i];
-      start.translation() += moved;
+      start.translation() += moved + change;
       frames[i] = named(i, [&] { return balance(surfaces, start, loads[loads.size() == 1 ? 0 : i], how); });
-      if (frames[i]->carries_load()) moved = frames[i]->X_FM.translation() - X_FM[i]->translation();
     }
+    const bool balanced = frames[i] && frames[i]->outcome == BalanceOutcome::balanced;
+    change.setZero();
+    if (frames[i] && frames[i]->carries_load()) {
+      const Vec3 here = frames[i]->X_FM.translation() - X_FM[i]->translation();
+      if (balanced && was_balanced) change = here - moved;
+      moved = here;
+    }
+    was_balanced = balanced;
     followed.one_done();
   }
   return frames;
