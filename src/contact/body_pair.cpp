@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contact/placed_trees.hpp"
+#include "core/float_bounds.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/vertical_ray.hpp"
 
@@ -11,17 +12,50 @@ namespace {
 
 using Node = mesh::TriangleTree::Node;
 
+/// In single precision, no smaller than what it holds.
 struct Box {
-  Vec3 low, high;
+  std::array<float, 3> low, high;
+};
 
-  static Box of(const mesh::TriangleCorners& t) noexcept {
-    return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
+/// Some boxes, told from another one at once.
+class Boxes {
+ public:
+  static constexpr Index most = mesh::TriangleTree::leaf_triangles;
+
+  void set(Index i, const mesh::TriangleCorners& t) noexcept {
+    for (int k = 0; k < 3; ++k) {
+      low_[k][i] = core::float_below(std::min(std::min(t[0][k], t[1][k]), t[2][k]));
+      high_[k][i] = core::float_above(std::max(std::max(t[0][k], t[1][k]), t[2][k]));
+    }
   }
-  /// Without branches: which axis tells two boxes apart is anybody's guess.
-  bool meets(const Box& other) const noexcept {
-    const Vec3 gap = (low - other.high).cwiseMax(other.low - high);
-    return std::max(std::max(gap.x(), gap.y()), gap.z()) <= 0;
+  Box operator[](Index i) const noexcept {
+    return {{low_[0][i], low_[1][i], low_[2][i]}, {high_[0][i], high_[1][i], high_[2][i]}};
   }
+  Box of_all(Index count) const noexcept {
+    Box all = (*this)[0];
+    for (Index i = 1; i < count; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        all.low[k] = std::min(all.low[k], low_[k][i]);
+        all.high[k] = std::max(all.high[k], high_[k][i]);
+      }
+    }
+    return all;
+  }
+
+  /// By how much each is apart from another box, above 0; what is not a number may meet. Without branches: which axis tells two
+  /// boxes apart is anybody's guess.
+  std::array<float, most> apart_from(const Box& other) const noexcept {
+    std::array<float, most> apart;
+    const auto along = [&](std::size_t k, std::size_t i) {
+      return std::max(low_[k][i] - other.high[k], other.low[k] - high_[k][i]);
+    };
+    for (std::size_t i = 0; i < most; ++i)
+      apart[i] = std::max(std::max(along(0, i), along(1, i)), along(2, i));
+    return apart;
+  }
+
+ private:
+  alignas(32) float low_[3][most] = {}, high_[3][most] = {};
 };
 
 mesh::TriangleCorners posed_corners(const mesh::TriangleTree& tree, Index triangle, const Pose& X) {
@@ -32,8 +66,9 @@ mesh::TriangleCorners posed_corners(const mesh::TriangleTree& tree, Index triang
 /// Triangles of a leaf in F.
 struct LeafTriangles {
   Index leaf = no_index, count = 0;
-  std::array<mesh::TriangleCorners, mesh::TriangleTree::leaf_triangles> corners;
-  std::array<Box, mesh::TriangleTree::leaf_triangles> boxes;
+  std::array<mesh::TriangleCorners, Boxes::most> corners;
+  Boxes boxes;
+  Box box;  ///< of all
 
   /// Does nothing where it is this leaf already: in a row of pairs one of the two often is.
   template <class CornersOf>
@@ -42,8 +77,9 @@ struct LeafTriangles {
     leaf = number, count = node.last - node.first;
     for (Index i = 0; i < count; ++i) {
       corners[i] = corners_of(node.first + i);
-      boxes[i] = Box::of(corners[i]);
+      boxes.set(i, corners[i]);
     }
+    box = boxes.of_all(count);
   }
 };
 
@@ -56,10 +92,12 @@ void visit_meeting_pairs(const mesh::TriangleTree& fixed, const mesh::TriangleTr
     const Node &f = fixed.nodes()[fixed_leaf], &m = mobile.nodes()[mobile_leaf];
     in_fixed.take(fixed_leaf, f, [&](Index t) { return fixed.corners(t); });
     in_mobile.take(mobile_leaf, m, [&](Index t) { return posed_corners(mobile, t, X_FM); });
+    const auto from_mobile = in_fixed.boxes.apart_from(in_mobile.box);
     for (Index i = 0; i < in_fixed.count; ++i) {
+      if (from_mobile[i] > 0) continue;
+      const auto from_fixed = in_mobile.boxes.apart_from(in_fixed.boxes[i]);
       for (Index j = 0; j < in_mobile.count; ++j) {
-        if (in_fixed.boxes[i].meets(in_mobile.boxes[j]) &&
-            mesh::triangles_intersect(in_fixed.corners[i], in_mobile.corners[j]) &&
+        if (!(from_fixed[j] > 0) && mesh::triangles_intersect(in_fixed.corners[i], in_mobile.corners[j]) &&
             visit(f.first + i, m.first + j))
           return true;
       }

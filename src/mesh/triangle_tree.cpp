@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/float_bounds.hpp"
 #include "core/predicates.hpp"
 
 namespace condyle::mesh {
@@ -105,25 +106,15 @@ Extent extent_of(const std::array<Vec3, 3>& t) noexcept {
           min - longest / 3 - 16 * core::rounding_unit * max, max};
 }
 
-/// More than a rounding to single precision, relative, and more than one among the smallest numbers.
-constexpr double float_slack = 0x1p-23, least_float = std::numeric_limits<float>::min();
-
-float rounded_up(double value) noexcept {
-  return static_cast<float>(value + std::abs(value) * float_slack + least_float);
-}
-float rounded_down(double value) noexcept {
-  return static_cast<float>(value - std::abs(value) * float_slack - least_float);
-}
-
 void set_bounds(TriangleTree::Node& node, const Extent& extent) noexcept {
   for (int axis = 0; axis < 3; ++axis) {
     const auto k = static_cast<std::size_t>(axis);
     node.centre[k] = static_cast<float>(extent.low[axis] / 2 + extent.high[axis] / 2);
     const double centre = node.centre[k];
-    node.half[k] = rounded_up(std::max(extent.high[axis] - centre, centre - extent.low[axis]));
+    node.half[k] = core::float_above(std::max(extent.high[axis] - centre, centre - extent.low[axis]));
   }
-  node.nearest = extent.squared_nearest > 0 ? rounded_down(std::sqrt(extent.squared_nearest)) : 0.0f;
-  node.farthest = rounded_up(std::sqrt(extent.squared_farthest) * (1 + 8 * core::rounding_unit));
+  node.nearest = extent.squared_nearest > 0 ? core::float_below(std::sqrt(extent.squared_nearest)) : 0.0f;
+  node.farthest = core::float_above(std::sqrt(extent.squared_farthest) * (1 + 8 * core::rounding_unit));
 }
 
 /// Splits where the curve leaves one half of a cell for the other.

@@ -1,37 +1,22 @@
 // Holds the core compiled to WebAssembly against the same functions compiled natively, bit for bit:
 //   page_core_answers --sample FOLDER && node same_bits.mjs page_core.js FOLDER
 import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
 import { bits, fromBits, readAnswers, readScene } from "./answers.mjs";
+import { openCore } from "./core_module.mjs";
 
 const [modulePath, folder] = process.argv.slice(2);
-const wasmBinary = readFileSync(modulePath.replace(/js$/, "wasm"));
-const core = await createRequire(import.meta.url)(resolve(modulePath))({ wasmBinary });
+const { core, copied, checked, f64, u32, jointOf } = await openCore(modulePath);
 const { fixed, mobile, questions, fixedTriangles, mobileTriangles } = readScene(join(folder, "scene.bin"));
 const shownNatively = readFileSync(join(folder, "shown.bin"));
 
-const failure = () => new Error(core.UTF8ToString(core._condyle_error()));
-const checked = (answer) => {
-  if (answer < 0) throw failure();
-  return answer;
-};
-const copied = (array) => {
-  const pointer = core._malloc(array.byteLength);
-  new Uint8Array(core.HEAPU8.buffer).set(new Uint8Array(array.buffer, array.byteOffset, array.byteLength), pointer);
-  return pointer;
-};
 const vertexCount = [mobile.length / 3, fixed.length / 3], triangleCount = [mobileTriangles.length / 3, fixedTriangles.length / 3];
-const joint = core._condyle_joint(0, 0, 0, 0, copied(fixed), vertexCount[1], copied(fixedTriangles), triangleCount[1],
-  copied(mobile), vertexCount[0], copied(mobileTriangles), triangleCount[0]);
-if (!joint) throw failure();
+const joint = jointOf({ fixed, fixedTriangles, mobile, mobileTriangles });
 for (const ofFixed of [0, 1])
   checked(core._condyle_surface(joint, ofFixed, 0, vertexCount[ofFixed], 0, triangleCount[ofFixed], 10, 0.45,
     copied(new Float64Array(vertexCount[ofFixed]).fill(2))));
 checked(core._condyle_elastic(joint, 2, 0, 1, 20));
 
-const f64 = (pointer, count) => new Float64Array(core.HEAPU8.buffer, pointer, count);
-const u32 = (pointer, count) => new Uint32Array(core.HEAPU8.buffer, pointer, count);
 const penetrations = (ofFixed) => {
   const count = checked(core._condyle_penetrations(joint, pose, ofFixed));
   const vertices = count ? u32(core._condyle_penetrating_vertices(joint), count) : [];

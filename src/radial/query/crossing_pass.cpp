@@ -24,12 +24,17 @@ using DU = hn::CappedTag<std::uint32_t, 16>;
 using Words = hn::Vec<DU>;
 constexpr DU du;
 
+/// Zero in the lanes of those 8-DOPs from `first` on that hold the point.
+HWY_INLINE Words excess_of_dops(const EntryView& entries, std::size_t first, Words box, Words diagonal) {
+  const auto axis = hn::LoadU(du, entries.axis + first),
+             of_diagonal = hn::LoadU(du, entries.diagonal + first);
+  return hn::Or(range_excess(du, axis, box), range_excess(du, of_diagonal, diagonal));
+}
+
 /// Which of the 8-DOPs from `first` on hold the point.
 HWY_INLINE hn::Mask<DU> dops_holding(const EntryView& entries, std::size_t first, std::size_t last, Words box,
                                      Words diagonal) {
-  const auto axis = hn::LoadU(du, entries.axis + first),
-             of_diagonal = hn::LoadU(du, entries.diagonal + first);
-  const auto excess = hn::Or(range_excess(du, axis, box), range_excess(du, of_diagonal, diagonal));
+  const auto excess = excess_of_dops(entries, first, box, diagonal);
   return hn::And(hn::Eq(excess, hn::Zero(du)), hn::FirstN(du, last - first));
 }
 
@@ -40,11 +45,22 @@ void find_candidates_any(const EntryView& entries, std::span<const CellPlace> pl
     const CellRow row = entries.row[places[i].cell];
     const Words axis = hn::Set(du, places[i].axis), diagonal = hn::Set(du, diagonal_of_point(places[i].axis));
     for (std::size_t first = row.first; first < row.last; first += hn::Lanes(du)) {
+#if HWY_TARGET == HWY_EMU128
+      // Emulated vectors are compacted lane by lane anyway.
+      std::uint32_t excess[hn::MaxLanes(du)];
+      hn::StoreU(excess_of_dops(entries, first, axis, diagonal), du, excess);
+      const std::size_t lanes = std::min(hn::Lanes(du), row.last - first);
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        found[count] = entries.triangle[first + lane];
+        count += excess[lane] == 0;
+      }
+#else
       const auto holding = dops_holding(entries, first, row.last, axis, diagonal);
       // Sixteen lanes are compacted by one instruction, fewer by several: then it pays to see first.
       if (hn::MaxLanes(du) < 16 && hn::AllFalse(du, holding)) continue;
       store_compacted(du, hn::LoadU(du, entries.triangle + first), holding, found + count);
       count += static_cast<std::uint32_t>(hn::CountTrue(du, holding));
+#endif
     }
     end[i] = count;
   }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -37,14 +39,20 @@ class RoughRay {
       value[k] = v_[0] * f.x[k] + (v_[1] * f.y[k] + v_[2] * f.z[k]);
       error[k] = bound_ * (std::abs(f.x[k]) + (std::abs(f.y[k]) + std::abs(f.z[k])));
     }
+    // Comparisons of all four at once: bits of positive floats are in the order of the floats, those of negative ones are below
+    // 0, and a difference has the sign of what is compared, however it is rounded.
+    std::int32_t beyond_range[4], outside[4], inside[4];
+    for (int k = 0; k < 4; ++k) {
+      const auto bits = std::bit_cast<std::int32_t>(error[k]);
+      beyond_range[k] = (bits - least_error_bits) | (greatest_error_bits - bits);
+      outside[k] = std::bit_cast<std::int32_t>(value[k] + error[k]);
+      inside[k] = std::bit_cast<std::int32_t>(error[k] - value[k]);
+    }
     // Elsewhere products may overflow, or be too small to be rounded as the bound has it.
-    const float least = std::min(std::min(error[0], error[1]), std::min(error[2], error[3]));
-    const float most = std::max(std::max(error[0], error[1]), std::max(error[2], error[3]));
-    if (!(least > least_error && most < greatest_error)) return std::nullopt;
-    if (value[0] < -error[0] || value[1] < -error[1] || value[2] < -error[2]) return RayCrossing();
+    if (((beyond_range[0] | beyond_range[1]) | (beyond_range[2] | beyond_range[3])) < 0) return std::nullopt;
+    if ((outside[0] | outside[1] | outside[2]) < 0) return RayCrossing();
     const float beyond = std::abs(value[3]) - 1;
-    if (!(value[0] > error[0] && value[1] > error[1] && value[2] > error[2] &&
-          std::abs(beyond) > error[3] + rounding_of_beyond))
+    if ((inside[0] & inside[1] & inside[2]) >= 0 || !(std::abs(beyond) > error[3] + rounding_of_beyond))
       return std::nullopt;
     return RayCrossing{value[3] > 0 ? core::Sign::positive : core::Sign::negative, beyond > 0, false};
   }
@@ -56,7 +64,8 @@ class RoughRay {
   }
 
  private:
-  static constexpr float least_error = 0x1p-90f, greatest_error = 0x1p90f;
+  static constexpr auto least_error_bits = std::bit_cast<std::int32_t>(0x1p-90f),
+                        greatest_error_bits = std::bit_cast<std::int32_t>(0x1p90f);
   /// Taking 1 from what is near 1 is exact, and from the rest rounds by less than half of what is left.
   static constexpr float rounding_of_beyond = 0x1p-23f;
 
