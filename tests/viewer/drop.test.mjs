@@ -152,6 +152,26 @@ async function drop(page, files) {
     await client.send("Input.dispatchDragEvent", { type, x: 300, y: 300, data: { items: [], files, dragOperationsMask: 1 } });
 }
 
+test("a side that is given counts, and one that the bones speak against is refused as init refuses its axes", async () => {
+  const { page } = await openPage(browser, empty, { answers: false });
+  const side = page.getByLabel("Side", { exact: true });
+  await side.selectOption("left");
+  await page.locator("#files").setInputFiles(sampleFiles);
+  await page.getByRole("alert").waitFor();
+  const told = await page.getByRole("alert").textContent();
+  await keep(page, "given_side");
+  const joint = join(reports, "given_side.toml");
+  rmSync(joint, { force: true });
+  execFileSync(condyle, ["init", ...sampleFiles, "--side", "left", "--out", joint], { stdio: "ignore" });
+  assert.match(told, /^axes: /);
+  assert.ok(readFileSync(joint, "utf8").includes(told.replace("axes: ", "")), told);
+  await side.selectOption("right");
+  await page.locator("#files").setInputFiles(sampleFiles);
+  await answered(page);
+  assert.ok((await page.locator("#panels").innerText()).includes("side: right, given"));
+  await page.context().close();
+});
+
 test("files dropped into the scene make a joint, and others after them are refused in one line", async () => {
   const { page, complaints } = await openPage(browser, empty, { answers: false });
   await page.getByText("Drop the meshes of a hip on this page").waitFor();

@@ -72,7 +72,7 @@ CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile
       fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", head.radius, 100 * hip->head.coverage),
       fmt::format("centre: the head's, {} mm in the frame of the meshes, rms {:.2f} mm",
                   core::rounded(head.centre, 2), rms),
-      fmt::format("side: {}", told_side == Side::right ? "right" : "left"),
+      fmt::format("side: {}{}", told_side == Side::right ? "right" : "left", side ? ", given" : ""),
       fmt::format("axes: {}", axes->name),
       fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"),
   };

@@ -300,9 +300,9 @@ function openEmpty(): void {
     found("messages").replaceChildren();
     warn(message);
   };
-  const panel = new DropPanel(async (fixed, mobile) => {
+  const panel = new DropPanel(async (fixed, mobile, side) => {
     try {
-      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixed, mobile);
+      const { core, proposal } = await CoreClient.propose(await wasmBytes(), fixed, mobile, side);
       found("messages").replaceChildren();
       panel.element.remove();
       found("scene").replaceChildren();

@@ -146,6 +146,8 @@ export const words = {
   dropHere:
     "Drop the meshes of a hip here, or choose them: the hip bone first, or a file named femur (STL, OBJ, PLY, VTP, VTK). They stay " +
     "on this computer.",
+  dropSide: "Side",
+  dropSides: { told: "as the bones tell", right: "right", left: "left" },
   dropSecond: (name: string) => `${name} is the bone that stays; now the one that moves.`,
   dropHint: "Drop the meshes of a hip on this page",
   dropTwo: "A joint has two meshes: drop these two, or one after the other.",

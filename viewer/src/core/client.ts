@@ -1,5 +1,5 @@
 import type {
-  BothValues, Coordinates, DroppedFile, FromWorker, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
+  BothValues, Coordinates, DroppedFile, FromWorker, GivenSide, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
 declare const workerSource: string;
@@ -41,9 +41,10 @@ export class CoreClient {
   }
 
   /// The same for two files of which a joint is proposed.
-  static async propose(wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile): Promise<{ core: CoreClient; proposal: Proposal }> {
+  static async propose(
+    wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: GivenSide): Promise<{ core: CoreClient; proposal: Proposal }> {
     const core = new CoreClient();
-    const answer = await core.first({ type: "propose", wasm, fixed, mobile }, [wasm]);
+    const answer = await core.first({ type: "propose", wasm, fixed, mobile, side }, [wasm]);
     if (answer.type !== "proposed") throw new Error(answer.type);
     return { core, proposal: answer.proposal };
   }

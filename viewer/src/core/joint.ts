@@ -1,8 +1,8 @@
 import pageCore, { type PageCore } from "page-core";
 import {
-  quantityNumber, type BothPenetrations, type BothValues, type Coordinates, type Details, type DroppedFile, type Inside,
-  type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations, type Proposal, type Quantity,
-  type Shown, type Surface, type Values,
+  quantityNumber, type BothPenetrations, type BothValues, type Coordinates, type Details, type DroppedFile, type GivenSide,
+  type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations,
+  type Proposal, type Quantity, type Shown, type Surface, type Values,
 } from "./protocol";
 import { unzip } from "./unzip";
 
@@ -40,7 +40,8 @@ export class CoreJoint {
   }
 
   /// The joint that is proposed for two mesh files; throws the command line's own line where none is.
-  static async propose(wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile): Promise<{ joint: CoreJoint; proposal: Proposal }> {
+  static async propose(
+    wasm: ArrayBuffer, fixed: DroppedFile, mobile: DroppedFile, side: GivenSide): Promise<{ joint: CoreJoint; proposal: Proposal }> {
     const memory = new Memory(await pageCore({ wasmBinary: wasm, unzip }));
     const { core } = memory;
     const meshes = [fixed, mobile].map(({ name, bytes }) => {
@@ -50,8 +51,7 @@ export class CoreJoint {
       if (!mesh) throw memory.error();
       return mesh;
     });
-    const side = -1;  // the bones tell it
-    const joint = new CoreJoint(memory, core._condyle_propose(meshes[0]!, meshes[1]!, side));
+    const joint = new CoreJoint(memory, core._condyle_propose(meshes[0]!, meshes[1]!, { told: -1, right: 0, left: 1 }[side]));
     meshes.forEach((mesh) => core._condyle_free_mesh(mesh));
     const description = core._condyle_description(joint.joint);
     if (!description) throw memory.error();

@@ -139,6 +139,9 @@ export interface DroppedFile {
   bytes: ArrayBuffer;
 }
 
+/// Which side's joint two files are: as their bones tell, or as given.
+export type GivenSide = "told" | "right" | "left";
+
 /// The joint that was proposed for two files.
 export interface Proposal {
   joint: JointArrays;
@@ -147,7 +150,7 @@ export interface Proposal {
 }
 
 export type ToWorker =
-  | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile }
+  | { type: "propose"; wasm: ArrayBuffer; fixed: DroppedFile; mobile: DroppedFile; side: GivenSide }
   | { type: "open"; wasm: ArrayBuffer; joint: JointArrays }
   | { type: "pose"; id: number; at: Coordinates; quantity: Quantity; ranges: [number, number][] | null }
   | { type: "query"; id: number; query: Query }

@@ -101,7 +101,7 @@ self.onmessage = ({ data }: MessageEvent<ToWorker>) => {
       return;
     case "propose":
       void attempt(async () => {
-        const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile);
+        const opened = await CoreJoint.propose(data.wasm, data.fixed, data.mobile, data.side);
         joint = opened.joint;
         say({ type: "proposed", proposal: opened.proposal });
       });

@@ -1,5 +1,5 @@
-import { html, named, section } from "../dom";
-import type { DroppedFile } from "../core/protocol";
+import { choice, html, named, section } from "../dom";
+import type { DroppedFile, GivenSide } from "../core/protocol";
 import { words } from "../words";
 
 /// Where mesh files are dropped or chosen: two of them, the fixed bone first where they come one by one.
@@ -7,14 +7,18 @@ export class DropPanel {
   readonly element: HTMLElement;
   private readonly told = html("p", { "aria-live": "polite" });
   private waiting: DroppedFile[] = [];
+  private side: GivenSide = "told";
   /// One pair is read at a time, and after one that makes a joint the page shows that.
   private state: "open" | "busy" | "done" = "open";
 
   /// `take` answers whether the files made a joint; `refuse` is told why files are not taken.
   constructor(
-    private readonly take: (fixed: DroppedFile, mobile: DroppedFile) => Promise<boolean>, private readonly refuse: (why: string) => void) {
+    private readonly take: (fixed: DroppedFile, mobile: DroppedFile, side: GivenSide) => Promise<boolean>,
+    private readonly refuse: (why: string) => void) {
     const input = html("input", { type: "file", multiple: true, accept: ".stl,.obj,.ply,.vtp,.vtk", id: "files" });
-    this.element = section(words.drop, html("p", {}, html("label", { for: "files" }, words.dropHere)), input, this.told);
+    this.element = section(
+      words.drop, html("p", {}, html("label", { for: "files" }, words.dropHere)), input,
+      html("p", {}, choice(words.dropSide, words.dropSides, this.side, (side) => (this.side = side))), this.told);
     input.addEventListener("change", () => {
       const files = [...(input.files ?? [])];
       // The same file can be chosen again once it was mended.
@@ -46,7 +50,7 @@ export class DropPanel {
     }
     this.waiting = [];
     const [fixed, mobile] = inOrder(first!, second);
-    this.state = (await this.take(fixed, mobile)) ? "done" : "open";
+    this.state = (await this.take(fixed, mobile, this.side)) ? "done" : "open";
     this.told.textContent = "";
   }
 }
