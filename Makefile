@@ -1,5 +1,5 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+.PHONY: demo command test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
   package package-test page-core page page-template sanitize-thread sanitize-some release
 
 dependencies:
@@ -21,7 +21,11 @@ build/release/build.ninja: | dependencies
 build: dependencies build/release/build.ninja
 	@cmake --build --preset release --target condyle_cli condyle_python
 
-demo: build
+# The command alone: on a fresh machine compiling is what a newcomer waits for.
+command: dependencies build/release/build.ninja
+	@cmake --build --preset release --target condyle_cli
+
+demo: command
 	@scripts/demo.sh
 
 # Runs the tests of a preset on two cores and says last, in one line, how many of them were skipped and why.

@@ -26,7 +26,7 @@ echo
 echo "How far it turns in each clinical direction:"
 "$condyle" rom "$out/sample/hip.toml" --out "$out/range_of_motion"
 
-# Drawn where the Python module is built and matplotlib is there.
+# Drawn where the Python module was built, as make test does, and matplotlib is there.
 draw() { PYTHONPATH=build/release/python /usr/bin/python3 "$@"; }
 if draw -c 'import condyle.plot' 2>/dev/null; then
   echo
