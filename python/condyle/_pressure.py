@@ -73,7 +73,8 @@ class BalanceOptions:
         How far the mobile body may go from where it starts.
     most_steps : int
     most_left_at_jump : float
-        Of the load, the share that may be left where no step leaves less: outcome "at_jump".
+        Of the load, the share that may be left just before the force jumps, or where no step leaves less: outcome
+        "at_jump".
     """
 
     force_tolerance_n: float = 1e-6
@@ -94,8 +95,8 @@ class BalanceOptions:
 class BalancedPose:
     """The pose in which the contact carries a load, or why there is none.
 
-    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and no step was found that leaves less than
-    what is left), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
+    `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and the force jumps just beyond, or no
+    step leaves less), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
     there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
     `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose.
     """
@@ -202,8 +203,9 @@ class ElasticContact:
         """The poses that balance a load, frame after frame of a motion, (N, 4, 4); None for those of NaN, gaps.
 
         Rotations are the given ones; each frame starts from its translation as the last frame that carries its load has
-        moved its own. `force_n` and `moment_nmm` are each (3,) for all frames, or (N, 3); the rest as :meth:`balance`
-        takes it. UsageError where there are neither one nor N loads.
+        moved its own, and on as that changed between two balanced frames next to each other. `force_n` and `moment_nmm`
+        are each (3,) for all frames, or (N, 3); the rest as :meth:`balance` takes it. UsageError where there are neither
+        one nor N loads.
 
         C++: `condyle::balance_along` in condyle/motion_contact.hpp.
         """
