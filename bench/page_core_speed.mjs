@@ -6,10 +6,11 @@ import { readReport } from "../tests/viewer/report_block.mjs";
 const [modulePath, path] = process.argv.slice(2);
 const { core, checked, f64, jointOf } = await openCore(modulePath);
 const { array } = readReport(path);
-const vertices = { fixed: Float64Array.from(array("fixed_vertices")), mobile: Float64Array.from(array("mobile_vertices")) };
-const joint = jointOf({ ...vertices, fixedTriangles: array("fixed_triangles"), mobileTriangles: array("mobile_triangles") });
-const most = Math.max(vertices.fixed.length, vertices.mobile.length) / 3;
-const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), values = core._malloc(4 * most), marks = core._malloc(most);
+const fixed = array("fixed_vertices"), mobile = array("mobile_vertices");
+const joint = jointOf({ fixed, mobile, fixedTriangles: array("fixed_triangles"), mobileTriangles: array("mobile_triangles") });
+const most = Math.max(fixed.length, mobile.length) / 3;
+const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24);
+const values = core._malloc(4 * most), marks = core._malloc(most);
 f64(translation, 3).fill(0);
 
 const poses = 40, seconds = 3;

@@ -1,5 +1,6 @@
 import type {
-  BothValues, Coordinates, DroppedFile, FromWorker, GivenSide, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query, QueryAnswer, Shown, ToWorker,
+  BothValues, Coordinates, DroppedFile, FromWorker, GivenSide, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query,
+  QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
 declare const workerSource: string;
