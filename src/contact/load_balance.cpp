@@ -155,7 +155,8 @@ class Search {
       // How the contact pushes back against small motions along what is free.
       const Eigen::MatrixXd stiffness =
           -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM) * free_;
-      const Eigen::JacobiSVD<Eigen::MatrixXd> svd(stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
+          stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
       const auto& sizes = svd.singularValues();
       const Eigen::Index last = sizes.size() - 1;
       if (!(sizes[last] > least_stiffness * sizes[0])) {

@@ -29,7 +29,8 @@ PoseOfRows pose_of_rows(const std::array<double, 16>& rows) {
         "the rotation of the matrix is not orthonormal: off by {:.2g}, more than {:g}", skew, largest_skew));
   if (R.determinant() < 0) throw UsageError("the matrix mirrors: its determinant is -1");
   if (skew <= rounding_skew) return {X, 0};
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(
+      R, Eigen::ComputeFullU | Eigen::ComputeFullV);
   X.linear() = svd.matrixU() * svd.matrixV().transpose();
   return {X, skew};
 }

@@ -151,7 +151,8 @@ Eigen::Matrix3d nearest_rotation(const MotionTable& table, const Eigen::Matrix3d
   if (R.determinant() < 0) fail(table, row, body, "is a reflection, not a rotation: its determinant is -1");
   if (off > worst.off) worst = {off, row, body};
   if (off <= off_as_doubles_are) return R;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(
+      R, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return svd.matrixU() * svd.matrixV().transpose();
 }
 

@@ -27,40 +27,21 @@ Json nullable(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-inline Json numbers(const Vec3& p) {
-  return {p.x(), p.y(), p.z()};
-}
+Json numbers(const Vec3& p);
 
 /// What looks wrong with a joint, under `notes` in every answer for one.
-inline Json notes_json(std::span<const JointNote> notes) {
-  Json list = Json::array();
-  for (const JointNote& note : notes) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
-  return list;
-}
+Json notes_json(std::span<const JointNote> notes);
 
 /// Which joint it is; null for a hinge that is none in particular.
-inline Json anatomy_json(const Joint& joint) {
-  return joint.names_its_joint() ? Json(name_of(joint.anatomy)) : Json(nullptr);
-}
+Json anatomy_json(const Joint& joint);
 
 /// As it was given.
-inline Json pose_json(const PoseDegrees& pose, Anatomy joint) {
-  Json json;
-  for (const JointAngle angle : all_joint_angles) json[name_of(angle, joint)] = pose[angle];
-  return json;
-}
+Json pose_json(const PoseDegrees& pose, Anatomy joint);
 
 /// Without the sign of 0, which says nothing.
-inline void drop_negative_zeros(Json& json) {
-  if (json.is_number_float() && json.get<double>() == 0) json = 0.0;
-  if (json.is_structured())
-    for (Json& element : json) drop_negative_zeros(element);
-}
+void drop_negative_zeros(Json& json);
 
 /// A whole document; bytes of a name that are not UTF-8 are replaced.
-inline std::string document(Json json) {
-  drop_negative_zeros(json);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string document(Json json);
 
 }  // namespace condyle::io
