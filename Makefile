@@ -1,9 +1,12 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo command test build dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+.PHONY: demo command test build dependencies command_dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
   package package-test page-core page page-template sanitize-thread sanitize-some release
 
 dependencies:
 	@scripts/install_dependencies.sh
+
+command_dependencies:
+	@scripts/install_dependencies.sh command
 
 clang_dependencies:
 	@scripts/install_dependencies.sh clang
@@ -14,15 +17,19 @@ docs_dependencies:
 bench_dependencies:
 	@scripts/install_dependencies.sh bench
 
-build/release/build.ninja: | dependencies
-	@cmake --preset release >/dev/null
+# The release build with all that can be built: a folder that `make demo` has begun knows the command alone.
+configure_all = cmake --preset release -DCONDYLE_TESTS=ON -DCONDYLE_BENCH=ON -DCONDYLE_PYTHON=ON >/dev/null
 
 # Release build of the library, the command line and the Python module only.
-build: dependencies build/release/build.ninja
+build: dependencies
+	@$(configure_all)
 	@cmake --build --preset release --target condyle_cli condyle_python
 
-# The command alone: on a fresh machine compiling is what a newcomer waits for.
-command: dependencies build/release/build.ninja
+# The command alone, without what tests and the Python module need: on a fresh machine a newcomer waits for it.
+build/release/build.ninja: | command_dependencies
+	@cmake --preset release -DCONDYLE_TESTS=OFF -DCONDYLE_BENCH=OFF -DCONDYLE_PYTHON=OFF >/dev/null
+
+command: command_dependencies build/release/build.ninja
 	@cmake --build --preset release --target condyle_cli
 
 demo: command
@@ -33,7 +40,8 @@ run_tests = rm -rf build/$(1)/test_results; status=0; \
   ctest --preset $(1) --parallel 2 --output-junit test_results/ctest.junit || status=$$?; \
   scripts/count_skipped.sh build/$(1)/test_results; exit $$status
 
-test: dependencies build/release/build.ninja
+test: dependencies
+	@$(configure_all)
 	@cmake --build --preset release
 	@$(call run_tests,release)
 
@@ -66,7 +74,7 @@ fuzz: clang_dependencies
 
 # Condyle beside other libraries; the pages get the figures of this run, and ratios worse than the stored ones are told.
 bench: bench_dependencies
-	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
+	@$(configure_all)
 	@cmake --build --preset release --target condyle_bench condyle_python
 	@mkdir -p out/bench docs/images/bench
 	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
@@ -75,14 +83,15 @@ bench: bench_dependencies
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.
 verify: bench_dependencies
-	@cmake --preset release -DCONDYLE_BENCH=ON >/dev/null
+	@$(configure_all)
 	@cmake --build --preset release --target condyle_verify
 	@build/release/condyle-verify
 
 # The core compiled to WebAssembly, and its answers held against the native ones bit for bit. Emscripten's linker looks for
 # Debian's modules of node by NODE_PATH.
-page-core: dependencies build/release/build.ninja
+page-core: dependencies
 	@scripts/install_dependencies.sh page
+	@$(configure_all)
 	@cmake --build --preset release --target page_core_answers
 	@emcmake cmake -S viewer/core -B build/page_core -G Ninja >/dev/null
 	@NODE_PATH=/usr/share/nodejs cmake --build build/page_core
@@ -104,7 +113,7 @@ page-template: page-core
 
 # The API page and every other page: out/api/index.html.
 docs: docs_dependencies
-	@cmake --preset release >/dev/null
+	@$(configure_all)
 	@cmake --build --preset release --target docs
 
 # Debian packages in out/packages: the command, python3-condyle, libcondyle-dev, condyle-doc.

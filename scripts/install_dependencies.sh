@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs every Debian package that Condyle builds and tests with. Quick when nothing is missing.
-#   install_dependencies.sh           for make demo and make test
+#   install_dependencies.sh command   for make demo: the command alone
+#   install_dependencies.sh           for that and make test
 #   install_dependencies.sh clang     and for make clang, make sanitize, make fuzz and make format
 #   install_dependencies.sh bench     and for make bench; groups can be named together
 #   install_dependencies.sh docs      and for make docs and make package
@@ -15,15 +16,19 @@ packages=(
   libeigen3-dev libtbb-dev libboost-dev libhwy-dev   # the core
   libvtk9-dev libhdf5-dev libfmt-dev nlohmann-json3-dev   # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
-  libgtest-dev librapidcheck-dev libcgal-dev         # tests; CGAL is an oracle there, and a peer
+)
+tests=(
+  libgtest-dev librapidcheck-dev libcgal-dev         # CGAL is an oracle there, and a peer
   pybind11-dev python3-dev python3-numpy             # the Python module
   python3-pytest python3-hypothesis mypy             # its tests
   python3-matplotlib python3-vtk9                    # its figures, and those of surfaces in .vtp files
   python3-pandas python3-xarray                      # tables and arrays that it gives where these are there
 )
 
+if [ "$*" != command ]; then packages+=("${tests[@]}"); fi
 for group in "$@"; do
   case $group in
+    command) ;;
     clang) packages+=(clang libclang-rt-14-dev clang-format llvm-14) ;;
     bench)
       # Peers; CGAL and VTK are above.
@@ -40,7 +45,7 @@ for group in "$@"; do
     release) packages+=(python3-pip python3-wheel) ;;
     workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are clang, bench, docs, page, package-test, release, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, page, package-test, release, workflow" >&2
       exit 2
       ;;
   esac
