@@ -10,7 +10,10 @@ if(PROJECT_IS_TOP_LEVEL)
 
   find_program(CONDYLE_CCACHE ccache)
   if(CONDYLE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER ${CONDYLE_CCACHE})
+    # With precompiled headers it has to be told that defines and __TIME__ in them may be taken as they were, and what a file
+    # depends on the compiler tells it: it would else preprocess every file for that.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
+                                    ${CONDYLE_CCACHE})
   endif()
 endif()
 
@@ -27,5 +30,33 @@ function(condyle_settings_for target)
   target_compile_options(${target} PUBLIC -ffp-contract=off)
   if(CONDYLE_SANITIZE)
     condyle_sanitize(${target})
+  endif()
+endfunction()
+
+# Has the headers that most files of a target include compiled once for all of them: condyle_precompile(target header...).
+# What keeps forgotten includes from passing unseen: docs/decisions/0006-faster-builds.md.
+function(condyle_precompile target)
+  if(CONDYLE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    condyle_settings_for_precompiled(${target})
+  endif()
+endfunction()
+
+# The same with the headers of another target that is compiled as this one is.
+function(condyle_precompile_as target other)
+  if(CONDYLE_PRECOMPILED_HEADERS)
+    target_precompile_headers(${target} REUSE_FROM ${other})
+    condyle_settings_for_precompiled(${target})
+  endif()
+endfunction()
+
+function(condyle_settings_for_precompiled target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # ccache looks for the precompiled header in what the preprocessor puts out.
+    target_compile_options(${target} PRIVATE -fpch-preprocess)
+    # GCC 12 forgets which of these headers are the system's, and says of std::string what it else keeps to itself.
+    target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+    # It would look for garbage among what it has just read: a tenth of the time.
+    target_compile_options(${target} PRIVATE --param=ggc-min-expand=1000)
   endif()
 endfunction()
