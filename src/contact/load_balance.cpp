@@ -155,6 +155,7 @@ class Search {
       // How the contact pushes back against small motions along what is free.
       const Eigen::MatrixXd stiffness =
           -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM) * free_;
+      // A preconditioner is for matrices that are not square.
       const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
           stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
       const auto& sizes = svd.singularValues();

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
-
 #include "condyle/error.hpp"
+#include "io/joint/nearest_rotation.hpp"
 
 namespace condyle::io {
 namespace {
@@ -23,15 +22,13 @@ PoseOfRows pose_of_rows(const std::array<double, 16>& rows) {
                                  rows[13], rows[14], rows[15], transposed ? ": it looks transposed" : ""));
   }
   const Eigen::Matrix3d R = X.linear();
-  const double skew = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double skew = orthonormality_error(R);
   if (!(skew <= largest_skew))
     throw UsageError(fmt::format(
         "the rotation of the matrix is not orthonormal: off by {:.2g}, more than {:g}", skew, largest_skew));
   if (R.determinant() < 0) throw UsageError("the matrix mirrors: its determinant is -1");
   if (skew <= rounding_skew) return {X, 0};
-  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(
-      R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  X.linear() = svd.matrixU() * svd.matrixV().transpose();
+  X.linear() = nearest_rotation(R);
   return {X, skew};
 }
 

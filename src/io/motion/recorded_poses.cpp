@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include "core/near_name.hpp"
 #include "core/predicates.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/joint/nearest_rotation.hpp"
 #include "io/motion/gaps.hpp"
 
 namespace condyle {
@@ -142,18 +142,14 @@ struct WorstRotation {
   std::string body;
 };
 
-/// R^T R = I to within `off`, largest entry. The nearest rotation in the Frobenius norm is U V^T of R = U S V^T.
-Eigen::Matrix3d nearest_rotation(const MotionTable& table, const Eigen::Matrix3d& R, std::size_t row,
-                                 const std::string& body, WorstRotation& worst) {
-  const double off = (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+Eigen::Matrix3d rotation_of(const MotionTable& table, const Eigen::Matrix3d& R, std::size_t row,
+                            const std::string& body, WorstRotation& worst) {
+  const double off = io::orthonormality_error(R);
   if (!(off <= most_off))
     fail(table, row, body, fmt::format("is no rotation: off by {:.2g}, more than {}", off, most_off));
   if (R.determinant() < 0) fail(table, row, body, "is a reflection, not a rotation: its determinant is -1");
   if (off > worst.off) worst = {off, row, body};
-  if (off <= off_as_doubles_are) return R;
-  const Eigen::JacobiSVD<Eigen::Matrix3d, Eigen::NoQRPreconditioner> svd(
-      R, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
+  return off <= off_as_doubles_are ? R : io::nearest_rotation(R);
 }
 
 }  // namespace
@@ -181,7 +177,7 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
         translation.found == Translation::unknown ? columns.named_for : translation.found;
     if (stands == Translation::last_row) matrix->transposeInPlace();
     Pose X = Pose::Identity();
-    X.linear() = nearest_rotation(table, matrix->topLeftCorner<3, 3>(), row, columns.body, worst);
+    X.linear() = rotation_of(table, matrix->topLeftCorner<3, 3>(), row, columns.body, worst);
     X.translation() = mm_per(mapping.unit) * matrix->topRightCorner<3, 1>();
     return X;
   };
