@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Condyle as a part of another project: what that project decides for itself stays as it was, and its program links and
-# runs. Built only where a compiler cache gives back what the tested build has compiled.
-# Usage: subproject.sh SOURCE_FOLDER COMPILER BUILD_TYPE WORK_FOLDER, with COMPILER_CACHE and PRECOMPILED_HEADERS in the environment
+# runs. Built only where a compiler cache keeps what it compiles for the next time.
+# Usage: subproject.sh SOURCE_FOLDER COMPILER WORK_FOLDER, with COMPILER_CACHE in the environment
 set -euo pipefail
-sources=$1 compiler=$2 build_type=$3 work=$4 cache=${COMPILER_CACHE:-}
+sources=$1 compiler=$2 work=$3 cache=${COMPILER_CACHE:-}
 here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$work"
 mkdir -p "$work"
@@ -26,9 +26,7 @@ if grep -E '(^|/)(test_|condyle-|example_|condyle_cli)' <<<"$targets"; then fail
 [ -z "$(DESTDIR="$PWD/installed" cmake --install . | grep Installing)" ] || fail "the parent installs Condyle"
 
 [ -n "$cache" ] || { echo "configured, not built: there is no compiler cache"; exit 0; }
-# As the parent wants it, not optimised: what it links and does is the same, and compiled in half the time.
-export CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_DEPEND=1
-configure -DCONDYLE_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER="$cache" \
-  -DCONDYLE_PRECOMPILED_HEADERS="${PRECOMPILED_HEADERS:-OFF}" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$PWD/programs"
+# Not optimised, as the parent wants it: what it links and does is the same.
+configure -DCONDYLE_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER="$cache" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$PWD/programs"
 cmake --build . --target consumer >build.txt || fail "$(cat build.txt)"
 programs/consumer | tee /dev/stderr | grep -qx "flexion ends at 30.000 degrees"
