@@ -5,10 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "condyle/radial.hpp"
 #include "method.hpp"
 #include "questions.hpp"
 #include "radial/exact/triangle_plane.hpp"
-#include "condyle/radial.hpp"
 #include "timing.hpp"
 #include "turned.hpp"
 

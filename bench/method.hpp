@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "condyle/axis_frame.hpp"
+#include "condyle/contact.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
-#include "condyle/contact.hpp"
 
 /// One way of finding collisions: Condyle's, a library's, or a published one in plain code of our own.
 

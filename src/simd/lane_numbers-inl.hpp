@@ -6,7 +6,6 @@
 #define CONDYLE_SIMD_LANE_NUMBERS_INL
 #endif
 
-
 #include <cstddef>
 #include <cstdint>
 

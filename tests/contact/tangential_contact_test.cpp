@@ -60,8 +60,8 @@ TEST(TangentialContact, StatesAndPairsAreThoseOfTheRadialMethod) {
 TEST(TangentialContact, VerticesThatNoTurnSetsFreeAreCountedApart) {
   // A pin through a ring about the axis: the pin's vertices at the ring's radius are solid all the way round.
   const TriMesh ring = test::torus(5, 1, 64, 16), pin = box({4.8, -0.1, -0.1}, {5.2, 0.1, 0.1});
-  const TangentialBodySummary summary = summarise(
-      *JointContact(ring, pin).tangential(Pose::Identity(), Vec3::UnitZ()).mobile_in_fixed);
+  const TangentialBodySummary summary =
+      summarise(*JointContact(ring, pin).tangential(Pose::Identity(), Vec3::UnitZ()).mobile_in_fixed);
   EXPECT_EQ(summary.vertices_inside, 8u);
   EXPECT_EQ(summary.without_exit, 8u);
   EXPECT_FALSE(summary.deepest);

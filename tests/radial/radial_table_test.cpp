@@ -332,7 +332,8 @@ TEST(RadialTable, WhatFloatsTellIsWhatExactArithmeticTells) {
       Points points = random_points(2000, 1.5 * scale, 13);
       // Rays through vertices and edges, or nearly, and points on the surface, or nearly.
       for (const Triangle& corners : mesh.triangles) {
-        const Vec3 a = mesh.vertices[corners[0]], b = mesh.vertices[corners[1]], c = mesh.vertices[corners[2]];
+        const Vec3 a = mesh.vertices[corners[0]], b = mesh.vertices[corners[1]],
+                   c = mesh.vertices[corners[2]];
         for (const Vec3& at : {a, Vec3((a + b) / 2), Vec3((a + b + c) / 3)}) {
           for (const double along : {0.7, 1 - 1e-7, 1.0, 1 + 1e-9, 1.4}) {
             const double off = std::uniform_real_distribution(-1.0, 1.0)(random);

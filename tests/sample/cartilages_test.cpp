@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "condyle/pose.hpp"
-#include "condyle/contact.hpp"
 #include "sample/cartilage_shape.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"

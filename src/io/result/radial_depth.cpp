@@ -121,10 +121,10 @@ std::string json_of(const DepthQuestion& question, DepthMethod method, const Con
 std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
   const auto& [view, vertex] = deepest;
   const WayOut* rotation = rotation_of(vertex);
-  const std::string way = rotation
-                              ? fmt::format("along the arc of {}, {:.3f} deg",
-                                            name_of(*io::angle_of(vertex.way), joint), rotation->angle.degrees())
-                              : "along the ray";
+  const std::string way =
+      rotation ? fmt::format("along the arc of {}, {:.3f} deg", name_of(*io::angle_of(vertex.way), joint),
+                             rotation->angle.degrees())
+               : "along the ray";
   return fmt::format("  depth: {:.3f} mm {}, {}, {}\n    its nearest surface is {:.3f} mm away\n",
                      vertex.depth_mm, way, io::vertex_text(view->body, vertex.vertex),
                      io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);

@@ -144,7 +144,8 @@ const Motion& motion_named(std::span<const Motion> motions, std::string_view nam
     list += (list.empty() ? "" : ", ") + motion.name;
   }
   throw UsageError("unknown motion \"" + core::one_line(name) + "\"" +
-                   core::did_you_mean(in_small_letters(name), names) + "; there are " + core::one_line(list, 2000));
+                   core::did_you_mean(in_small_letters(name), names) + "; there are " +
+                   core::one_line(list, 2000));
 }
 
 void check_motion(const Motion& motion, JointKind kind) {

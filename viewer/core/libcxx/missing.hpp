@@ -21,13 +21,11 @@ constexpr To bit_cast(const From& from) noexcept {
 }
 
 template <class T>
-  requires(!is_array_v<T>)
-unique_ptr<T> make_unique_for_overwrite() {
+requires(!is_array_v<T>) unique_ptr<T> make_unique_for_overwrite() {
   return unique_ptr<T>(new T);
 }
 template <class T>
-  requires is_unbounded_array_v<T>
-unique_ptr<T> make_unique_for_overwrite(size_t count) {
+requires is_unbounded_array_v<T> unique_ptr<T> make_unique_for_overwrite(size_t count) {
   return unique_ptr<T>(new remove_extent_t<T>[count]);
 }
 
@@ -47,14 +45,14 @@ constexpr auto operator<=>(const pair<A, B>& a, const pair<A, B>& b)
 /// Decimal numbers, infinities and NaN, as strtod() of this library reads them: rounded to nearest. What it takes beyond those is
 /// refused: blanks, a plus, hexadecimal digits.
 template <class T>
-  requires is_floating_point_v<T>
-from_chars_result from_chars(const char* first, const char* last, T& value) {
+requires is_floating_point_v<T> from_chars_result from_chars(const char* first, const char* last, T& value) {
   const string word(first, last);
   if (word.empty() || word.find_first_of("xX \t\n\v\f\r+") == 0 || word.find_first_of("xX") != string::npos)
     return {first, errc::invalid_argument};
   char* end = nullptr;
   errno = 0;
-  const T read = is_same_v<T, float> ? static_cast<T>(strtof(word.c_str(), &end)) : static_cast<T>(strtod(word.c_str(), &end));
+  const T read = is_same_v<T, float> ? static_cast<T>(strtof(word.c_str(), &end))
+                                     : static_cast<T>(strtod(word.c_str(), &end));
   if (end == word.c_str()) return {first, errc::invalid_argument};
   const char* after = first + (end - word.c_str());
   // Numbers that are merely denormal are numbers.
