@@ -54,35 +54,42 @@ ElasticCast::ElasticCast(Mesh casting, Mesh target, const NormalDepthOptions& ra
       casting_thickness_(varying(of_casting)),
       target_thickness_(varying(of_target)) {}
 
+LayerAnswer ElasticCast::layers_at(const auto& place) const {
+  LayerHere casting = casting_layer_, target = target_layer_;
+  if (!casting_thickness_.empty()) casting.thickness = place.casting_thickness;
+  if (!target_thickness_.empty()) target.thickness = place.target_thickness;
+  const double thickness = casting.thickness + target.thickness;
+  if (law_ == PressureLaw::logarithmic && !(place.depth < thickness))
+    throw MeshError("triangle " + std::to_string(place.face) + " of the casting surface overlaps by " +
+                    core::formatted("%.3g", place.depth) + " mm, and its layers are " +
+                    core::formatted("%.3g", thickness) + " mm thick: the logarithmic law needs less");
+  return answer_of(law_, casting, target, place.depth);
+}
+
 void ElasticCast::answer(const Pose& X_CT, Answer& out) const {
   const bool varies = !casting_thickness_.empty() || !target_thickness_.empty();
   sampler_.sample(
       X_CT, varies || law_ == PressureLaw::logarithmic ? Quadrature::of_degree_5 : Quadrature::of_degree_2,
       {casting_thickness_, target_thickness_}, out.found);
   out.of_sample.clear();
-  out.pressures.clear();
-  LayerHere casting = casting_layer_, target = target_layer_;
-  for (const OverlapSample& sample : out.found.samples) {
-    if (!casting_thickness_.empty()) casting.thickness = sample.casting_thickness;
-    if (!target_thickness_.empty()) target.thickness = sample.target_thickness;
-    const double thickness = casting.thickness + target.thickness;
-    if (law_ == PressureLaw::logarithmic && !(sample.depth < thickness))
-      throw MeshError("triangle " + std::to_string(sample.face) + " of the casting surface overlaps by " +
-                      core::formatted("%.3g", sample.depth) + " mm, and its layers are " +
-                      core::formatted("%.3g", thickness) + " mm thick: the logarithmic law needs less");
-    out.of_sample.push_back(answer_of(law_, casting, target, sample.depth));
-    out.pressures.push_back(out.of_sample.back().pressure);
-  }
+  for (const OverlapSample& sample : out.found.samples) out.of_sample.push_back(layers_at(sample));
+}
+
+void ElasticCast::add_up(const Answer& answer, SurfaceContact& out) const {
+  std::vector<double> of_samples, of_corners;
+  for (const LayerAnswer& layers : answer.of_sample) of_samples.push_back(layers.pressure);
+  for (const OverlapCorner& corner : answer.found.corners) of_corners.push_back(layers_at(corner).pressure);
+  contact::add_up(sampler_, answer.found, OverlapPressures{of_samples, of_corners}, out);
 }
 
 namespace {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-Vector6 stacked(const Vec3& a, const Vec3& b) {
-  Vector6 both;
-  both << a, b;
-  return both;
+Eigen::Matrix3d cross_matrix(const Vec3& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
 }
 
 /// A surface that is cast: `sense` is 1 of the fixed body and -1 of the mobile one; the pose and the origin bring what is in C
@@ -94,36 +101,68 @@ struct CastInF {
   Vec3 origin_M;
   double sense, share;
 
-  /// Each sample that stands for an area, with its direction and arm in F.
-  void for_each(const auto& take) const {
+  void add_load(MobileLoad& out) const {
     const auto normals = cast.sampler().face_normals();
+    Index face = no_index;
+    Vec3 n = Vec3::Zero();
     for (std::size_t i = 0; i < answer.found.samples.size(); ++i) {
       const OverlapSample& sample = answer.found.samples[i];
-      if (sample.area == 0) continue;
-      const Vec3 n = sense * (X_FC.linear() * normals[sample.face]);
+      const LayerAnswer& layers = answer.of_sample[i];
+      if (sample.face != face) face = sample.face, n = sense * (X_FC.linear() * normals[face]);
       const Vec3 arm = X_FC * sample.point - origin_M;
-      take(sample, answer.of_sample[i], stacked(n, arm.cross(n)), arm);
+      const double force = share * sample.area * layers.pressure;
+      out.wrench.head<3>() += force * n;
+      out.wrench.tail<3>() += force * arm.cross(n);
+      out.energy += share * sample.area * layers.energy;
     }
+    out.samples += answer.found.samples.size();
   }
 
-  void add_load(MobileLoad& out) const {
-    for_each(
-        [&](const OverlapSample& sample, const LayerAnswer& layer, const Vector6& direction, const Vec3&) {
-          ++out.samples;
-          out.wrench += share * sample.area * layer.pressure * direction;
-          out.energy += share * sample.area * layer.energy;
-        });
-  }
-
-  void add_change(LoadChange& out) const {
-    const auto normals = cast.sampler().face_normals();
-    for_each([&](const OverlapSample& sample, const LayerAnswer& layer, const Vector6& direction,
-                 const Vec3& arm) {
-      // Moving the mobile body is moving the target, or moving the casting surface and so the target the other way.
-      const Vec3 g = sense * (X_FC.linear() * sample.gradient);
-      const Vec3 met = arm + sample.depth * -(X_FC.linear() * normals[sample.face]);
-      out += share * sample.area * layer.slope * direction * stacked(g, met.cross(g)).transpose();
+  // Moving the mobile body is moving the target, or moving the casting surface and so the target the other way: what changes
+  // and what it changes have one sense. Sums of a face are in C, over what all its samples are pushed along.
+  Eigen::Matrix3d change_of_force() const {
+    Eigen::Matrix3d change = Eigen::Matrix3d::Zero();
+    for_each_face([&](const Vec3& normal, std::size_t begin, std::size_t end) {
+      Vec3 growth = Vec3::Zero();
+      for (std::size_t i = begin; i < end; ++i) growth += weight(i) * answer.found.samples[i].gradient;
+      change += normal * growth.transpose();
     });
+    return X_FC.linear() * change * X_FC.linear().transpose();
+  }
+  Matrix6 change_of_wrench() const {
+    Matrix6 change = Matrix6::Zero();  // of what is in C, about its origin
+    for_each_face([&](const Vec3& normal, std::size_t begin, std::size_t end) {
+      Eigen::Matrix<double, 1, 6> growth = Eigen::Matrix<double, 1, 6>::Zero();
+      Eigen::Matrix<double, 3, 6> moments = Eigen::Matrix<double, 3, 6>::Zero();
+      for (std::size_t i = begin; i < end; ++i) {
+        const OverlapSample& sample = answer.found.samples[i];
+        const Vec3 met = sample.point - sample.depth * normal;
+        Eigen::Matrix<double, 1, 6> g;
+        g << sample.gradient.transpose(), met.cross(sample.gradient).transpose();
+        growth += weight(i) * g;
+        moments += sample.point * (weight(i) * g);
+      }
+      change.topRows<3>() += normal * growth;
+      change.bottomRows<3>() -= cross_matrix(normal) * moments;
+    });
+    Matrix6 to_F = Matrix6::Zero();
+    to_F.topLeftCorner<3, 3>() = to_F.bottomRightCorner<3, 3>() = X_FC.linear();
+    to_F.bottomLeftCorner<3, 3>() = cross_matrix(X_FC.translation() - origin_M) * X_FC.linear();
+    return to_F * change * to_F.transpose();
+  }
+
+ private:
+  /// How the force of a sample grows with its depth.
+  double weight(std::size_t i) const {
+    return share * answer.found.samples[i].area * answer.of_sample[i].slope;
+  }
+  void for_each_face(const auto& take) const {
+    const auto normals = cast.sampler().face_normals();
+    const auto& samples = answer.found.samples;
+    for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
+      while (end < samples.size() && samples[end].face == samples[begin].face) ++end;
+      take(normals[samples[begin].face], begin, end);
+    }
   }
 };
 
@@ -182,21 +221,23 @@ contact::MobileLoad ElasticContact::Parts::load_of(const Answers& answers, const
   return load;
 }
 
-contact::LoadChange ElasticContact::Parts::change_of(const Answers& answers, const Pose& X_FM) const {
+contact::LoadChange ElasticContact::Parts::change_of(const Answers& answers, const Pose& X_FM,
+                                                     contact::Motions motions) const {
   contact::LoadChange change = contact::LoadChange::Zero();
-  for_each_cast(answers, X_FM, [&](const contact::CastInF& cast) { cast.add_change(change); });
+  for_each_cast(answers, X_FM, [&](const contact::CastInF& cast) {
+    if (motions == contact::Motions::all)
+      change += cast.change_of_wrench();
+    else
+      change.topLeftCorner<3, 3>() += cast.change_of_force();
+  });
   return change;
 }
 
 ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers,
                                                         const contact::MobileLoad& load) const {
   ElasticContactResults out;
-  const auto add = [](const contact::ElasticCast& cast, const contact::ElasticCast::Answer& answer,
-                      SurfaceContact& surface) {
-    contact::add_up(cast.sampler(), answer.found, answer.pressures, surface);
-  };
-  if (from_fixed) add(*from_fixed, answers.of_fixed, out.fixed.emplace());
-  if (from_mobile) add(*from_mobile, answers.of_mobile, out.mobile.emplace());
+  if (from_fixed) from_fixed->add_up(answers.of_fixed, out.fixed.emplace());
+  if (from_mobile) from_mobile->add_up(answers.of_mobile, out.mobile.emplace());
   out.on_mobile = {load.wrench.head<3>(), load.wrench.tail<3>()};
   out.energy_nmm = load.energy;
   return out;

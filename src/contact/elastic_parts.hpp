@@ -20,13 +20,16 @@ class ElasticCast {
   struct Answer {
     OverlapSampler::Found found;
     std::vector<LayerAnswer> of_sample;
-    std::vector<double> pressures;
   };
   void answer(const Pose& X_CT, Answer& out) const;
+  void add_up(const Answer& answer, SurfaceContact& out) const;
 
   const OverlapSampler& sampler() const noexcept { return sampler_; }
 
  private:
+  /// Of an OverlapSample or an OverlapCorner.
+  LayerAnswer layers_at(const auto& place) const;
+
   OverlapSampler sampler_;
   PressureLaw law_;
   LayerHere casting_layer_{0, 0}, target_layer_{0, 0};  ///< thickness 1 where it varies
@@ -43,6 +46,8 @@ struct MobileLoad {
 /// How the wrench changes when the mobile body is translated and turned (radians) a little about the origin of M, loads held in
 /// place.
 using LoadChange = Eigen::Matrix<double, 6, 6>;
+/// What of it is asked for: how forces change with translations, the others zero, or all.
+enum class Motions { translations, all };
 
 }  // namespace contact
 
@@ -57,7 +62,7 @@ struct ElasticContact::Parts {
   };
   void answer(const Pose& X_FM, Answers& out) const;
   contact::MobileLoad load_of(const Answers& answers, const Pose& X_FM) const;
-  contact::LoadChange change_of(const Answers& answers, const Pose& X_FM) const;
+  contact::LoadChange change_of(const Answers& answers, const Pose& X_FM, contact::Motions motions) const;
   void for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const;
   ElasticContactResults results_of(const Answers& answers, const contact::MobileLoad& load) const;
 

@@ -33,6 +33,9 @@ constexpr double steepest_change = 4;
 /// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
 /// then pass its rim.
 constexpr double measured_way = 0.05;
+/// Over shorter ways what is stored tells nothing: a face that begins or ceases to meet the other surface changes it by more
+/// than the way does.
+constexpr double least_climb = measured_way;
 /// Rotations that move the surfaces about as far, rad: half a joint across is some 20 mm.
 constexpr double measured_angle = measured_way / 20;
 
@@ -111,6 +114,10 @@ class Search {
     return (X.translation() - start_.translation()).norm() <= options_.farthest_mm;
   }
 
+  contact::Motions motions() const {
+    return options_.free_rotations ? contact::Motions::all : contact::Motions::translations;
+  }
+
   /// The load at a pose that is tried, its answers kept until the next.
   MobileLoad tried(const Pose& X) {
     contact_.parts().answer(X, *tried_);
@@ -140,7 +147,8 @@ class Search {
         take(X, load);
         return true;
       }
-      const contact::LoadChange change = contact_.parts().change_of(*tried_, X);
+      const contact::LoadChange change =
+          contact_.parts().change_of(*tried_, X, contact::Motions::translations);
       const double stiffness = -along.dot(change.topLeftCorner<3, 3>() * along);
       way += stiffness > 0 ? std::clamp(missing / stiffness, search_step, longest_search_step) : search_step;
     }
@@ -154,7 +162,7 @@ class Search {
       resisted_ = resisted_ || now_.wrench.dot(load_at(out_.X_FM)) < 0;
       // How the contact pushes back against small motions along what is free.
       const Eigen::MatrixXd stiffness =
-          -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM) * free_;
+          -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM, motions()) * free_;
       // A preconditioner is for matrices that are not square.
       const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
           stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -221,6 +229,7 @@ class Search {
     const double energy = now_.energy, size = size_of(residual_);
     const Vector6 given = load_at(from);
     // The force is the gradient of the energy up to the angle between the surfaces, within a tenth.
+    const double way = step.head<3>().norm() + step.tail<3>().norm() * measured_way / measured_angle;
     const double doubtful = 0.1 * (given.head<3>().norm() * step.head<3>().norm() +
                                    given.tail<3>().norm() * step.tail<3>().norm());
     Vector6 beyond = residual_;
@@ -230,7 +239,8 @@ class Search {
       const Pose X = moved(from, part * step);
       const MobileLoad next = tried(X);
       const Vector6 residual = left(X, next);
-      const bool climbs = next.energy - energy - part * given.dot(step) > part * doubtful + 1e-9 * energy;
+      const bool climbs = part * way > least_climb &&
+                          next.energy - energy - part * given.dot(step) > part * doubtful + 1e-9 * energy;
       if (next.samples > 0 && !climbs && size_of(residual) < size_of(residual_)) {
         take(X, next);
         if (part == 1) return {true, false};

@@ -34,7 +34,7 @@ void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
   core::require_in_range(X_CT);
   auto found = sampler_->spare_found().take();
   sampler_->sample(X_CT, contact::Quadrature::of_degree_2, {}, *found);
-  contact::add_up(*sampler_, *found, {}, out);
+  contact::add_up(*sampler_, *found, std::nullopt, out);
   sampler_->spare_found().put_back(std::move(found));
 }
 

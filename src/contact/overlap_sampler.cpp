@@ -39,6 +39,11 @@ struct Node {
   double weight;
 };
 
+template <class Value>
+Value mixed(const std::array<double, 3>& w, const Value& a, const Value& b, const Value& c) {
+  return w[0] * a + w[1] * b + w[2] * c;
+}
+
 /// Middles of the edges: exact for quadratic functions.
 constexpr std::array<Node, 3> nodes_of_degree_2 = {
     {{{0.5, 0.5, 0}, 1.0 / 3}, {{0, 0.5, 0.5}, 1.0 / 3}, {{0.5, 0, 0.5}, 1.0 / 3}}};
@@ -185,11 +190,11 @@ std::optional<OverlapSampler::Overlap> OverlapSampler::overlap_of(const Vec3& di
                                                                   const mesh::RayHits& hits, std::size_t ray,
                                                                   const Pose& X_CT) const {
   if (!hits.is_hit(ray)) return std::nullopt;
-  const RayEnd end{hits.distance[ray], hits.triangle[ray],
-                   X_CT.linear() * target_normal_[hits.triangle[ray]]};
-  const bool met_from_front = direction_C.dot(end.normal) < 0;
+  const Index triangle = hits.triangle[ray];
+  const Vec3 normal = X_CT.linear() * target_normal_[triangle];
+  const bool met_from_front = direction_C.dot(normal) < 0;
   if (met_from_front && target_is_closed_) return std::nullopt;
-  return Overlap{end, met_from_front};
+  return Overlap{{hits.distance[ray], triangle, depth_gradient(normal, direction_C)}, met_from_front};
 }
 
 double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C,
@@ -209,6 +214,7 @@ double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C,
 void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
                             Found& out) const {
   out.samples.clear();
+  out.corners.clear();
   out.met_from_front = out.rim_faces = 0;
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
@@ -254,8 +260,7 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
     const RayEnd& end = scratch.ends[ray];
     if (!(end.depth > 0)) continue;
     const auto& [centre, direction] = inward_[ray];
-    OverlapSample sample{face, face_area_[face], end.depth, centre, depth_gradient(end.normal, direction), 0,
-                         0};
+    OverlapSample sample{face, face_area_[face], end.depth, centre, end.gradient, 0, 0};
     if (!thicknesses.casting.empty()) {
       const auto& [a, b, c] = casting_.triangles()[face];
       sample.casting_thickness =
@@ -270,9 +275,22 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
 void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
                                   const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
   const Pose X_TC = inverted(X_CT);
-  auto& ends = scratch.ends;
+  cast_outwards(X_CT, scratch, out);
+  scratch.rim.clear();
+  for (const Index face : scratch.active)
+    if (is_rim(face, scratch.ends)) scratch.rim.push_back(face);
+  cast_rim(X_CT, scratch, out);
+  std::size_t rim = 0;
+  for (const Index face : scratch.active) {
+    if (rim == scratch.rim.size() || face != scratch.rim[rim])
+      sample_cut_face(face, quadrature, thicknesses, X_TC, scratch.ends, out);
+    else
+      sample_rim_face(face, rim_parts * rim++, thicknesses, X_CT, X_TC, scratch, out);
+  }
+}
 
-  // Corners outside the target next to one inside it: how far outside.
+void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
+  auto& ends = scratch.ends;
   scratch.active.clear();
   scratch.rays.clear();
   scratch.owner.clear();
@@ -288,123 +306,121 @@ void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
     scratch.owner.push_back(ray);
     scratch.rays.push_back({casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]});
   }
-  mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
+  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
   out.rays += scratch.rays.size();
-  for (std::size_t i = 0; i < scratch.owner.size(); ++i)
-    if (scratch.hits.is_hit(i))
-      ends.set(scratch.owner[i], {-scratch.hits.distance[i], scratch.hits.triangle[i],
-                                  X_CT.linear() * target_normal_[scratch.hits.triangle[i]]});
+  for (std::size_t i = 0; i < scratch.owner.size(); ++i) {
+    const Index ray = scratch.owner[i];
+    if (!scratch.hits.is_hit(i)) continue;
+    const Index triangle = scratch.hits.triangle[i];
+    ends.set(ray, {-scratch.hits.distance[i], triangle,
+                   depth_gradient(X_CT.linear() * target_normal_[triangle], -ray_normal_[ray])});
+  }
+}
 
+bool OverlapSampler::is_rim(Index face, const RayEnds& ends) const {
+  const auto& [a, b, c] = corner_ray_[face];
+  if (!(ends.has(a) && ends.has(b) && ends.has(c))) return true;
+  const auto [least, most] = std::minmax({ends[a].depth, ends[b].depth, ends[c].depth});
+  return most - least > steepest_linear * longest_edge_[face];
+}
+
+void OverlapSampler::cast_rim(const Pose& X_CT, Scratch& scratch, Found& out) const {
+  static const auto centres = rim_centres();
+  scratch.rays.clear();
+  for (const Index face : scratch.rim) {
+    const auto& corners = casting_.triangles()[face];
+    const auto& rays = corner_ray_[face];
+    for (const auto& w : centres)
+      scratch.rays.push_back(
+          {mixed(w, casting_.vertices()[corners[0]], casting_.vertices()[corners[1]],
+                 casting_.vertices()[corners[2]]),
+           unit(-mixed(w, ray_normal_[rays[0]], ray_normal_[rays[1]], ray_normal_[rays[2]]))});
+  }
+  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
+  out.rays += scratch.rays.size();
+  out.rim_faces = scratch.rim.size();
+}
+
+void OverlapSampler::sample_cut_face(Index face, Quadrature quadrature, const LayerThicknesses& thicknesses,
+                                     const Pose& X_TC, const RayEnds& ends, Found& out) const {
   static const auto of_degree_5 = nodes_of_degree_5();
   const std::span<const Node> nodes = quadrature == Quadrature::of_degree_2
                                           ? std::span<const Node>(nodes_of_degree_2)
                                           : std::span<const Node>(of_degree_5);
   const bool with_thickness = !thicknesses.casting.empty() || !thicknesses.target.empty();
-  scratch.rim.clear();
-  for (const Index face : scratch.active) {
-    const auto& rays = corner_ray_[face];
-    const bool all_end = ends.has(rays[0]) && ends.has(rays[1]) && ends.has(rays[2]);
-    std::array<double, 3> depth{};
-    if (all_end)
-      for (std::size_t k = 0; k < 3; ++k) depth[k] = ends[rays[k]].depth;
-    const auto [least, most] = std::minmax({depth[0], depth[1], depth[2]});
-    if (!all_end || most - least > steepest_linear * longest_edge_[face]) {
-      scratch.rim.push_back(face);
-      continue;
-    }
-    if (!(most > 0)) continue;
+  const auto& rays = corner_ray_[face];
+  std::array<Vec3, 3> p, gradient;
+  std::array<double, 3> depth{}, of_casting{}, of_target{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Index v = casting_.triangles()[face][k];
+    const RayEnd& end = ends[rays[k]];
+    p[k] = casting_.vertices()[v];
+    depth[k] = end.depth;
+    gradient[k] = end.gradient;
+    if (!thicknesses.casting.empty()) of_casting[k] = thicknesses.casting[v];
+    if (!thicknesses.target.empty())
+      of_target[k] = target_thickness(end, p[k], -ray_normal_[rays[k]], X_TC, thicknesses.target);
+  }
 
-    // The part with a depth above 0: a triangle, or what a corner leaves of one.
-    std::array<std::array<double, 3>, 4> part;
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      std::array<double, 3> corner{};
-      if (depth[k] > 0) corner[k] = 1, part[count++] = corner;
-      if ((depth[k] > 0) == (depth[next] > 0)) continue;
-      const double t = depth[k] / (depth[k] - depth[next]);
-      corner = {};
-      corner[k] = 1 - t, corner[next] = t;
-      part[count++] = corner;
-    }
+  // The part with a depth above 0: a triangle, or what a corner leaves of one.
+  std::array<std::array<double, 3>, 4> part;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    std::array<double, 3> corner{};
+    if (depth[k] > 0) corner[k] = 1, part[count++] = corner;
+    if ((depth[k] > 0) == (depth[next] > 0)) continue;
+    const double t = depth[k] / (depth[k] - depth[next]);
+    corner = {};
+    corner[k] = 1 - t, corner[next] = t;
+    part[count++] = corner;
+  }
+  if (count == 0) return;
 
-    std::array<Vec3, 3> p, gradient;
-    std::array<double, 3> of_casting{}, of_target{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index v = casting_.triangles()[face][k];
-      const RayEnd& end = ends[rays[k]];
-      const Vec3 direction = -ray_normal_[rays[k]];
-      p[k] = casting_.vertices()[v];
-      gradient[k] = depth_gradient(end.normal, direction);
-      if (!with_thickness) continue;
-      if (!thicknesses.casting.empty()) of_casting[k] = thicknesses.casting[v];
-      if (!thicknesses.target.empty())
-        of_target[k] = target_thickness(end, p[k], direction, X_TC, thicknesses.target);
-    }
-    const auto mixed = []<class Value>(const std::array<double, 3>& w, const std::array<Value, 3>& of) {
-      return Value(w[0] * of[0] + w[1] * of[1] + w[2] * of[2]);
-    };
-    const auto add = [&](const std::array<double, 3>& w, double area) {
-      const double here = std::max(0.0, mixed(w, depth));  // 0 on the cut, but for rounding
-      out.samples.push_back(
-          {face, area, here, mixed(w, p), mixed(w, gradient), mixed(w, of_casting), mixed(w, of_target)});
-    };
-    for (std::size_t k = 0; k < count; ++k) add(part[k], 0);
-    for (std::size_t k = 2; k < count; ++k) {
-      // Areas of barycentric triangles are shares of the face's.
-      const auto &a = part[0], &b = part[k - 1], &c = part[k];
-      const double share = std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-      if (!(share > 0)) continue;
-      for (const Node& node : nodes) {
-        std::array<double, 3> w;
-        for (std::size_t i = 0; i < 3; ++i) w[i] = node.at[0] * a[i] + node.at[1] * b[i] + node.at[2] * c[i];
-        add(w, share * face_area_[face] * node.weight);
-      }
+  const auto of = [](const std::array<double, 3>& w, const auto& values) {
+    return mixed(w, values[0], values[1], values[2]);
+  };
+  // 0 on the cut, but for rounding.
+  const auto depth_at = [&](const std::array<double, 3>& w) { return std::max(0.0, of(w, depth)); };
+  if (with_thickness) {
+    for (std::size_t k = 0; k < count; ++k)
+      out.corners.push_back({face, depth_at(part[k]), of(part[k], of_casting), of(part[k], of_target)});
+  } else {
+    out.corners.push_back({face, std::max({depth[0], depth[1], depth[2]}), 0, 0});
+  }
+  for (std::size_t k = 2; k < count; ++k) {
+    // Areas of barycentric triangles are shares of the face's.
+    const auto &a = part[0], &b = part[k - 1], &c = part[k];
+    const double share = std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
+    if (!(share > 0)) continue;
+    for (const Node& node : nodes) {
+      std::array<double, 3> w;
+      for (std::size_t i = 0; i < 3; ++i) w[i] = node.at[0] * a[i] + node.at[1] * b[i] + node.at[2] * c[i];
+      OverlapSample& sample = out.samples.emplace_back();
+      sample = {face, share * face_area_[face] * node.weight, depth_at(w), of(w, p), of(w, gradient), 0, 0};
+      if (with_thickness)
+        sample.casting_thickness = of(w, of_casting), sample.target_thickness = of(w, of_target);
     }
   }
-  out.rim_faces = scratch.rim.size();
-  if (scratch.rim.empty()) return;
-  const auto parts = static_cast<std::ptrdiff_t>(out.samples.size());
-  sample_rim(X_CT, thicknesses, scratch, out);
-  std::inplace_merge(out.samples.begin(), out.samples.begin() + parts, out.samples.end(),
-                     [](const auto& a, const auto& b) { return a.face < b.face; });
 }
 
-void OverlapSampler::sample_rim(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
-                                Found& out) const {
+void OverlapSampler::sample_rim_face(Index face, std::size_t first_ray, const LayerThicknesses& thicknesses,
+                                     const Pose& X_CT, const Pose& X_TC, const Scratch& scratch,
+                                     Found& out) const {
   static const auto centres = rim_centres();
-  const Pose X_TC = inverted(X_CT);
-  const auto at = [&](Index face, const std::array<double, 3>& w, const auto& of_vertex) {
-    const auto& corners = casting_.triangles()[face];
-    using Value = decltype(of_vertex(corners[0]));
-    return Value(w[0] * of_vertex(corners[0]) + w[1] * of_vertex(corners[1]) + w[2] * of_vertex(corners[2]));
-  };
-  const auto vertex = [&](Index v) { return casting_.vertices()[v]; };
-  const auto direction_at = [&](Index face, const std::array<double, 3>& w) {
-    const auto& rays = corner_ray_[face];
-    return unit(-(w[0] * ray_normal_[rays[0]] + w[1] * ray_normal_[rays[1]] + w[2] * ray_normal_[rays[2]]));
-  };
-  scratch.rays.clear();
-  for (const Index face : scratch.rim)
-    for (const auto& w : centres) scratch.rays.push_back({at(face, w, vertex), direction_at(face, w)});
-  mesh::nearest_hits(ray_target_, X_TC, scratch.rays, options_.reach_mm, scratch.hits);
-  out.rays += scratch.rays.size();
-  std::size_t ray = 0;
-  for (const Index face : scratch.rim) {
-    for (const auto& w : centres) {
-      const Vec3 direction = direction_at(face, w);
-      const auto overlap = overlap_of(direction, scratch.hits, ray++, X_CT);
-      if (!overlap || !(overlap->end.depth > 0)) continue;
-      const RayEnd& end = overlap->end;
-      const Vec3 point = at(face, w, vertex);
-      OverlapSample sample{
-          face, face_area_[face] / rim_parts, end.depth, point, depth_gradient(end.normal, direction), 0, 0};
-      if (!thicknesses.casting.empty())
-        sample.casting_thickness = at(face, w, [&](Index v) { return thicknesses.casting[v]; });
-      if (!thicknesses.target.empty())
-        sample.target_thickness = target_thickness(end, point, direction, X_TC, thicknesses.target);
-      out.samples.push_back(sample);
-    }
+  const auto& [a, b, c] = casting_.triangles()[face];
+  for (std::size_t part = 0; part < rim_parts; ++part) {
+    const auto& [point, direction] = scratch.rays[first_ray + part];
+    const auto overlap = overlap_of(direction, scratch.hits, first_ray + part, X_CT);
+    if (!overlap || !(overlap->end.depth > 0)) continue;
+    const RayEnd& end = overlap->end;
+    OverlapSample sample{face, face_area_[face] / rim_parts, end.depth, point, end.gradient, 0, 0};
+    if (!thicknesses.casting.empty())
+      sample.casting_thickness =
+          mixed(centres[part], thicknesses.casting[a], thicknesses.casting[b], thicknesses.casting[c]);
+    if (!thicknesses.target.empty())
+      sample.target_thickness = target_thickness(end, point, direction, X_TC, thicknesses.target);
+    out.samples.push_back(sample);
   }
 }
 
@@ -422,7 +438,7 @@ std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
 }
 
 void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
-            std::span<const double> pressures, SurfaceContact& out) {
+            const std::optional<OverlapPressures>& pressures, SurfaceContact& out) {
   out.faces.clear();
   out.met_from_front = found.met_from_front;
   out.rim_faces = found.rim_faces;
@@ -436,14 +452,23 @@ void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
     face.max_depth_mm = std::max(face.max_depth_mm, sample.depth);
     face.overlap_mm3 += overlap;
     face.overlap_moment += overlap * sample.point;
-    if (pressures.empty()) continue;
-    const double load = sample.area * pressures[i];
-    face.max_pressure_mpa = std::max(face.max_pressure_mpa, pressures[i]);
+    if (!pressures) continue;
+    const double load = sample.area * pressures->of_samples[i];
+    face.max_pressure_mpa = std::max(face.max_pressure_mpa, pressures->of_samples[i]);
     face.load_n += load;
     face.load_moment += load * sample.point;
   }
+  auto face = out.faces.begin();
+  for (std::size_t i = 0; i < found.corners.size(); ++i) {
+    const OverlapCorner& corner = found.corners[i];
+    while (face != out.faces.end() && face->face < corner.face) ++face;
+    if (face == out.faces.end()) break;
+    if (face->face != corner.face) continue;  // of a part without area
+    face->max_depth_mm = std::max(face->max_depth_mm, corner.depth);
+    if (pressures) face->max_pressure_mpa = std::max(face->max_pressure_mpa, pressures->of_corners[i]);
+  }
   // What a cut leaves of a face may be no more than rounding.
-  std::erase_if(out.faces, [](const FaceContact& face) { return !(face.overlap_mm3 > 0); });
+  std::erase_if(out.faces, [](const FaceContact& of) { return !(of.overlap_mm3 > 0); });
   out.totals = totals_of(out.faces, sampler.casting(), sampler.options().rule);
 }
 

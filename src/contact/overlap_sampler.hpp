@@ -14,14 +14,21 @@
 namespace condyle::contact {
 
 /// A place of the casting surface in contact, and how much area it stands for: sums over samples are integrals over what
-/// is in contact. In the frame of the casting body. Corners of the part of a face in contact are samples with area 0: they
-/// count for extremes only.
+/// is in contact. In the frame of the casting body.
 struct OverlapSample {
   Index face;
   double area;
   double depth;
   Vec3 point;                                  ///< on the casting surface
   Vec3 gradient;                               ///< of the depth when the target is translated
+  double casting_thickness, target_thickness;  ///< where asked for, else 0
+};
+
+/// A corner of the part of a face in contact: it stands for no area, and may be where depth or pressure is largest. Where
+/// thicknesses are not asked for, the deepest of a face.
+struct OverlapCorner {
+  Index face;
+  double depth;
   double casting_thickness, target_thickness;  ///< where asked for, else 0
 };
 
@@ -40,6 +47,7 @@ class OverlapSampler {
 
   struct Found {
     std::vector<OverlapSample> samples;
+    std::vector<OverlapCorner> corners;
     std::size_t met_from_front = 0, rim_faces = 0;
     std::size_t rays = 0;  ///< cast
   };
@@ -63,7 +71,7 @@ class OverlapSampler {
   struct RayEnd {
     double depth;
     Index triangle;
-    Vec3 normal;  ///< of the triangle, in the casting body's frame
+    Vec3 gradient;  ///< of the depth when the target is translated, in the casting body's frame
   };
   /// The ends of those rays inwards that have one.
   class RayEnds {
@@ -88,7 +96,7 @@ class OverlapSampler {
     std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
     std::vector<mesh::Ray> rays;
     std::vector<Index> owner;
-    std::vector<Index> active, rim;  ///< faces
+    std::vector<Index> active, rim;  ///< faces, in their order
   };
 
   /// Every ray inwards that can be in contact: its end.
@@ -107,7 +115,16 @@ class OverlapSampler {
                       Found& out) const;
   void sample_parts(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
                     Scratch& scratch, Found& out) const;
-  void sample_rim(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const;
+  /// Rays outwards from corners outside the target next to one inside it: how far outside.
+  void cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  bool is_rim(Index face, const RayEnds& ends) const;
+  /// Rays from the parts of each face at the rim.
+  void cast_rim(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  void sample_cut_face(Index face, Quadrature quadrature, const LayerThicknesses& thicknesses,
+                       const Pose& X_TC, const RayEnds& ends, Found& out) const;
+  /// `first_ray` of the rays that cast_rim() has cast.
+  void sample_rim_face(Index face, std::size_t first_ray, const LayerThicknesses& thicknesses,
+                       const Pose& X_CT, const Pose& X_TC, const Scratch& scratch, Found& out) const;
 
   Mesh casting_, target_;
   NormalDepthOptions options_;
@@ -130,9 +147,13 @@ class OverlapSampler {
   mutable core::Spare<Found> found_;
 };
 
-/// What samples add up to, face by face and in all; `pressures` of the samples in MPa, or none.
+/// MPa, of the samples and of the corners.
+struct OverlapPressures {
+  std::span<const double> of_samples, of_corners;
+};
+/// What samples add up to, face by face and in all; without pressures of depths only.
 void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
-            std::span<const double> pressures, SurfaceContact& out);
+            const std::optional<OverlapPressures>& pressures, SurfaceContact& out);
 
 /// From each vertex along its negative normal to the other surface; NaN where there is none within the reach.
 std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach);

@@ -89,7 +89,8 @@ TEST_P(PublishedContact, HoldsToPrintedDigitsWithinTheRoundingOfTheCoordinates) 
     Pose X = pose(*knee, frame);
     surfaces.parts().answer(X, answers);
     const auto load = surfaces.parts().load_of(answers, X);
-    const Eigen::Matrix3d change = surfaces.parts().change_of(answers, X).topLeftCorner<3, 3>();
+    const Eigen::Matrix3d change =
+        surfaces.parts().change_of(answers, X, contact::Motions::translations).topLeftCorner<3, 3>();
     constexpr double soft = 20;  // N / mm: of some 1500 across the contact; along it rounded angles decide
     const Vec3 off = (change.transpose() * change + soft * soft * Eigen::Matrix3d::Identity())
                          .ldlt()

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <numbers>
+#include <string>
+
+#include "condyle/load_balance.hpp"
+#include "support/shared_data.hpp"
+
+/// Cartilages of a real hip under what a pelvis puts on it while standing: rays at their rims begin and cease to meet as the hip
+/// flexes, so forces and energies jump.
+
+namespace condyle {
+namespace {
+
+struct Way {
+  Casting casting;
+  FaceRule rule;
+  int balanced;  ///< at least, of 31 angles
+};
+
+class HipBalance : public testing::TestWithParam<Way> {};
+
+TEST_P(HipBalance, CarriesTheLoadAtEveryAngle) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "the shared data is missing";
+  const auto layer = [&](const char* name) {
+    return Mesh(test::read_ply(*data / "hip_libhip_m1_left" / name));
+  };
+  const ElasticLayer cartilage{12, 0.42, 1.5};
+  const ElasticContact contact(layer("acetabular_cartilage_gap.ply"), layer("femur_cartilage_gap.ply"),
+                               {.casting = GetParam().casting,
+                                .rays = {.rule = GetParam().rule},
+                                .fixed = cartilage,
+                                .mobile = cartilage});
+  const Load stance{.on_mobile = {.force_n = {0, 1700, 500}}};
+  int balanced = 0;
+  for (int degrees = -30; degrees <= 30; degrees += 2) {
+    Pose X = Pose::Identity();
+    X.linear() = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Vec3::UnitZ()).toRotationMatrix();
+    const BalancedPose pose = balance(contact, X, stance);
+    EXPECT_TRUE(pose.carries_load()) << degrees << ": " << reason_of(pose);
+    balanced += pose.outcome == BalanceOutcome::balanced;
+  }
+  EXPECT_GE(balanced, GetParam().balanced);
+}
+
+std::string name_of_way(const testing::TestParamInfo<Way>& info) {
+  constexpr std::array names = {"Fixed", "Mobile", "Both"};
+  return names[static_cast<std::size_t>(info.param.casting)] +
+         std::string(info.param.rule == FaceRule::face_centre ? "FaceCentre" : "CutFaces");
+}
+
+INSTANTIATE_TEST_SUITE_P(Ways, HipBalance,
+                         testing::Values(Way{Casting::fixed, FaceRule::face_centre, 30},
+                                         Way{Casting::fixed, FaceRule::cut_faces, 30},
+                                         Way{Casting::mobile, FaceRule::face_centre, 31},
+                                         Way{Casting::mobile, FaceRule::cut_faces, 28},
+                                         Way{Casting::both, FaceRule::cut_faces, 28}),
+                         name_of_way);
+
+}  // namespace
+}  // namespace condyle
