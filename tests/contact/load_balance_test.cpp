@@ -178,7 +178,7 @@ TEST(LoadBalance, StopsWhereTheForceJumps) {
   const double left = one_percent_more.residual.force_n.norm();
   EXPECT_GE(left, 3);
   EXPECT_LE(left, 303 * along_y.most_left_at_jump);
-  EXPECT_LE(one_percent_more.steps, 3) << "each sixteen times as near";
+  EXPECT_LE(one_percent_more.steps, 3) << "each at least four times as near";
   EXPECT_NE(reason_of(one_percent_more).find(" N are left, and no step"), std::string::npos)
       << reason_of(one_percent_more);
   const BalanceOptions no_share{.free_directions = {Vec3::UnitY()}, .most_left_at_jump = 1.5};
