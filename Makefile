@@ -1,5 +1,5 @@
 # Thin front door; CMakePresets.json has the details.
-.PHONY: demo command test build dependencies command_dependencies clang_dependencies format clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
+.PHONY: demo command test build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
   package package-test page-core page page-template sanitize-thread sanitize-some release
 
 dependencies:
@@ -135,6 +135,9 @@ package-test: package
 
 format: clang_dependencies
 	@git ls-files '*.hpp' '*.cpp' | xargs clang-format -i
+
+format-check: clang_dependencies
+	@git ls-files '*.hpp' '*.cpp' | xargs clang-format --dry-run -Werror
 
 clean:
 	@rm -rf build out
