@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -12,8 +13,9 @@
 
 namespace condyle {
 
-/// What is known of one surface in one frame of a motion; NaN where there is no answer.
-struct JamFrame {
+/// What is known of a surface, or of a region of it, in one frame of a motion; NaN where there is no answer, 0 where there is no
+/// contact.
+struct JamTotals {
   double contact_area_m2 = 0;
   double mean_proximity_m = 0, max_proximity_m = 0;  ///< depth of overlap, over the triangles in contact
   Vec3 centre_of_proximity_m = Vec3::Zero();
@@ -21,6 +23,16 @@ struct JamFrame {
   Vec3 centre_of_pressure_m = Vec3::Zero();
   Vec3 contact_force_n = Vec3::Zero();
   Vec3 contact_moment_nm = Vec3::Zero();
+};
+
+/// JAM's six regions of a surface: the triangles whose centres have x < 0, x >= 0, y < 0, y >= 0, z < 0 and z >= 0 in the frame
+/// of its body. Of a right knee with Z to the right, the fifth is the medial half and the sixth the lateral one.
+inline constexpr std::size_t jam_regions = 6;
+
+struct JamFrame {
+  JamTotals total;
+  /// One per region, in every frame; none in any frame: not written.
+  std::vector<JamTotals> regional;
   /// One number per triangle of the mesh, as many in every frame; none in any frame: not written.
   std::vector<double> triangle_proximity_m, triangle_pressure_pa;
 };
@@ -37,12 +49,18 @@ struct JamContact {
   JamSurface casting, target;
 };
 
-/// Writes `/time` and, for each contact and each of its two meshes, the datasets of
+/// A coordinate of the joint along the motion: degrees or m, one per time.
+struct JamCoordinate {
+  std::string name;
+  std::vector<double> values;
+};
+
+/// Writes `/time`, the value of each coordinate and, for each contact and each of its two meshes, the datasets of
 /// `/model/forceset/Smith2018ArticularContactForce/CONTACT/MESH`; which: docs/motion-files.md. The same input gives the same
 /// bytes. The file appears whole or not at all.
 /// Raises FileError where it cannot be written, and for names that the scripts could not read: each is a letter and then
-/// up to 62 letters, digits and _, contacts have different names and so have the two meshes of one.
+/// up to 62 letters, digits and _, contacts and coordinates have different names and so have the two meshes of a contact.
 void write_jam_file(const std::filesystem::path& path, std::span<const double> times_s,
-                    std::span<const JamContact> contacts);
+                    std::span<const JamContact> contacts, std::span<const JamCoordinate> coordinates = {});
 
 }  // namespace condyle

@@ -4,6 +4,7 @@
 #include "condyle/io/motion_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/recorded_motion_table.hpp"
+#include "io/result/coordinate_at.hpp"
 
 namespace condyle {
 namespace {
@@ -121,21 +122,10 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
               [](const auto& f) { return static_cast<double>(f.intersecting_pairs); });
   columns.add("smallest_gap_mm", frames, [](const auto& f) { return f.smallest_gap_mm; });
   const Joint& joint = question.joint.joint;
-  const auto coordinates = [&](const FrameContact& f) {
-    return coordinates_at(joint.coordinates(), f.X_FM, joint.translation_frame);
-  };
-  for (const JointAngle angle : all_joint_angles) {
-    columns.add(std::string(name_of(angle, joint.anatomy)) + "_deg", frames, [&](const auto& f) {
-      const JointAngles at = coordinates(f).angles;
-      return angle_of(at, angle).degrees();
-    });
-    if (joint.kind == JointKind::hinge) break;
-  }
-  if (joint.kind == JointKind::free) {
-    for (int axis = 0; axis < 3; ++axis)
-      columns.add(std::string(1, static_cast<char>('x' + axis)) + "_mm", frames,
-                  [&](const auto& f) { return coordinates(f).translation_mm[axis]; });
-  }
+  const std::vector<io::CoordinateName> coordinates = io::coordinate_names_of(joint.kind, joint.anatomy);
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    columns.add(coordinates[i].name + (coordinates[i].kind == CoordinateKind::angle ? "_deg" : "_mm"), frames,
+                [&](const FrameContact& f) { return io::coordinate_at(joint, f.X_FM, i); });
   if (!answer.balanced.empty()) {
     columns.add("balanced", answer.balanced, [](const BalancedPose& pose) {
       return pose.outcome == BalanceOutcome::balanced ? 1.0 : 0.0;

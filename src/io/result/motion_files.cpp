@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <iterator>
-#include <limits>
 
 #include "condyle/error.hpp"
 #include "condyle/io/jam_file.hpp"
@@ -12,6 +10,7 @@
 #include "io/file/figure_ending.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/csv_field.hpp"
+#include "io/result/jam_contact.hpp"
 #include "io/result/pressure_map.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
@@ -29,22 +28,6 @@ bool is_of_motion(std::string_view name) {
   for (const std::string_view stem : {"curves", "cycle", "pressure_map"})
     if (name.starts_with(stem) && io::is_figure_ending(name.substr(stem.size()))) return true;
   return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
-}
-
-/// A name as MATLAB takes it for a field.
-std::string field_name(std::string_view name) {
-  std::string out;
-  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  if (out.empty() || !std::isalpha(static_cast<unsigned char>(out.front()))) out.insert(0, "m");
-  return out.substr(0, 63);
-}
-
-/// Of each triangle of the casting body; 0 where it is not in contact.
-std::vector<double> per_triangle(const FrameContact& frame, std::size_t triangles,
-                                 double (FaceContact::*value)() const noexcept) {
-  std::vector<double> values(triangles, 0);
-  for (const FaceContact& face : frame.surface.faces) values[face.face] = (face.*value)();
-  return values;
 }
 
 /// Where the bodies meet as a contact begins or ends; empty where no features are known to.
@@ -104,51 +87,6 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
   write_pvd(out.file("motion.pvd"), series);
 }
 
-JamFrame jam_frame(const std::optional<FrameContact>& frame, std::size_t triangles, bool with_pressure) {
-  JamFrame jam;
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  if (!frame) {
-    jam.contact_area_m2 = jam.mean_proximity_m = jam.max_proximity_m = jam.mean_pressure_pa =
-        jam.max_pressure_pa = nothing;
-    jam.centre_of_proximity_m = jam.centre_of_pressure_m = jam.contact_force_n = jam.contact_moment_nm =
-        Vec3::Constant(nothing);
-    jam.triangle_proximity_m.assign(triangles, nothing);
-    if (with_pressure) jam.triangle_pressure_pa.assign(triangles, nothing);
-    return jam;
-  }
-  const ContactTotals& totals = frame->surface.totals;
-  jam.contact_area_m2 = 1e-6 * totals.area_mm2;
-  jam.mean_proximity_m = 1e-3 * totals.mean_depth_mm;
-  jam.max_proximity_m = 1e-3 * totals.max_depth_mm;
-  jam.centre_of_proximity_m = 1e-3 * totals.centre_of_depth.value_or(Vec3::Zero());
-  jam.mean_pressure_pa = 1e6 * totals.mean_pressure_mpa;
-  jam.max_pressure_pa = 1e6 * totals.max_pressure_mpa;
-  jam.centre_of_pressure_m = 1e-3 * totals.centre_of_pressure.value_or(Vec3::Zero());
-  jam.contact_force_n = totals.force_n;
-  jam.contact_moment_nm = -1e-3 * totals.moment_nmm;  // JAM tells the moment on the target
-  jam.triangle_proximity_m = per_triangle(*frame, triangles, &FaceContact::mean_depth_mm);
-  for (double& depth : jam.triangle_proximity_m) depth *= 1e-3;
-  if (with_pressure) {
-    jam.triangle_pressure_pa = per_triangle(*frame, triangles, &FaceContact::mean_pressure_mpa);
-    for (double& pressure : jam.triangle_pressure_pa) pressure *= 1e6;
-  }
-  return jam;
-}
-
-void write_jam(const std::filesystem::path& path, const MotionQuestion& question,
-               const MotionAnswer& answer) {
-  const ContactSurfaces& surfaces = question.surfaces;
-  const bool fixed_casts = question.contact.casting == Casting::fixed;
-  const Body &casting = fixed_casts ? surfaces.fixed : surfaces.mobile,
-             &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
-  JamContact contact{
-      field_name(question.joint.joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
-  for (const auto& frame : answer.frames)
-    contact.casting.frames.push_back(
-        jam_frame(frame, casting.mesh.triangles().size(), question.with_pressure));
-  write_jam_file(path, question.motion.times.values, {&contact, 1});
-}
-
 }  // namespace
 
 std::vector<std::filesystem::path> write_motion(const std::filesystem::path& folder,
@@ -170,7 +108,11 @@ std::vector<std::filesystem::path> write_motion(const std::filesystem::path& fol
     write_curves_csv(out.file("regions.csv"), region_curves_of(question, answer));
   if (answer.between) io::write_whole_file(out.file("contacts.csv"), contacts_csv(question, *answer.between));
   if (files.maps) write_maps(out, question, answer, files.encoding);
-  if (files.jam) write_jam(out.file("jam.h5"), question, answer);
+  if (files.jam) {
+    const JamContact contact = io::jam_contact(question, answer);
+    write_jam_file(out.file("jam.h5"), question.motion.times.values, {&contact, 1},
+                   io::jam_coordinates(question, answer));
+  }
   io::write_whole_file(out.file("motion.json"), motion_json(question, answer));
   return out.commit();
 }

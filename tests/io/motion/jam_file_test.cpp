@@ -55,24 +55,26 @@ Contents contents_of(const std::filesystem::path& path) {
 }
 
 /// Numbers that differ in every place.
-JamFrame frame_of(double first, std::size_t triangles) {
+JamFrame frame_of(double first, std::size_t triangles, std::size_t regions = 0) {
   double next = first;
-  const auto one = [&] { return next += 1.0 / 3; };
+  const auto one = [&] { return next += 1.0 / 128; };
   const auto three = [&] {
     const double x = one(), y = one();
     return Vec3(x, y, one());
   };
-  JamFrame frame{.contact_area_m2 = one(),
-                 .mean_proximity_m = one(),
-                 .max_proximity_m = one(),
-                 .centre_of_proximity_m = three(),
-                 .mean_pressure_pa = one(),
-                 .max_pressure_pa = one(),
-                 .centre_of_pressure_m = three(),
-                 .contact_force_n = three(),
-                 .contact_moment_nm = three(),
-                 .triangle_proximity_m = {},
-                 .triangle_pressure_pa = {}};
+  const auto totals = [&] {
+    return JamTotals{.contact_area_m2 = one(),
+                     .mean_proximity_m = one(),
+                     .max_proximity_m = one(),
+                     .centre_of_proximity_m = three(),
+                     .mean_pressure_pa = one(),
+                     .max_pressure_pa = one(),
+                     .centre_of_pressure_m = three(),
+                     .contact_force_n = three(),
+                     .contact_moment_nm = three()};
+  };
+  JamFrame frame{.total = totals(), .regional = {}, .triangle_proximity_m = {}, .triangle_pressure_pa = {}};
+  for (std::size_t r = 0; r < regions; ++r) frame.regional.push_back(totals());
   for (std::size_t t = 0; t < triangles; ++t)
     frame.triangle_proximity_m.push_back(one()), frame.triangle_pressure_pa.push_back(-one());
   return frame;
@@ -83,7 +85,7 @@ const std::array times = {0.0, 0.01, 0.02};
 
 std::vector<JamContact> two_contacts() {
   return {{"tf_contact",
-           {"tibia_cartilage", {frame_of(0, 4), frame_of(100, 4), frame_of(200, 4)}},
+           {"tibia_cartilage", {frame_of(0, 4, 6), frame_of(100, 4, 6), frame_of(200, 4, 6)}},
            {"femur_cartilage", {frame_of(300, 2), frame_of(400, 2), frame_of(500, 2)}}},
           {"pf_contact",
            {"patella_cartilage", {frame_of(600, 0), frame_of(700, 0), frame_of(800, 0)}},
@@ -101,29 +103,44 @@ void expect_dataset(const Contents& contents, const std::string& path, const std
 /// Paths and shapes as JAM's own scripts take them apart (jam_analysis.m of opensim-jam-org/jam-resources, matlab/analysis: it
 /// reads /time, and of /model/forceset the names of components, forces, meshes and datasets as the 4th to 7th word of a
 /// path, two meshes to a contact) and its writer makes them (writeH5File of OpenSim/JAM/JointMechanicsTool.cpp and
-/// H5FileAdapter.cpp of opensim-jam-org/opensim-core: frames first, vectors in rows of 3, triangles in rows).
+/// H5FileAdapter.cpp of opensim-jam-org/opensim-core: frames first, vectors in rows of 3, triangles and regions in rows, vectors of
+/// regions in a group with a data set each).
 TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
   const TemporaryFolder folder;
   const auto contacts = two_contacts();
-  write_jam_file(folder / "knee.h5", times, contacts);
+  const std::vector<JamCoordinate> coordinates = {{"flexion", {10, 20, 30}}, {"x", {1e-3, 2e-3, 4e-3}}};
+  write_jam_file(folder / "knee.h5", times, contacts, coordinates);
   Contents contents = contents_of(folder / "knee.h5");
 
   expect_dataset(contents, "/time", {3}, {0, 0.01, 0.02});
-  std::size_t datasets = 1;
+  expect_dataset(contents, "/model/coordinateset/flexion/value", {3}, {10, 20, 30});
+  expect_dataset(contents, "/model/coordinateset/x/value", {3}, {1e-3, 2e-3, 4e-3});
+  std::size_t datasets = 3;
   for (const JamContact& contact : contacts)
     for (const JamSurface* surface : {&contact.casting, &contact.target}) {
       const std::string group = forces + "/" + contact.name + "/" + surface->mesh + "/";
       if (surface->frames.empty()) continue;
-      const auto expect_scalar = [&](const char* name, double JamFrame::*member) {
-        std::vector<double> values;
-        for (const JamFrame& frame : surface->frames) values.push_back(frame.*member);
-        expect_dataset(contents, group + name, {3}, values), ++datasets;
+      const auto expect_scalar = [&](const std::string& name, double JamTotals::*member) {
+        std::vector<double> total, regional;
+        for (const JamFrame& frame : surface->frames) {
+          total.push_back(frame.total.*member);
+          for (const JamTotals& region : frame.regional) regional.push_back(region.*member);
+        }
+        expect_dataset(contents, group + "total_" + name, {3}, total), ++datasets;
+        if (!regional.empty())
+          expect_dataset(contents, group + "regional_" + name, {3, 6}, regional), ++datasets;
       };
-      const auto expect_vector = [&](const char* name, Vec3 JamFrame::*member) {
-        std::vector<double> values;
-        for (const JamFrame& frame : surface->frames)
-          for (int i = 0; i < 3; ++i) values.push_back((frame.*member)[i]);
-        expect_dataset(contents, group + name, {3, 3}, values), ++datasets;
+      const auto expect_vector = [&](const std::string& name, Vec3 JamTotals::*member) {
+        const auto expect_rows = [&](const std::string& path, const auto& totals_of) {
+          std::vector<double> values;
+          for (const JamFrame& frame : surface->frames)
+            for (int i = 0; i < 3; ++i) values.push_back((totals_of(frame).*member)[i]);
+          expect_dataset(contents, group + path, {3, 3}, values), ++datasets;
+        };
+        expect_rows("total_" + name, [](const JamFrame& frame) { return frame.total; });
+        for (std::size_t r = 0; r < surface->frames[0].regional.size(); ++r)
+          expect_rows("regional_" + name + "/" + std::to_string(r),
+                      [&](const JamFrame& frame) { return frame.regional[r]; });
       };
       const auto expect_triangles = [&](const char* name, std::vector<double> JamFrame::*member) {
         const std::size_t count = (surface->frames[0].*member).size();
@@ -132,15 +149,15 @@ TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
           for (const double value : frame.*member) values.push_back(value);
         if (count > 0) expect_dataset(contents, group + name, {3, count}, values), ++datasets;
       };
-      expect_scalar("total_contact_area", &JamFrame::contact_area_m2);
-      expect_scalar("total_mean_proximity", &JamFrame::mean_proximity_m);
-      expect_scalar("total_max_proximity", &JamFrame::max_proximity_m);
-      expect_vector("total_center_of_proximity", &JamFrame::centre_of_proximity_m);
-      expect_scalar("total_mean_pressure", &JamFrame::mean_pressure_pa);
-      expect_scalar("total_max_pressure", &JamFrame::max_pressure_pa);
-      expect_vector("total_center_of_pressure", &JamFrame::centre_of_pressure_m);
-      expect_vector("total_contact_force", &JamFrame::contact_force_n);
-      expect_vector("total_contact_moment", &JamFrame::contact_moment_nm);
+      expect_scalar("contact_area", &JamTotals::contact_area_m2);
+      expect_scalar("mean_proximity", &JamTotals::mean_proximity_m);
+      expect_scalar("max_proximity", &JamTotals::max_proximity_m);
+      expect_vector("center_of_proximity", &JamTotals::centre_of_proximity_m);
+      expect_scalar("mean_pressure", &JamTotals::mean_pressure_pa);
+      expect_scalar("max_pressure", &JamTotals::max_pressure_pa);
+      expect_vector("center_of_pressure", &JamTotals::centre_of_pressure_m);
+      expect_vector("contact_force", &JamTotals::contact_force_n);
+      expect_vector("contact_moment", &JamTotals::contact_moment_nm);
       expect_triangles("triangle_proximity", &JamFrame::triangle_proximity_m);
       expect_triangles("triangle_pressure", &JamFrame::triangle_pressure_pa);
     }
@@ -148,11 +165,14 @@ TEST(JamFile, HasTheGroupsAndDatasetsThatScriptsRead) {
   std::vector<std::string> groups;
   for (const auto& [path, dataset] : contents)
     if (dataset.shape.empty()) groups.push_back(path);
-  EXPECT_EQ(groups, (std::vector<std::string>{"/model", "/model/forceset", forces, forces + "/pf_contact",
-                                              forces + "/pf_contact/femur_cartilage",
-                                              forces + "/pf_contact/patella_cartilage",
-                                              forces + "/tf_contact", forces + "/tf_contact/femur_cartilage",
-                                              forces + "/tf_contact/tibia_cartilage"}));
+  const std::string tibia = forces + "/tf_contact/tibia_cartilage";
+  EXPECT_EQ(groups, (std::vector<std::string>{
+                        "/model", "/model/coordinateset", "/model/coordinateset/flexion",
+                        "/model/coordinateset/x", "/model/forceset", forces, forces + "/pf_contact",
+                        forces + "/pf_contact/femur_cartilage", forces + "/pf_contact/patella_cartilage",
+                        forces + "/tf_contact", forces + "/tf_contact/femur_cartilage", tibia,
+                        tibia + "/regional_center_of_pressure", tibia + "/regional_center_of_proximity",
+                        tibia + "/regional_contact_force", tibia + "/regional_contact_moment"}));
   EXPECT_EQ(contents.size(), groups.size() + datasets) << "nothing else";
 }
 
@@ -182,7 +202,7 @@ TEST(JamFile, ItsTotalsAreNamedAsThePublishedOnes) {
 TEST(JamFile, HasTheSameBytesEveryTimeAndKeepsNan) {
   const TemporaryFolder folder;
   auto contacts = two_contacts();
-  contacts[0].casting.frames[1].max_pressure_pa = std::nan("");
+  contacts[0].casting.frames[1].total.max_pressure_pa = std::nan("");
   write_jam_file(folder / "a.h5", times, contacts);
   write_jam_file(folder / "b.h5", times, contacts);
   EXPECT_EQ(io::read_whole_file(folder / "a.h5"), io::read_whole_file(folder / "b.h5"));
@@ -216,6 +236,20 @@ TEST(JamFile, NamesThatScriptsCouldNotReadAreRefused) {
   EXPECT_NE(complaint({named("a", "b", longest + "a")}), "written");
   EXPECT_EQ(complaint({named("a", "b", "c"), named("a", "d", "e")}), "contact 'a' is there twice");
   EXPECT_EQ(complaint({named("a", "b", "b")}), "contact 'a' has two meshes of one name, 'b'");
+  const auto complaint_of = [&](const std::vector<JamCoordinate>& coordinates) {
+    try {
+      write_jam_file(folder / "a.h5", times, {}, coordinates);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::vector<double> values(times.size());
+  EXPECT_NE(complaint_of({{"knee flexion", values}}).find("'knee flexion' must be a letter"),
+            std::string::npos);
+  EXPECT_NE(complaint_of({{"x", values}, {"x", values}}).find("coordinate 'x' is there twice"),
+            std::string::npos);
+  EXPECT_EQ(test::count_entries(folder.path()), 0u);
   EXPECT_THROW(write_jam_file(folder / "nowhere" / "a.h5", times, two_contacts()), FileError);
 }
 

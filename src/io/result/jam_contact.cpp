@@ -1,0 +1,106 @@
+#include "io/result/jam_contact.hpp"
+
+#include <array>
+#include <cctype>
+#include <limits>
+
+#include "io/joint/recorded_motion_table.hpp"
+#include "io/result/coordinate_at.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// A name as MATLAB takes it for a field.
+std::string field_name(std::string_view name) {
+  std::string out;
+  for (const char c : name) out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  if (out.empty() || !std::isalpha(static_cast<unsigned char>(out.front()))) out.insert(0, "m");
+  return out.substr(0, 63);
+}
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+JamTotals without_answer() {
+  const Vec3 no_vector = Vec3::Constant(nothing);
+  return {nothing, nothing, nothing, no_vector, nothing, nothing, no_vector, no_vector, no_vector};
+}
+
+JamTotals in_si_units(const ContactTotals& totals) {
+  return {.contact_area_m2 = 1e-6 * totals.area_mm2,
+          .mean_proximity_m = 1e-3 * totals.mean_depth_mm,
+          .max_proximity_m = 1e-3 * totals.max_depth_mm,
+          .centre_of_proximity_m = 1e-3 * totals.centre_of_depth.value_or(Vec3::Zero()),
+          .mean_pressure_pa = 1e6 * totals.mean_pressure_mpa,
+          .max_pressure_pa = 1e6 * totals.max_pressure_mpa,
+          .centre_of_pressure_m = 1e-3 * totals.centre_of_pressure.value_or(Vec3::Zero()),
+          .contact_force_n = totals.force_n,
+          .contact_moment_nm = -1e-3 * totals.moment_nmm};  // JAM tells the moment on the target
+}
+
+/// The casting surface of a motion.
+class Surface {
+ public:
+  Surface(const Mesh& mesh, FaceRule rule, bool with_pressure)
+      : mesh_(mesh), rule_(rule), with_pressure_(with_pressure) {}
+
+  JamFrame frame(const std::optional<FrameContact>& frame) const {
+    const std::size_t triangles = mesh_.triangles().size();
+    JamFrame jam;
+    if (!frame) {
+      jam.total = without_answer();
+      jam.regional.assign(jam_regions, without_answer());
+      jam.triangle_proximity_m.assign(triangles, nothing);
+      if (with_pressure_) jam.triangle_pressure_pa.assign(triangles, nothing);
+      return jam;
+    }
+    const SurfaceContact& surface = frame->surface;
+    jam.total = in_si_units(surface.totals);
+    std::array<std::vector<FaceContact>, jam_regions> regions;
+    jam.triangle_proximity_m.assign(triangles, 0);
+    if (with_pressure_) jam.triangle_pressure_pa.assign(triangles, 0);
+    for (const FaceContact& face : surface.faces) {
+      jam.triangle_proximity_m[face.face] = 1e-3 * face.mean_depth_mm();
+      if (with_pressure_) jam.triangle_pressure_pa[face.face] = 1e6 * face.mean_pressure_mpa();
+      const Vec3 centre =
+          (mesh_.corner(face.face, 0) + mesh_.corner(face.face, 1) + mesh_.corner(face.face, 2)) / 3;
+      for (int k = 0; k < 3; ++k)
+        regions[static_cast<std::size_t>(2 * k + (centre[k] < 0 ? 0 : 1))].push_back(face);
+    }
+    for (const auto& faces : regions) jam.regional.push_back(in_si_units(totals_of(faces, mesh_, rule_)));
+    return jam;
+  }
+
+ private:
+  const Mesh& mesh_;
+  FaceRule rule_;
+  bool with_pressure_;
+};
+
+}  // namespace
+
+JamContact jam_contact(const MotionQuestion& question, const MotionAnswer& answer) {
+  const ContactSurfaces& surfaces = question.surfaces;
+  const bool fixed_casts = question.contact.casting == Casting::fixed;
+  const Body &casting = fixed_casts ? surfaces.fixed : surfaces.mobile,
+             &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
+  JamContact contact{
+      field_name(question.joint.joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
+  const Surface surface(casting.mesh, question.contact.rays.rule, question.with_pressure);
+  for (const auto& frame : answer.frames) contact.casting.frames.push_back(surface.frame(frame));
+  return contact;
+}
+
+std::vector<JamCoordinate> jam_coordinates(const MotionQuestion& question, const MotionAnswer& answer) {
+  const Joint& joint = question.joint.joint;
+  std::vector<JamCoordinate> coordinates;
+  for (const CoordinateName& name : coordinate_names_of(joint.kind, joint.anatomy)) {
+    const double unit = name.kind == CoordinateKind::angle ? 1 : 1e-3;
+    const std::size_t number = coordinates.size();
+    auto& values = coordinates.emplace_back(JamCoordinate{field_name(name.name), {}}).values;
+    for (const auto& frame : answer.frames)
+      values.push_back(frame ? unit * coordinate_at(joint, frame->X_FM, number) + 0.0 : nothing);
+  }
+  return coordinates;
+}
+
+}  // namespace condyle::io
