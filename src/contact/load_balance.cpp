@@ -15,6 +15,13 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using contact::MobileLoad;
+/// Along what is free, six motions at most: no memory is asked for.
+using FreeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using FreeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+/// Columns are translations and rotations about the origin of M, in F.
+using FreeMotions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
+/// Of square matrices: they need no preconditioner.
+using Svd = Eigen::JacobiSVD<FreeMatrix, Eigen::NoQRPreconditioner>;
 
 /// A stiffness below this share of the largest one is rounding: flat and prismatic contacts have none along themselves.
 constexpr double least_stiffness = 1e-9;
@@ -39,21 +46,21 @@ constexpr double least_climb = measured_way;
 /// Rotations that move the surfaces about as far, rad: half a joint across is some 20 mm.
 constexpr double measured_angle = measured_way / 20;
 
-/// Which small motions of M are free: columns are translations and rotations about the origin of M, in F.
-Eigen::Matrix<double, 6, Eigen::Dynamic> free_motions(const BalanceOptions& options) {
-  Eigen::Matrix<double, 3, Eigen::Dynamic> translations = Eigen::Matrix3d::Identity();
+/// Which small motions of M are free.
+FreeMotions free_motions(const BalanceOptions& options) {
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> translations = Eigen::Matrix3d::Identity();
   if (!options.free_directions.empty()) {
-    translations.resize(3, static_cast<Eigen::Index>(options.free_directions.size()));
-    for (Eigen::Index i = 0; i < translations.cols(); ++i)
-      translations.col(i) = options.free_directions[static_cast<std::size_t>(i)];
-    if (!translations.allFinite()) throw UsageError("a free direction is not finite");
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(translations);
-    if (qr.rank() < translations.cols()) throw UsageError("the free directions depend on each other");
-    translations = qr.householderQ() * Eigen::MatrixXd::Identity(3, translations.cols());
+    const auto count = static_cast<Eigen::Index>(options.free_directions.size());
+    FreeMatrix directions = FreeMatrix::Zero(3, 3);
+    for (Eigen::Index i = 0; i < std::min<Eigen::Index>(count, 3); ++i)
+      directions.col(i) = options.free_directions[static_cast<std::size_t>(i)];
+    if (!directions.allFinite()) throw UsageError("a free direction is not finite");
+    const Svd svd(directions, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    if (svd.rank() < count) throw UsageError("the free directions depend on each other");
+    translations = svd.matrixU().leftCols(count);
   }
   const Eigen::Index rotations = options.free_rotations ? 3 : 0;
-  Eigen::Matrix<double, 6, Eigen::Dynamic> motions =
-      Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, translations.cols() + rotations);
+  FreeMotions motions = FreeMotions::Zero(6, translations.cols() + rotations);
   motions.topLeftCorner(3, translations.cols()) = translations;
   if (options.free_rotations) motions.bottomRightCorner(3, 3).setIdentity();
   return motions;
@@ -75,8 +82,7 @@ class Search {
       throw UsageError("the load is not finite");
     if (!(options.most_left_at_jump >= 0 && options.most_left_at_jump <= 1))
       throw UsageError("most_left_at_jump: what may be left of the load is a share from 0 to 1");
-    if ((free_.transpose() * load_at(start)).norm() == 0)
-      throw UsageError("the load is zero along what is free");
+    if (along_free(load_at(start)).isZero(0)) throw UsageError("the load is zero along what is free");
     out_.X_FM = start;
   }
 
@@ -97,9 +103,10 @@ class Search {
       load << X.linear() * load_.on_mobile.force_n, X.linear() * load_.on_mobile.moment_nmm;
     return load;
   }
+  Vector6 along_free(const Vector6& wrench) const { return free_ * (free_.transpose() * wrench); }
   /// What is left, along what is free, as a wrench.
   Vector6 left(const Pose& X, const MobileLoad& carried) const {
-    return free_ * (free_.transpose() * (carried.wrench + load_at(X)));
+    return along_free(carried.wrench + load_at(X));
   }
   /// Rotations count by the force they take at this arm, mm: half a joint across.
   static double size_of(const Vector6& wrench) {
@@ -134,7 +141,7 @@ class Search {
   /// Along the load to where the contact carries that part of it, or a little more, or until it is met nowhere. From there
   /// Newton's steps lead back out: a contact grows stiffer as it deepens.
   bool approach() {
-    const Vec3 force = (free_ * (free_.transpose() * load_at(start_))).head<3>();
+    const Vec3 force = along_free(load_at(start_)).head<3>();
     if (force.isZero()) return false;
     const Vec3 along = force.normalized();
     for (double way = search_step; way <= options_.farthest_mm;) {
@@ -161,11 +168,9 @@ class Search {
     while (true) {
       resisted_ = resisted_ || now_.wrench.dot(load_at(out_.X_FM)) < 0;
       // How the contact pushes back against small motions along what is free.
-      const Eigen::MatrixXd stiffness =
+      const FreeMatrix stiffness =
           -free_.transpose() * contact_.parts().change_of(*answers_, out_.X_FM, motions()) * free_;
-      // A preconditioner is for matrices that are not square.
-      const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
-          stiffness, Eigen::ComputeThinU | Eigen::ComputeThinV);
+      const Svd svd(stiffness, Eigen::ComputeFullU | Eigen::ComputeFullV);
       const auto& sizes = svd.singularValues();
       const Eigen::Index last = sizes.size() - 1;
       if (!(sizes[last] > least_stiffness * sizes[0])) {
@@ -174,7 +179,7 @@ class Search {
       }
       if (is_small(residual_)) {
         // Not symmetric: forces act along normals of one surface, and depths change along those of the other.
-        const Eigen::EigenSolver<Eigen::MatrixXd> eigen(stiffness);
+        const Eigen::EigenSolver<FreeMatrix> eigen(stiffness);
         Eigen::Index softest;
         if (eigen.eigenvalues().real().minCoeff(&softest) > 0) return BalanceOutcome::balanced;
         out_.direction = (free_ * eigen.eigenvectors().col(softest).real()).head<3>().normalized();
@@ -184,7 +189,8 @@ class Search {
       const auto little_is_left = [&] { return left_share() <= options_.most_left_at_jump; };
       StepEnd end = try_step(svd.solve(free_.transpose() * residual_));
       if (!end.moved && !(end.at_jump && little_is_left()))
-        end = try_step(measured_stiffness().colPivHouseholderQr().solve(free_.transpose() * residual_));
+        end = try_step(Svd(measured_stiffness(), Eigen::ComputeFullU | Eigen::ComputeFullV)
+                           .solve(free_.transpose() * residual_));
       if (!is_near(out_.X_FM)) return given_up();
       if ((end.at_jump || !end.moved) && little_is_left()) return BalanceOutcome::at_jump;
       if (!end.moved) return given_up();
@@ -193,23 +199,21 @@ class Search {
   }
 
   /// The same by differences of the load: with what rays at a rim add that begin or cease to meet the other surface.
-  Eigen::MatrixXd measured_stiffness() {
-    Eigen::MatrixXd stiffness(free_.cols(), free_.cols());
+  FreeMatrix measured_stiffness() {
+    FreeMatrix stiffness(free_.cols(), free_.cols());
     for (Eigen::Index i = 0; i < free_.cols(); ++i) {
       const double way = free_.col(i).head<3>().isZero() ? measured_angle : measured_way;
       const auto carried = [&](double by) {
-        return Eigen::VectorXd(free_.transpose() * tried(moved(out_.X_FM, by * free_.col(i))).wrench);
+        return FreeVector(free_.transpose() * tried(moved(out_.X_FM, by * free_.col(i))).wrench);
       };
-      const Eigen::VectorXd ahead = carried(way);
+      const FreeVector ahead = carried(way);
       stiffness.col(i) = (carried(-way) - ahead) / (2 * way);
     }
     return stiffness;
   }
 
   /// What is left of the load.
-  double left_share() const {
-    return size_of(residual_) / size_of(free_ * (free_.transpose() * load_at(out_.X_FM)));
-  }
+  double left_share() const { return size_of(residual_) / size_of(along_free(load_at(out_.X_FM))); }
 
   /// A contact that has pushed against the load at all was left over its rim, or at one.
   BalanceOutcome given_up() const {
@@ -222,8 +226,8 @@ class Search {
   };
   /// The step, or the part of it beyond which more of the load is left or the body climbs: what is stored beyond what the load
   /// gives grows at a saddle, where the load still falls.
-  StepEnd try_step(const Eigen::VectorXd& along_free) {
-    Vector6 step = free_ * along_free;
+  StepEnd try_step(const FreeVector& motion) {
+    Vector6 step = free_ * motion;
     if (const double length = step.head<3>().norm(); length > longest_step) step *= longest_step / length;
     const Pose from = out_.X_FM;
     const double energy = now_.energy, size = size_of(residual_);
@@ -258,7 +262,7 @@ class Search {
   const BalanceOptions& options_;
   const Load& load_;
   const Pose& start_;
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> free_;
+  const FreeMotions free_;
   std::unique_ptr<ElasticContact::Parts::Answers> answers_,
       tried_;       ///< at out_.X_FM, and at the pose tried last
   MobileLoad now_;  ///< at out_.X_FM
