@@ -32,10 +32,10 @@ constexpr double search_step = 0.1;
 /// The same where the contact already tells how far it is.
 constexpr double longest_search_step = 0.3;
 /// The part of a step that is enough to know how far it leads: of walks on a hip's cartilages a half leaves more of the load at
-/// jumps, an eighth and less balances fewer frames in more looks.
+/// jumps, an eighth balances fewer frames.
 constexpr double least_part = 1.0 / 4;
 /// Where the load changes by this many times what the stiffness tells, it jumps. Half of it balances fewer frames; twice that takes
-/// more looks and balances no more.
+/// more steps and balances no more.
 constexpr double steepest_change = 8;
 /// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
 /// then pass its rim.

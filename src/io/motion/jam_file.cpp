@@ -53,15 +53,6 @@ void check_names(const std::filesystem::path& path, std::span<const JamContact> 
   }
 }
 
-/// The totals of a frame, or those of one of its regions.
-using PartOfFrame = const JamTotals& (*)(const JamFrame&, std::size_t region);
-const JamTotals& total_of(const JamFrame& frame, std::size_t) {
-  return frame.total;
-}
-const JamTotals& region_of(const JamFrame& frame, std::size_t region) {
-  return frame.regional[region];
-}
-
 /// What is told of totals, by the names JAM has for it.
 void for_each_of_totals(const auto& scalar, const auto& vector) {
   scalar("contact_area", &JamTotals::contact_area_m2);
@@ -75,11 +66,12 @@ void for_each_of_totals(const auto& scalar, const auto& vector) {
   vector("contact_moment", &JamTotals::contact_moment_nm);
 }
 
+/// A vector of totals_of(frame) in each row.
 void add_vectors(io::H5Image& file, const std::string& path, const std::vector<JamFrame>& frames,
-                 PartOfFrame part, std::size_t region, Vec3 JamTotals::*member) {
+                 Vec3 JamTotals::*member, const auto& totals_of) {
   std::vector<double> values;
   for (const JamFrame& frame : frames)
-    for (const double value : part(frame, region).*member) values.push_back(value);
+    for (const double value : totals_of(frame).*member) values.push_back(value);
   file.numbers(path, values, frames.size(), 3);
 }
 
@@ -92,7 +84,8 @@ void add_totals(io::H5Image& file, const std::string& group, const std::vector<J
         file.numbers(start + name, values, frames.size(), 0);
       },
       [&](const std::string& name, Vec3 JamTotals::*member) {
-        add_vectors(file, start + name, frames, total_of, 0, member);
+        add_vectors(file, start + name, frames, member,
+                    [](const JamFrame& frame) -> const JamTotals& { return frame.total; });
       });
 }
 
@@ -109,7 +102,8 @@ void add_regions(io::H5Image& file, const std::string& group, const std::vector<
       [&](const std::string& name, Vec3 JamTotals::*member) {
         file.group(start + name);
         for (std::size_t region = 0; region < jam_regions; ++region)
-          add_vectors(file, start + name + "/" + std::to_string(region), frames, region_of, region, member);
+          add_vectors(file, start + name + "/" + std::to_string(region), frames, member,
+                      [&](const JamFrame& frame) -> const JamTotals& { return frame.regional[region]; });
       });
 }
 

@@ -1,6 +1,5 @@
 #include "io/result/jam_contact.hpp"
 
-#include <array>
 #include <cctype>
 #include <limits>
 
@@ -37,6 +36,16 @@ JamTotals in_si_units(const ContactTotals& totals) {
           .contact_moment_nm = -1e-3 * totals.moment_nmm};  // JAM tells the moment on the target
 }
 
+/// A half of a surface, in JAM's order: even ones are below 0 along an axis, odd ones not.
+HalfSpace half_of_region(std::size_t region) {
+  HalfSpace half{Vec3::Unit(static_cast<Eigen::Index>(region / 2)), 0};
+  if (region % 2 == 0)
+    half.normal = -half.normal;
+  else
+    half.offset_mm = -std::numeric_limits<double>::denorm_min();  // with 0 itself, and nothing below it
+  return half;
+}
+
 /// The casting surface of a motion.
 class Surface {
  public:
@@ -55,18 +64,17 @@ class Surface {
     }
     const SurfaceContact& surface = frame->surface;
     jam.total = in_si_units(surface.totals);
-    std::array<std::vector<FaceContact>, jam_regions> regions;
+    for (std::size_t region = 0; region < jam_regions; ++region) {
+      const HalfSpace half = half_of_region(region);
+      jam.regional.push_back(
+          in_si_units(totals_of(faces_within(surface.faces, mesh_, {&half, 1}), mesh_, rule_)));
+    }
     jam.triangle_proximity_m.assign(triangles, 0);
     if (with_pressure_) jam.triangle_pressure_pa.assign(triangles, 0);
     for (const FaceContact& face : surface.faces) {
       jam.triangle_proximity_m[face.face] = 1e-3 * face.mean_depth_mm();
       if (with_pressure_) jam.triangle_pressure_pa[face.face] = 1e6 * face.mean_pressure_mpa();
-      const Vec3 centre =
-          (mesh_.corner(face.face, 0) + mesh_.corner(face.face, 1) + mesh_.corner(face.face, 2)) / 3;
-      for (int k = 0; k < 3; ++k)
-        regions[static_cast<std::size_t>(2 * k + (centre[k] < 0 ? 0 : 1))].push_back(face);
     }
-    for (const auto& faces : regions) jam.regional.push_back(in_si_units(totals_of(faces, mesh_, rule_)));
     return jam;
   }
 
