@@ -178,8 +178,8 @@ std::vector<std::string> notes_on(const JointPlacement& placement) {
 Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPlacement& placement) {
   if (!description.frame.mobile_axes) {
     placement.reference_pose = description.reference_pose;
-    return pose_at(description.coordinates(), description.reference_pose, description.translation_frame)
-               .inverse() *
+    return inverted(pose_at(description.coordinates(), description.reference_pose,
+                            description.translation_frame)) *
            X_FW;
   }
   if (description.kind == JointKind::hinge)
@@ -193,7 +193,7 @@ Pose mobile_frame(const JointDescription& description, const Pose& X_FW, JointPl
         frame_from_landmarks(placement.X_WF.translation(), description.side, *description.frame.mobile_axes);
     placement.reference_pose.angles = angles_at(description.coordinates(), X_FW * X_WM);
     placement.pose_from_landmarks = true;
-    return X_WM.inverse();
+    return inverted(X_WM);
   } catch (const UsageError& error) {
     throw UsageError(std::string("frame: ") + error.what());
   }
@@ -208,7 +208,7 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   check_units(fixed, placement.fixed.likely_unit, mobile, placement.mobile.likely_unit);
   placement.X_WF = frame_of(description, fixed, mobile, placement);
 
-  const Pose X_FW = placement.X_WF.inverse();
+  const Pose X_FW = inverted(placement.X_WF);
   const Pose X_MW = mobile_frame(description, X_FW, placement);
   const double scale = scale_of(description.units);
   fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);

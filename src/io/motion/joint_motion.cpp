@@ -79,7 +79,7 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const 
   JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes), {}, {}};
   const Provenance from = provenance_of(loaded, {});
   const LengthUnit unit = loaded.report.file.joint.units;
-  const Pose X_FA = joint_from_file(from.fixed, unit), X_BM = joint_from_file(from.mobile, unit).inverse();
+  const Pose X_FA = joint_from_file(from.fixed, unit), X_BM = inverted(joint_from_file(from.mobile, unit));
   for (std::size_t i = 0; i < recorded.X_FM.size(); ++i) {
     if (!recorded.X_FM[i]) {
       motion.X_FM.emplace_back();

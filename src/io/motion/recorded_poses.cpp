@@ -183,7 +183,7 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
   };
   for (std::size_t row = 0; row < table.rows; ++row) {
     const auto X_LF = pose(fixed, row), X_LM = pose(mobile, row);
-    out.X_FM.push_back(X_LF && X_LM ? std::optional<Pose>(X_LF->inverse() * *X_LM) : std::nullopt);
+    out.X_FM.push_back(X_LF && X_LM ? std::optional<Pose>(inverted(*X_LF) * *X_LM) : std::nullopt);
   }
   if (worst.off > said_beyond)
     out.notes.push_back(

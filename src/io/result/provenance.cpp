@@ -19,16 +19,16 @@ double mm_of(LengthUnit unit) noexcept {
 
 /// Each body's frame in that of its mesh file: in W, unless the body has a frame of its own there.
 Pose fixed_in_source(const JointReport& report) noexcept {
-  return report.file.joint.fixed_in_W.inverse() * report.placement.X_WF;
+  return inverted(report.file.joint.fixed_in_W) * report.placement.X_WF;
 }
 Pose mobile_in_source(const JointReport& report) noexcept {
   const JointDescription& joint = report.file.joint;
-  return joint.mobile_in_W.inverse() * report.placement.X_WF *
+  return inverted(joint.mobile_in_W) * report.placement.X_WF *
          pose_at(joint.coordinates(), report.placement.reference_pose, joint.translation_frame);
 }
 
 MeshOrigin origin_of(const std::vector<BodyMeshReport>& meshes, const Pose& in_source, double unit_mm) {
-  const Eigen::Affine3d joint_from_source = in_source.inverse() * Eigen::Scaling(unit_mm);
+  const Eigen::Affine3d joint_from_source = inverted(in_source) * Eigen::Scaling(unit_mm);
   const Eigen::Affine3d source_from_joint = Eigen::Scaling(1 / unit_mm) * Eigen::Affine3d(in_source);
   MeshOrigin origin{{}, joint_from_source, source_from_joint};
   for (const BodyMeshReport& mesh : meshes) origin.files.push_back({mesh.part, mesh.mesh, mesh.digest});

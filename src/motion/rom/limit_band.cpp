@@ -189,11 +189,11 @@ class BandJoint {
     X_FG.translation() = d.centre;
     if (const double angle = d.axes.norm(); angle > 0)
       X_FG.linear() = Eigen::AngleAxisd(angle, d.axes / angle).toRotationMatrix();
-    const Pose A = X_ref_.inverse() * X_FG * X_ref_;
+    const Pose A = inverted(X_ref_) * X_FG * X_ref_;
 
     const Group* before = nullptr;
     for (const Group& group : groups_) {
-      const Pose X_FM = X_FG * pose_at(system_, group.start) * A.inverse();
+      const Pose X_FM = X_FG * pose_at(system_, group.start) * inverted(A);
       const bool turns_fixed = group.vary == JointAngle::internal_rotation;
       motion::TurningBody& resting = turns_fixed ? resting_mobile : resting_fixed;
       motion::TurningBody& turning = turns_fixed ? turning_fixed : turning_mobile;
@@ -203,7 +203,7 @@ class BandJoint {
               : AxisFrame(X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start));
       if (!before || !before->shares_axis(group)) resting.start_at(axis, Pose::Identity());
       before = &group;
-      turning.start_at(axis, turns_fixed ? X_FM.inverse() : X_FM);
+      turning.start_at(axis, turns_fixed ? inverted(X_FM) : X_FM);
       const RotationLimits both = motion::first_contact(resting, turning, group.range);
       for (const std::size_t i : group.motions) {
         const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;

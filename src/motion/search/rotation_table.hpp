@@ -83,7 +83,7 @@ class TurningBody {
   const FeatureTree& tree() const noexcept { return *tree_; }
   const AxisFrame& frame() const noexcept { return frame_; }
   /// A point at the start pose, in the frame of the axis, in the body's own coordinates.
-  Vec3 to_own(const Vec3& at_start) const noexcept { return X_RT_.inverse() * frame_.from_axis(at_start); }
+  Vec3 to_own(const Vec3& at_start) const noexcept { return inverted(X_RT_) * frame_.from_axis(at_start); }
 
   const CylinderBox& node_box(Index node);
   /// All features, the triangles of this leaf and their corners being ready.
