@@ -178,11 +178,10 @@ class Search {
         return resisted_ ? BalanceOutcome::free_direction : BalanceOutcome::pulled_apart;
       }
       if (is_small(residual_)) {
-        // Not symmetric: forces act along normals of one surface, and depths change along those of the other.
-        const Eigen::EigenSolver<FreeMatrix> eigen(stiffness);
-        Eigen::Index softest;
-        if (eigen.eigenvalues().real().minCoeff(&softest) > 0) return BalanceOutcome::balanced;
-        out_.direction = (free_ * eigen.eigenvectors().col(softest).real()).head<3>().normalized();
+        // What pushes back along a motion: the symmetric part, whatever the units of rotations.
+        const Eigen::SelfAdjointEigenSolver<FreeMatrix> pushes_back((stiffness + stiffness.transpose()) / 2);
+        if (pushes_back.eigenvalues()[0] > 0) return BalanceOutcome::balanced;
+        out_.direction = (free_ * pushes_back.eigenvectors().col(0)).head<3>().normalized();
         return BalanceOutcome::unstable;
       }
       if (out_.steps >= options_.most_steps) return given_up();
