@@ -73,6 +73,8 @@ void ElasticCast::answer(const Pose& X_CT, Answer& out) const {
       {casting_thickness_, target_thickness_}, out.found);
   out.of_sample.clear();
   for (const OverlapSample& sample : out.found.samples) out.of_sample.push_back(layers_at(sample));
+  out.of_border.clear();
+  for (const OverlapBorder& border : out.found.borders) out.of_border.push_back(layers_at(border).pressure);
 }
 
 void ElasticCast::add_up(const Answer& answer, SurfaceContact& out) const {
@@ -127,6 +129,11 @@ struct CastInF {
       for (std::size_t i = begin; i < end; ++i) growth += weight(i) * answer.found.samples[i].gradient;
       change += normal * growth.transpose();
     });
+    for (std::size_t i = 0; i < answer.found.borders.size(); ++i) {
+      const OverlapBorder& border = answer.found.borders[i];
+      change += cast.sampler().face_normals()[border.face] *
+                (share * answer.of_border[i] * border.growth).transpose();
+    }
     return X_FC.linear() * change * X_FC.linear().transpose();
   }
   Matrix6 change_of_wrench() const {
@@ -145,6 +152,15 @@ struct CastInF {
       change.topRows<3>() += normal * growth;
       change.bottomRows<3>() -= cross_matrix(normal) * moments;
     });
+    for (std::size_t i = 0; i < answer.found.borders.size(); ++i) {
+      const OverlapBorder& border = answer.found.borders[i];
+      const Vec3 normal = cast.sampler().face_normals()[border.face];
+      Eigen::Matrix<double, 1, 6> g;
+      g << border.growth.transpose(), border.growth_turned.transpose();
+      g *= share * answer.of_border[i];
+      change.topRows<3>() += normal * g;
+      change.bottomRows<3>() += border.point.cross(normal) * g;
+    }
     Matrix6 to_F = Matrix6::Zero();
     to_F.topLeftCorner<3, 3>() = to_F.bottomRightCorner<3, 3>() = X_FC.linear();
     to_F.bottomLeftCorner<3, 3>() = cross_matrix(X_FC.translation() - origin_M) * X_FC.linear();

@@ -20,6 +20,7 @@ class ElasticCast {
   struct Answer {
     OverlapSampler::Found found;
     std::vector<LayerAnswer> of_sample;
+    std::vector<double> of_border;  ///< pressures, MPa
   };
   void answer(const Pose& X_CT, Answer& out) const;
   void add_up(const Answer& answer, SurfaceContact& out) const;
@@ -27,7 +28,7 @@ class ElasticCast {
   const OverlapSampler& sampler() const noexcept { return sampler_; }
 
  private:
-  /// Of an OverlapSample or an OverlapCorner.
+  /// Of an OverlapSample, an OverlapCorner or an OverlapBorder.
   LayerAnswer layers_at(const auto& place) const;
 
   OverlapSampler sampler_;

@@ -7,60 +7,11 @@
 #include <optional>
 
 #include "condyle/error.hpp"
+#include "contact/along_rays.hpp"
 #include "mesh/vertex_triangles.hpp"
 
 namespace condyle::contact {
 namespace {
-
-/// Depths further from each other than this many lengths of the face's longest edge are of different parts of the target:
-/// across its rim, or on another condyle. Faces then meet at more than 60 degrees, and are no thin layer.
-constexpr double steepest_linear = 2;
-
-/// Centres of the 16 triangles that three parallels to each edge cut a triangle into.
-constexpr std::size_t rim_parts = 16;
-std::array<std::array<double, 3>, rim_parts> rim_centres() {
-  std::array<std::array<double, 3>, rim_parts> centres;
-  std::size_t count = 0;
-  for (int i = 0; i < 4; ++i) {
-    for (int j = 0; i + j < 4; ++j) {
-      for (const double third : {1.0 / 3, 2.0 / 3}) {
-        if (third > 0.5 && i + j == 3) continue;
-        const double a = (i + third) / 4, b = (j + third) / 4;
-        centres[count++] = {a, b, 1 - a - b};
-      }
-    }
-  }
-  return centres;
-}
-
-/// A place in a triangle and its share of the area.
-struct Node {
-  std::array<double, 3> at;
-  double weight;
-};
-
-template <class Value>
-Value mixed(const std::array<double, 3>& w, const Value& a, const Value& b, const Value& c) {
-  return w[0] * a + w[1] * b + w[2] * c;
-}
-
-/// Middles of the edges: exact for quadratic functions.
-constexpr std::array<Node, 3> nodes_of_degree_2 = {
-    {{{0.5, 0.5, 0}, 1.0 / 3}, {{0, 0.5, 0.5}, 1.0 / 3}, {{0.5, 0, 0.5}, 1.0 / 3}}};
-
-/// Radon's seven nodes: exact to degree 5.
-std::array<Node, 7> nodes_of_degree_5() {
-  const double root = std::sqrt(15.0);
-  std::array<Node, 7> nodes;
-  nodes[0] = {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 9.0 / 40};
-  std::size_t count = 1;
-  for (const double sign : {-1.0, 1.0}) {
-    const double a = (6 + sign * root) / 21, b = 1 - 2 * a, weight = (155 + sign * root) / 1200;
-    for (const auto& at : {std::array{b, a, a}, std::array{a, b, a}, std::array{a, a, b}})
-      nodes[count++] = {at, weight};
-  }
-  return nodes;
-}
 
 /// Faces that meet at a larger angle than this meet at a crease: each side has its own normals there.
 const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
@@ -68,10 +19,6 @@ const double crease_cosine = std::cos(40 * std::numbers::pi / 180);
 Vec3 area_vector(const TriMesh& mesh, std::size_t face) {
   const Vec3 a = mesh.corner(face, 0);
   return (mesh.corner(face, 1) - a).cross(mesh.corner(face, 2) - a) / 2;
-}
-Vec3 unit(const Vec3& v) {
-  const double length = v.norm();
-  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
 }
 
 double angle_at(const TriMesh& mesh, std::size_t face, int corner) {
@@ -100,12 +47,6 @@ int side_of(const Vec3& normal) {
   Eigen::Index axis;
   normal.cwiseAbs().maxCoeff(&axis);
   return 2 * static_cast<int>(axis) + (normal[axis] < 0 ? 1 : 0);
-}
-
-// The ray from o along u meets the plane with normal m through a at d = (a - o).m / (u.m): translated by s, d grows by
-// s.m / (u.m). Rays outwards have the opposite direction and the opposite depth, so one formula serves both.
-Vec3 depth_gradient(const Vec3& normal, const Vec3& direction) {
-  return normal / direction.dot(normal);
 }
 
 std::vector<Vec3> unit_normals(const TriMesh& mesh) {
@@ -215,13 +156,14 @@ void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const Layer
                             Found& out) const {
   out.samples.clear();
   out.corners.clear();
+  out.borders.clear();
   out.met_from_front = out.rim_faces = 0;
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
   if (options_.rule == FaceRule::face_centre)
     sample_centres(X_CT, thicknesses, *scratch, out);
   else
-    sample_parts(X_CT, quadrature, thicknesses, *scratch, out);
+    sample_faces(X_CT, quadrature, thicknesses, *scratch, out);
   scratch_.put_back(std::move(scratch));
 }
 
@@ -268,158 +210,6 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
     }
     if (!thicknesses.target.empty())
       sample.target_thickness = target_thickness(end, centre, direction, X_TC, thicknesses.target);
-    out.samples.push_back(sample);
-  }
-}
-
-void OverlapSampler::sample_parts(const Pose& X_CT, Quadrature quadrature,
-                                  const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
-  const Pose X_TC = inverted(X_CT);
-  cast_outwards(X_CT, scratch, out);
-  scratch.rim.clear();
-  for (const Index face : scratch.active)
-    if (is_rim(face, scratch.ends)) scratch.rim.push_back(face);
-  cast_rim(X_CT, scratch, out);
-  std::size_t rim = 0;
-  for (const Index face : scratch.active) {
-    if (rim == scratch.rim.size() || face != scratch.rim[rim])
-      sample_cut_face(face, quadrature, thicknesses, X_TC, scratch.ends, out);
-    else
-      sample_rim_face(face, rim_parts * rim++, thicknesses, X_CT, X_TC, scratch, out);
-  }
-}
-
-void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
-  auto& ends = scratch.ends;
-  scratch.active.clear();
-  scratch.rays.clear();
-  scratch.owner.clear();
-  scratch.outwards.assign(ends.rays(), 0);
-  for (Index face = 0; face < corner_ray_.size(); ++face) {
-    const auto& [a, b, c] = corner_ray_[face];
-    if (face_area_[face] == 0 || !(ends.has(a) || ends.has(b) || ends.has(c))) continue;
-    scratch.active.push_back(face);
-    for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends.has(ray);
-  }
-  for (Index ray = 0; ray < ends.rays(); ++ray) {
-    if (!scratch.outwards[ray]) continue;
-    scratch.owner.push_back(ray);
-    scratch.rays.push_back({casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]});
-  }
-  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
-  out.rays += scratch.rays.size();
-  for (std::size_t i = 0; i < scratch.owner.size(); ++i) {
-    const Index ray = scratch.owner[i];
-    if (!scratch.hits.is_hit(i)) continue;
-    const Index triangle = scratch.hits.triangle[i];
-    ends.set(ray, {-scratch.hits.distance[i], triangle,
-                   depth_gradient(X_CT.linear() * target_normal_[triangle], -ray_normal_[ray])});
-  }
-}
-
-bool OverlapSampler::is_rim(Index face, const RayEnds& ends) const {
-  const auto& [a, b, c] = corner_ray_[face];
-  if (!(ends.has(a) && ends.has(b) && ends.has(c))) return true;
-  const auto [least, most] = std::minmax({ends[a].depth, ends[b].depth, ends[c].depth});
-  return most - least > steepest_linear * longest_edge_[face];
-}
-
-void OverlapSampler::cast_rim(const Pose& X_CT, Scratch& scratch, Found& out) const {
-  static const auto centres = rim_centres();
-  scratch.rays.clear();
-  for (const Index face : scratch.rim) {
-    const auto& corners = casting_.triangles()[face];
-    const auto& rays = corner_ray_[face];
-    for (const auto& w : centres)
-      scratch.rays.push_back(
-          {mixed(w, casting_.vertices()[corners[0]], casting_.vertices()[corners[1]],
-                 casting_.vertices()[corners[2]]),
-           unit(-mixed(w, ray_normal_[rays[0]], ray_normal_[rays[1]], ray_normal_[rays[2]]))});
-  }
-  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
-  out.rays += scratch.rays.size();
-  out.rim_faces = scratch.rim.size();
-}
-
-void OverlapSampler::sample_cut_face(Index face, Quadrature quadrature, const LayerThicknesses& thicknesses,
-                                     const Pose& X_TC, const RayEnds& ends, Found& out) const {
-  static const auto of_degree_5 = nodes_of_degree_5();
-  const std::span<const Node> nodes = quadrature == Quadrature::of_degree_2
-                                          ? std::span<const Node>(nodes_of_degree_2)
-                                          : std::span<const Node>(of_degree_5);
-  const bool with_thickness = !thicknesses.casting.empty() || !thicknesses.target.empty();
-  const auto& rays = corner_ray_[face];
-  std::array<Vec3, 3> p, gradient;
-  std::array<double, 3> depth{}, of_casting{}, of_target{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Index v = casting_.triangles()[face][k];
-    const RayEnd& end = ends[rays[k]];
-    p[k] = casting_.vertices()[v];
-    depth[k] = end.depth;
-    gradient[k] = end.gradient;
-    if (!thicknesses.casting.empty()) of_casting[k] = thicknesses.casting[v];
-    if (!thicknesses.target.empty())
-      of_target[k] = target_thickness(end, p[k], -ray_normal_[rays[k]], X_TC, thicknesses.target);
-  }
-
-  // The part with a depth above 0: a triangle, or what a corner leaves of one.
-  std::array<std::array<double, 3>, 4> part;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    std::array<double, 3> corner{};
-    if (depth[k] > 0) corner[k] = 1, part[count++] = corner;
-    if ((depth[k] > 0) == (depth[next] > 0)) continue;
-    const double t = depth[k] / (depth[k] - depth[next]);
-    corner = {};
-    corner[k] = 1 - t, corner[next] = t;
-    part[count++] = corner;
-  }
-  if (count == 0) return;
-
-  const auto of = [](const std::array<double, 3>& w, const auto& values) {
-    return mixed(w, values[0], values[1], values[2]);
-  };
-  // 0 on the cut, but for rounding.
-  const auto depth_at = [&](const std::array<double, 3>& w) { return std::max(0.0, of(w, depth)); };
-  if (with_thickness) {
-    for (std::size_t k = 0; k < count; ++k)
-      out.corners.push_back({face, depth_at(part[k]), of(part[k], of_casting), of(part[k], of_target)});
-  } else {
-    out.corners.push_back({face, std::max({depth[0], depth[1], depth[2]}), 0, 0});
-  }
-  for (std::size_t k = 2; k < count; ++k) {
-    // Areas of barycentric triangles are shares of the face's.
-    const auto &a = part[0], &b = part[k - 1], &c = part[k];
-    const double share = std::abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
-    if (!(share > 0)) continue;
-    for (const Node& node : nodes) {
-      std::array<double, 3> w;
-      for (std::size_t i = 0; i < 3; ++i) w[i] = node.at[0] * a[i] + node.at[1] * b[i] + node.at[2] * c[i];
-      OverlapSample& sample = out.samples.emplace_back();
-      sample = {face, share * face_area_[face] * node.weight, depth_at(w), of(w, p), of(w, gradient), 0, 0};
-      if (with_thickness)
-        sample.casting_thickness = of(w, of_casting), sample.target_thickness = of(w, of_target);
-    }
-  }
-}
-
-void OverlapSampler::sample_rim_face(Index face, std::size_t first_ray, const LayerThicknesses& thicknesses,
-                                     const Pose& X_CT, const Pose& X_TC, const Scratch& scratch,
-                                     Found& out) const {
-  static const auto centres = rim_centres();
-  const auto& [a, b, c] = casting_.triangles()[face];
-  for (std::size_t part = 0; part < rim_parts; ++part) {
-    const auto& [point, direction] = scratch.rays[first_ray + part];
-    const auto overlap = overlap_of(direction, scratch.hits, first_ray + part, X_CT);
-    if (!overlap || !(overlap->end.depth > 0)) continue;
-    const RayEnd& end = overlap->end;
-    OverlapSample sample{face, face_area_[face] / rim_parts, end.depth, point, end.gradient, 0, 0};
-    if (!thicknesses.casting.empty())
-      sample.casting_thickness =
-          mixed(centres[part], thicknesses.casting[a], thicknesses.casting[b], thicknesses.casting[c]);
-    if (!thicknesses.target.empty())
-      sample.target_thickness = target_thickness(end, point, direction, X_TC, thicknesses.target);
     out.samples.push_back(sample);
   }
 }

@@ -32,6 +32,17 @@ struct OverlapCorner {
   double casting_thickness, target_thickness;  ///< where asked for, else 0
 };
 
+/// A place of the line along which the part of a face in contact ends because the target does, not because the depth is 0 there: it
+/// stands for a piece of that line.
+struct OverlapBorder {
+  Index face;
+  double depth;
+  Vec3 point;  ///< on the casting surface
+  /// Of the area in contact: when the target is translated, mm^2 per mm, and turned about the casting body's origin, mm^2 per rad.
+  Vec3 growth, growth_turned;
+  double casting_thickness, target_thickness;  ///< where asked for, else 0
+};
+
 /// One thickness for each vertex of a mesh; empty: not asked for.
 struct LayerThicknesses {
   std::span<const double> casting, target;
@@ -48,6 +59,7 @@ class OverlapSampler {
   struct Found {
     std::vector<OverlapSample> samples;
     std::vector<OverlapCorner> corners;
+    std::vector<OverlapBorder> borders;
     std::size_t met_from_front = 0, rim_faces = 0;
     std::size_t rays = 0;  ///< cast
   };
@@ -89,6 +101,17 @@ class OverlapSampler {
     std::vector<Index> of_ray_;
     std::vector<RayEnd> ends_;
   };
+  /// Where an edge of a face leaves the target.
+  struct Crossing {
+    double share;    ///< of the edge, from the corner inside
+    Index triangle;  ///< of the target
+  };
+  /// A face at the rim. Edges are numbered by the corner that they start from.
+  struct RimFace {
+    Index face;
+    std::array<std::optional<Crossing>, 3> crossings;
+    Index first_part = no_index;  ///< the ray of its first part, where it is decided by parts
+  };
   struct Scratch {
     mesh::RayHits hits;
     RayEnds ends;
@@ -96,7 +119,8 @@ class OverlapSampler {
     std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
     std::vector<mesh::Ray> rays;
     std::vector<Index> owner;
-    std::vector<Index> active, rim;  ///< faces, in their order
+    std::vector<Index> active;  ///< faces, in their order
+    std::vector<RimFace> rim;   ///< those of them at the rim, in their order
   };
 
   /// Every ray inwards that can be in contact: its end.
@@ -113,18 +137,29 @@ class OverlapSampler {
 
   void sample_centres(const Pose& X_CT, const LayerThicknesses& thicknesses, Scratch& scratch,
                       Found& out) const;
-  void sample_parts(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
+  void sample_faces(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
                     Scratch& scratch, Found& out) const;
   /// Rays outwards from corners outside the target next to one inside it: how far outside.
   void cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  static bool is_inside(const RayEnds& ends, Index ray) { return ends.has(ray) && ends[ray].depth > 0; }
+  /// Whether the depth is taken to be linear from one end to the other.
+  bool runs_on(Index face, const RayEnds& ends, Index a, Index b) const;
   bool is_rim(Index face, const RayEnds& ends) const;
-  /// Rays from the parts of each face at the rim.
-  void cast_rim(const Pose& X_CT, Scratch& scratch, Found& out) const;
-  void sample_cut_face(Index face, Quadrature quadrature, const LayerThicknesses& thicknesses,
-                       const Pose& X_TC, const RayEnds& ends, Found& out) const;
-  /// `first_ray` of the rays that cast_rim() has cast.
-  void sample_rim_face(Index face, std::size_t first_ray, const LayerThicknesses& thicknesses,
-                       const Pose& X_CT, const Pose& X_TC, const Scratch& scratch, Found& out) const;
+  /// Rays from corners inside the target along edges of rim faces that leave it other than where the depth is 0.
+  void cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  /// Rays from the parts of the rim faces that no line cuts.
+  void cast_parts(const Pose& X_CT, Scratch& scratch, Found& out) const;
+  /// Of a face: its part in contact, a triangle or what a line leaves of one.
+  struct PartCorner;
+  class Part;
+  Part part_of(Index face, const RimFace* rim, const LayerThicknesses& thicknesses, const Pose& X_TC,
+               const RayEnds& ends) const;
+  void sample_part(Index face, const Part& part, Quadrature quadrature, bool with_thickness,
+                   Found& out) const;
+  void sample_border(const RimFace& rim, const Part& part, const Pose& X_CT, const RayEnds& ends,
+                     Found& out) const;
+  void sample_parts_of(const RimFace& rim, const LayerThicknesses& thicknesses, const Pose& X_CT,
+                       const Pose& X_TC, const Scratch& scratch, Found& out) const;
 
   Mesh casting_, target_;
   NormalDepthOptions options_;

@@ -15,22 +15,6 @@ namespace {
 using test::layer_of_stiffness;
 using test::translated;
 
-/// A flat square of side 2 half, normal +y, in n x n squares cut in two.
-TriMesh plane(double half, int n) {
-  TriMesh mesh;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= n; ++j)
-      mesh.vertices.push_back({-half + 2 * half * i / n, 0, -half + 2 * half * j / n});
-  for (Index i = 0; i < static_cast<Index>(n); ++i) {
-    for (Index j = 0; j < static_cast<Index>(n); ++j) {
-      const Index a = i * static_cast<Index>(n + 1) + j, b = a + static_cast<Index>(n + 1);
-      mesh.triangles.push_back({a, a + 1, b});
-      mesh.triangles.push_back({b, a + 1, b + 1});
-    }
-  }
-  return mesh;
-}
-
 struct CupAnswer {
   double force, area, peak;
 };
@@ -84,7 +68,7 @@ TEST(ElasticContact, ASpherePressedIntoAPlaneLayer) {
     EXPECT_NEAR(force, printed, 1e-4);
     std::array<double, 2> found;
     for (const int i : {0, 1}) {
-      const ElasticContact contact(plane(9, 72 << i), test::sphere(Vec3::Zero(), R, 7 + i),
+      const ElasticContact contact(test::plane(9, 72 << i), test::sphere(Vec3::Zero(), R, 7 + i),
                                    {.casting = Casting::fixed, .fixed = layer_of_stiffness(K)});
       const auto results = contact.at(translated({0.01, R - d, 0.02}));
       found[i] = results.on_mobile.force_n.y();
@@ -100,7 +84,7 @@ TEST(ElasticContact, ASpherePressedIntoAPlaneLayer) {
 
 TEST(ElasticContact, MomentIsThatOfTheForceAtTheCentreOfPressure) {
   // All of a plane's pressures are parallel: their moment is that of the sum at the centre of pressure.
-  const ElasticContact contact(plane(9, 40), test::sphere(Vec3::Zero(), 24, 6),
+  const ElasticContact contact(test::plane(9, 40), test::sphere(Vec3::Zero(), 24, 6),
                                {.casting = Casting::fixed, .fixed = layer_of_stiffness(10)});
   const auto results = contact.at(translated({1, 23.3, -2}));
   const ContactTotals& totals = results.fixed->totals;
@@ -154,7 +138,7 @@ TEST(ElasticContact, CutFacesGiveAStraightBorderExactly) {
     return X;
   }();
   // Its lower face holds the line y = slope x: depth -slope x where x < 0.
-  const ElasticContact contact(plane(4, 17), test::box({-50, 0, -50}, {50, 30, 50}),
+  const ElasticContact contact(test::plane(4, 17), test::box({-50, 0, -50}, {50, 30, 50}),
                                {.casting = Casting::fixed, .fixed = layer_of_stiffness(3)});
   const ContactTotals totals = contact.at(tilt).fixed->totals;
   EXPECT_NEAR(totals.area_mm2, 4 * 8, 1e-10);
@@ -166,7 +150,7 @@ TEST(ElasticContact, CutFacesGiveAStraightBorderExactly) {
 
 TEST(ElasticContact, WhatReachesOverARimIsDecidedByParts) {
   // A flat patch of 6 x 6 mm over a wider plane, 0.5 mm deep: the plane's faces under its rim are decided by 16 parts each.
-  const ElasticContact contact(plane(6, 40), test::flipped(plane(3.05, 1)),
+  const ElasticContact contact(test::plane(6, 40), test::flipped(test::plane(3.05, 1)),
                                {.casting = Casting::fixed, .fixed = layer_of_stiffness(2)});
   const auto results = contact.at(translated({0, -0.5, 0}));
   EXPECT_GT(results.fixed->rim_faces, 0u);
@@ -229,7 +213,7 @@ TEST(ElasticContact, RefusesWhatHasNoMeaning) {
 
 TEST(ElasticContact, LogarithmicLawNamesTheTriangleThatIsTooDeep) {
   const ElasticContact contact(
-      plane(9, 10), test::sphere(Vec3::Zero(), 24, 4),
+      test::plane(9, 10), test::sphere(Vec3::Zero(), 24, 4),
       {.casting = Casting::fixed, .law = PressureLaw::logarithmic, .fixed = ElasticLayer{10, 0.45, 1.0}});
   EXPECT_GT(contact.at(translated({0, 23.5, 0})).on_mobile.force_n.y(), 0);
   try {

@@ -31,14 +31,14 @@ ElasticContact ball_in_cup(Casting casting, FaceRule rule, int levels = 5) {
           posed(X_MB, test::sphere(Vec3::Zero(), known.r, levels)),
           {.casting = casting, .rays = {.rule = rule}, .fixed = test::layer_of_stiffness(known.K)}};
 }
-LoadChange change_of(const ElasticContact& contact, Motions motions) {
+LoadChange change_of(const ElasticContact& contact, const Pose& X_FM, Motions motions) {
   ElasticContact::Parts::Answers answers;
-  contact.parts().answer(pose_of_ball(), answers);
-  return contact.parts().change_of(answers, pose_of_ball(), motions);
+  contact.parts().answer(X_FM, answers);
+  return contact.parts().change_of(answers, X_FM, motions);
 }
 /// The load after a small motion about the origin of M, about where that was.
-Vector6 load_after(const ElasticContact& contact, const Vector6& by) {
-  Pose X = pose_of_ball();
+Vector6 load_after(const ElasticContact& contact, const Pose& X_FM, const Vector6& by) {
+  Pose X = X_FM;
   X.translation() += by.head<3>();
   if (const double angle = by.tail<3>().norm(); angle > 0)
     X.linear() = Eigen::AngleAxisd(angle, by.tail<3>() / angle) * X.linear();
@@ -48,29 +48,39 @@ Vector6 load_after(const ElasticContact& contact, const Vector6& by) {
   load.tail<3>() += by.head<3>().cross(load.head<3>());
   return load;
 }
+/// By differences. With the fixed body cast, loads stay in place.
+LoadChange measured_change(const ElasticContact& contact, const Pose& X_FM, double step_mm, double step_rad) {
+  LoadChange change;
+  for (int i = 0; i < 6; ++i) {
+    const double step = i < 3 ? step_mm : step_rad;
+    const Vector6 by = step * Vector6::Unit(i);
+    change.col(i) = (load_after(contact, X_FM, by) - load_after(contact, X_FM, -by)) / (2 * step);
+  }
+  return change;
+}
+void expect_near(const LoadChange& told, const LoadChange& measured, double share) {
+  for (int i = 0; i < 6; ++i) {
+    const Vector6 apart = measured.col(i) - told.col(i);
+    EXPECT_LE(apart.head<3>().norm(), share * told.col(i).head<3>().norm()) << i;
+    EXPECT_LE(apart.tail<3>().norm(), share * told.col(i).tail<3>().norm()) << i;
+  }
+}
 
 class LoadChangeOf : public testing::TestWithParam<FaceRule> {};
 
 TEST_P(LoadChangeOf, IsThatOfDifferences) {
-  // With the fixed body cast, loads stay in place.
   const ElasticContact contact = ball_in_cup(Casting::fixed, GetParam());
-  const LoadChange told = change_of(contact, Motions::all);
-  for (int i = 0; i < 6; ++i) {
-    // Steps of a hundred-thousandth of a millimetre: few rays pass from one triangle of the ball to the next, where depth has a
-    // kink. A ray runs along the mean of normals, and the place it meets is told by its face's: 0.01 rad over 0.2 mm.
-    const double step = i < 3 ? 1e-5 : 4e-7;
-    const Vector6 by = step * Vector6::Unit(i);
-    const Vector6 measured = (load_after(contact, by) - load_after(contact, -by)) / (2 * step);
-    EXPECT_LE((measured - told.col(i)).head<3>().norm(), 1e-4 * told.col(i).head<3>().norm()) << i;
-    EXPECT_LE((measured - told.col(i)).tail<3>().norm(), 1e-4 * told.col(i).tail<3>().norm()) << i;
-  }
+  // Steps of a hundred-thousandth of a millimetre: few rays pass from one triangle of the ball to the next, where depth has a
+  // kink. A ray runs along the mean of normals, and the place it meets is told by its face's: 0.01 rad over 0.2 mm.
+  expect_near(change_of(contact, pose_of_ball(), Motions::all),
+              measured_change(contact, pose_of_ball(), 1e-5, 4e-7), 1e-4);
 }
 
 TEST_P(LoadChangeOf, WithTranslationsIsAPartOfAll) {
   for (const Casting casting : {Casting::fixed, Casting::mobile, Casting::both}) {
     const ElasticContact contact = ball_in_cup(casting, GetParam());
-    const LoadChange all = change_of(contact, Motions::all);
-    LoadChange some = change_of(contact, Motions::translations);
+    const LoadChange all = change_of(contact, pose_of_ball(), Motions::all);
+    LoadChange some = change_of(contact, pose_of_ball(), Motions::translations);
     const Eigen::Matrix3d of_force = all.topLeftCorner<3, 3>();
     EXPECT_LE((some.topLeftCorner<3, 3>() - of_force).norm(), 1e-12 * of_force.norm());
     some.topLeftCorner<3, 3>().setZero();
@@ -81,13 +91,31 @@ TEST_P(LoadChangeOf, WithTranslationsIsAPartOfAll) {
 TEST_P(LoadChangeOf, IsTheSameWithEitherBodyCastAsMeshesGrowFine) {
   std::array<double, 2> apart;
   for (const int i : {0, 1}) {
-    const LoadChange fixed = change_of(ball_in_cup(Casting::fixed, GetParam(), 5 + i), Motions::all),
-                     mobile = change_of(ball_in_cup(Casting::mobile, GetParam(), 5 + i), Motions::all);
+    const LoadChange fixed = change_of(ball_in_cup(Casting::fixed, GetParam(), 5 + i), pose_of_ball(),
+                                       Motions::all),
+                     mobile = change_of(ball_in_cup(Casting::mobile, GetParam(), 5 + i), pose_of_ball(),
+                                        Motions::all);
     apart[static_cast<std::size_t>(i)] = (fixed - mobile).norm() / fixed.norm();
   }
   // Triangles sag by 0.01 and 0.003 mm into overlaps of 0.2 mm and less, of two bodies.
   EXPECT_LE(apart[0], 0.2);
   EXPECT_LE(apart[1], 0.4 * apart[0]);
+}
+
+TEST(LoadChangeAtARim, IsThatOfDifferences) {
+  // A slab is tilted into a sheet: three of its sides cut triangles, and so does the line where the depth is 0. It grows narrower
+  // upwards, so that no ray from beside it meets its sides.
+  TriMesh slab = test::box({-4.1, 0, -3.3}, {4.3, 3, 3.7});
+  for (std::size_t v = 0; v < slab.vertices.size(); ++v)
+    if (slab.vertices.y[v] > 1) slab.vertices.x[v] *= 0.8, slab.vertices.z[v] *= 0.8;
+  Pose X_FM = Pose::Identity();
+  X_FM.linear() =
+      (Eigen::AngleAxisd(0.04, Vec3::UnitZ()) * Eigen::AngleAxisd(0.35, Vec3::UnitY())).toRotationMatrix();
+  X_FM.translation() = Vec3(0.31, 0.05, -0.17);
+  const ElasticContact contact(test::plane(6, 23), slab,
+                               {.casting = Casting::fixed, .fixed = test::layer_of_stiffness(6)});
+  ASSERT_GT(contact.at(X_FM).fixed->rim_faces, 20u);
+  expect_near(change_of(contact, X_FM, Motions::all), measured_change(contact, X_FM, 1e-6, 1e-7), 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, LoadChangeOf, testing::Values(FaceRule::face_centre, FaceRule::cut_faces),

@@ -17,6 +17,21 @@ TriMesh box(const Vec3& low, const Vec3& high) {
   return mesh;
 }
 
+TriMesh plane(double half, int n) {
+  TriMesh mesh;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      mesh.vertices.push_back({-half + 2 * half * i / n, 0, -half + 2 * half * j / n});
+  for (Index i = 0; i < static_cast<Index>(n); ++i) {
+    for (Index j = 0; j < static_cast<Index>(n); ++j) {
+      const Index a = i * static_cast<Index>(n + 1) + j, b = a + static_cast<Index>(n + 1);
+      mesh.triangles.push_back({a, a + 1, b});
+      mesh.triangles.push_back({b, a + 1, b + 1});
+    }
+  }
+  return mesh;
+}
+
 TriMesh sphere(const Vec3& centre, double radius, int levels) {
   std::vector<Vec3> directions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
   std::vector<Triangle> triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},

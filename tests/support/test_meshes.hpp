@@ -10,6 +10,9 @@ namespace condyle::test {
 /// Axis-aligned box, 8 vertices, 12 triangles.
 TriMesh box(const Vec3& low, const Vec3& high);
 
+/// A flat square of side 2 half about the origin, normal +y, in n x n squares cut in two: an open sheet.
+TriMesh plane(double half, int n);
+
 /// Octahedron split 1-to-4 `levels` times, vertices laid on the sphere about `centre`. Its vertices include
 /// the six axis points; flat triangles sag inside the sphere by at most edge^2 / (8 radius).
 TriMesh sphere(const Vec3& centre, double radius, int levels);

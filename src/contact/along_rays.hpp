@@ -1,0 +1,20 @@
+#pragma once
+
+#include "condyle/points.hpp"
+
+namespace condyle::contact {
+
+/// Of length 1; zero of zero.
+inline Vec3 unit(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+/// How the way along a ray to a plane changes when the plane is translated. The ray from o along u meets the plane with normal m
+/// through a at d = (a - o).m / (u.m): translated by s, d grows by s.m / (u.m). Rays outwards have the opposite direction and the
+/// opposite depth, so one formula serves both.
+inline Vec3 depth_gradient(const Vec3& normal, const Vec3& direction) {
+  return normal / direction.dot(normal);
+}
+
+}  // namespace condyle::contact

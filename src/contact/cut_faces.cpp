@@ -1,0 +1,367 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact/along_rays.hpp"
+#include "contact/overlap_sampler.hpp"
+
+namespace condyle::contact {
+namespace {
+
+using Barycentric = std::array<double, 3>;
+
+/// Depths further from each other than this many lengths of the face's longest edge are of different parts of the target:
+/// across its rim, or on another condyle. Faces then meet at more than 60 degrees, and are no thin layer.
+constexpr double steepest_linear = 2;
+
+/// Centres of the 16 triangles that three parallels to each edge cut a triangle into.
+constexpr std::size_t face_parts = 16;
+std::array<Barycentric, face_parts> part_centres() {
+  std::array<Barycentric, face_parts> centres;
+  std::size_t count = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; i + j < 4; ++j) {
+      for (const double third : {1.0 / 3, 2.0 / 3}) {
+        if (third > 0.5 && i + j == 3) continue;
+        const double a = (i + third) / 4, b = (j + third) / 4;
+        centres[count++] = {a, b, 1 - a - b};
+      }
+    }
+  }
+  return centres;
+}
+
+/// A place in a triangle and its share of the area.
+struct Node {
+  Barycentric at;
+  double weight;
+};
+
+/// Middles of the edges: exact for quadratic functions.
+constexpr std::array<Node, 3> nodes_of_degree_2 = {
+    {{{0.5, 0.5, 0}, 1.0 / 3}, {{0, 0.5, 0.5}, 1.0 / 3}, {{0.5, 0, 0.5}, 1.0 / 3}}};
+
+/// Radon's seven nodes: exact to degree 5.
+std::array<Node, 7> nodes_of_degree_5() {
+  const double root = std::sqrt(15.0);
+  std::array<Node, 7> nodes;
+  nodes[0] = {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 9.0 / 40};
+  std::size_t count = 1;
+  for (const double sign : {-1.0, 1.0}) {
+    const double a = (6 + sign * root) / 21, b = 1 - 2 * a, weight = (155 + sign * root) / 1200;
+    for (const auto& at : {Barycentric{b, a, a}, Barycentric{a, b, a}, Barycentric{a, a, b}})
+      nodes[count++] = {at, weight};
+  }
+  return nodes;
+}
+
+template <class Value>
+Value mixed(const Barycentric& w, const Value& a, const Value& b, const Value& c) {
+  return w[0] * a + w[1] * b + w[2] * c;
+}
+
+}  // namespace
+
+struct OverlapSampler::PartCorner {
+  Barycentric at;
+  double depth;
+  Vec3 point, gradient;
+  double casting_thickness, target_thickness;
+};
+
+/// Corners in the sense of the face's, four at most.
+class OverlapSampler::Part {
+ public:
+  void add(const PartCorner& corner) { corners_[count_++] = corner; }
+  std::size_t size() const noexcept { return count_; }
+  const PartCorner& operator[](std::size_t i) const noexcept { return corners_[i]; }
+
+ private:
+  std::array<PartCorner, 4> corners_;
+  std::size_t count_ = 0;
+};
+
+void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
+                                  const LayerThicknesses& thicknesses, Scratch& scratch, Found& out) const {
+  const Pose X_TC = inverted(X_CT);
+  cast_outwards(X_CT, scratch, out);
+  scratch.rim.clear();
+  for (const Index face : scratch.active)
+    if (is_rim(face, scratch.ends)) scratch.rim.push_back({face, {}, no_index});
+  out.rim_faces = scratch.rim.size();
+  cast_along_edges(X_CT, scratch, out);
+  cast_parts(X_CT, scratch, out);
+  const bool with_thickness = !thicknesses.casting.empty() || !thicknesses.target.empty();
+  auto next_rim = scratch.rim.begin();
+  for (const Index face : scratch.active) {
+    const bool at_rim = next_rim != scratch.rim.end() && next_rim->face == face;
+    const RimFace* rim = at_rim ? &*next_rim++ : nullptr;
+    if (rim && rim->first_part != no_index) {
+      sample_parts_of(*rim, thicknesses, X_CT, X_TC, scratch, out);
+      continue;
+    }
+    const Part part = part_of(face, rim, thicknesses, X_TC, scratch.ends);
+    if (part.size() == 0) continue;
+    sample_part(face, part, quadrature, with_thickness, out);
+    if (rim) sample_border(*rim, part, X_CT, scratch.ends, out);
+  }
+}
+
+void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
+  auto& ends = scratch.ends;
+  scratch.active.clear();
+  scratch.rays.clear();
+  scratch.owner.clear();
+  scratch.outwards.assign(ends.rays(), 0);
+  for (Index face = 0; face < corner_ray_.size(); ++face) {
+    const auto& [a, b, c] = corner_ray_[face];
+    if (face_area_[face] == 0 || !(ends.has(a) || ends.has(b) || ends.has(c))) continue;
+    scratch.active.push_back(face);
+    for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends.has(ray);
+  }
+  for (Index ray = 0; ray < ends.rays(); ++ray) {
+    if (!scratch.outwards[ray]) continue;
+    scratch.owner.push_back(ray);
+    scratch.rays.push_back({casting_.vertices()[ray_owner_[ray]], ray_normal_[ray]});
+  }
+  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
+  out.rays += scratch.rays.size();
+  for (std::size_t i = 0; i < scratch.owner.size(); ++i) {
+    const Index ray = scratch.owner[i];
+    if (!scratch.hits.is_hit(i)) continue;
+    const Index triangle = scratch.hits.triangle[i];
+    ends.set(ray, {-scratch.hits.distance[i], triangle,
+                   depth_gradient(X_CT.linear() * target_normal_[triangle], -ray_normal_[ray])});
+  }
+}
+
+bool OverlapSampler::runs_on(Index face, const RayEnds& ends, Index a, Index b) const {
+  return ends.has(a) && ends.has(b) &&
+         std::abs(ends[a].depth - ends[b].depth) <= steepest_linear * longest_edge_[face];
+}
+
+bool OverlapSampler::is_rim(Index face, const RayEnds& ends) const {
+  const auto& [a, b, c] = corner_ray_[face];
+  return !(runs_on(face, ends, a, b) && runs_on(face, ends, b, c) && runs_on(face, ends, c, a));
+}
+
+void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const {
+  const RayEnds& ends = scratch.ends;
+  scratch.rays.clear();
+  scratch.owner.clear();
+  constexpr Index by_parts = 0;
+  for (Index i = 0; i < scratch.rim.size(); ++i) {
+    RimFace& rim = scratch.rim[i];
+    const auto& rays = corner_ray_[rim.face];
+    const auto inside = [&](std::size_t k) { return is_inside(ends, rays[k]); };
+    // An open target ends where no edge meets it, and depths inside may be of different parts of the target.
+    if (!target_is_closed_ || (inside(0) && inside(1) && inside(2))) {
+      rim.first_part = by_parts;
+      continue;
+    }
+    for (Index k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (runs_on(rim.face, ends, rays[k], rays[next]) || !(inside(k) || inside(next))) continue;
+      if (inside(k) && inside(next)) {
+        rim.first_part = by_parts;
+        break;
+      }
+      const Vec3 a = casting_.corner(rim.face, static_cast<int>(k)),
+                 b = casting_.corner(rim.face, static_cast<int>(next));
+      scratch.owner.push_back(3 * i + k);
+      scratch.rays.push_back(inside(k) ? mesh::Ray{a, unit(b - a)} : mesh::Ray{b, unit(a - b)});
+    }
+  }
+  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
+  out.rays += scratch.rays.size();
+  for (std::size_t ray = 0; ray < scratch.owner.size(); ++ray) {
+    RimFace& rim = scratch.rim[scratch.owner[ray] / 3];
+    const std::size_t k = scratch.owner[ray] % 3;
+    const double length = (casting_.corner(rim.face, static_cast<int>((k + 1) % 3)) -
+                           casting_.corner(rim.face, static_cast<int>(k)))
+                              .norm();
+    // Where the edge is nowhere seen to leave, as from within a second solid, parts decide.
+    if (scratch.hits.is_hit(ray) && scratch.hits.distance[ray] <= length)
+      rim.crossings[k] = {scratch.hits.distance[ray] / length, scratch.hits.triangle[ray]};
+    else
+      rim.first_part = by_parts;
+  }
+}
+
+void OverlapSampler::cast_parts(const Pose& X_CT, Scratch& scratch, Found& out) const {
+  static const auto centres = part_centres();
+  scratch.rays.clear();
+  for (RimFace& rim : scratch.rim) {
+    if (rim.first_part == no_index) continue;
+    rim.first_part = static_cast<Index>(scratch.rays.size());
+    const auto& corners = casting_.triangles()[rim.face];
+    const auto& rays = corner_ray_[rim.face];
+    for (const auto& w : centres)
+      scratch.rays.push_back(
+          {mixed(w, casting_.vertices()[corners[0]], casting_.vertices()[corners[1]],
+                 casting_.vertices()[corners[2]]),
+           unit(-mixed(w, ray_normal_[rays[0]], ray_normal_[rays[1]], ray_normal_[rays[2]]))});
+  }
+  mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
+  out.rays += scratch.rays.size();
+}
+
+OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
+                                             const LayerThicknesses& thicknesses, const Pose& X_TC,
+                                             const RayEnds& ends) const {
+  const auto& vertices = casting_.triangles()[face];
+  const auto& rays = corner_ray_[face];
+  // Where the part ends on an edge: `share` of the way from one corner to the other.
+  const auto between = [&](const PartCorner& a, const PartCorner& b, double share, double depth) {
+    PartCorner c;
+    for (std::size_t i = 0; i < 3; ++i) c.at[i] = (1 - share) * a.at[i] + share * b.at[i];
+    c.depth = depth;
+    c.point = (1 - share) * a.point + share * b.point;
+    c.gradient = (1 - share) * a.gradient + share * b.gradient;
+    c.casting_thickness = (1 - share) * a.casting_thickness + share * b.casting_thickness;
+    c.target_thickness = (1 - share) * a.target_thickness + share * b.target_thickness;
+    return c;
+  };
+  std::array<PartCorner, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    PartCorner& corner = corners[k];
+    const Index v = vertices[k];
+    corner = {{}, 0, casting_.vertices()[v], Vec3::Zero(), 0, 0};
+    corner.at[k] = 1;
+    if (!thicknesses.casting.empty()) corner.casting_thickness = thicknesses.casting[v];
+    if (!ends.has(rays[k])) continue;
+    const RayEnd& end = ends[rays[k]];
+    corner.depth = end.depth;
+    corner.gradient = end.gradient;
+    if (!thicknesses.target.empty())
+      corner.target_thickness =
+          target_thickness(end, corner.point, -ray_normal_[rays[k]], X_TC, thicknesses.target);
+  }
+  Part part;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    const bool inside = is_inside(ends, rays[k]);
+    if (inside) part.add(corners[k]);
+    if (inside == is_inside(ends, rays[next])) continue;
+    if (!rim || !rim->crossings[k]) {
+      const double a = corners[k].depth, b = corners[next].depth;
+      part.add(between(corners[k], corners[next], a / (a - b), 0));
+      continue;
+    }
+    // Up to the rim the ray from the corner inside and what it ends on are taken to run on.
+    const std::size_t in = inside ? k : next, out = inside ? next : k;
+    const RayEnd& end = ends[rays[in]];
+    PartCorner last = between(corners[in], corners[out], rim->crossings[k]->share, 0);
+    const Vec3 met = corners[in].point - end.depth * ray_normal_[rays[in]];
+    last.depth = std::clamp(end.gradient.dot(met - last.point), 0.0,
+                            end.depth + steepest_linear * longest_edge_[face]);
+    last.gradient = end.gradient;
+    if (!thicknesses.target.empty())
+      last.target_thickness = target_thickness({last.depth, end.triangle, end.gradient}, last.point,
+                                               -ray_normal_[rays[in]], X_TC, thicknesses.target);
+    part.add(last);
+  }
+  return part;
+}
+
+void OverlapSampler::sample_part(Index face, const Part& part, Quadrature quadrature, bool with_thickness,
+                                 Found& out) const {
+  static const auto of_degree_5 = nodes_of_degree_5();
+  const std::span<const Node> nodes = quadrature == Quadrature::of_degree_2
+                                          ? std::span<const Node>(nodes_of_degree_2)
+                                          : std::span<const Node>(of_degree_5);
+  if (with_thickness) {
+    for (std::size_t k = 0; k < part.size(); ++k)
+      out.corners.push_back({face, part[k].depth, part[k].casting_thickness, part[k].target_thickness});
+  } else {
+    double deepest = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) deepest = std::max(deepest, part[k].depth);
+    out.corners.push_back({face, deepest, 0, 0});
+  }
+  for (std::size_t k = 2; k < part.size(); ++k) {
+    const PartCorner &a = part[0], &b = part[k - 1], &c = part[k];
+    // Areas of barycentric triangles are shares of the face's.
+    const double share =
+        std::abs((b.at[0] - a.at[0]) * (c.at[1] - a.at[1]) - (b.at[1] - a.at[1]) * (c.at[0] - a.at[0]));
+    if (!(share > 0)) continue;
+    for (const auto& [at, weight] : nodes)
+      out.samples.push_back({face, share * face_area_[face] * weight, mixed(at, a.depth, b.depth, c.depth),
+                             mixed(at, a.point, b.point, c.point),
+                             mixed(at, a.gradient, b.gradient, c.gradient),
+                             mixed(at, a.casting_thickness, b.casting_thickness, c.casting_thickness),
+                             mixed(at, a.target_thickness, b.target_thickness, c.target_thickness)});
+  }
+}
+
+// The line runs from the edge that leaves the target to the one that comes back. An end that moves by v takes the line's piece l
+// along: the area grows by (v x l).n times what of the line follows that end.
+void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const Pose& X_CT,
+                                   const RayEnds& ends, Found& out) const {
+  const auto& rays = corner_ray_[rim.face];
+  struct End {
+    const PartCorner* corner;
+    Vec3 along;         ///< the edge, out of the target
+    Vec3 slid, turned;  ///< how far along it the end moves when the target is translated, and turned
+  };
+  const auto met_by = [&](std::size_t k) -> Vec3 {
+    return casting_.corner(rim.face, static_cast<int>(k)) - ends[rays[k]].depth * ray_normal_[rays[k]];
+  };
+  const auto end_on = [&](std::size_t k, const PartCorner& corner) -> End {
+    const std::size_t next = (k + 1) % 3;
+    const bool leaves = is_inside(ends, rays[k]);
+    const std::size_t in = leaves ? k : next, out_of = leaves ? next : k;
+    const Vec3 edge =
+        casting_.corner(rim.face, static_cast<int>(out_of)) - casting_.corner(rim.face, static_cast<int>(in));
+    if (rim.crossings[k]) {
+      const Vec3 along = unit(edge);
+      const Vec3 slid = depth_gradient(X_CT.linear() * target_normal_[rim.crossings[k]->triangle], along);
+      return {&corner, along, slid, corner.point.cross(slid)};
+    }
+    const RayEnd &a = ends[rays[in]], &b = ends[rays[out_of]];
+    const double fall = a.depth - b.depth, squared = fall * fall;
+    return {&corner, edge, (a.depth * b.gradient - b.depth * a.gradient) / squared,
+            (a.depth * met_by(out_of).cross(b.gradient) - b.depth * met_by(in).cross(a.gradient)) / squared};
+  };
+  std::array<End, 2> line;
+  std::size_t place = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool inside = is_inside(ends, rays[k]);
+    if (inside) ++place;
+    if (inside == is_inside(ends, rays[(k + 1) % 3])) continue;
+    line[inside ? 0 : 1] = end_on(k, part[place++]);
+  }
+  const Vec3 across = (line[1].corner->point - line[0].corner->point).cross(face_normal_[rim.face]);
+  // Gauss's two nodes: pressures and moves are linear along the line, or nearly.
+  for (const double at : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {
+    const PartCorner &a = *line[0].corner, &b = *line[1].corner;
+    const double of_a = (1 - at) * line[0].along.dot(across) / 2, of_b = at * line[1].along.dot(across) / 2;
+    const Vec3 growth = of_a * line[0].slid + of_b * line[1].slid;
+    const Vec3 growth_turned = of_a * line[0].turned + of_b * line[1].turned;
+    out.borders.push_back({rim.face, (1 - at) * a.depth + at * b.depth, (1 - at) * a.point + at * b.point,
+                           growth, growth_turned, (1 - at) * a.casting_thickness + at * b.casting_thickness,
+                           (1 - at) * a.target_thickness + at * b.target_thickness});
+  }
+}
+
+void OverlapSampler::sample_parts_of(const RimFace& rim, const LayerThicknesses& thicknesses,
+                                     const Pose& X_CT, const Pose& X_TC, const Scratch& scratch,
+                                     Found& out) const {
+  static const auto centres = part_centres();
+  const Index face = rim.face;
+  const auto& [a, b, c] = casting_.triangles()[face];
+  for (std::size_t part = 0; part < face_parts; ++part) {
+    const auto& [point, direction] = scratch.rays[rim.first_part + part];
+    const auto overlap = overlap_of(direction, scratch.hits, rim.first_part + part, X_CT);
+    if (!overlap || !(overlap->end.depth > 0)) continue;
+    const RayEnd& end = overlap->end;
+    OverlapSample sample{face, face_area_[face] / face_parts, end.depth, point, end.gradient, 0, 0};
+    if (!thicknesses.casting.empty())
+      sample.casting_thickness =
+          mixed(centres[part], thicknesses.casting[a], thicknesses.casting[b], thicknesses.casting[c]);
+    if (!thicknesses.target.empty())
+      sample.target_thickness = target_thickness(end, point, direction, X_TC, thicknesses.target);
+    out.samples.push_back(sample);
+  }
+}
+
+}  // namespace condyle::contact
