@@ -79,7 +79,8 @@ struct SurfaceContact {
   /// body if it has one. Counted as depths all the same, as the target has no inside that could tell. Of a closed target
   /// such rays are no contact.
   std::size_t met_from_front = 0;
-  /// Faces at the rim of an open target, where a corner's ray meets nothing: decided by the centres of 16 parts.
+  /// With cut faces: those at the rim of the target, where a corner's ray meets nothing or another part of it. They are cut where
+  /// their edges leave a closed target, else decided by the centres of 16 parts.
   std::size_t rim_faces = 0;
 };
 

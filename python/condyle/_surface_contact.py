@@ -56,7 +56,7 @@ class SurfaceContact(Columns):
     met_from_front : int
         Rays that met the front of an open target: counted as depths all the same.
     rim_faces : int
-        Faces at the rim of an open target.
+        With cut faces: those at the rim of the target, cut where their edges leave it or, of an open one, decided by parts.
     """
 
     face: NDArray[np.uint32]
