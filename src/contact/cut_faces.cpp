@@ -131,7 +131,7 @@ void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& ou
     if (!scratch.hits.is_hit(i)) continue;
     const Index triangle = scratch.hits.triangle[i];
     ends.set(ray, {-scratch.hits.distance[i], triangle,
-                   depth_gradient(X_CT.linear() * target_normal_[triangle], -ray_normal_[ray])});
+                   depth_gradient(turned(X_CT, target_normal_[triangle]), -ray_normal_[ray])});
   }
 }
 
@@ -314,7 +314,7 @@ void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const P
         casting_.corner(rim.face, static_cast<int>(out_of)) - casting_.corner(rim.face, static_cast<int>(in));
     if (rim.crossings[k]) {
       const Vec3 along = unit(edge);
-      const Vec3 slid = depth_gradient(X_CT.linear() * target_normal_[rim.crossings[k]->triangle], along);
+      const Vec3 slid = depth_gradient(turned(X_CT, target_normal_[rim.crossings[k]->triangle]), along);
       return {&corner, along, slid, corner.point.cross(slid)};
     }
     const RayEnd &a = ends[rays[in]], &b = ends[rays[out_of]];
