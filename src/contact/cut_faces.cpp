@@ -14,6 +14,9 @@ using Barycentric = std::array<double, 3>;
 /// across its rim, or on another condyle. Faces then meet at more than 60 degrees, and are no thin layer.
 constexpr double steepest_linear = 2;
 
+/// An edge that leaves the target at a smaller sine than this does so faster than any step of a balance could follow.
+constexpr double least_steep = 0.001;
+
 /// Centres of the 16 triangles that three parallels to each edge cut a triangle into.
 constexpr std::size_t face_parts = 16;
 std::array<Barycentric, face_parts> part_centres() {
@@ -180,8 +183,10 @@ void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found&
     const double length = (casting_.corner(rim.face, static_cast<int>((k + 1) % 3)) -
                            casting_.corner(rim.face, static_cast<int>(k)))
                               .norm();
-    // Where the edge is nowhere seen to leave, as from within a second solid, parts decide.
-    if (scratch.hits.is_hit(ray) && scratch.hits.distance[ray] <= length)
+    const bool ends_there = scratch.hits.is_hit(ray) && scratch.hits.distance[ray] <= length;
+    // Where the edge is not seen to leave, as from within two solids, parts decide.
+    if (ends_there &&
+        scratch.rays[ray].direction.dot(turned(X_CT, target_normal_[scratch.hits.triangle[ray]])) > 0)
       rim.crossings[k] = {scratch.hits.distance[ray] / length, scratch.hits.triangle[ray]};
     else
       rim.first_part = by_parts;
@@ -248,13 +253,15 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
       part.add(between(corners[k], corners[next], a / (a - b), 0));
       continue;
     }
-    // Up to the rim the ray from the corner inside and what it ends on are taken to run on.
+    // Up to the rim what the ray from the corner inside ends on is taken to run on, if it is no wall.
     const std::size_t in = inside ? k : next, out = inside ? next : k;
     const RayEnd& end = ends[rays[in]];
     PartCorner last = between(corners[in], corners[out], rim->crossings[k]->share, 0);
     const Vec3 met = corners[in].point - end.depth * ray_normal_[rays[in]];
-    last.depth = std::clamp(end.gradient.dot(met - last.point), 0.0,
-                            end.depth + steepest_linear * longest_edge_[face]);
+    const double run_on = end.gradient.dot(met - last.point);
+    const bool is_wall =
+        std::abs(run_on - end.depth) > steepest_linear * (last.point - corners[in].point).norm();
+    last.depth = is_wall ? end.depth : std::max(0.0, run_on);
     last.gradient = end.gradient;
     if (!thicknesses.target.empty())
       last.target_thickness = target_thickness({last.depth, end.triangle, end.gradient}, last.point,
@@ -313,8 +320,8 @@ void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const P
     const Vec3 edge =
         casting_.corner(rim.face, static_cast<int>(out_of)) - casting_.corner(rim.face, static_cast<int>(in));
     if (rim.crossings[k]) {
-      const Vec3 along = unit(edge);
-      const Vec3 slid = depth_gradient(turned(X_CT, target_normal_[rim.crossings[k]->triangle]), along);
+      const Vec3 along = unit(edge), normal = turned(X_CT, target_normal_[rim.crossings[k]->triangle]);
+      const Vec3 slid = normal / std::max(along.dot(normal), least_steep);
       return {&corner, along, slid, corner.point.cross(slid)};
     }
     const RayEnd &a = ends[rays[in]], &b = ends[rays[out_of]];
