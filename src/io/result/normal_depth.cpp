@@ -80,8 +80,8 @@ std::string body_text(const Views& bodies, const View& view, double reach_mm) {
     text += fmt::format("    {} rays met {}, which is open, from its front: overlap there may be none\n",
                         surface.met_from_front, target);
   if (surface.rim_faces > 0)
-    text += fmt::format("    {} triangles at the rim of {}, cut along it or decided by 16 parts of each\n", surface.rim_faces,
-                        target);
+    text += fmt::format("    {} triangles at the rim of {}, cut along it or decided by 16 parts of each\n",
+                        surface.rim_faces, target);
   if (cut_off_by_reach > 0)
     text += fmt::format("    the reach of {} mm cuts off {} rays that would be in contact\n", reach_mm,
                         cut_off_by_reach);
