@@ -13,9 +13,9 @@ namespace {
 constexpr double stiffness = 3, depth = 0.5;
 
 /// A sheet of 12 x 12 mm under the end of a wider slab.
-ElasticContact sheet_under_slab(double squares_across, double slab_thickness = 20) {
-  return {test::plane(6, static_cast<int>(squares_across)),
-          test::box({-50, 0, -50}, {0, slab_thickness, 50}),
+ElasticContact sheet_under_slab() {
+  return {test::plane(6, 23),
+          test::box({-50, 0, -50}, {0, 20, 50}),
           {.casting = Casting::fixed, .fixed = test::layer_of_stiffness(stiffness)}};
 }
 /// The slab's end, turned about +y, crosses the middle of the sheet at x.
@@ -27,7 +27,7 @@ Pose slab_at(double x, double turn) {
 }
 
 TEST(CutFaces, EndWhereASolidEnds) {
-  const ElasticContact contact = sheet_under_slab(23);
+  const ElasticContact contact = sheet_under_slab();
   for (const double turn : {0.0, 0.1, -0.4}) {
     for (double x = -1.7; x < 1.7; x += 0.0613) {
       const auto results = contact.at(slab_at(x, turn));
@@ -43,7 +43,7 @@ TEST(CutFaces, EndWhereASolidEnds) {
 }
 
 TEST(CutFaces, TellHowTheLoadChangesAsASolidEndSlides) {
-  const ElasticContact contact = sheet_under_slab(23);
+  const ElasticContact contact = sheet_under_slab();
   for (const double turn : {0.0, 0.1, -0.4}) {
     const Pose X_FM = slab_at(0.311, turn);
     ElasticContact::Parts::Answers answers;
@@ -65,7 +65,6 @@ TEST(CutFaces, AreDecidedByPartsWhereTheTargetIsOpen) {
   const ContactTotals totals = contact.at(slab_at(0.311, 0.1)).fixed->totals;
   // Parts are 0.13 mm wide, along a rim of 12 mm; their errors have both signs.
   EXPECT_NEAR(totals.area_mm2, 12 * 6.311, 12 * 0.13 / 2);
-  EXPECT_NE(totals.area_mm2, 12 * 6.311);
 }
 
 }  // namespace
