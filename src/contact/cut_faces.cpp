@@ -14,6 +14,9 @@ using Barycentric = std::array<double, 3>;
 /// across its rim, or on another condyle. Faces then meet at more than 60 degrees, and are no thin layer.
 constexpr double steepest_linear = 2;
 
+/// A depth that would change by more than this for each mm up to the rim is told by a side of the target, not by what lies opposite.
+constexpr double steepest_at_rim = 0.25;
+
 /// An edge that leaves the target at a smaller sine than this does so faster than any step of a balance could follow.
 constexpr double least_steep = 0.001;
 
@@ -162,6 +165,11 @@ void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found&
       rim.first_part = by_parts;
       continue;
     }
+    // A corner that lies deeper than the face is long, and yet next to where the target ends, looks along a side of it.
+    const double deepest = longest_edge_[rim.face];
+    for (std::size_t k = 0; k < 3; ++k)
+      if (inside(k) && ends[rays[k]].depth > deepest) rim.first_part = by_parts;
+    if (rim.first_part == by_parts) continue;
     for (Index k = 0; k < 3; ++k) {
       const std::size_t next = (k + 1) % 3;
       if (runs_on(rim.face, ends, rays[k], rays[next]) || !(inside(k) || inside(next))) continue;
@@ -260,7 +268,7 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
     const Vec3 met = corners[in].point - end.depth * ray_normal_[rays[in]];
     const double run_on = end.gradient.dot(met - last.point);
     const bool is_wall =
-        std::abs(run_on - end.depth) > steepest_linear * (last.point - corners[in].point).norm();
+        std::abs(run_on - end.depth) > steepest_at_rim * (last.point - corners[in].point).norm();
     last.depth = is_wall ? end.depth : std::max(0.0, run_on);
     last.gradient = end.gradient;
     if (!thicknesses.target.empty())

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
 #include <string>
@@ -34,6 +35,7 @@ TEST_P(HipBalance, CarriesTheLoadAtEveryAngle) {
                                 .fixed = cartilage,
                                 .mobile = cartilage});
   const Load stance{.on_mobile = {.force_n = {0, 1700, 500}}};
+  double deepest = 0;
   int balanced = 0;
   for (int degrees = -30; degrees <= 30; degrees += 2) {
     Pose X = Pose::Identity();
@@ -41,8 +43,12 @@ TEST_P(HipBalance, CarriesTheLoadAtEveryAngle) {
     const BalancedPose pose = balance(contact, X, stance);
     EXPECT_TRUE(pose.carries_load()) << degrees << ": " << reason_of(pose);
     balanced += pose.outcome == BalanceOutcome::balanced;
+    for (const auto* surface : {&pose.contact.fixed, &pose.contact.mobile})
+      if (*surface) deepest = std::max(deepest, (*surface)->totals.max_depth_mm);
   }
   EXPECT_GE(balanced, GetParam().balanced);
+  // Centres of faces come to 1.2 mm; their corners lie a little deeper, and no place at a rim tells of depths along its sides.
+  EXPECT_LE(deepest, 1.4);
 }
 
 std::string name_of_way(const testing::TestParamInfo<Way>& info) {
@@ -53,10 +59,10 @@ std::string name_of_way(const testing::TestParamInfo<Way>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Ways, HipBalance,
                          testing::Values(Way{Casting::fixed, FaceRule::face_centre, 29},
-                                         Way{Casting::fixed, FaceRule::cut_faces, 29},
+                                         Way{Casting::fixed, FaceRule::cut_faces, 30},
                                          Way{Casting::mobile, FaceRule::face_centre, 29},
-                                         Way{Casting::mobile, FaceRule::cut_faces, 28},
-                                         Way{Casting::both, FaceRule::cut_faces, 28}),
+                                         Way{Casting::mobile, FaceRule::cut_faces, 30},
+                                         Way{Casting::both, FaceRule::cut_faces, 30}),
                          name_of_way);
 
 }  // namespace
