@@ -14,6 +14,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "condyle/pose.hpp"
+#include "condyle/pressure.hpp"
 #include "sample/cartilage_shape.hpp"
 #include "sample/femur_shape.hpp"
 #include "sample/hip_bone_shape.hpp"
@@ -166,6 +167,22 @@ TEST(SampleCartilages, AreApartByTheClearanceLessTheSag) {
     EXPECT_GE(gaps.front(), clearance - sag - 2 * laid_tolerance);
     // Off the rounded borders, which fewer than half see, facets are chords of the sphere.
     EXPECT_LE(gaps[gaps.size() / 2], clearance + 2 * laid_tolerance);
+  }
+}
+
+TEST(SampleCartilages, OverlapNoDeeperAtTheirRimsThanTheyWerePushed) {
+  // Apart in the neutral pose, they overlap by less than they are moved, but along the normals of a rounded border.
+  const Vec3 by(-0.02, 0.4, -0.11);
+  Pose X_FM = Pose::Identity();
+  X_FM.translation() = by;
+  const ElasticLayer cartilage{12, 0.42, 1.5};
+  for (const CartilageScenario scenario : {CartilageScenario::six, CartilageScenario::seven}) {
+    const ElasticContact contact(Mesh(made(scenario).acetabular), Mesh(made(scenario).femoral),
+                                 {.fixed = cartilage, .mobile = cartilage});
+    const auto results = contact.at(X_FM);
+    ASSERT_GT(results.fixed->rim_faces + results.mobile->rim_faces, 0u);
+    EXPECT_LT(results.fixed->totals.max_depth_mm, 1.5 * by.norm());
+    EXPECT_LT(results.mobile->totals.max_depth_mm, 1.5 * by.norm());
   }
 }
 
