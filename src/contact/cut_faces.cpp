@@ -4,6 +4,7 @@
 
 #include "contact/along_rays.hpp"
 #include "contact/overlap_sampler.hpp"
+#include "core/turned.hpp"
 
 namespace condyle::contact {
 namespace {
@@ -15,9 +16,11 @@ using Barycentric = std::array<double, 3>;
 constexpr double steepest_linear = 2;
 
 /// A depth that would change by more than this for each mm up to the rim is told by a side of the target, not by what lies opposite.
+/// Twice that makes the greatest depth of a hip's walk a quarter larger, with the head's cartilage cast.
 constexpr double steepest_at_rim = 0.25;
 
-/// An edge that leaves the target at a smaller sine than this does so faster than any step of a balance could follow.
+/// The place where an edge leaves the target is taken to move at most one over this as fast as the target does, also where the edge
+/// grazes it. A tenth of that speed takes a hip's walk more steps.
 constexpr double least_steep = 0.001;
 
 /// Centres of the 16 triangles that three parallels to each edge cut a triangle into.
@@ -79,12 +82,18 @@ struct OverlapSampler::PartCorner {
 class OverlapSampler::Part {
  public:
   void add(const PartCorner& corner) { corners_[count_++] = corner; }
+  void add_on_edge(std::size_t edge, const PartCorner& corner) {
+    on_edge_[edge] = count_;
+    add(corner);
+  }
   std::size_t size() const noexcept { return count_; }
   const PartCorner& operator[](std::size_t i) const noexcept { return corners_[i]; }
+  const PartCorner& on_edge(std::size_t edge) const noexcept { return corners_[on_edge_[edge]]; }
 
  private:
   std::array<PartCorner, 4> corners_;
   std::size_t count_ = 0;
+  std::array<std::size_t, 3> on_edge_{};  ///< of edges that leave the target
 };
 
 void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
@@ -93,7 +102,7 @@ void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
   cast_outwards(X_CT, scratch, out);
   scratch.rim.clear();
   for (const Index face : scratch.active)
-    if (is_rim(face, scratch.ends)) scratch.rim.push_back({face, {}, no_index});
+    if (is_rim(face, scratch.ends)) scratch.rim.push_back({.face = face});
   out.rim_faces = scratch.rim.size();
   cast_along_edges(X_CT, scratch, out);
   cast_parts(X_CT, scratch, out);
@@ -102,7 +111,7 @@ void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
   for (const Index face : scratch.active) {
     const bool at_rim = next_rim != scratch.rim.end() && next_rim->face == face;
     const RimFace* rim = at_rim ? &*next_rim++ : nullptr;
-    if (rim && rim->first_part != no_index) {
+    if (rim && rim->by_parts) {
       sample_parts_of(*rim, thicknesses, X_CT, X_TC, scratch, out);
       continue;
     }
@@ -137,7 +146,7 @@ void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& ou
     if (!scratch.hits.is_hit(i)) continue;
     const Index triangle = scratch.hits.triangle[i];
     ends.set(ray, {-scratch.hits.distance[i], triangle,
-                   depth_gradient(turned(X_CT, target_normal_[triangle]), -ray_normal_[ray])});
+                   depth_gradient(core::turned(X_CT, target_normal_[triangle]), -ray_normal_[ray])});
   }
 }
 
@@ -151,36 +160,43 @@ bool OverlapSampler::is_rim(Index face, const RayEnds& ends) const {
   return !(runs_on(face, ends, a, b) && runs_on(face, ends, b, c) && runs_on(face, ends, c, a));
 }
 
+std::optional<OverlapSampler::LeavingEdge> OverlapSampler::leaving_edge(Index face, std::size_t edge,
+                                                                        const RayEnds& ends) const {
+  const std::size_t next = (edge + 1) % 3;
+  const bool inside = is_inside(ends, corner_ray_[face][edge]);
+  if (inside == is_inside(ends, corner_ray_[face][next])) return std::nullopt;
+  return inside ? LeavingEdge{edge, next} : LeavingEdge{next, edge};
+}
+
+bool OverlapSampler::is_decided_by_parts(Index face, const RayEnds& ends) const {
+  // An open target ends where no edge meets it.
+  if (!target_is_closed_) return true;
+  const auto& rays = corner_ray_[face];
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!is_inside(ends, rays[k])) continue;
+    // A corner that lies deeper than the face is long, and yet next to where the target ends, looks along a side of it.
+    if (ends[rays[k]].depth > longest_edge_[face]) return true;
+    // Two may be inside different parts of the target.
+    const Index next = rays[(k + 1) % 3];
+    if (is_inside(ends, next) && !runs_on(face, ends, rays[k], next)) return true;
+  }
+  return false;
+}
+
 void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const {
   const RayEnds& ends = scratch.ends;
   scratch.rays.clear();
   scratch.owner.clear();
-  constexpr Index by_parts = 0;
   for (Index i = 0; i < scratch.rim.size(); ++i) {
     RimFace& rim = scratch.rim[i];
-    const auto& rays = corner_ray_[rim.face];
-    const auto inside = [&](std::size_t k) { return is_inside(ends, rays[k]); };
-    // An open target ends where no edge meets it, and depths inside may be of different parts of the target.
-    if (!target_is_closed_ || (inside(0) && inside(1) && inside(2))) {
-      rim.first_part = by_parts;
-      continue;
-    }
-    // A corner that lies deeper than the face is long, and yet next to where the target ends, looks along a side of it.
-    const double deepest = longest_edge_[rim.face];
-    for (std::size_t k = 0; k < 3; ++k)
-      if (inside(k) && ends[rays[k]].depth > deepest) rim.first_part = by_parts;
-    if (rim.first_part == by_parts) continue;
-    for (Index k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      if (runs_on(rim.face, ends, rays[k], rays[next]) || !(inside(k) || inside(next))) continue;
-      if (inside(k) && inside(next)) {
-        rim.first_part = by_parts;
-        break;
-      }
-      const Vec3 a = casting_.corner(rim.face, static_cast<int>(k)),
-                 b = casting_.corner(rim.face, static_cast<int>(next));
+    rim.by_parts = is_decided_by_parts(rim.face, ends);
+    for (Index k = 0; k < 3 && !rim.by_parts; ++k) {
+      const auto edge = leaving_edge(rim.face, k, ends);
+      const auto& rays = corner_ray_[rim.face];
+      if (!edge || runs_on(rim.face, ends, rays[edge->in], rays[edge->out])) continue;
+      const Vec3 from = casting_corner(rim.face, edge->in);
       scratch.owner.push_back(3 * i + k);
-      scratch.rays.push_back(inside(k) ? mesh::Ray{a, unit(b - a)} : mesh::Ray{b, unit(a - b)});
+      scratch.rays.push_back({from, unit(casting_corner(rim.face, edge->out) - from)});
     }
   }
   mesh::nearest_hits(ray_target_, inverted(X_CT), scratch.rays, options_.reach_mm, scratch.hits);
@@ -188,16 +204,15 @@ void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found&
   for (std::size_t ray = 0; ray < scratch.owner.size(); ++ray) {
     RimFace& rim = scratch.rim[scratch.owner[ray] / 3];
     const std::size_t k = scratch.owner[ray] % 3;
-    const double length = (casting_.corner(rim.face, static_cast<int>((k + 1) % 3)) -
-                           casting_.corner(rim.face, static_cast<int>(k)))
-                              .norm();
-    const bool ends_there = scratch.hits.is_hit(ray) && scratch.hits.distance[ray] <= length;
+    const double length = (casting_corner(rim.face, (k + 1) % 3) - casting_corner(rim.face, k)).norm();
+    const double distance = scratch.hits.distance[ray];
+    const Index triangle = scratch.hits.triangle[ray];
     // Where the edge is not seen to leave, as from within two solids, parts decide.
-    if (ends_there &&
-        scratch.rays[ray].direction.dot(turned(X_CT, target_normal_[scratch.hits.triangle[ray]])) > 0)
-      rim.crossings[k] = {scratch.hits.distance[ray] / length, scratch.hits.triangle[ray]};
+    if (distance <= length &&
+        scratch.rays[ray].direction.dot(core::turned(X_CT, target_normal_[triangle])) > 0)
+      rim.crossings[k] = {distance / length, triangle};
     else
-      rim.first_part = by_parts;
+      rim.by_parts = true;
   }
 }
 
@@ -205,7 +220,7 @@ void OverlapSampler::cast_parts(const Pose& X_CT, Scratch& scratch, Found& out) 
   static const auto centres = part_centres();
   scratch.rays.clear();
   for (RimFace& rim : scratch.rim) {
-    if (rim.first_part == no_index) continue;
+    if (!rim.by_parts) continue;
     rim.first_part = static_cast<Index>(scratch.rays.size());
     const auto& corners = casting_.triangles()[rim.face];
     const auto& rays = corner_ray_[rim.face];
@@ -252,29 +267,28 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
   }
   Part part;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t next = (k + 1) % 3;
-    const bool inside = is_inside(ends, rays[k]);
-    if (inside) part.add(corners[k]);
-    if (inside == is_inside(ends, rays[next])) continue;
+    if (is_inside(ends, rays[k])) part.add(corners[k]);
+    const auto edge = leaving_edge(face, k, ends);
+    if (!edge) continue;
+    const PartCorner &inside = corners[edge->in], &outside = corners[edge->out];
     if (!rim || !rim->crossings[k]) {
-      const double a = corners[k].depth, b = corners[next].depth;
-      part.add(between(corners[k], corners[next], a / (a - b), 0));
+      const double share = inside.depth / (inside.depth - outside.depth);
+      part.add_on_edge(k, between(inside, outside, share, 0));
       continue;
     }
     // Up to the rim what the ray from the corner inside ends on is taken to run on, if it is no wall.
-    const std::size_t in = inside ? k : next, out = inside ? next : k;
-    const RayEnd& end = ends[rays[in]];
-    PartCorner last = between(corners[in], corners[out], rim->crossings[k]->share, 0);
-    const Vec3 met = corners[in].point - end.depth * ray_normal_[rays[in]];
+    const RayEnd& end = ends[rays[edge->in]];
+    const Vec3& normal = ray_normal_[rays[edge->in]];
+    PartCorner last = between(inside, outside, rim->crossings[k]->share, end.depth);
+    const Vec3 met = inside.point - end.depth * normal;
     const double run_on = end.gradient.dot(met - last.point);
-    const bool is_wall =
-        std::abs(run_on - end.depth) > steepest_at_rim * (last.point - corners[in].point).norm();
-    last.depth = is_wall ? end.depth : std::max(0.0, run_on);
+    if (std::abs(run_on - end.depth) <= steepest_at_rim * (last.point - inside.point).norm())
+      last.depth = std::max(0.0, run_on);
     last.gradient = end.gradient;
     if (!thicknesses.target.empty())
-      last.target_thickness = target_thickness({last.depth, end.triangle, end.gradient}, last.point,
-                                               -ray_normal_[rays[in]], X_TC, thicknesses.target);
-    part.add(last);
+      last.target_thickness = target_thickness({last.depth, end.triangle, end.gradient}, last.point, -normal,
+                                               X_TC, thicknesses.target);
+    part.add_on_edge(k, last);
   }
   return part;
 }
@@ -319,32 +333,25 @@ void OverlapSampler::sample_border(const RimFace& rim, const Part& part, const P
     Vec3 slid, turned;  ///< how far along it the end moves when the target is translated, and turned
   };
   const auto met_by = [&](std::size_t k) -> Vec3 {
-    return casting_.corner(rim.face, static_cast<int>(k)) - ends[rays[k]].depth * ray_normal_[rays[k]];
+    return casting_corner(rim.face, k) - ends[rays[k]].depth * ray_normal_[rays[k]];
   };
-  const auto end_on = [&](std::size_t k, const PartCorner& corner) -> End {
-    const std::size_t next = (k + 1) % 3;
-    const bool leaves = is_inside(ends, rays[k]);
-    const std::size_t in = leaves ? k : next, out_of = leaves ? next : k;
-    const Vec3 edge =
-        casting_.corner(rim.face, static_cast<int>(out_of)) - casting_.corner(rim.face, static_cast<int>(in));
+  const auto end_on = [&](std::size_t k, const LeavingEdge& edge) -> End {
+    const PartCorner& corner = part.on_edge(k);
+    const Vec3 way = casting_corner(rim.face, edge.out) - casting_corner(rim.face, edge.in);
     if (rim.crossings[k]) {
-      const Vec3 along = unit(edge), normal = turned(X_CT, target_normal_[rim.crossings[k]->triangle]);
+      const Vec3 along = unit(way), normal = core::turned(X_CT, target_normal_[rim.crossings[k]->triangle]);
       const Vec3 slid = normal / std::max(along.dot(normal), least_steep);
       return {&corner, along, slid, corner.point.cross(slid)};
     }
-    const RayEnd &a = ends[rays[in]], &b = ends[rays[out_of]];
+    const RayEnd &a = ends[rays[edge.in]], &b = ends[rays[edge.out]];
     const double fall = a.depth - b.depth, squared = fall * fall;
-    return {&corner, edge, (a.depth * b.gradient - b.depth * a.gradient) / squared,
-            (a.depth * met_by(out_of).cross(b.gradient) - b.depth * met_by(in).cross(a.gradient)) / squared};
+    return {&corner, way, (a.depth * b.gradient - b.depth * a.gradient) / squared,
+            (a.depth * met_by(edge.out).cross(b.gradient) - b.depth * met_by(edge.in).cross(a.gradient)) /
+                squared};
   };
   std::array<End, 2> line;
-  std::size_t place = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const bool inside = is_inside(ends, rays[k]);
-    if (inside) ++place;
-    if (inside == is_inside(ends, rays[(k + 1) % 3])) continue;
-    line[inside ? 0 : 1] = end_on(k, part[place++]);
-  }
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const auto edge = leaving_edge(rim.face, k, ends)) line[edge->in == k ? 0 : 1] = end_on(k, *edge);
   const Vec3 across = (line[1].corner->point - line[0].corner->point).cross(face_normal_[rim.face]);
   // Gauss's two nodes: pressures and moves are linear along the line, or nearly.
   for (const double at : {0.5 - std::sqrt(1.0 / 12), 0.5 + std::sqrt(1.0 / 12)}) {

@@ -8,6 +8,7 @@
 
 #include "condyle/error.hpp"
 #include "contact/along_rays.hpp"
+#include "core/turned.hpp"
 #include "mesh/vertex_triangles.hpp"
 
 namespace condyle::contact {
@@ -132,7 +133,7 @@ std::optional<OverlapSampler::Overlap> OverlapSampler::overlap_of(const Vec3& di
                                                                   const Pose& X_CT) const {
   if (!hits.is_hit(ray)) return std::nullopt;
   const Index triangle = hits.triangle[ray];
-  const Vec3 normal = turned(X_CT, target_normal_[triangle]);
+  const Vec3 normal = core::turned(X_CT, target_normal_[triangle]);
   const bool met_from_front = direction_C.dot(normal) < 0;
   if (met_from_front && target_is_closed_) return std::nullopt;
   return Overlap{{hits.distance[ray], triangle, depth_gradient(normal, direction_C)}, met_from_front};
@@ -222,7 +223,7 @@ std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
     if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
     const Vec3 direction =
         options_.rule == FaceRule::face_centre ? -face_normal_[ray_owner_[ray]] : -ray_normal_[ray];
-    if (direction.dot(turned(X_CT, target_normal_[hits.triangle[ray]])) > 0) ++count;
+    if (direction.dot(core::turned(X_CT, target_normal_[hits.triangle[ray]])) > 0) ++count;
   }
   return count;
 }

@@ -109,8 +109,9 @@ class OverlapSampler {
   /// A face at the rim. Edges are numbered by the corner that they start from.
   struct RimFace {
     Index face;
-    std::array<std::optional<Crossing>, 3> crossings;
-    Index first_part = no_index;  ///< the ray of its first part, where it is decided by parts
+    std::array<std::optional<Crossing>, 3> crossings{};
+    bool by_parts = false;
+    Index first_part = no_index;  ///< the ray of its first part, where parts decide
   };
   struct Scratch {
     mesh::RayHits hits;
@@ -145,6 +146,16 @@ class OverlapSampler {
   /// Whether the depth is taken to be linear from one end to the other.
   bool runs_on(Index face, const RayEnds& ends, Index a, Index b) const;
   bool is_rim(Index face, const RayEnds& ends) const;
+  /// An edge with one corner inside the target, by the corner it starts from: its two corners.
+  struct LeavingEdge {
+    std::size_t in, out;
+  };
+  std::optional<LeavingEdge> leaving_edge(Index face, std::size_t edge, const RayEnds& ends) const;
+  Vec3 casting_corner(Index face, std::size_t k) const {
+    return casting_.vertices()[casting_.triangles()[face][k]];
+  }
+  /// Whether no line can be told that cuts a face at the rim.
+  bool is_decided_by_parts(Index face, const RayEnds& ends) const;
   /// Rays from corners inside the target along edges of rim faces that leave it other than where the depth is 0.
   void cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const;
   /// Rays from the parts of the rim faces that no line cuts.

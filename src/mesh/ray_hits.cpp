@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/turned.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "mesh/ray_hits.cpp"
 #include <hwy/foreach_target.h>
@@ -68,9 +70,7 @@ class PlacedRay {
   PlacedRay() = default;
   /// Of the target, `size` is the largest coordinate.
   PlacedRay(const Pose& X, const Ray& ray, double reach, float size)
-      : origin_(placed(X, ray.origin) + X.translation()),
-        direction_(placed(X, ray.direction)),
-        distance_(reach) {
+      : origin_(posed(X, ray.origin)), direction_(core::turned(X, ray.direction)), distance_(reach) {
     Eigen::Index steepest;
     direction_.cwiseAbs().maxCoeff(&steepest);
     along_ = static_cast<std::size_t>(steepest);
@@ -154,13 +154,6 @@ class PlacedRay {
   }
 
  private:
-  static Vec3 placed(const Pose& X, const Vec3& v) {
-    const auto& m = X.matrix();
-    Vec3 out;
-    for (int r = 0; r < 3; ++r) out[r] = (m(r, 0) * v[0] + m(r, 1) * v[1]) + m(r, 2) * v[2];
-    return out;
-  }
-
   /// Corners slid along the ray into a plane across its steepest axis.
   HWY_INLINE Seen seen(const double (&corner)[3][width], std::size_t i) const {
     const auto from = [&](std::size_t k) {

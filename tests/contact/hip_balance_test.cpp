@@ -47,8 +47,9 @@ TEST_P(HipBalance, CarriesTheLoadAtEveryAngle) {
       if (*surface) deepest = std::max(deepest, (*surface)->totals.max_depth_mm);
   }
   EXPECT_GE(balanced, GetParam().balanced);
-  // Centres of faces come to 1.2 mm; their corners lie a little deeper, and no place at a rim tells of depths along its sides.
-  EXPECT_LE(deepest, 1.4);
+  // Centres of faces come to 1.2 mm. Edges are 2 mm long, corners 1.2 mm from centres: 0.3 mm deeper at a slope of a quarter, the
+  // steepest that a rim is taken to have.
+  EXPECT_LE(deepest, 1.5);
 }
 
 std::string name_of_way(const testing::TestParamInfo<Way>& info) {

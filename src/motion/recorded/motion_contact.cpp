@@ -84,7 +84,7 @@ class SmallestGap {
     }
     const auto found = mesh::closest_points(fixed_, mobile_, X_FM, at_most);
     if (!found) return std::nullopt;
-    nearest_ = {found->a_point, X_FM.linear().transpose() * (found->b_point - X_FM.translation())};
+    nearest_ = {found->a_point, inverted(X_FM) * found->b_point};
     return found->distance_mm;
   }
 
