@@ -21,9 +21,9 @@ inline constexpr double rim_reserve_mm = 0.5;
 /// A head whose centre is farther from the joint centre is no basis to tell bearing surfaces by.
 inline constexpr double farthest_head_centre_mm = 5;
 
-/// The part of the mobile body that slides in the socket. Where meshes of it are told to be bearing (BodyPart::is_bearing),
-/// as a cartilage beside its bone, it is these, and the head is the sphere found on them; else the triangles with all three
-/// corners within the head's radius and the margin of the head's centre. A vertex or an edge is bearing when all its
+/// The part of the mobile body that slides in the socket: the triangles with all three corners within the head's radius and
+/// the margin of the head's centre. If meshes of the body are called bearing (BodyPart::is_bearing), as a cartilage beside
+/// its bone, they belong to it too, and the head is the sphere found on them. A vertex or an edge is bearing when all its
 /// triangles are.
 ///
 ///        ____
@@ -32,13 +32,12 @@ inline constexpr double farthest_head_centre_mm = 5;
 ///      .      .   /   neck
 ///        ----
 struct BearingSurface {
-  Sphere head;               ///< in M, mm
-  double head_coverage = 0;  ///< of the fit
-  double margin_mm = 0;      ///< as used; 0 where meshes are told to be bearing
-  std::vector<std::string> parts =
-      {};                            ///< the meshes told to be bearing; empty where it is told by the margin
-  std::optional<double> rim_gap_mm;  ///< between head and rim; empty where no rim was found
-  std::optional<Sphere> socket;      ///< in F, fitted; empty where the fixed body has no spherical socket
+  Sphere head;                          ///< in M, mm
+  double head_coverage = 0;             ///< of the fit
+  double margin_mm = 0;                 ///< as used
+  std::vector<std::string> parts = {};  ///< the meshes called bearing
+  std::optional<double> rim_gap_mm;     ///< between head and rim; empty where no rim was found
+  std::optional<Sphere> socket;         ///< in F, fitted; empty where the fixed body has no spherical socket
   std::vector<std::uint8_t> triangles;  ///< of the mobile mesh: 1 for bearing
 
   std::size_t count() const noexcept;
@@ -53,8 +52,9 @@ enum class BearingRule : std::uint8_t {
 
 struct BearingOptions {
   BearingRule rule = BearingRule::leave_out;
-  /// How far outside the head's sphere the bearing surface reaches, mm, 0 or more; where not given the smaller of
-  /// usual_bearing_margin_mm and the gap at the rim less rim_reserve_mm.
+  /// How far outside the head's sphere the bearing surface reaches, mm, 0 or more; default: the smaller of
+  /// usual_bearing_margin_mm and the gap at the rim less rim_reserve_mm. If meshes are called bearing, nothing is taken off
+  /// the gap, and the margin is at least 0: the bone under a cartilage is within its sphere.
   std::optional<double> margin_mm = {};
   /// As found before, of the same mobile mesh; else it is found, which costs more than the rest of making a joint
   /// ready.
@@ -72,10 +72,9 @@ struct BearingFinding {
 
 /// Looks for the head around the joint centre. None for a hinge, where no head is found, where its centre is farther
 /// than farthest_head_centre_mm from the joint centre, where the joint space leaves no margin, and where the whole
-/// mobile body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite, and for one where
-/// meshes are told to be bearing.
+/// mobile body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
 ///
-/// Some milliseconds per 10,000 triangles: both bodies are searched for spheres.
+/// Some milliseconds per 10,000 triangles: both bodies are searched for spheres, once, which are kept with their meshes.
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});
 
 }  // namespace condyle

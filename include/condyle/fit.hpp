@@ -50,8 +50,9 @@ struct SphericalPatch {
   std::optional<double> centre_bound_mm = {};
 };
 
-/// The spherical part of a surface that covers most of its sphere: found without a hint, fitted only to the
-/// vertices of that part. Deterministic. Throws MeshError where no part of the surface is spherical: at
+/// The spherical part of a surface: the head that covers most of its sphere, or the socket with most supporting area, by
+/// how well its normals point to the centre. Found without a hint, fitted only to the vertices of that part.
+/// Deterministic. Throws MeshError where no part of the surface is spherical: at
 /// least a tenth of a sphere, spread in all directions (no strip, as where a sphere touches a cylinder from
 /// inside), 12 vertices or more.
 SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search = {});

@@ -17,7 +17,9 @@ enum class JointNoteCode : std::uint8_t {
   open_mesh,                 ///< It has no inside.
   inverted_mesh,             ///< Its volume is negative.
   self_crossings,            ///< Over more than a sliver of its surface.
+  same_mesh,                 ///< Both bodies are one mesh.
   swapped_bodies,            ///< The head is on the fixed body.
+  unlikely_joint,            ///< A head in a socket, and another joint or a hinge stated.
   low_coverage,              ///< Little of a sphere or of a turn was there to fit.
   uncertain_fit,             ///< Parts of the surface give different centres or axes.
   centre_off_head,           ///< The joint centre is not that of the head.
@@ -39,7 +41,7 @@ struct JointNote {
 };
 
 /// A joint centre farther than this from that of the head, mm: limits change by 2 to 6 degrees with each millimetre.
-inline constexpr double farthest_from_head_mm = 2;
+inline constexpr double farthest_from_head_mm = 1;
 /// Head and socket of the hips at hand are 1 mm apart: cartilage is thicker above than below.
 inline constexpr double farthest_head_from_socket_mm = 1.5;
 
@@ -54,7 +56,8 @@ inline constexpr double farthest_head_from_socket_mm = 1.5;
 ///             / \    outwards, down
 ///            neck: outwards, down
 ///
-/// Searches both surfaces for spheres: half a second for 50,000 triangles, less where a fit gave the centre.
+/// Searches both surfaces for spheres, which are kept with their meshes: some tens of milliseconds for 50,000 triangles, less
+/// where a fit gave the centre.
 std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement);
 
 }  // namespace condyle

@@ -85,7 +85,7 @@ struct JointPlacement {
   JointCoordinates reference_pose = {};  ///< as described, or as it follows from the landmarks of both bodies
   bool pose_from_landmarks = false;      ///< of both bodies
   BodyPlacement fixed, mobile;
-  std::vector<std::string> notes;  ///< one line each: which axes were corrected, what was fitted
+  std::vector<std::string> processing;  ///< one line each: which axes were corrected, what was fitted
 };
 
 struct PlacedJoint {

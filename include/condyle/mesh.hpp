@@ -13,7 +13,9 @@ namespace condyle {
 class Mesh;
 namespace mesh {
 class EdgeTable;
+class Findings;
 const EdgeTable& edges_of(const Mesh& mesh);
+Findings& findings_of(const Mesh& mesh);
 }  // namespace mesh
 
 /// Three vertex numbers, counter-clockwise seen from outside the solid.
@@ -72,6 +74,7 @@ class Mesh {
  private:
   struct Checked;
   friend const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh);
+  friend mesh::Findings& mesh::findings_of(const Mesh& mesh);
 
   explicit Mesh(std::shared_ptr<const Checked> checked) noexcept;
   std::shared_ptr<const Checked> checked_;

@@ -3,6 +3,7 @@
 #include "condyle/error.hpp"
 #include "condyle/mesh.hpp"
 #include "core/coordinate_range.hpp"
+#include "core/ordered_sums.hpp"
 
 namespace condyle {
 namespace {
@@ -13,14 +14,15 @@ Vec3 frame_x(const Vec3& z) {
   int largest = 0;
   z.cwiseAbs().maxCoeff(&largest);
   const Vec3 next = Vec3::Unit((largest + 1) % 3);
-  return (next - next.dot(z) * z).normalized();
+  const Vec3 across = next - core::ordered_dot(next, z) * z;
+  return across / core::ordered_norm(across);
 }
 
 /// Unit vector along v; the coordinate axis itself, exactly, where v lies on one. Scaled first: no overflow
 /// on the way.
 Vec3 unit(const Vec3& v) {
   const Vec3 scaled = v / v.cwiseAbs().maxCoeff();
-  return scaled / scaled.norm();
+  return scaled / core::ordered_norm(scaled);
 }
 
 }  // namespace

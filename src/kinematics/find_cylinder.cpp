@@ -174,7 +174,8 @@ double score(const std::vector<kinematics::SurfacePoint>& points, const std::vec
 /// Fits, keeps what lies within the band of the fit, connected, and fits again until the same vertices come
 /// back.
 std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
-                          Cylinder cylinder, const CylinderSearch& search, const Strictness& strict) {
+                          const kinematics::PointNeighbours& neighbours, Cylinder cylinder,
+                          const CylinderSearch& search, const Strictness& strict) {
   constexpr int most_rounds = 60;
   double band = strict.first_band * cylinder.radius;
   std::vector<Index> part;
@@ -182,7 +183,7 @@ std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::Sur
     std::vector<Index> on;
     for (std::size_t i = 0; i < points.size(); ++i)
       if (belongs(points[i], cylinder, band)) on.push_back(static_cast<Index>(i));
-    auto next = kinematics::largest_connected_part(mesh, points, on);
+    auto next = neighbours.largest_connected_part(points, on);
     if (next.size() < fewest_vertices) return std::nullopt;
     const bool same = next == part;
     part = std::move(next);
@@ -258,10 +259,11 @@ std::optional<Part> best_part(const TriMesh& mesh, const std::vector<kinematics:
                               const CylinderSearch& search, const Strictness& strict) {
   std::vector<Part> parts;
   if (points.size() >= fewest_vertices) {
+    const kinematics::PointNeighbours neighbours(mesh, points);
     for (const Candidate& candidate : candidates(points, search, strict)) {
       const auto known = [&](const Part& part) { return near(candidate.cylinder, part.fit.cylinder); };
       if (std::any_of(parts.begin(), parts.end(), known)) continue;
-      if (auto part = grown(mesh, points, candidate.cylinder, search, strict))
+      if (auto part = grown(mesh, points, neighbours, candidate.cylinder, search, strict))
         parts.push_back(std::move(*part));
     }
   }
@@ -291,6 +293,7 @@ CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search) {
   auto best = best_part(mesh, points, search);
   if (!best) {
     std::ostringstream message;
+    message.exceptions(std::ios::badbit);  // no memory is an error, not half a message
     message << "no cylindrical part with a radius from " << search.smallest_radius << " to "
             << search.largest_radius << " mm among " << points.size() << " vertices";
     throw MeshError(message.str());
@@ -298,6 +301,7 @@ CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search) {
   add_bounds(mesh, best->fit);
   if (const Angle bound = *best->fit.direction_bound; bound > largest_direction_bound) {
     std::ostringstream message;
+    message.exceptions(std::ios::badbit);  // no memory is an error, not half a message
     message << "the best cylindrical part, of radius " << best->fit.cylinder.radius
             << " mm with rms residual " << best->fit.rms_residual << " mm over " << best->fit.vertices.size()
             << " vertices, leaves its axis open: parts of it give directions up to " << bound.degrees()

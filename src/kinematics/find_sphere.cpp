@@ -1,13 +1,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
 #include <numbers>
 #include <optional>
 #include <sstream>
-#include <unordered_map>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -43,6 +43,9 @@ constexpr std::size_t kept_per_radius = 4;
 /// A candidate this near (in radii) to a part already found would grow into the same part.
 constexpr double same_part = 0.25;
 
+/// ... and what has come this near to one, in radii, ends in it: parts differ by more.
+constexpr double arrived = 0.02;
+
 /// A vertex belongs to a sphere while its normal is within 30 degrees of its ray (cosine).
 constexpr double smallest_cosine = 0.866;
 
@@ -60,9 +63,17 @@ constexpr double floor_deviations = 3;
 /// smallest eigenvalue of the mean of u u^T is 1/3 for a hemisphere and 0.15 for a cap of 48 degrees; for the
 /// strip where a tube touches a sphere from inside (2 sqrt(4 widest_band) radii wide) it is 4 widest_band / 3
 /// = 0.07, on coarse meshes up to 0.12.
+/// A socket's ring without its fossa has less of the spread than a cap: 0.13 is one of 45 degrees.
 constexpr double smallest_coverage = 0.10;
-constexpr double smallest_spread = 0.15;
+constexpr double smallest_head_spread = 0.15, smallest_socket_spread = 0.13;
 constexpr std::size_t fewest_vertices = 12;
+
+/// The normals of a socket are means over cells of this side, mm: wider than the voxels of most label maps, whose steps turn
+/// normals by 30 degrees and more. At 3 mm the wall of a fossa 2 mm deep is no longer seen.
+constexpr double normals_cell = 2;
+
+/// Candidates with less than this share of the votes of the fullest grow into parts that others grow into, or into none.
+constexpr double smallest_vote_share = 0.25;
 
 struct Candidate {
   Sphere sphere;
@@ -95,10 +106,22 @@ struct CellHash {
 std::vector<Candidate> votes(const std::vector<kinematics::SurfacePoint>& points, double inwards,
                              double radius) {
   struct CellSum {
+    Cell cell;
     double area = 0;
     Vec3 weighted = Vec3::Zero();
   };
-  std::unordered_map<Cell, CellSum, CellHash> cells;
+  // A table with open addressing: `slots` has the number of the cell that lies there, from 1.
+  std::vector<CellSum> cells;
+  std::vector<Index> slots(std::bit_ceil(2 * points.size()), 0);
+  const auto sum_of = [&](const Cell& cell) -> CellSum& {
+    std::size_t slot = CellHash{}(cell) & (slots.size() - 1);
+    while (slots[slot] != 0 && !(cells[slots[slot] - 1].cell == cell)) slot = (slot + 1) & (slots.size() - 1);
+    if (slots[slot] == 0) {
+      cells.push_back({cell});
+      slots[slot] = static_cast<Index>(cells.size());
+    }
+    return cells[slots[slot] - 1];
+  };
   const double side = cell_in_radii * radius, whole = 4 * std::numbers::pi * radius * radius;
   // Positions relative to one vertex keep cell numbers small wherever the mesh lies.
   const Vec3 origin = points.front().position;
@@ -106,16 +129,15 @@ std::vector<Candidate> votes(const std::vector<kinematics::SurfacePoint>& points
     const Vec3 centre = p.position - inwards * radius * p.normal;
     const Vec3 scaled = (centre - origin) / side;
     if (!(scaled.cwiseAbs().maxCoeff() < farthest_cell)) continue;
-    const Cell cell{static_cast<std::int32_t>(std::floor(scaled.x())),
-                    static_cast<std::int32_t>(std::floor(scaled.y())),
-                    static_cast<std::int32_t>(std::floor(scaled.z()))};
-    CellSum& sum = cells[cell];
+    CellSum& sum = sum_of({static_cast<std::int32_t>(std::floor(scaled.x())),
+                           static_cast<std::int32_t>(std::floor(scaled.y())),
+                           static_cast<std::int32_t>(std::floor(scaled.z()))});
     const double area = std::min(p.area, largest_vote * whole);
     sum.area += area;
     sum.weighted += area * centre;
   }
   std::vector<Candidate> out;
-  for (const auto& [cell, sum] : cells) {
+  for (const CellSum& sum : cells) {
     const Candidate candidate{{sum.weighted / sum.area, radius}, sum.area / whole};
     if (candidate.sphere.centre.allFinite()) out.push_back(candidate);
   }
@@ -155,71 +177,151 @@ double area_of(const std::vector<kinematics::SurfacePoint>& points, const std::v
   return area;
 }
 
-/// Points whose distance and normal are those of a sphere, as positions in `points`.
-std::vector<Index> on_sphere(const std::vector<kinematics::SurfacePoint>& points, const Sphere& sphere,
-                             double inwards, double band) {
+/// Points whose distance and normal are those of a sphere, as positions in `points`; `places` has where those are.
+std::vector<Index> on_sphere(const std::vector<SurfacePoint>& points, const Points& places,
+                             const Sphere& sphere, double inwards, double band) {
+  // Most points are farther off than rounding could mend: no root is taken of their squares.
+  constexpr double slack = 1e-12;
+  const double inner = std::max(sphere.radius - band, 0.0), outer = sphere.radius + band;
+  const double least = inner * inner * (1 - slack), most = outer * outer * (1 + slack);
+  const double x = sphere.centre.x(), y = sphere.centre.y(), z = sphere.centre.z();
+  constexpr std::size_t block = 512;
+  std::array<double, block> squared;
+  std::array<Index, block> near;
   std::vector<Index> on;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 ray = points[i].position - sphere.centre;
-    const double distance = ray.norm();
-    if (std::abs(distance - sphere.radius) > band) continue;
-    if (inwards * points[i].normal.dot(ray) < smallest_cosine * distance) continue;
-    on.push_back(static_cast<Index>(i));
+  for (std::size_t first = 0; first < points.size(); first += block) {
+    const std::size_t count = std::min(block, points.size() - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double dx = places.x[first + k] - x, dy = places.y[first + k] - y, dz = places.z[first + k] - z;
+      squared[k] = dx * dx + dy * dy + dz * dz;
+    }
+    // Without branches: which points are near cannot be predicted.
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      near[kept] = static_cast<Index>(first + k);
+      kept +=
+          static_cast<std::size_t>(!(squared[k] < least)) & static_cast<std::size_t>(!(squared[k] > most));
+    }
+    for (std::size_t k = 0; k < kept; ++k) {
+      const SurfacePoint& point = points[near[k]];
+      const Vec3 ray = point.position - sphere.centre;
+      const double distance = ray.norm();
+      if (std::abs(distance - sphere.radius) > band) continue;
+      if (inwards * point.normal.dot(ray) < smallest_cosine * distance) continue;
+      on.push_back(near[k]);
+    }
   }
   return on;
+}
+
+/// The sphere of least squares through some of the places to a ten-thousandth of its radius, by a few Gauss-Newton steps from one
+/// that is near it: all sums of fit_sphere() in one pass, and none of its care. Empty where that is not enough.
+std::optional<Sphere> roughly_fitted(const Points& places, const std::vector<Index>& part, Sphere sphere) {
+  constexpr int most_steps = 6;
+  constexpr double settled = 1e-4;
+  const auto count = static_cast<double>(part.size());
+  for (int step = 0; step < most_steps; ++step) {
+    const double x = sphere.centre.x(), y = sphere.centre.y(), z = sphere.centre.z();
+    double lengths = 0, ux = 0, uy = 0, uz = 0, bx = 0, by = 0, bz = 0;
+    double xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+    for (const Index i : part) {
+      const double wx = places.x[i] - x, wy = places.y[i] - y, wz = places.z[i] - z;
+      const double length = std::sqrt(wx * wx + wy * wy + wz * wz), share = 1 / length;
+      const double a = wx * share, b = wy * share, c = wz * share;
+      lengths += length, ux += a, uy += b, uz += c, bx += wx, by += wy, bz += wz;
+      xx += a * a, yy += b * b, zz += c * c, xy += a * b, yz += b * c, zx += c * a;
+    }
+    const Vec3 u(ux, uy, uz);
+    Eigen::Matrix3d A;
+    A << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+    A -= u * u.transpose() / count;
+    const Vec3 move = A.ldlt().solve(Vec3(bx, by, bz) - lengths / count * u);
+    sphere.radius = lengths / count - move.dot(u) / count;
+    sphere.centre += move;
+    if (!(move.norm() < sphere.radius)) return std::nullopt;
+    if (move.norm() < settled * sphere.radius) return sphere;
+  }
+  return std::nullopt;
 }
 
 struct Part {
   SphericalPatch patch;
   double spread;  ///< smallest eigenvalue of the mean of u u^T over the area, u the unit rays
+  double
+      support;  ///< area, mm^2: all of it where normals are along the rays, none where they are 30 degrees off
 };
 
 Part measured(const std::vector<kinematics::SurfacePoint>& points, const std::vector<Index>& part,
               SphereFit fit) {
   Eigen::Matrix3d rays = Eigen::Matrix3d::Zero();
   const double area = area_of(points, part);
+  double support = 0;
   for (const Index i : part) {
     const Vec3 u = (points[i].position - fit.sphere.centre).normalized();
     rays += points[i].area / area * u * u.transpose();
+    support += points[i].area * (std::abs(points[i].normal.dot(u)) - smallest_cosine) / (1 - smallest_cosine);
   }
   const Vec3 spread =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(rays, Eigen::EigenvaluesOnly).eigenvalues();
   const double coverage = area / area_of(fit.sphere);
-  return {{std::move(fit), coverage}, spread[0]};
+  return {{std::move(fit), coverage}, spread[0], support};
 }
 
-bool near(const Sphere& a, const Sphere& b) noexcept {
-  return (a.centre - b.centre).norm() < same_part * b.radius &&
-         std::abs(a.radius - b.radius) < same_part * b.radius;
+bool near(const Sphere& a, const Sphere& b, double in_radii) noexcept {
+  return (a.centre - b.centre).norm() < in_radii * b.radius &&
+         std::abs(a.radius - b.radius) < in_radii * b.radius;
 }
+
+/// The points of one search, their places side by side, and which of them are joined.
+struct SearchedPoints {
+  const TriMesh& mesh;
+  const std::vector<SurfacePoint>& points;
+  kinematics::PointNeighbours neighbours{mesh, points};
+  Points places = {};
+
+  SearchedPoints(const TriMesh& of, const std::vector<SurfacePoint>& surface) : mesh(of), points(surface) {
+    places.reserve(points.size());
+    for (const SurfacePoint& p : points) places.push_back(p.position);
+  }
+};
 
 /// Fits, keeps what lies within the band of the fit, connected, and fits again until the same vertices come
-/// back.
-std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
-                          Sphere sphere, double inwards, const SphereSearch& search) {
+/// back. On the way a rough fit does; where the vertices stay, they are fitted with care and must stay again. Empty where
+/// it comes to a part that is known.
+std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double inwards,
+                          const SphereSearch& search, const std::vector<Part>& known) {
+  const auto& [mesh, points, neighbours, places] = searched;
   constexpr int most_rounds = 60;
   double band = first_band * sphere.radius;
   std::vector<Index> part;
-  for (int round = 0; round < most_rounds; ++round) {
-    auto next = kinematics::largest_connected_part(mesh, points, on_sphere(points, sphere, inwards, band));
-    if (next.size() < fewest_vertices) return std::nullopt;
-    // With the widest band of all in the first round, what is too small now will not grow.
-    if (area_of(points, next) < smallest_coverage * area_of(sphere)) return std::nullopt;
-    const bool same = next == part;
+  std::optional<SphereFit> fit;
+  bool same = false;
+  for (int round = 0; round < most_rounds; round += same ? 0 : 1) {
+    const std::vector<Index> on = on_sphere(points, places, sphere, inwards, band);
+    // With the widest band of all in the first round, what is too small now will not grow; and what all together is too
+    // small has no part that is not.
+    const double least_area = smallest_coverage * area_of(sphere);
+    if (area_of(points, on) < least_area) return std::nullopt;
+    auto next = neighbours.largest_connected_part(points, on);
+    if (next.size() < fewest_vertices || area_of(points, next) < least_area) return std::nullopt;
+    same = next == part;
+    if (same && fit) return measured(points, part, std::move(*fit));
     part = std::move(next);
-    const auto vertices = kinematics::vertices_of(points, part);
-    SphereFit fit;
+    fit.reset();
+    const auto rough = same ? std::nullopt : roughly_fitted(places, part, sphere);
     try {
-      fit = fit_sphere(mesh.vertices, vertices);
+      if (!rough) fit = fit_sphere(mesh.vertices, kinematics::vertices_of(points, part));
     } catch (const MeshError&) {
       return std::nullopt;
     }
-    sphere = fit.sphere;
+    sphere = rough ? *rough : fit->sphere;
     if (sphere.radius < search.smallest_radius || sphere.radius > search.largest_radius) return std::nullopt;
-    if (same) return measured(points, part, std::move(fit));
+    const auto is_there = [&](const Part& other) { return near(sphere, other.patch.fit.sphere, arrived); };
+    if (std::any_of(known.begin(), known.end(), is_there)) return std::nullopt;
     std::vector<double> residuals;
-    for (const Index v : vertices)
-      residuals.push_back((mesh.vertices[v] - sphere.centre).norm() - sphere.radius);
+    residuals.reserve(part.size());
+    for (const Index i : part)
+      residuals.push_back((points[i].position - sphere.centre).norm() - sphere.radius);
     band = std::clamp(deviations_kept * kinematics::robust_deviation(std::move(residuals)),
                       narrowest_band * sphere.radius, widest_band * sphere.radius);
   }
@@ -229,13 +331,12 @@ std::optional<Part> grown(const TriMesh& mesh, const std::vector<kinematics::Sur
 /// A socket without the floor of its fossa, which lies a few millimetres deeper and draws the sphere towards it: fitted to
 /// the nearer two thirds of the part, again until they stay the same (concentration steps of least trimmed squares,
 /// Rousseeuw and Van Driessen 2006), then to all that lies within the deviations of these.
-SphericalPatch without_floor(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points,
-                             SphericalPatch whole) {
+Part without_floor(const TriMesh& mesh, const std::vector<kinematics::SurfacePoint>& points, Part whole) {
   constexpr int most_rounds = 100;
-  SphereFit fit = whole.fit;
+  SphereFit fit = whole.patch.fit;
   std::vector<Index> part;  // positions in `points`; both are ascending by vertex
   for (std::size_t i = 0; i < points.size() && part.size() < fit.vertices.size(); ++i)
-    if (points[i].vertex == whole.fit.vertices[part.size()]) part.push_back(static_cast<Index>(i));
+    if (points[i].vertex == whole.patch.fit.vertices[part.size()]) part.push_back(static_cast<Index>(i));
   const auto distance = [&](Index i) {
     return std::abs((points[i].position - fit.sphere.centre).norm() - fit.sphere.radius);
   };
@@ -264,7 +365,7 @@ SphericalPatch without_floor(const TriMesh& mesh, const std::vector<kinematics::
     std::copy_if(part.begin(), part.end(), std::back_inserter(all),
                  [&](Index i) { return distance(i) <= band; });
     kept = refitted(std::move(all));
-    return measured(points, kept, std::move(fit)).patch;
+    return measured(points, kept, std::move(fit));
   } catch (const MeshError&) {
     return whole;
   }
@@ -300,34 +401,60 @@ double centre_bound(const TriMesh& mesh, const SphereFit& fit, std::size_t resam
 
 }  // namespace
 
+SphericalPatch kinematics::patch_of(const TriMesh& mesh, const std::vector<Index>& vertices) {
+  const auto points = surface_points(mesh, std::nullopt);
+  std::vector<Index> part;
+  part.reserve(vertices.size());
+  for (std::size_t i = 0; i < points.size() && part.size() < vertices.size(); ++i)
+    if (points[i].vertex == vertices[part.size()]) part.push_back(static_cast<Index>(i));
+  return measured(points, part, fit_sphere(mesh.vertices, vertices)).patch;
+}
+
 SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
-  const auto points = kinematics::surface_points(mesh, search.within);
+  const bool is_head = search.part == SphericalPart::head;
+  auto points = kinematics::surface_points(mesh, search.within);
+  if (!is_head) kinematics::average_normals(points, normals_cell);
   std::vector<Part> parts;
   if (points.size() >= fewest_vertices) {
-    const double inwards = search.part == SphericalPart::head ? 1.0 : -1.0;
-    for (const Candidate& candidate : candidates(points, inwards, search)) {
-      const auto known = [&](const Part& part) { return near(candidate.sphere, part.patch.fit.sphere); };
+    const SearchedPoints searched(mesh, points);
+    const double inwards = is_head ? 1.0 : -1.0;
+    const auto all = candidates(points, inwards, search);
+    const std::vector<Part> none;
+    for (const Candidate& candidate : all) {
+      if (candidate.votes < smallest_vote_share * all.front().votes) break;
+      const auto known = [&](const Part& part) {
+        return near(candidate.sphere, part.patch.fit.sphere, same_part);
+      };
       if (std::any_of(parts.begin(), parts.end(), known)) continue;
-      if (auto part = grown(mesh, points, candidate.sphere, inwards, search))
-        parts.push_back(std::move(*part));
+      // Sockets lie close to each other, the fossa beside the rest: none of them stands for another.
+      auto part = grown(searched, candidate.sphere, inwards, search, is_head ? parts : none);
+      // Most candidates of a socket grow into the same part.
+      const auto same = [&](const Part& other) {
+        return other.patch.fit.vertices == part->patch.fit.vertices;
+      };
+      if (part && std::none_of(parts.begin(), parts.end(), same)) parts.push_back(std::move(*part));
     }
   }
-  std::erase_if(parts, [](const Part& part) {
-    return part.patch.coverage < smallest_coverage || part.spread < smallest_spread;
+  std::erase_if(parts, [&](const Part& part) {
+    return part.patch.coverage < smallest_coverage ||
+           part.spread < (is_head ? smallest_head_spread : smallest_socket_spread);
   });
   if (parts.empty()) {
     std::ostringstream message;
-    message << "no spherical " << (search.part == SphericalPart::head ? "head" : "socket")
-            << " with a radius from " << search.smallest_radius << " to " << search.largest_radius
-            << " mm among " << points.size() << " vertices";
-    if (search.part == SphericalPart::head)
-      message << " (a mesh of inverted orientation has sockets for heads)";
+    message.exceptions(std::ios::badbit);  // no memory is an error, not half a message
+    message << "no spherical " << (is_head ? "head" : "socket") << " with a radius from "
+            << search.smallest_radius << " to " << search.largest_radius << " mm among " << points.size()
+            << " vertices";
+    if (is_head) message << " (a mesh of inverted orientation has sockets for heads)";
     throw MeshError(message.str());
   }
-  const auto best = std::max_element(parts.begin(), parts.end(), [](const Part& a, const Part& b) {
-    return a.patch.coverage < b.patch.coverage;
+  // A head is what covers most of its sphere. A socket covers little of its own: a part of it, or the fossa, covers as much
+  // of a smaller one.
+  if (!is_head)
+    for (Part& part : parts) part = without_floor(mesh, points, std::move(part));
+  const auto best = std::max_element(parts.begin(), parts.end(), [&](const Part& a, const Part& b) {
+    return is_head ? a.patch.coverage < b.patch.coverage : a.support < b.support;
   });
-  if (search.part == SphericalPart::socket) best->patch = without_floor(mesh, points, std::move(best->patch));
   if (search.resamples > 0)
     best->patch.centre_bound_mm = centre_bound(mesh, best->patch.fit, search.resamples);
   return std::move(best->patch);

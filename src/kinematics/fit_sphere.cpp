@@ -31,10 +31,27 @@ Vec3 mean_of(PointsView points, std::span<const Index> vertices) {
   return sum / static_cast<double>(vertices.size());
 }
 
+/// The sum of products w w^T: six sums.
+struct SumOfProducts {
+  double xx = 0, yy = 0, zz = 0, yx = 0, zx = 0, zy = 0;
+
+  void add(double x, double y, double z) noexcept {
+    xx += x * x, yy += y * y, zz += z * z, yx += y * x, zx += z * x, zy += z * y;
+  }
+  Mat3 matrix() const {
+    Mat3 sum;
+    sum << xx, yx, zx, yx, yy, zy, zx, zy, zz;
+    return sum;
+  }
+};
+
 Mat3 covariance(PointsView points, std::span<const Index> vertices, const Vec3& mean) {
-  Mat3 C = Mat3::Zero();
-  for (const Index v : vertices) C += (points[v] - mean) * (points[v] - mean).transpose();
-  return C / static_cast<double>(vertices.size());
+  SumOfProducts C;
+  for (const Index v : vertices) {
+    const Vec3 w = points[v] - mean;
+    C.add(w.x(), w.y(), w.z());
+  }
+  return C.matrix() / static_cast<double>(vertices.size());
 }
 
 /// The sphere of least squares of |p|^2 - 2 c.p - k, about the mean: linear, exact for points on a sphere,
@@ -48,59 +65,79 @@ Vec3 algebraic_centre(PointsView points, std::span<const Index> vertices, const 
   return mean + C.ldlt().solve(b) / (2 * static_cast<double>(vertices.size()));
 }
 
-struct Distances {
-  double mean;
-  Vec3 mean_direction;
+/// Rays from a centre to the vertices, computed once for all sums over them: a fit has many steps.
+class Rays {
+ public:
+  Rays(PointsView points, std::span<const Index> vertices)
+      : x_(size_of(vertices)), y_(x_.size()), z_(x_.size()), ux_(x_.size()), uy_(x_.size()), uz_(x_.size()) {
+    for (Eigen::Index i = 0; i < x_.size(); ++i) {
+      const Vec3 p = points[vertices[static_cast<std::size_t>(i)]];
+      x_[i] = p.x(), y_[i] = p.y(), z_[i] = p.z();
+    }
+  }
+
+  void start_at(const Vec3& centre) {
+    ux_ = x_ - centre.x(), uy_ = y_ - centre.y(), uz_ = z_ - centre.z();
+    length_ = (ux_ * ux_ + uy_ * uy_ + uz_ * uz_).sqrt();
+    ux_ /= length_, uy_ /= length_, uz_ /= length_;
+    double lengths = 0;
+    for (Eigen::Index i = 0; i < length_.size(); ++i) lengths += length_[i];
+    mean_length_ = lengths / static_cast<double>(length_.size());
+  }
+
+  double mean_length() const noexcept { return mean_length_; }
+
+  /// One Gauss-Newton step of the centre. The best radius for a centre is the mean length, so only the centre is unknown:
+  /// the residuals d_i - mean(d) change by -(u_i - mean(u)) per unit of centre, u_i the unit rays.
+  Vec3 centre_step() const {
+    Vec3 mean = Vec3::Zero();
+    for (Eigen::Index i = 0; i < length_.size(); ++i)
+      if (length_[i] > 0) mean += unit(i);
+    mean /= static_cast<double>(length_.size());
+    SumOfProducts A;
+    double bx = 0, by = 0, bz = 0;
+    for (Eigen::Index i = 0; i < length_.size(); ++i) {
+      if (!(length_[i] > 0)) continue;
+      const double x = ux_[i] - mean.x(), y = uy_[i] - mean.y(), z = uz_[i] - mean.z(),
+                   off = length_[i] - mean_length_;
+      A.add(x, y, z);
+      bx += off * x, by += off * y, bz += off * z;
+    }
+    return A.matrix().ldlt().solve(Vec3(bx, by, bz));
+  }
+
+  double sum_of_squares() const noexcept {
+    double squares = 0;
+    for (Eigen::Index i = 0; i < length_.size(); ++i) {
+      const double residual = length_[i] - mean_length_;
+      squares += residual * residual;
+    }
+    return squares;
+  }
+
+  double largest_residual() const noexcept {
+    double largest = 0;
+    for (Eigen::Index i = 0; i < length_.size(); ++i)
+      largest = std::max(largest, std::abs(length_[i] - mean_length_));
+    return largest;
+  }
+
+ private:
+  static Eigen::Index size_of(std::span<const Index> vertices) noexcept {
+    return static_cast<Eigen::Index>(vertices.size());
+  }
+  /// The direction of a ray that has a length.
+  Vec3 unit(Eigen::Index i) const noexcept { return {ux_[i], uy_[i], uz_[i]}; }
+
+  Eigen::ArrayXd x_, y_, z_, ux_, uy_, uz_, length_;
+  double mean_length_ = 0;
 };
 
-Distances mean_distance(PointsView points, std::span<const Index> vertices, const Vec3& centre) {
-  Distances d{0, Vec3::Zero()};
-  for (const Index v : vertices) {
-    const Vec3 w = points[v] - centre;
-    const double length = w.norm();
-    d.mean += length;
-    if (length > 0) d.mean_direction += w / length;
-  }
-  const auto count = static_cast<double>(vertices.size());
-  return {d.mean / count, d.mean_direction / count};
-}
-
-/// One Gauss-Newton step of the centre. The best radius for a centre is the mean distance, so only the centre
-/// is unknown: the residuals d_i - mean(d) change by -(u_i - mean(u)) per unit of centre, u_i the unit rays.
-Vec3 centre_step(PointsView points, std::span<const Index> vertices, const Vec3& centre) {
-  const auto [radius, mean_ray] = mean_distance(points, vertices, centre);
-  Mat3 A = Mat3::Zero();
-  Vec3 b = Vec3::Zero();
-  for (const Index v : vertices) {
-    const Vec3 w = points[v] - centre;
-    const double length = w.norm();
-    if (!(length > 0)) continue;
-    const Vec3 u = w / length - mean_ray;
-    A += u * u.transpose();
-    b += (length - radius) * u;
-  }
-  return A.ldlt().solve(b);
-}
-
-double sum_of_squares(PointsView points, std::span<const Index> vertices, const Vec3& centre) {
-  const double radius = mean_distance(points, vertices, centre).mean;
-  double squares = 0;
-  for (const Index v : vertices) {
-    const double residual = (points[v] - centre).norm() - radius;
-    squares += residual * residual;
-  }
-  return squares;
-}
-
-SphereFit with_residuals(PointsView points, std::span<const Index> vertices, const Vec3& centre) {
-  SphereFit fit{
-      {centre, mean_distance(points, vertices, centre).mean}, 0, 0, {vertices.begin(), vertices.end()}};
-  for (const Index v : vertices)
-    fit.largest_residual =
-        std::max(fit.largest_residual, std::abs((points[v] - centre).norm() - fit.sphere.radius));
-  fit.rms_residual =
-      std::sqrt(sum_of_squares(points, vertices, centre) / static_cast<double>(vertices.size()));
-  return fit;
+SphereFit with_residuals(const Rays& rays, std::span<const Index> vertices, const Vec3& centre) {
+  return {{centre, rays.mean_length()},
+          std::sqrt(rays.sum_of_squares() / static_cast<double>(vertices.size())),
+          rays.largest_residual(),
+          {vertices.begin(), vertices.end()}};
 }
 
 }  // namespace
@@ -117,18 +154,21 @@ SphereFit fit_sphere(PointsView points, std::span<const Index> vertices) {
   Vec3 centre = algebraic_centre(points, vertices, mean, C);
   const double patch = std::sqrt(variances[2]);
   const double noise = settled * patch + 4 * core::rounding_unit * mean.norm();
+  Rays rays(points, vertices);
+  rays.start_at(centre);
   for (int step = 0; step < most_steps; ++step) {
-    Vec3 move = centre_step(points, vertices, centre);
-    if (move.norm() > local * patch) {
-      const double squares = sum_of_squares(points, vertices, centre);
-      while (move.norm() > local * patch && !(sum_of_squares(points, vertices, centre + move) < squares))
-        move /= 2;
+    Vec3 move = rays.centre_step();
+    const double squares = rays.sum_of_squares();
+    rays.start_at(centre + move);
+    while (move.norm() > local * patch && !(rays.sum_of_squares() < squares)) {
+      move /= 2;
+      rays.start_at(centre + move);
     }
     centre += move;
     if (!(move.norm() > noise)) break;
   }
   if (!centre.allFinite()) throw MeshError("the vertices are not on a sphere: the fit does not settle");
-  return with_residuals(points, vertices, centre);
+  return with_residuals(rays, vertices, centre);
 }
 
 SphereFit fit_sphere(PointsView points) {

@@ -1,5 +1,7 @@
 #include "kinematics/hip_anatomy.hpp"
 
+#include <algorithm>
+
 #include "condyle/error.hpp"
 #include "kinematics/socket_rim.hpp"
 
@@ -33,7 +35,13 @@ Vec3 area_centroid(const TriMesh& mesh) {
   return area > 0 ? Vec3(moment / area) : moment;
 }
 
-std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head) {
+bool fits_into(const Sphere& head, const SphericalPatch& socket) {
+  // Cartilages that touch or are pressed by some tenths of a millimetre fit too.
+  constexpr double pressed_mm = 0.5;
+  return head.radius <= socket.fit.sphere.radius + std::max(socket.fit.rms_residual, pressed_mm);
+}
+
+std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head) {
   try {
     return find_sphere(fixed, {.part = SphericalPart::socket,
                                .smallest_radius = 0.9 * head.radius,
@@ -42,6 +50,12 @@ std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& he
   } catch (const MeshError&) {
     return std::nullopt;
   }
+}
+
+std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head) {
+  auto found = sphere_around(fixed, head);
+  if (found && !fits_into(head, *found)) return std::nullopt;
+  return found;
 }
 
 std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& femur) {

@@ -18,7 +18,13 @@ struct HipAnatomy {
 /// Of a surface, by area; the origin where it has none.
 Vec3 area_centroid(const TriMesh& mesh);
 
-/// The socket around a head: the spherical part of the fixed body near it; empty where there is none.
+/// The sphere with most supporting area on the fixed body near a head; empty if there is none.
+std::optional<SphericalPatch> sphere_around(const TriMesh& fixed, const Sphere& head);
+
+/// Whether a head has room in a socket, but for the roughness of its surface and half a millimetre that cartilages give way.
+bool fits_into(const Sphere& head, const SphericalPatch& socket);
+
+/// The socket around a head: that sphere; empty if there is none, or if the head does not fit into it.
 std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head);
 
 /// Of a femur whose head lies near the hip bone; empty where no head is found there. Some milliseconds per 10,000

@@ -9,6 +9,7 @@
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
 #include "kinematics/hip_anatomy.hpp"
+#include "kinematics/hip_parts.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 
@@ -26,14 +27,17 @@ constexpr double largest_crossing_share = 5e-4;
 
 /// Of a sphere: femoral heads have 0.7 and more, half resected ones 0.4; sockets have 0.3.
 constexpr double fullest_stray_sphere = 0.4, least_socket_coverage = 0.2;
+/// What is taken for a femoral head in a joint that is said to be none: condyles, tali and capitella are less of a sphere, or
+/// smaller.
+constexpr double least_femoral_coverage = 0.5, least_femoral_radius_mm = 15;
 /// Of a turn: a talar dome has a third.
 constexpr double least_cylinder_coverage = 0.2;
 
 /// Bounds of a good fit: a head's is 0.1 mm, a cylinder's of a whole turn less than a degree.
 constexpr double largest_centre_bound_mm = 1, largest_axis_bound_deg = 5;
 
-/// As the search for a bearing surface: a head near the joint centre, and how near one must be to be taken for it.
-constexpr double largest_head_reach = 90, farthest_stray_sphere = 5;
+/// How near the joint centre that of a sphere must be to be taken for the head of a bearing surface.
+constexpr double farthest_stray_sphere = 5;
 
 /// A shaft or a hip bone has its mass farther from the head's centre than this, in radii; a cartilage has not.
 constexpr double least_lever = 1;
@@ -69,19 +73,11 @@ Vec3 open_side(const TriMesh& mesh, const SphericalPatch& patch) {
   return sum.norm() > whole * area ? sum.normalized() : Vec3(Vec3::Zero());
 }
 
-std::optional<SphericalPatch> found_sphere(const TriMesh& mesh, const SphereSearch& search) {
-  try {
-    return find_sphere(mesh, search);
-  } catch (const MeshError&) {
-    return std::nullopt;
-  }
-}
-
 /// The sphere round the joint centre, which bearing surfaces are told by; where it is not most of a head, one anywhere.
 std::optional<SphericalPatch> head_of(const Mesh& mesh) {
-  auto near_centre = found_sphere(mesh, {.within = Sphere{Vec3::Zero(), largest_head_reach}});
+  const auto& near_centre = kinematics::head_near_centre(mesh);
   if (near_centre && near_centre->coverage >= fullest_stray_sphere) return near_centre;
-  auto anywhere = found_sphere(mesh, {});
+  const auto& anywhere = kinematics::head_anywhere(mesh);
   if (anywhere && anywhere->coverage >= fullest_stray_sphere) return anywhere;
   return near_centre;
 }
@@ -122,7 +118,7 @@ void check_surface(const Body& body, Notes& notes) {
         JointNoteCode::inverted_mesh,
         body.name +
             " has inverted orientation, its volume is negative: it is mirrored, or needs flip_inverted");
-  const mesh::SelfCrossings crossings = mesh::self_crossings(body.mesh);
+  const mesh::SelfCrossings& crossings = mesh::self_crossings_of(body.mesh);
   if (crossings.pairs == 0) return;
   double crossing = 0, area = 0;
   for (std::size_t t = 0; t < body.mesh.triangles().size(); ++t) {
@@ -177,13 +173,16 @@ void check_centres(const Joint& joint, const Sphere& head, const std::optional<S
                   core::rounded(head.centre, 1));
   if (!socket) return;
   const Sphere& cup = socket->fit.sphere;
+  if (!kinematics::fits_into(head, *socket)) {
+    notes.add(JointNoteCode::socket_smaller_than_head,
+              formatted("no socket was found that the head fits into: the sphere round it has a radius of "
+                        "%.2f mm, the head one of %.2f mm",
+                        cup.radius, head.radius));
+    return;
+  }
   if (const double apart = (cup.centre - head.centre).norm(); apart > farthest_head_from_socket_mm)
     notes.add(JointNoteCode::head_socket_apart,
               formatted("head and socket have their centres %.1f mm apart", apart));
-  if (cup.radius < head.radius)
-    notes.add(
-        JointNoteCode::socket_smaller_than_head,
-        formatted("the socket has a radius of %.2f mm, the head one of %.2f mm", cup.radius, head.radius));
 }
 
 /// Cosines that are positive on a hip of the side stated, in the axes stated.
@@ -254,9 +253,42 @@ void check_ball(const Joint& joint, const JointPlacement& placement, Notes& note
                     joint.mobile.name + ": too little for a head, and bearing contact is told by it");
     return;
   }
-  const auto socket = kinematics::find_socket(joint.fixed.mesh, head->fit.sphere);
-  check_centres(joint, head->fit.sphere, socket, notes);
-  if (socket) check_hip(joint, *head, *socket, notes);
+  const auto socket = kinematics::socket_around(joint.fixed.mesh, head->fit.sphere);
+  check_centres(joint, head->fit.sphere, *socket, notes);
+  if (*socket) check_hip(joint, *head, **socket, notes);
+}
+
+/// Whether two meshes have the same triangles of the same shape, wherever each lies.
+bool are_one_mesh(const Mesh& a, const Mesh& b) {
+  if (a.triangles().empty() || a.vertices().size() != b.vertices().size() ||
+      !std::equal(a.triangles().begin(), a.triangles().end(), b.triangles().begin(), b.triangles().end()))
+    return false;
+  const double rounding = 1e-9 * mesh::bounds_of_surface(a).diagonal();
+  for (std::size_t t = 0; t < a.triangles().size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int next = (k + 1) % 3;
+      const double of_a = (a.corner(t, k) - a.corner(t, next)).norm();
+      const double of_b = (b.corner(t, k) - b.corner(t, next)).norm();
+      if (!(std::abs(of_a - of_b) <= rounding)) return false;
+    }
+  return true;
+}
+
+/// A femoral head in its socket is neither a hinge nor a knee, ankle or elbow. A shoulder has a head too, and says nothing here.
+void check_stated_joint(const Joint& joint, Notes& notes) {
+  if (joint.anatomy == Anatomy::shoulder) return;
+  const auto& head = kinematics::head_near_centre(joint.mobile.mesh);
+  if (!head || head->coverage < least_femoral_coverage || head->fit.sphere.radius < least_femoral_radius_mm ||
+      head->fit.sphere.centre.norm() > farthest_stray_sphere)
+    return;
+  const auto socket = kinematics::socket_around(joint.fixed.mesh, head->fit.sphere);
+  if (!*socket || !kinematics::fits_into(head->fit.sphere, **socket)) return;
+  notes.add(JointNoteCode::unlikely_joint,
+            std::string(joint.kind == JointKind::hinge ? "the joint is said to be a hinge"
+                                                       : "the joint is said to be no hip") +
+                ", but " + joint.mobile.name +
+                formatted(" has a head of radius %.1f mm in a socket of ", head->fit.sphere.radius) +
+                joint.fixed.name + ": a hip is a ball joint");
 }
 
 }  // namespace
@@ -271,6 +303,10 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "inverted_mesh";
     case JointNoteCode::self_crossings:
       return "self_crossings";
+    case JointNoteCode::same_mesh:
+      return "same_mesh";
+    case JointNoteCode::unlikely_joint:
+      return "unlikely_joint";
     case JointNoteCode::swapped_bodies:
       return "swapped_bodies";
     case JointNoteCode::low_coverage:
@@ -302,7 +338,15 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
   const bool fixed_is_bone = check_size(joint.fixed, notes), mobile_is_bone = check_size(joint.mobile, notes);
   for (const Body* body : {&joint.fixed, &joint.mobile}) check_surface(*body, notes);
   check_fit(joint, placement, notes);
-  if (joint.is_hip() && fixed_is_bone && mobile_is_bone) check_ball(joint, placement, notes);
+  const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);
+  if (is_same)
+    notes.add(JointNoteCode::same_mesh, joint.fixed.name + " and " + joint.mobile.name +
+                                            " are one mesh: is one file given for both bodies?");
+  if (is_same || !fixed_is_bone || !mobile_is_bone) return notes.take();
+  if (joint.is_hip())
+    check_ball(joint, placement, notes);
+  else
+    check_stated_joint(joint, notes);
   return notes.take();
 }
 

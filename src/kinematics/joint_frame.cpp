@@ -10,6 +10,7 @@ namespace {
 
 std::string text(double value) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // no memory is an error, not half a text
   out.precision(6);
   out << value;
   return out.str();

@@ -2,13 +2,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "condyle/error.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/formatted.hpp"
 #include "core/rounded.hpp"
+#include "kinematics/hip_parts.hpp"
 #include "kinematics/resampling.hpp"
+#include "mesh/enclosed_volume.hpp"
 
 namespace condyle {
 namespace {
@@ -92,6 +95,27 @@ Pose rotated_to_axis(const Pose& X_WF, const Vec3& fitted, JointPlacement& place
   return rotated;
 }
 
+/// Placing a mesh rounds its vertices by half a unit in the last place of what it moves them by: refused above a nanometre, where
+/// contact would no longer be that of the meshes given.
+void check_rounding(const JointDescription& description, const Pose& X_WF) {
+  constexpr double largest_rounding_mm = 1e-6;
+  for (const Pose* pose : {&X_WF, &description.fixed_in_W, &description.mobile_in_W}) {
+    const double far = pose->translation().cwiseAbs().maxCoeff();
+    const double rounding = far * std::numeric_limits<double>::epsilon() / 2;
+    if (!(rounding <= largest_rounding_mm))
+      throw UsageError(formatted("%s: at %.3g mm it rounds the vertices by %.1g mm, more than %g",
+                                 pose == &X_WF ? "frame.centre" : "pose of a body", far, rounding,
+                                 largest_rounding_mm));
+  }
+}
+
+/// A fit may fail because the units are wrong: then no bone has the size that the mesh has in mm.
+std::string size_hint(const TriMesh& mesh_in_mm) {
+  if (likely_unit(mesh_in_mm).unit == LengthUnit::millimetres) return "";
+  return formatted("; in the units stated it is %.4g mm across, and no bone is: are the units right?",
+                   mesh::bounds_of_surface(mesh_in_mm).diagonal());
+}
+
 /// Where a fit looks for a sphere, and for a cylinder elsewhere.
 bool has_head(const JointDescription& description) noexcept {
   const bool head = description.anatomy == Anatomy::hip || description.anatomy == Anatomy::shoulder;
@@ -114,7 +138,7 @@ Pose fitted_frame(const JointDescription& description, const CentreFit& fit, con
       placement.cylinder = find_cylinder(mesh, {.within = fit.within});
     }
   } catch (const MeshError& error) {
-    throw MeshError("frame.centre: " + body.name + ": " + error.what());
+    throw MeshError("frame.centre: " + body.name + ": " + error.what() + size_hint(mesh));
   }
   if (placement.sphere) return frame_about(placement.sphere->fit.sphere.centre, description);
   const Cylinder& cylinder = placement.cylinder->cylinder;
@@ -142,7 +166,7 @@ BoundingBox bounds_of(const Points& points) {
   return box;
 }
 
-std::vector<std::string> notes_on(const JointPlacement& placement) {
+std::vector<std::string> processing_of(const JointPlacement& placement) {
   std::vector<std::string> notes;
   if (const AxisErrors& errors = placement.axis_errors; !errors.none())
     notes.push_back(
@@ -207,15 +231,20 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   placement.mobile.likely_unit = likely_unit(mobile.mesh);
   check_units(fixed, placement.fixed.likely_unit, mobile, placement.mobile.likely_unit);
   placement.X_WF = frame_of(description, fixed, mobile, placement);
+  check_rounding(description, placement.X_WF);
 
   const Pose X_FW = inverted(placement.X_WF);
   const Pose X_MW = mobile_frame(description, X_FW, placement);
   const double scale = scale_of(description.units);
   fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
+  // A search about the joint centre finds the head that a search of the whole body found.
+  const auto* fit = std::get_if<CentreFit>(&description.frame.centre);
+  if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within)
+    kinematics::keep_head(mobile.mesh, placement.sphere->fit.vertices);
   placement.fixed.bounds = bounds_of(fixed.mesh.vertices());
   placement.mobile.bounds = bounds_of(mobile.mesh.vertices());
-  placement.notes = notes_on(placement);
+  placement.processing = processing_of(placement);
   return {Joint{description.name, description.kind, description.side, std::move(fixed), std::move(mobile),
                 description.anatomy, description.translation_frame},
           std::move(placement)};

@@ -1,7 +1,9 @@
 #include "kinematics/surface_points.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
 
 namespace condyle::kinematics {
 
@@ -27,29 +29,102 @@ std::vector<SurfacePoint> surface_points(const TriMesh& mesh, const std::optiona
   return points;
 }
 
-std::vector<Index> largest_connected_part(const TriMesh& mesh, const std::vector<SurfacePoint>& points,
-                                          const std::vector<Index>& chosen) {
-  // Union-find over mesh vertices; every root is the smallest vertex of its part, so no order decides.
-  std::vector<Index> parent(mesh.vertices.size(), no_index);
-  for (const Index i : chosen) parent[points[i].vertex] = points[i].vertex;
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
+void average_normals(std::vector<SurfacePoint>& points, double cell) {
+  if (points.empty()) return;
+  // Sorted by cell, in a cell as they were.
+  struct Place {
+    std::array<double, 3> cell;
+    std::size_t point;
+    auto operator<=>(const Place&) const = default;
   };
-  for (const Triangle& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const Index a = t[k], b = t[(k + 1) % 3];
-      if (parent[a] == no_index || parent[b] == no_index) continue;
-      const Index ra = root(a), rb = root(b);
-      parent[std::max(ra, rb)] = std::min(ra, rb);
+  const Vec3 origin = points.front().position;
+  std::vector<Place> places;
+  places.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 at = (points[i].position - origin) / cell;
+    places.push_back({{std::floor(at.x()), std::floor(at.y()), std::floor(at.z())}, i});
+  }
+  std::sort(places.begin(), places.end());
+  for (auto first = places.begin(); first != places.end();) {
+    const auto last =
+        std::find_if(first, places.end(), [&](const Place& place) { return place.cell != first->cell; });
+    // The largest of the cell has one side, and what faces the other way is another surface: a wall is thin.
+    const Vec3 front = points[std::max_element(first, last,
+                                               [&](const Place& a, const Place& b) {
+                                                 return points[a.point].area < points[b.point].area;
+                                               })
+                                  ->point]
+                           .normal;
+    Vec3 sums[2] = {Vec3::Zero(), Vec3::Zero()};
+    std::size_t counts[2] = {0, 0};
+    for (auto place = first; place != last; ++place) {
+      const SurfacePoint& point = points[place->point];
+      const bool back = point.normal.dot(front) < 0;
+      sums[back] += point.area * point.normal;
+      ++counts[back];
+    }
+    for (; first != last; ++first) {
+      SurfacePoint& point = points[first->point];
+      const bool back = point.normal.dot(front) < 0;
+      if (counts[back] > 1 && sums[back].norm() > 0) point.normal = sums[back].normalized();
     }
   }
-  std::vector<double> area(mesh.vertices.size(), 0.0);
-  for (const Index i : chosen) area[root(points[i].vertex)] += points[i].area;
+}
+
+PointNeighbours::PointNeighbours(const TriMesh& mesh, const std::vector<SurfacePoint>& points)
+    : end_(points.size() + 1, 0) {
+  std::vector<Index> position(mesh.vertices.size(), no_index);
+  for (std::size_t i = 0; i < points.size(); ++i) position[points[i].vertex] = static_cast<Index>(i);
+  // visit(the later point, the earlier one) for each side between two.
+  const auto each_side = [&](const auto& visit) {
+    for (const Triangle& t : mesh.triangles) {
+      const std::array<Index, 3> at{position[t[0]], position[t[1]], position[t[2]]};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [earlier, later] = std::minmax(at[k], at[(k + 1) % 3]);
+        if (later != no_index && earlier != later) visit(later, earlier);
+      }
+    }
+  };
+  each_side([&](Index later, Index) { ++end_[later + 1]; });
+  std::inclusive_scan(end_.begin(), end_.end(), end_.begin());
+  std::vector<Index> all(end_.back()), next(end_.begin(), end_.end() - 1);
+  each_side([&](Index later, Index earlier) { all[next[later]++] = earlier; });
+  earlier_.reserve(all.size() / 2);
+  for (std::size_t i = 0, first = 0; i < points.size(); ++i) {
+    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(first),
+               end = all.begin() + static_cast<std::ptrdiff_t>(end_[i + 1]);
+    first = end_[i + 1];
+    std::sort(begin, end);
+    earlier_.insert(earlier_.end(), begin, std::unique(begin, end));
+    end_[i + 1] = static_cast<Index>(earlier_.size());
+  }
+}
+
+std::vector<Index> PointNeighbours::largest_connected_part(const std::vector<SurfacePoint>& points,
+                                                           const std::vector<Index>& chosen) const {
+  // Union-find; every root is the smallest point of its part, so that no order decides.
+  std::vector<Index> parent(points.size(), no_index);
+  const auto root = [&](Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const Index i : chosen) {
+    Index own = parent[i] = i;
+    for (Index k = end_[i]; k < end_[i + 1]; ++k) {
+      if (parent[earlier_[k]] == no_index) continue;
+      const Index other = root(earlier_[k]);
+      if (other == own) continue;
+      const auto [low, high] = std::minmax(own, other);
+      own = parent[high] = low;
+    }
+  }
+  std::vector<double> area(points.size(), 0.0);
+  for (const Index i : chosen) area[root(i)] += points[i].area;
   const auto largest = static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
   std::vector<Index> part;
+  part.reserve(chosen.size());
   for (const Index i : chosen)
-    if (root(points[i].vertex) == largest) part.push_back(i);
+    if (parent[i] == largest || root(i) == largest) part.push_back(i);
   return part;
 }
 

@@ -21,13 +21,32 @@ struct SurfacePoint {
 /// one that it overflows), ascending.
 std::vector<SurfacePoint> surface_points(const TriMesh& mesh, const std::optional<Sphere>& within);
 
-/// Of the chosen vertices, those of the largest part (by area) that is connected by mesh edges between chosen
-/// vertices. `chosen` holds positions in `points`, ascending, and so does the answer.
-std::vector<Index> largest_connected_part(const TriMesh& mesh, const std::vector<SurfacePoint>& points,
-                                          const std::vector<Index>& chosen);
+/// Each normal becomes the mean, by area, of those in its cell of this side (mm) that face the same way: what fine meshes
+/// have of noise goes, and the vertices of coarse ones stay alone in their cells. n log n in the points.
+void average_normals(std::vector<SurfacePoint>& points, double cell);
+
+/// Which of the points are joined by edges of the mesh, for any number of choices among them.
+class PointNeighbours {
+ public:
+  /// Linear in the mesh. The points are those of surface_points(), ascending.
+  PointNeighbours(const TriMesh& mesh, const std::vector<SurfacePoint>& points);
+
+  /// The largest part (by area) of the chosen points that is connected by edges between chosen points.
+  /// `chosen` holds positions in the points, ascending, and so does the answer. Linear in what is chosen.
+  std::vector<Index> largest_connected_part(const std::vector<SurfacePoint>& points,
+                                            const std::vector<Index>& chosen) const;
+
+ private:
+  /// Point i is joined to the earlier points from earlier_[end_[i]] to earlier_[end_[i + 1]], each of them once.
+  std::vector<Index> end_, earlier_;
+};
 
 /// The mesh's numbers of some of the points.
 std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const std::vector<Index>& chosen);
+
+/// The spherical part that these vertices are, ascending, as find_sphere() gives it once it has chosen them. Throws MeshError
+/// where no sphere fits them.
+SphericalPatch patch_of(const TriMesh& mesh, const std::vector<Index>& vertices);
 
 /// 1.4826 times the median magnitude: the standard deviation of a normal distribution, given by the better
 /// half of the residuals and deaf to the rest.

@@ -209,8 +209,8 @@ void measure_components(Edges& edges, DisjointSets& fans, MeshReport& report) {
   if (report.is_closed()) report.signed_volume = total.value();
 }
 
-void find_self_crossings(const TriMesh& mesh, MeshReport& report) {
-  const mesh::SelfCrossings found = mesh::self_crossings(mesh);
+void find_self_crossings(const Mesh& mesh, MeshReport& report) {
+  const mesh::SelfCrossings& found = mesh::self_crossings_of(mesh);
   report.self_crossings.count = found.pairs;
   if (found.first) report.self_crossings.first = {(*found.first)[0], (*found.first)[1]};
 }

@@ -9,6 +9,7 @@
 #include "core/coordinate_range.hpp"
 #include "mesh/edge_balance.hpp"
 #include "mesh/edge_table.hpp"
+#include "mesh/findings.hpp"
 
 namespace condyle {
 namespace {
@@ -66,6 +67,7 @@ struct Mesh::Checked {
   std::optional<DirectedEdge> unbalanced_edge;
   mutable std::once_flag edges_built = {};
   mutable std::optional<mesh::EdgeTable> edges = {};
+  mutable mesh::Findings findings = {};
 };
 
 Mesh::Mesh(TriMesh arrays) {
@@ -98,6 +100,10 @@ const mesh::EdgeTable& mesh::edges_of(const Mesh& mesh) {
   const Mesh::Checked& checked = *mesh.checked_;
   std::call_once(checked.edges_built, [&] { checked.edges.emplace(checked.arrays); });
   return *checked.edges;
+}
+
+mesh::Findings& mesh::findings_of(const Mesh& mesh) {
+  return mesh.checked_->findings;
 }
 
 }  // namespace condyle

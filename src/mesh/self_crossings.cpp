@@ -1,10 +1,15 @@
 #include "mesh/self_crossings.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "condyle/repair.hpp"
+#include "core/float_bounds.hpp"
+#include "core/lazy.hpp"
+#include "mesh/findings.hpp"
 #include "mesh/triangle_intersection.hpp"
 #include "mesh/triangle_tree.hpp"
 
@@ -21,20 +26,59 @@ bool apart(const Node& a, const Node& b) noexcept {
   return false;
 }
 
-bool apart(const TriangleCorners& a, const TriangleCorners& b) noexcept {
-  for (int k = 0; k < 3; ++k) {
-    const auto [a_low, a_high] = std::minmax({a[0][k], a[1][k], a[2][k]});
-    const auto [b_low, b_high] = std::minmax({b[0][k], b[1][k], b[2][k]});
-    if (a_high < b_low || b_high < a_low) return true;
+/// Boxes of all triangles in the order of the tree, in single precision and no smaller than what they hold. Those of a leaf
+/// stand side by side and are compared at once.
+class TriangleBoxes {
+ public:
+  static constexpr Index at_once = TriangleTree::leaf_triangles;
+
+  explicit TriangleBoxes(const TriangleTree& tree) {
+    const std::size_t count = tree.triangles().size();
+    for (std::size_t k = 0; k < 3; ++k) {
+      // The last leaf is read as if it were full.
+      low_[k].resize(count + at_once), high_[k].resize(count + at_once);
+      const auto axis = static_cast<int>(k);
+      for (std::size_t t = 0; t < count; ++t) {
+        const TriangleCorners c = tree.corners(static_cast<Index>(t));
+        low_[k][t] = core::float_below(std::min(std::min(c[0][axis], c[1][axis]), c[2][axis]));
+        high_[k][t] = core::float_above(std::max(std::max(c[0][axis], c[1][axis]), c[2][axis]));
+      }
+    }
   }
-  return false;
-}
+
+  bool apart(Index s, const Node& node) const noexcept {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (double{low_[k][s]} - double{node.centre[k]} > double{node.half[k]} ||
+          double{node.centre[k]} - double{high_[k][s]} > double{node.half[k]})
+        return true;
+    return false;
+  }
+
+  /// By how much triangle s is apart from those from `first` on, above 0. Without branches.
+  std::array<float, at_once> apart(Index s, Index first) const noexcept {
+    std::array<float, at_once> out;
+    const auto along = [&](std::size_t k, std::size_t i) {
+      return std::max(low_[k][first + i] - high_[k][s], low_[k][s] - high_[k][first + i]);
+    };
+    for (std::size_t i = 0; i < at_once; ++i)
+      out[i] = std::max(std::max(along(0, i), along(1, i)), along(2, i));
+    return out;
+  }
+
+ private:
+  std::array<std::vector<float>, 3> low_, high_;
+};
 
 class Search {
  public:
-  explicit Search(const TriMesh& mesh)
-      : mesh_(mesh), tree_(mesh), place_(first_of_same_coordinates(mesh.vertices)) {
+  Search(const TriMesh& mesh, const TriangleTree& tree) : tree_(tree), boxes_(tree) {
     found_.crosses.resize(mesh.triangles.size());
+    const std::vector<Index> first = first_of_same_coordinates(mesh.vertices);
+    places_.reserve(tree.triangles().size());
+    for (const Index t : tree.mesh_triangles()) {
+      const auto [a, b, c] = mesh.triangles[t];
+      places_.push_back({first[a], first[b], first[c]});
+    }
   }
 
   SelfCrossings run() {
@@ -61,41 +105,44 @@ class Search {
  private:
   void look_at(const Node& a, const Node& b) {
     for (Index s = a.first; s < a.last; ++s) {
-      const TriangleCorners corners = tree_.corners(s);
-      for (Index t = &a == &b ? s + 1 : b.first; t < b.last; ++t) {
-        const TriangleCorners others = tree_.corners(t);
-        if (apart(corners, others)) continue;
-        const auto [first, second] = std::minmax(tree_.mesh_triangles()[s], tree_.mesh_triangles()[t]);
-        if (!share_a_vertex(first, second) && triangles_intersect(corners, others)) note(first, second);
-      }
+      if (boxes_.apart(s, b)) continue;
+      const auto apart_by = boxes_.apart(s, b.first);
+      for (Index t = &a == &b ? s + 1 : b.first; t < b.last; ++t)
+        if (!(apart_by[t - b.first] > 0) && !share_a_vertex(s, t) &&
+            triangles_intersect(tree_.corners(s), tree_.corners(t)))
+          note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[t]);
     }
   }
 
   bool share_a_vertex(Index s, Index t) const noexcept {
-    const auto at = [&](Index v) { return place_[v]; };
-    for (const Index v : mesh_.triangles[s])
-      for (const Index w : mesh_.triangles[t])
-        if (at(v) == at(w)) return true;
+    for (const Index v : places_[s])
+      for (const Index w : places_[t])
+        if (v == w) return true;
     return false;
   }
 
-  void note(Index first, Index second) {
+  void note(Index s, Index t) {
     ++found_.pairs;
-    const std::array<Index, 2> pair{first, second};
+    const std::array<Index, 2> pair{std::min(s, t), std::max(s, t)};
     found_.first = std::min(found_.first.value_or(pair), pair);
-    found_.crosses[first] = found_.crosses[second] = 1;
+    found_.crosses[s] = found_.crosses[t] = 1;
   }
 
-  const TriMesh& mesh_;
-  TriangleTree tree_;
-  std::vector<Index> place_;
+  const TriangleTree& tree_;
+  TriangleBoxes boxes_;
+  std::vector<Triangle> places_;  ///< of the corners: the first vertex that lies there
   SelfCrossings found_;
+};
+
+struct KeptCrossings {
+  core::Lazy<SelfCrossings> crossings;
 };
 
 }  // namespace
 
-SelfCrossings self_crossings(const TriMesh& mesh) {
-  return Search(mesh).run();
+const SelfCrossings& self_crossings_of(const Mesh& mesh) {
+  return findings_of(mesh).get<KeptCrossings>().crossings.get(
+      [&](SelfCrossings& crossings) { crossings = Search(mesh, *tree_of(mesh)).run(); });
 }
 
 }  // namespace condyle::mesh

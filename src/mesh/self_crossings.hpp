@@ -21,7 +21,7 @@ struct SelfCrossings {
 /// other beside their common vertex is not looked at: a fold that begins there reaches other triangles too unless
 /// it is one triangle deep. Exact for the doubles given.
 ///
-/// n log n for a surface with few of them, by a tree of boxes.
-SelfCrossings self_crossings(const TriMesh& mesh);
+/// n log n for a surface with few of them, by a tree of boxes; once, and kept with the mesh.
+const SelfCrossings& self_crossings_of(const Mesh& mesh);
 
 }  // namespace condyle::mesh

@@ -7,14 +7,18 @@
 #include <limits>
 #include <utility>
 
+#include "core/ordered_sums.hpp"
+
 namespace condyle::mesh {
 namespace {
 
+using core::ordered_dot, core::ordered_norm;
+
 double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) noexcept {
   const Vec3 along = b - a;
-  const double length2 = along.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (a + t * along - p).norm();
+  const double length2 = ordered_dot(along, along);
+  const double t = length2 > 0 ? std::clamp(ordered_dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  return ordered_norm(a + t * along - p);
 }
 
 /// No point of the node's triangles is nearer: its box is rounded outwards by more than this rounds. 0 where
@@ -35,14 +39,14 @@ double squared_distance_to_box(const Vec3& p, const TriangleTree::Node& node) no
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept {
   const Vec3 normal = (t[1] - t[0]).cross(t[2] - t[0]);
   // Above the face where p lies on the inner side of all three edges, seen along the normal.
-  const auto inner = [&](int k) { return (t[(k + 1) % 3] - t[k]).cross(p - t[k]).dot(normal) >= 0; };
-  const double length = normal.norm();
-  if (length > 0 && inner(0) && inner(1) && inner(2)) return std::abs((p - t[0]).dot(normal)) / length;
+  const auto inner = [&](int k) { return ordered_dot((t[(k + 1) % 3] - t[k]).cross(p - t[k]), normal) >= 0; };
+  const double length = ordered_norm(normal);
+  if (length > 0 && inner(0) && inner(1) && inner(2)) return std::abs(ordered_dot(p - t[0], normal)) / length;
   return std::min({distance_to_segment(p, t[0], t[1]), distance_to_segment(p, t[1], t[2]),
                    distance_to_segment(p, t[2], t[0])});
 }
 
-double SurfaceDistance::operator()(const Vec3& p) const noexcept {
+double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept {
   // A split halves the key's bits that differ, at most 32 times, and then the triangles of one key.
   constexpr std::size_t most_levels = 72;
   std::array<Index, most_levels> waiting;
@@ -50,15 +54,15 @@ double SurfaceDistance::operator()(const Vec3& p) const noexcept {
   std::size_t count = 0;
   waiting[count++] = 0;
   while (count > 0) {
-    const TriangleTree::Node& node = tree_.nodes()[waiting[--count]];
+    const TriangleTree::Node& node = surface.nodes()[waiting[--count]];
     if (squared_distance_to_box(p, node) > best * best) continue;
     if (node.is_leaf()) {
       for (Index i = node.first; i < node.last; ++i)
-        best = std::min(best, distance_to_triangle(p, tree_.corners(i)));
+        best = std::min(best, distance_to_triangle(p, surface.corners(i)));
       continue;
     }
     Index near = node.child, far = node.child + 1;
-    if (squared_distance_to_box(p, tree_.nodes()[far]) < squared_distance_to_box(p, tree_.nodes()[near]))
+    if (squared_distance_to_box(p, surface.nodes()[far]) < squared_distance_to_box(p, surface.nodes()[near]))
       std::swap(near, far);
     assert(count + 2 <= most_levels);
     waiting[count++] = far;

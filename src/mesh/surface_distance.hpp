@@ -12,14 +12,17 @@ namespace condyle::mesh {
 /// coordinate; a triangle of zero area counts as its edges.
 double distance_to_triangle(const Vec3& p, const TriangleCorners& t) noexcept;
 
-/// Distance from any point to the nearest point of a mesh: the shortest exit by translation, in any direction.
-/// Over a tree of its triangles, built once; a query looks at a few leaves.
+/// Distance from any point to the nearest point of a mesh, over a tree of its triangles, of which there is one: the shortest exit by
+/// translation, in any direction. A query looks at a few leaves.
+double distance_to_surface(const TriangleTree& surface, const Vec3& p) noexcept;
+
+/// The same with a tree of its own, built once.
 class SurfaceDistance {
  public:
   /// The mesh must have a triangle.
   explicit SurfaceDistance(const TriMesh& mesh) : tree_(mesh) { assert(!tree_.empty()); }
 
-  double operator()(const Vec3& p) const noexcept;
+  double operator()(const Vec3& p) const noexcept { return distance_to_surface(tree_, p); }
 
   const TriangleTree& tree() const noexcept { return tree_; }
 

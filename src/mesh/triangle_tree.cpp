@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "core/float_bounds.hpp"
+#include "core/lazy.hpp"
 #include "core/predicates.hpp"
+#include "mesh/findings.hpp"
 
 namespace condyle::mesh {
 namespace {
@@ -163,7 +165,16 @@ class Builder {
   std::vector<TriangleTree::Node>& nodes_;
 };
 
+struct KeptTree {
+  core::Lazy<std::shared_ptr<const TriangleTree>> tree;
+};
+
 }  // namespace
+
+std::shared_ptr<const TriangleTree> tree_of(const Mesh& mesh) {
+  return findings_of(mesh).get<KeptTree>().tree.get(
+      [&](auto& tree) { tree = std::make_shared<const TriangleTree>(mesh); });
+}
 
 TriangleTree::TriangleTree(const TriMesh& mesh) {
   if (mesh.triangles.empty()) return;

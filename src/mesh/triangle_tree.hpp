@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "condyle/mesh.hpp"
@@ -71,5 +72,8 @@ class TriangleTree {
   std::vector<Vec3> vertices_;
   std::vector<Index> mesh_triangles_, mesh_vertices_;
 };
+
+/// The mesh's own tree: built when first asked for, by whichever thread, and kept with the mesh.
+std::shared_ptr<const TriangleTree> tree_of(const Mesh& mesh);
 
 }  // namespace condyle::mesh

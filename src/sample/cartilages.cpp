@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "condyle/error.hpp"
 #include "sample/cartilage_shape.hpp"
 #include "sample/checked_mesh.hpp"
 #include "sample/parameter_checks.hpp"
 #include "sample/solid_mesh.hpp"
+#include "sample/stoppable.hpp"
 
 namespace condyle {
 namespace {
@@ -68,14 +70,15 @@ CartilageCounts counts(const CartilageResolution& resolution, const Cartilage& a
           sample::triangles_for(femoral.solid, femoral_meshing, edge)};
 }
 
-}  // namespace
-
-SampleCartilages sample_cartilages(const HipParameters& hip, const CartilageParameters& cartilage,
-                                   const CartilageResolution& resolution) {
+/// Throws sample::Stopped.
+SampleCartilages made(const HipParameters& hip, const CartilageParameters& cartilage,
+                      const CartilageResolution& resolution, const std::stop_token& stop) {
   require_valid(hip, cartilage);
   const sample::ArticularSpheres spheres = sample::articular_spheres(hip, cartilage);
-  const Cartilage acetabular = sample::acetabular_cartilage_shape(hip, cartilage);
-  const Cartilage femoral = sample::femoral_cartilage_shape(hip, cartilage);
+  Cartilage acetabular = sample::acetabular_cartilage_shape(hip, cartilage);
+  Cartilage femoral = sample::femoral_cartilage_shape(hip, cartilage);
+  for (Cartilage* each : {&acetabular, &femoral})
+    each->solid = sample::stoppable(std::move(each->solid), stop);
   const Meshing acetabular_meshing = meshing_for(acetabular, spheres.acetabular_thickness());
   const Meshing femoral_meshing = meshing_for(femoral, spheres.femoral_thickness());
 
@@ -86,6 +89,24 @@ SampleCartilages sample_cartilages(const HipParameters& hip, const CartilagePara
   return {
       sample::checked_mesh("acetabular cartilage", acetabular.solid, acetabular_meshing, count.acetabular, 1),
       sample::checked_mesh("femoral cartilage", femoral.solid, femoral_meshing, count.femoral, 0)};
+}
+
+}  // namespace
+
+SampleCartilages sample_cartilages(const HipParameters& hip, const CartilageParameters& cartilage,
+                                   const CartilageResolution& resolution) {
+  return made(hip, cartilage, resolution, {});
+}
+
+std::optional<SampleCartilages> sample_cartilages(const HipParameters& hip,
+                                                  const CartilageParameters& cartilage,
+                                                  const CartilageResolution& resolution,
+                                                  const std::stop_token& stop) {
+  try {
+    return made(hip, cartilage, resolution, stop);
+  } catch (const sample::Stopped&) {
+    return std::nullopt;
+  }
 }
 
 SampleCartilages mirrored(const SampleCartilages& cartilages) {

@@ -13,6 +13,7 @@
 #include "sample/hip_bone_shape.hpp"
 #include "sample/parameter_checks.hpp"
 #include "sample/solid_mesh.hpp"
+#include "sample/stoppable.hpp"
 
 namespace condyle {
 namespace {
@@ -67,11 +68,11 @@ std::pair<double, Vec3> least_value(const Solid& solid, const TriMesh& mesh) {
   return least;
 }
 
-}  // namespace
-
-SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution) {
+/// Throws sample::Stopped.
+SampleHip made(const HipParameters& parameters, const Resolution& resolution, const std::stop_token& stop) {
   sample::require_valid(parameters);
-  const Solid hip_bone = sample::hip_bone_shape(parameters), femur = sample::femur_shape(parameters);
+  const Solid hip_bone = sample::stoppable(sample::hip_bone_shape(parameters), stop),
+              femur = sample::stoppable(sample::femur_shape(parameters), stop);
   // The thinnest parts, the wing and the ischial spine, are three times as thick as the lattice is wide.
   const double contour_spacing = 2.5 * parameters.head_radius_mm / 24;
   const Meshing hip_bone_meshing =
@@ -92,6 +93,21 @@ SampleHip sample_hip(const HipParameters& parameters, const Resolution& resoluti
     }
   }
   return hip;
+}
+
+}  // namespace
+
+SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution) {
+  return made(parameters, resolution, {});
+}
+
+std::optional<SampleHip> sample_hip(const HipParameters& parameters, const Resolution& resolution,
+                                    const std::stop_token& stop) {
+  try {
+    return made(parameters, resolution, stop);
+  } catch (const sample::Stopped&) {
+    return std::nullopt;
+  }
 }
 
 TriMesh mirrored(const TriMesh& mesh) {

@@ -12,6 +12,7 @@
 #include "condyle/error.hpp"
 #include "condyle/fit.hpp"
 #include "core/predicates.hpp"
+#include "kinematics/hip_anatomy.hpp"
 #include "support/test_meshes.hpp"
 #include "support/trochlea.hpp"
 #include "support/tube.hpp"
@@ -307,6 +308,28 @@ TEST(FindSphere, TheFloorOfAFossaIsLeftOutOfItsSocket) {
     EXPECT_NEAR(patch.fit.sphere.radius, 25, exact_fit_tolerance(40, 1)) << depth;
     EXPECT_LE(patch.fit.largest_residual, exact_fit_tolerance(40, 1)) << depth;
   }
+}
+
+TEST(FindSphere, OfTwoSocketsTheOneWithMoreSurfaceIsFound) {
+  // The smaller one covers half of its sphere, the larger one a third of a larger.
+  TriMesh larger = test::flipped(test::sphere(Vec3::Zero(), 30, 5));
+  std::erase_if(larger.triangles, [&](const Triangle& t) { return larger.vertices[t[0]].y() < 10; });
+  TriMesh smaller = test::flipped(test::sphere({100, 0, 0}, 22, 5));
+  std::erase_if(smaller.triangles, [&](const Triangle& t) { return smaller.vertices[t[0]].y() < 0; });
+  const auto patch = find_sphere(test::joined(larger, smaller), {.part = SphericalPart::socket});
+  EXPECT_NEAR(patch.fit.sphere.radius, 30, exact_fit_tolerance(122, 0.6));
+  EXPECT_LE(patch.fit.sphere.centre.norm(), exact_fit_tolerance(122, 0.6));
+}
+
+TEST(FindSocket, DoesNotTakeASphereThatTheHeadDoesNotFitInto) {
+  const TriMesh bone = test::socket({1, 2, 3}, 25, 40, 4);
+  const Vec3 centre(1, 2, 3);
+  // Half a millimetre of cartilage may be pressed in.
+  ASSERT_TRUE(kinematics::find_socket(bone, {centre, 25.4}));
+  EXPECT_FALSE(kinematics::find_socket(bone, {centre, 25.6}));
+  ASSERT_TRUE(kinematics::sphere_around(bone, {centre, 25.6}));
+  EXPECT_NEAR(kinematics::sphere_around(bone, {centre, 25.6})->fit.sphere.radius, 25,
+              exact_fit_tolerance(45, 1));
 }
 
 TEST(FindSphere, ResamplingBoundsItsCentre) {

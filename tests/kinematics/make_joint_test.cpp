@@ -57,7 +57,7 @@ TEST(MakeJoint, TheStandardFrameKeepsEveryBit) {
   EXPECT_TRUE(joint.mobile.mesh.is_closed());
   EXPECT_EQ(placement.X_WF.matrix(), Pose::Identity().matrix());
   EXPECT_TRUE(placement.axis_errors.none());
-  EXPECT_TRUE(placement.notes.empty());
+  EXPECT_TRUE(placement.processing.empty());
   EXPECT_EQ(placement.mobile.bounds.low.y(), -400);
   EXPECT_EQ(placement.mobile.likely_unit.unit, LengthUnit::millimetres);
 }
@@ -113,8 +113,9 @@ TEST(MakeJoint, AFittedCentreIsThatOfTheHeadOrOfTheSocket) {
     // Vertices of 24 mm rounded to double lie on the sphere: see the tests of the fit.
     EXPECT_LE((placement.X_WF.translation() - head_centre).norm(), 1e-12);
     EXPECT_NEAR(placement.sphere->fit.sphere.radius, radius, 1e-12);
-    ASSERT_EQ(placement.notes.size(), 1u);
-    EXPECT_TRUE(placement.notes[0].starts_with("centre fitted: sphere of radius ")) << placement.notes[0];
+    ASSERT_EQ(placement.processing.size(), 1u);
+    EXPECT_TRUE(placement.processing[0].starts_with("centre fitted: sphere of radius "))
+        << placement.processing[0];
   }
 }
 

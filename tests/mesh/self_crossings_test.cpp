@@ -17,10 +17,10 @@ namespace {
 using Pair = std::array<Index, 2>;
 
 TEST(SelfCrossings, SoundSurfacesHaveNone) {
-  EXPECT_EQ(self_crossings({}).pairs, 0u);
+  EXPECT_EQ(self_crossings_of(TriMesh{}).pairs, 0u);
   for (const TriMesh& mesh : {test::box({0, 0, 0}, {1, 2, 3}), test::sphere({1, 2, 3}, 4, 4),
                               test::socket(Vec3::Zero(), 3, 4, 3), test::torus(4, 1, 20, 12)}) {
-    const SelfCrossings found = self_crossings(mesh);
+    const SelfCrossings found = self_crossings_of(mesh);
     EXPECT_EQ(found.pairs, 0u);
     EXPECT_FALSE(found.first);
     EXPECT_EQ(std::count(found.crosses.begin(), found.crosses.end(), 1), 0);
@@ -35,7 +35,7 @@ TEST(SelfCrossings, TrianglesWithVerticesOfTheirOwnAtOnePlaceAreNeighbours) {
     const auto v = static_cast<Index>(3 * t);
     soup.triangles.push_back({v, v + 1, v + 2});
   }
-  EXPECT_EQ(self_crossings(soup).pairs, 0u);
+  EXPECT_EQ(self_crossings_of(soup).pairs, 0u);
 }
 
 /// Every pair, by exact brute force.
@@ -74,7 +74,7 @@ TEST(SelfCrossings, AreThoseOfExactBruteForce) {
     meshes.push_back(std::move(soup));
   }
   for (const TriMesh& mesh : meshes) {
-    const SelfCrossings expected = by_brute_force(mesh), found = self_crossings(mesh);
+    const SelfCrossings expected = by_brute_force(mesh), found = self_crossings_of(mesh);
     EXPECT_GT(expected.pairs, 0u);
     EXPECT_EQ(found.pairs, expected.pairs);
     EXPECT_EQ(found.first, expected.first);

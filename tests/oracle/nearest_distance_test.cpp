@@ -20,7 +20,8 @@ TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
     const Pose X_FM =
         pose_at({.side = Side::right}, {Angle::degrees(flexion), Angle::degrees(3), Angle::degrees(20)});
     const RadialContact contact = joint.radial(X_FM);
-    const ContactMeasures found = measure_contact(joint, X_FM, VertexStates(contact));
+    const ContactMeasures found =
+        measure_contact(joint, X_FM, MeasuredContact(contact), DistancesOf::all_vertices);
     const TriMesh femur_in_F = posed(X_FM, hip.femur);
     const CgalOracle oracle(hip.hip_bone);
     const auto of_mobile = oracle.distances(femur_in_F.vertices);
@@ -52,7 +53,8 @@ TEST(NearestDistance, OfTwoSurfacesIsWhatCgalFinds) {
   for (const double flexion : {0.0, 25.0, 50.0, 75.0, 100.0, 140.0}) {
     const Pose X_FM = pose_at({.side = Side::right}, {Angle::degrees(flexion), Angle(), Angle::degrees(5)});
     const TriMesh femur_in_F = posed(X_FM, femur);
-    const ContactMeasures found = measure_contact(joint, X_FM, VertexStates(joint.radial(X_FM)));
+    const ContactMeasures found =
+        measure_contact(joint, X_FM, MeasuredContact(joint.radial(X_FM)), DistancesOf::vertices_inside);
     EXPECT_NEAR(found.nearest.distance_mm, oracle.surface_distance(femur_in_F), 1e-9) << flexion;
     apart += found.nearest.distance_mm > 0;
     const double by_vertices = std::min(oracle.min_distance(femur_in_F.vertices),

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <stop_token>
 #include <variant>
 
 #include "condyle/mesh.hpp"
@@ -45,6 +47,11 @@ struct SampleCartilages {
 /// parameters, same bytes, on any number of threads. Raises UsageError as sample_hip() does.
 SampleCartilages sample_cartilages(const HipParameters& hip, const CartilageParameters& cartilage,
                                    const CartilageResolution& resolution);
+/// The same; empty if it was stopped.
+std::optional<SampleCartilages> sample_cartilages(const HipParameters& hip,
+                                                  const CartilageParameters& cartilage,
+                                                  const CartilageResolution& resolution,
+                                                  const std::stop_token& stop);
 
 /// The other side: Z negated, triangles flipped so that they face outwards again.
 SampleCartilages mirrored(const SampleCartilages& cartilages);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <stop_token>
 #include <variant>
 
 #include "condyle/mesh.hpp"
@@ -42,6 +44,9 @@ struct SampleHip {
 /// number of threads. Raises UsageError naming the parameter that is out of its range, or saying what the
 /// parameters together make impossible.
 SampleHip sample_hip(const HipParameters& parameters, const Resolution& resolution);
+/// The same; empty if it was stopped.
+std::optional<SampleHip> sample_hip(const HipParameters& parameters, const Resolution& resolution,
+                                    const std::stop_token& stop);
 
 /// The other side: Z negated, triangles flipped so that they face outwards again.
 TriMesh mirrored(const TriMesh& mesh);

@@ -1,0 +1,75 @@
+#include "kinematics/hip_parts.hpp"
+
+#include <array>
+#include <cstddef>
+
+#include "condyle/error.hpp"
+#include "core/latest_few.hpp"
+#include "core/lazy.hpp"
+#include "kinematics/hip_anatomy.hpp"
+#include "kinematics/surface_points.hpp"
+#include "mesh/findings.hpp"
+
+namespace condyle::kinematics {
+namespace {
+
+/// A head whose centre is near the joint centre lies within two of the largest radii that find_sphere() looks for; fewer
+/// vertices to search cost less.
+constexpr double largest_head_reach = 90;
+
+/// The head of a joint, and that of its checks where the two differ, at this pose and the one before.
+constexpr std::size_t heads_kept = 4;
+
+/// Centre and radius.
+using HeadKey = std::array<double, 4>;
+HeadKey key_of(const Sphere& head) noexcept {
+  return {head.centre.x(), head.centre.y(), head.centre.z(), head.radius};
+}
+
+struct KeptParts {
+  core::Lazy<std::optional<SphericalPatch>> head_near_centre, head_anywhere;
+  core::LatestFew<HeadKey, std::optional<SphericalPatch>, heads_kept> sockets;
+  core::LatestFew<HeadKey, std::optional<SocketRim>, heads_kept> rims;
+};
+
+const KeptParts& kept_with(const Mesh& mesh) {
+  return mesh::findings_of(mesh).get<KeptParts>();
+}
+
+std::optional<SphericalPatch> found_sphere(const TriMesh& mesh, const SphereSearch& search) {
+  try {
+    return find_sphere(mesh, search);
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+const std::optional<SphericalPatch>& head_near_centre(const Mesh& mobile) {
+  return kept_with(mobile).head_near_centre.get([&](std::optional<SphericalPatch>& head) {
+    head = found_sphere(mobile, {.within = Sphere{Vec3::Zero(), largest_head_reach}});
+  });
+}
+
+const std::optional<SphericalPatch>& head_anywhere(const Mesh& mobile) {
+  return kept_with(mobile).head_anywhere.get(
+      [&](std::optional<SphericalPatch>& head) { head = found_sphere(mobile, {}); });
+}
+
+void keep_head(const Mesh& mobile, const std::vector<Index>& vertices) {
+  kept_with(mobile).head_near_centre.get(
+      [&](std::optional<SphericalPatch>& head) { head = patch_of(mobile, vertices); });
+}
+
+std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& fixed, const Sphere& head) {
+  return kept_with(fixed).sockets.get(
+      key_of(head), [&](std::optional<SphericalPatch>& socket) { socket = sphere_around(fixed, head); });
+}
+
+std::shared_ptr<const std::optional<SocketRim>> rim_around(const Mesh& fixed, const Sphere& head) {
+  return kept_with(fixed).rims.get(key_of(head),
+                                   [&](std::optional<SocketRim>& rim) { rim = socket_rim(fixed, head); });
+}
+
+}  // namespace condyle::kinematics
