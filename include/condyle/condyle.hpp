@@ -53,5 +53,6 @@
 #include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/recorded_contact.hpp"
+#include "condyle/contact_checks.hpp"
 
 #include "condyle/version.hpp"

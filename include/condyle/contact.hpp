@@ -18,6 +18,12 @@
 
 namespace condyle {
 
+class JointContact;
+namespace contact {
+class BodyPair;
+const BodyPair& body_pair_of(const JointContact& joint);
+}  // namespace contact
+
 /// A triangle of the fixed and one of the mobile body that share a point.
 struct TrianglePair {
   Index fixed, mobile;
@@ -94,6 +100,8 @@ class JointContact {
 
  private:
   struct Parts;
+  friend const contact::BodyPair& contact::body_pair_of(const JointContact& joint);
+
   std::unique_ptr<Parts> parts_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace condyle {
 
-/// From every vertex of one body to the nearest point of the other body's surface, mm, >= 0 inside and outside: the
-/// shortest way out, or in, by translation.
+/// From vertices of one body to the nearest point of the other body's surface, mm, >= 0 inside and outside: the shortest way out, or
+/// in, by translation. One element per vertex; NaN for vertices whose distance was not asked for.
 struct NearestDistances {
   std::vector<double> mobile, fixed;
 };
@@ -30,36 +30,48 @@ struct ContactPatch {
   std::optional<Vec3> centroid;  ///< in F
 };
 
-/// The gap of a vertex is its nearest distance, negative inside; over a triangle it is taken as linear, and the patch
-/// is where it is negative. For smooth surfaces areas, means and volume err by the square of the edge length. What is
-/// narrower than a triangle is not seen: a corner that stands in the middle of a large face gives a patch of its own
-/// body, and none of the face. A mesh that overlaps itself counts the overlap twice.
+/// Areas, centroids and the volume are those of the meshes, to rounding, however thin the overlap. The mean depth takes the distance at
+/// the centroid of each triangle's part in contact, and errs by the square of the edge length on smooth surfaces.
+///
+/// Where the two surfaces coincide, a part of one belongs to its patch if its own body's inner side is inside the other body: bodies
+/// that touch along a face have no patch and no volume there.
 struct ContactMeasures {
   NearestDistances distances;
   NearestPoints nearest;
   /// Empty where the other mesh is open and nothing can be inside it.
   std::optional<ContactPatch> mobile, fixed;
-  /// Of the space that is inside both; empty where either mesh is open.
+  /// The space that is inside both counts, each point as often as the bodies cover it; empty if either mesh is open.
   std::optional<double> volume_mm3;
+  /// No more than this is the volume off by what the computation rounds; vertices as placed in F are taken as exact.
+  double volume_error_mm3 = 0;
+  /// By how much the body covers the surroundings of the overlap more than once, mm^3: above 0 where it crosses itself or has
+  /// components one in another, and the volume may count space more than once.
+  double mobile_covered_again_mm3 = 0, fixed_covered_again_mm3 = 0;
   /// Of the patches of both; in F, empty where there is none.
   std::optional<Vec3> centroid;
 };
 
-/// Which vertices are inside the other body, as ContactResults have it; empty where that is open. Without any the
-/// measures are distances only.
-struct VertexStates {
+/// Which vertices are inside the other body, empty where that is open, and which triangles meet. Without any the measures are
+/// distances only.
+struct MeasuredContact {
   std::optional<std::span<const PointState>> mobile, fixed;
+  std::span<const TrianglePair> pairs;
 
-  VertexStates() = default;
+  MeasuredContact() = default;
   template <class VertexResults>
-  explicit VertexStates(const ContactResults<VertexResults>& of) {
+  explicit MeasuredContact(const ContactResults<VertexResults>& of) : pairs(of.pairs) {
     if (of.mobile_in_fixed) mobile = of.mobile_in_fixed->state;
     if (of.fixed_in_mobile) fixed = of.fixed_in_mobile->state;
   }
 };
 
-/// `states` are of all vertices at this pose, from JointContact::radial() or tangential(). Both meshes must have a
-/// triangle. Some microseconds a vertex, on all threads.
-ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const VertexStates& states);
+/// Which vertices have nearest distances: those inside the other body, as the depth to read needs them, or all, as files and colours
+/// show them.
+enum class DistancesOf { vertices_inside, all_vertices };
+
+/// `contact` is of all vertices at this pose, from JointContact::radial() or tangential(). Both meshes must have a
+/// triangle. A few milliseconds for bones in contact, and some microseconds for each vertex that has a distance, on all threads.
+ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& contact,
+                                DistancesOf distances);
 
 }  // namespace condyle

@@ -43,16 +43,19 @@ enum class BalanceOutcome {
   at_jump,  ///< all but a little of the load is carried, and the force jumps just beyond, or no step was found that leaves less
   pulled_apart,  ///< along the load the bodies do not meet, or they part
   over_the_rim,  ///< in contact, and nowhere near was a pose found in which the contact carries the load
+  too_large,  ///< compressed by nine tenths of their thickness or more, the layers carry less than the load
   unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
   free_direction,  ///< the contact holds the mobile body in no place along a direction: prescribe it
 };
 
-/// "balanced", "at_jump", "pulled_apart", "over_the_rim", "unstable", "free_direction".
+/// "balanced", "at_jump", "pulled_apart", "over_the_rim", "too_large", "unstable", "free_direction".
 std::string_view name_of(BalanceOutcome outcome) noexcept;
 
 struct BalancedPose {
   BalanceOutcome outcome;
-  Pose X_FM;        ///< the pose found, or the last one looked at
+  /// The pose found; else the last one looked at, or one where the bodies are apart if less of the load is left there, or, of loads
+  /// that are too large, one that carries most.
+  Pose X_FM;
   Wrench residual;  ///< what contact and load add up to along what is free, in F, about the origin of M
   int steps = 0;    ///< of Newton's method
   Vec3 direction = Vec3::Zero();  ///< the direction of outcomes that have one, of length 1, in F
@@ -70,8 +73,8 @@ std::string reason_of(const BalancedPose& pose);
 /// step as much as leaves less of the load and stores no more energy than the load gives. A start without contact is moved along the load to
 /// where the contact carries that part of it. What is called balanced is stable: the contact pushes back whichever way the
 /// body is moved. The contact's force jumps where a ray begins or ceases to meet the other surface, at a rim or a side wall: a
-/// load of which little is left just before a jump, or of which no step leaves less, is taken to lie within it, and told with
-/// what is left.
+/// load of which little is left just before a jump, or of which no step leaves less, is taken to lie within it, and reported with
+/// what is left. Of a refused load no more is left than was applied, unless the contact pushes along it as far as is searched.
 ///
 /// UsageError where a share is not from 0 to 1, the load is zero or not finite along what is free, or directions depend on each other. Some ten times
 /// the cost of a pose.

@@ -33,7 +33,7 @@ enum class FaceRule {
   /// The whole face, with the depth of the ray from its centre along its normal: the rule of OpenSim-JAM.
   face_centre,
   /// The part where the depth, linear between rays from the corners along vertex normals, is above 0: areas and forces
-  /// converge with the square of the edge length.
+  /// converge with the square of the edge length. Rays that meet the target more than 60 degrees off its normal have no depth.
   cut_faces,
 };
 
@@ -82,6 +82,14 @@ struct SurfaceContact {
   /// With cut faces: those at the rim of the target, where a corner's ray meets nothing or another part of it. They are cut where
   /// their edges leave a closed target, else decided by the centres of 16 parts.
   std::size_t rim_faces = 0;
+  /// Overlapping area whose rays meet the target more than 60 degrees off its normal (`oblique_ray`), as rays from a rim's face run
+  /// lengthwise through what lies beside it: their length is no depth. With cut faces it counts for nothing else and is no part of
+  /// `faces`; with face_centre, the published rule, it is a part of them, and of the totals.
+  double oblique_area_mm2 = 0;
+  /// With face_centre: the largest depth or the largest pressure comes from such a ray.
+  bool peak_is_oblique = false;
+  /// The largest depth over the thickness of both layers where it is; 0 where no pressure was asked for.
+  double max_strain = 0;
 };
 
 /// What some of the faces in contact add up to: a compartment, say.
@@ -111,8 +119,8 @@ class NormalDepth {
   SurfaceContact at(const Pose& X_CT) const;
   void at(const Pose& X_CT, SurfaceContact& out) const;
 
-  /// Rays of this pose that meet the target's inner side only beyond the reach, up to twice of it: contact that the reach
-  /// cuts off.
+  /// Rays of this pose that meet the target's inner side only beyond the reach, up to twice of it, and have a depth there: contact
+  /// that the reach cuts off.
   std::size_t cut_off_by_reach(const Pose& X_CT) const;
 
   const Mesh& casting() const noexcept;

@@ -76,6 +76,11 @@ class ElasticContact {
   /// MeshError with the logarithmic law where the overlap reaches the thickness, naming the triangle.
   ElasticContactResults at(const Pose& X_FM) const;
 
+  /// The force on the mobile body, in F, with the depth asked at 16 places of each face in contact: what the edges of the meshes leave
+  /// open of `at(X_FM).on_mobile`, whose depths are linear from corner to corner. Sixteen times the rays. Empty with the rule
+  /// face_centre, which is what it is, and where the logarithmic law has no answer at one of these places.
+  std::optional<Vec3> refined_force_n(const Pose& X_FM) const;
+
   /// Rays of this pose that a longer reach would find in contact: NormalDepth::cut_off_by_reach().
   std::size_t cut_off_by_reach(const Pose& X_FM) const;
 

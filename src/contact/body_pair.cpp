@@ -133,12 +133,12 @@ int winding_number(const mesh::TriangleTree& tree, const Vec3& p, const BoxOf& b
 }  // namespace
 
 BodyPair::Body::Body(const Mesh& mesh)
-    : tree(mesh),
+    : tree(mesh::tree_of(mesh)),
       is_closed(mesh.is_closed()),
       place_of_triangle(mesh.triangles().size()),
-      piece_vertices(tree.one_vertex_of_each_piece()) {
+      piece_vertices(tree->one_vertex_of_each_piece()) {
   for (Index place = 0; place < place_of_triangle.size(); ++place)
-    place_of_triangle[tree.mesh_triangles()[place]] = place;
+    place_of_triangle[tree->mesh_triangles()[place]] = place;
 }
 
 BodyPair::BodyPair(const Mesh& fixed, const Mesh& mobile) : fixed_(fixed), mobile_(mobile) {}
@@ -147,11 +147,12 @@ bool BodyPair::touch(const Pose& X_FM, std::optional<TrianglePair>& last_witness
   if (last_witness) {
     const Index f = fixed_.place_of_triangle[last_witness->fixed],
                 m = mobile_.place_of_triangle[last_witness->mobile];
-    if (mesh::triangles_intersect(fixed_.tree.corners(f), posed_corners(mobile_.tree, m, X_FM))) return true;
+    if (mesh::triangles_intersect(fixed_.tree->corners(f), posed_corners(*mobile_.tree, m, X_FM)))
+      return true;
   }
   bool hit = false;
-  visit_meeting_pairs(fixed_.tree, mobile_.tree, X_FM, [&](Index f, Index m) {
-    last_witness = {fixed_.tree.mesh_triangles()[f], mobile_.tree.mesh_triangles()[m]};
+  visit_meeting_pairs(*fixed_.tree, *mobile_.tree, X_FM, [&](Index f, Index m) {
+    last_witness = {fixed_.tree->mesh_triangles()[f], mobile_.tree->mesh_triangles()[m]};
     return hit = true;
   });
   return hit || one_inside_other(X_FM);
@@ -164,8 +165,8 @@ bool BodyPair::touch(const Pose& X_FM) const {
 
 std::vector<TrianglePair> BodyPair::pairs(const Pose& X_FM) const {
   std::vector<TrianglePair> pairs;
-  visit_meeting_pairs(fixed_.tree, mobile_.tree, X_FM, [&](Index f, Index m) {
-    pairs.push_back({fixed_.tree.mesh_triangles()[f], mobile_.tree.mesh_triangles()[m]});
+  visit_meeting_pairs(*fixed_.tree, *mobile_.tree, X_FM, [&](Index f, Index m) {
+    pairs.push_back({fixed_.tree->mesh_triangles()[f], mobile_.tree->mesh_triangles()[m]});
     return false;
   });
   std::sort(pairs.begin(), pairs.end());
@@ -174,7 +175,7 @@ std::vector<TrianglePair> BodyPair::pairs(const Pose& X_FM) const {
 
 /// Surfaces that do not meet: a connected piece is inside the other solid with every vertex or with none.
 bool BodyPair::one_inside_other(const Pose& X_FM) const {
-  const mesh::TriangleTree &fixed = fixed_.tree, &mobile = mobile_.tree;
+  const mesh::TriangleTree &fixed = *fixed_.tree, &mobile = *mobile_.tree;
   const auto in_fixed = [&](Index v) {
     return winding_number(
                fixed, posed(X_FM, mobile.vertices()[v]), [](const Node& node) { return node; },

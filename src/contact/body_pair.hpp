@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,9 +28,13 @@ class BodyPair {
   /// The exact set of intersecting triangle pairs, ascending; open meshes too. One thread.
   std::vector<TrianglePair> pairs(const Pose& X_FM) const;
 
+  /// Over the triangles of each body in its own frame.
+  const mesh::TriangleTree& fixed_tree() const noexcept { return *fixed_.tree; }
+  const mesh::TriangleTree& mobile_tree() const noexcept { return *mobile_.tree; }
+
  private:
   struct Body {
-    mesh::TriangleTree tree;
+    std::shared_ptr<const mesh::TriangleTree> tree;  ///< the mesh's own
     bool is_closed;
     std::vector<Index> place_of_triangle;  ///< By the mesh's number.
     std::vector<Index> piece_vertices;     ///< The place of one vertex of each connected piece.
@@ -40,5 +45,8 @@ class BodyPair {
 
   Body fixed_, mobile_;
 };
+
+/// That of a joint's two bodies, made when it is first needed.
+const BodyPair& body_pair_of(const JointContact& joint);
 
 }  // namespace condyle::contact

@@ -1,8 +1,9 @@
 #include "condyle/contact_measures.hpp"
 
-#include <array>
-#include <cassert>
+#include <limits>
 
+#include "contact/body_pair.hpp"
+#include "contact/overlap.hpp"
 #include "core/parallel.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/surface_distance.hpp"
@@ -11,84 +12,35 @@
 namespace condyle {
 namespace {
 
-std::vector<double> distances_to(const mesh::SurfaceDistance& surface, PointsView points) {
-  std::vector<double> distances(points.size());
-  core::parallel_chunks(points.size(), 256, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) distances[i] = surface(points[i]);
+/// `distance` takes points in the frame of these.
+std::vector<double> distances_of(const Points& vertices,
+                                 const std::optional<std::span<const PointState>>& states, DistancesOf which,
+                                 const auto& distance) {
+  std::vector<double> distances(vertices.size(), std::numeric_limits<double>::quiet_NaN());
+  core::parallel_chunks(distances.size(), 256, [&](std::size_t first, std::size_t last) {
+    for (std::size_t v = first; v < last; ++v)
+      if (which == DistancesOf::all_vertices || (states && (*states)[v] == PointState::inside))
+        distances[v] = distance(vertices[v]);
   });
   return distances;
 }
 
-struct Corner {
-  Vec3 p;
-  double gap;
-};
-
-/// What patches add up to.
+/// What the parts of a patch add up to.
 struct Sums {
   mesh::CompensatedSum area, depth;
   Vec3 moment = Vec3::Zero();
-  /// Of the triangles' normals n with areas a: sum of a n, and of a n.p with p the triangle's centre.
-  Vec3 area_vector = Vec3::Zero();
-  mesh::CompensatedSum flux;
-  /// Of the border, where the gap is 0: length, and length times middle.
-  double border = 0;
-  Vec3 border_moment = Vec3::Zero();
-
-  void add(const Corner& a, const Corner& b, const Corner& c) {
-    const Vec3 n = (b.p - a.p).cross(c.p - a.p) / 2, middle = (a.p + b.p + c.p) / 3;
-    const double size = n.norm();
-    area.add(size);
-    depth.add(-size * (a.gap + b.gap + c.gap) / 3);
-    moment += size * middle;
-    area_vector += n;
-    flux.add(n.dot(middle));
-  }
-  void add_border(const Vec3& from, const Vec3& to) {
-    const double length = (to - from).norm();
-    border += length;
-    border_moment += length * (from + to) / 2;
-  }
 };
 
-/// Where the gap, linear along the edge, is 0.
-Corner crossing(const Corner& a, const Corner& b) {
-  const double t = a.gap / (a.gap - b.gap);
-  return {a.p + t * (b.p - a.p), 0};
-}
-
-/// The part of a triangle with gap < 0: nothing, a corner, what a corner leaves, or all.
-void add_inside(const std::array<Corner, 3>& triangle, Sums& sums) {
-  std::array<Corner, 4> part;
-  std::array<Vec3, 2> cut;
-  std::size_t corners = 0, cuts = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Corner &here = triangle[k], &next = triangle[(k + 1) % 3];
-    if (here.gap < 0) part[corners++] = here;
-    if ((here.gap < 0) == (next.gap < 0)) continue;
-    part[corners++] = crossing(here, next);
-    cut[cuts++] = part[corners - 1].p;
-  }
-  for (std::size_t k = 2; k < corners; ++k) sums.add(part[0], part[k - 1], part[k]);
-  if (cuts == 2) sums.add_border(cut[0], cut[1]);
-}
-
-Sums patch_of(const TriMesh& body, std::span<const PointState> states, std::span<const double> distances) {
-  const auto gap = [&](Index v) {
-    switch (states[v]) {
-      case PointState::inside:
-        return -distances[v];
-      case PointState::on_surface:
-        return 0.0;
-      case PointState::outside:
-        break;
-    }
-    return distances[v];
-  };
+Sums sums_of(const std::vector<contact::PatchPart>& patch, const auto& distance) {
+  std::vector<double> depths(patch.size());
+  core::parallel_chunks(patch.size(), 64, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) depths[i] = distance(patch[i].centroid);
+  });
   Sums sums;
-  for (const Triangle& t : body.triangles) {
-    const auto corner = [&](Index v) { return Corner{body.vertices[v], gap(v)}; };
-    add_inside({corner(t[0]), corner(t[1]), corner(t[2])}, sums);
+  for (std::size_t i = 0; i < patch.size(); ++i) {
+    sums.area.add(patch[i].area);
+    sums.depth.add(patch[i].area * depths[i]);
+    sums.moment += patch[i].area * patch[i].centroid;
   }
   return sums;
 }
@@ -102,39 +54,39 @@ ContactPatch patch_from(const Sums& sums) {
   return patch;
 }
 
-/// By the divergence theorem over both patches, with the middle of their borders as origin: a patch that has no
-/// counterpart, under a corner in the middle of a large face, then counts as if a cone from there closed it.
-///
-///     V = 1/3 sum a n.(p - o) = 1/3 (sum a n.p - o . sum a n)
-double volume_of(const Sums& mobile, const Sums& fixed) {
-  const double border = mobile.border + fixed.border;
-  const Vec3 origin =
-      border > 0 ? Vec3((mobile.border_moment + fixed.border_moment) / border) : Vec3(Vec3::Zero());
-  return (mobile.flux.value() + fixed.flux.value() - origin.dot(mobile.area_vector + fixed.area_vector)) / 3;
-}
-
 }  // namespace
 
-ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const VertexStates& states) {
-  const Mesh &fixed = joint.fixed(), &mobile = joint.mobile();
-  const mesh::SurfaceDistance to_fixed(fixed), to_mobile(mobile);
-  const TriMesh mobile_in_F = posed(X_FM, mobile);
+ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& meeting,
+                                DistancesOf which) {
+  const contact::BodyPair& bodies = contact::body_pair_of(joint);
+  const Pose X_MF = inverted(X_FM);
+  const auto to_fixed = [&](const Vec3& p_F) { return mesh::distance_to_surface(bodies.fixed_tree(), p_F); };
+  const auto to_mobile = [&](const Vec3& p_M) {
+    return mesh::distance_to_surface(bodies.mobile_tree(), p_M);
+  };
+  const TriMesh mobile_in_F = posed(X_FM, joint.mobile());
   ContactMeasures out;
-  out.distances = {distances_to(to_fixed, mobile_in_F.vertices),
-                   distances_to(to_mobile, posed(inverted(X_FM), fixed.vertices()))};
-  const mesh::ClosestPoints closest = *mesh::closest_points(to_fixed.tree(), to_mobile.tree(), X_FM);
+  out.distances = {distances_of(mobile_in_F.vertices, meeting.mobile, which, to_fixed),
+                   distances_of(posed(X_MF, joint.fixed().vertices()), meeting.fixed, which, to_mobile)};
+  const mesh::ClosestPoints closest = *mesh::closest_points(bodies.fixed_tree(), bodies.mobile_tree(), X_FM);
   out.nearest = {closest.distance_mm, closest.a_point, closest.b_point};
+  if (!meeting.mobile && !meeting.fixed) return out;
 
-  Sums of_mobile, of_fixed;
-  if (states.mobile) {
-    of_mobile = patch_of(mobile_in_F, *states.mobile, out.distances.mobile);
-    out.mobile = patch_from(of_mobile);
+  const auto states_of = [](const std::optional<std::span<const PointState>>& states) {
+    return states ? *states : std::span<const PointState>();
+  };
+  const contact::Overlap overlap = contact::overlap_of(
+      {joint.fixed(), states_of(meeting.fixed)}, {mobile_in_F, states_of(meeting.mobile)}, meeting.pairs);
+  const Sums of_mobile = sums_of(overlap.mobile, to_fixed);
+  const Sums of_fixed = sums_of(overlap.fixed, [&](const Vec3& p_F) { return to_mobile(posed(X_MF, p_F)); });
+  if (meeting.mobile) out.mobile = patch_from(of_mobile);
+  if (meeting.fixed) out.fixed = patch_from(of_fixed);
+  if (meeting.mobile && meeting.fixed) {
+    out.volume_mm3 = overlap.volume;
+    out.volume_error_mm3 = overlap.volume_error;
+    out.mobile_covered_again_mm3 = overlap.mobile_covered_again;
+    out.fixed_covered_again_mm3 = overlap.fixed_covered_again;
   }
-  if (states.fixed) {
-    of_fixed = patch_of(fixed, *states.fixed, out.distances.fixed);
-    out.fixed = patch_from(of_fixed);
-  }
-  if (states.mobile && states.fixed) out.volume_mm3 = volume_of(of_mobile, of_fixed);
   const double area = of_mobile.area.value() + of_fixed.area.value();
   if (area > 0) out.centroid = (of_mobile.moment + of_fixed.moment) / area;
   return out;

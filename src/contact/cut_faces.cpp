@@ -122,6 +122,25 @@ void OverlapSampler::sample_faces(const Pose& X_CT, Quadrature quadrature,
   }
 }
 
+void OverlapSampler::sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses,
+                                     Found& out) const {
+  clear(out);
+  auto scratch = scratch_.take();
+  cast_inwards(X_CT, *scratch, out);
+  scratch->rim.clear();
+  for (Index face = 0; face < corner_ray_.size(); ++face) {
+    const auto& rays = corner_ray_[face];
+    if (face_area_[face] > 0 && std::any_of(rays.begin(), rays.end(), [&](Index ray) {
+          return scratch->ends.has(ray) || scratch->oblique[ray];
+        }))
+      scratch->rim.push_back({.face = face, .by_parts = true});
+  }
+  cast_parts(X_CT, *scratch, out);
+  const Pose X_TC = inverted(X_CT);
+  for (const RimFace& face : scratch->rim) sample_parts_of(face, thicknesses, X_CT, X_TC, *scratch, out);
+  scratch_.put_back(std::move(scratch));
+}
+
 void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& out) const {
   auto& ends = scratch.ends;
   scratch.active.clear();
@@ -130,8 +149,13 @@ void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& ou
   scratch.outwards.assign(ends.rays(), 0);
   for (Index face = 0; face < corner_ray_.size(); ++face) {
     const auto& [a, b, c] = corner_ray_[face];
-    if (face_area_[face] == 0 || !(ends.has(a) || ends.has(b) || ends.has(c))) continue;
+    if (face_area_[face] == 0) continue;
+    const int oblique = oblique_corners(face, scratch);
+    if (oblique == 3) out.oblique_area += face_area_[face];
+    if (oblique == 3 || !(oblique > 0 || ends.has(a) || ends.has(b) || ends.has(c))) continue;
     scratch.active.push_back(face);
+    // What meets the target inwards, though at a slant, is not outside it. Beside it parts decide, which ask no gaps.
+    if (oblique > 0) continue;
     for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends.has(ray);
   }
   for (Index ray = 0; ray < ends.rays(); ++ray) {
@@ -168,9 +192,15 @@ std::optional<OverlapSampler::LeavingEdge> OverlapSampler::leaving_edge(Index fa
   return inside ? LeavingEdge{edge, next} : LeavingEdge{next, edge};
 }
 
-bool OverlapSampler::is_decided_by_parts(Index face, const RayEnds& ends) const {
-  // An open target ends where no edge meets it.
-  if (!target_is_closed_) return true;
+int OverlapSampler::oblique_corners(Index face, const Scratch& scratch) const {
+  const auto& [a, b, c] = corner_ray_[face];
+  return scratch.oblique[a] + scratch.oblique[b] + scratch.oblique[c];
+}
+
+bool OverlapSampler::is_decided_by_parts(Index face, const Scratch& scratch) const {
+  const RayEnds& ends = scratch.ends;
+  // An open target ends where no edge meets it, and what has no depth beside what has one ends at no edge of the target either.
+  if (!target_is_closed_ || oblique_corners(face, scratch) > 0) return true;
   const auto& rays = corner_ray_[face];
   for (std::size_t k = 0; k < 3; ++k) {
     if (!is_inside(ends, rays[k])) continue;
@@ -189,7 +219,7 @@ void OverlapSampler::cast_along_edges(const Pose& X_CT, Scratch& scratch, Found&
   scratch.owner.clear();
   for (Index i = 0; i < scratch.rim.size(); ++i) {
     RimFace& rim = scratch.rim[i];
-    rim.by_parts = is_decided_by_parts(rim.face, ends);
+    rim.by_parts = is_decided_by_parts(rim.face, scratch);
     for (Index k = 0; k < 3 && !rim.by_parts; ++k) {
       const auto edge = leaving_edge(rim.face, k, ends);
       const auto& rays = corner_ray_[rim.face];
@@ -265,8 +295,14 @@ OverlapSampler::Part OverlapSampler::part_of(Index face, const RimFace* rim,
       corner.target_thickness =
           target_thickness(end, corner.point, -ray_normal_[rays[k]], X_TC, thicknesses.target);
   }
+  // From the corner behind the one outside, or else the one inside: a part of four corners is halved the same wherever the
+  // triangle's corners are counted from.
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (is_inside(ends, rays[k]) && !is_inside(ends, rays[(k + 2) % 3])) first = k;
   Part part;
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t k = (first + i) % 3;
     if (is_inside(ends, rays[k])) part.add(corners[k]);
     const auto edge = leaving_edge(face, k, ends);
     if (!edge) continue;
@@ -375,6 +411,10 @@ void OverlapSampler::sample_parts_of(const RimFace& rim, const LayerThicknesses&
     const auto& [point, direction] = scratch.rays[rim.first_part + part];
     const auto overlap = overlap_of(direction, scratch.hits, rim.first_part + part, X_CT);
     if (!overlap || !(overlap->end.depth > 0)) continue;
+    if (overlap->oblique) {
+      out.oblique_area += face_area_[face] / face_parts;
+      continue;
+    }
     const RayEnd& end = overlap->end;
     OverlapSample sample{face, face_area_[face] / face_parts, end.depth, point, end.gradient, 0, 0};
     if (!thicknesses.casting.empty())

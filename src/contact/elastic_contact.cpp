@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -71,6 +72,15 @@ void ElasticCast::answer(const Pose& X_CT, Answer& out) const {
   sampler_.sample(
       X_CT, varies || law_ == PressureLaw::logarithmic ? Quadrature::of_degree_5 : Quadrature::of_degree_2,
       {casting_thickness_, target_thickness_}, out.found);
+  answer_samples(out);
+}
+
+void ElasticCast::answer_by_parts(const Pose& X_CT, Answer& out) const {
+  sampler_.sample_by_parts(X_CT, {casting_thickness_, target_thickness_}, out.found);
+  answer_samples(out);
+}
+
+void ElasticCast::answer_samples(Answer& out) const {
   out.of_sample.clear();
   for (const OverlapSample& sample : out.found.samples) out.of_sample.push_back(layers_at(sample));
   out.of_border.clear();
@@ -79,9 +89,15 @@ void ElasticCast::answer(const Pose& X_CT, Answer& out) const {
 
 void ElasticCast::add_up(const Answer& answer, SurfaceContact& out) const {
   std::vector<double> of_samples, of_corners;
-  for (const LayerAnswer& layers : answer.of_sample) of_samples.push_back(layers.pressure);
-  for (const OverlapCorner& corner : answer.found.corners) of_corners.push_back(layers_at(corner).pressure);
+  double strain = 0;
+  const auto take = [&](const LayerAnswer& layers, std::vector<double>& pressures) {
+    pressures.push_back(layers.pressure);
+    strain = std::max(strain, layers.strain);
+  };
+  for (const LayerAnswer& layers : answer.of_sample) take(layers, of_samples);
+  for (const OverlapCorner& corner : answer.found.corners) take(layers_at(corner), of_corners);
   contact::add_up(sampler_, answer.found, OverlapPressures{of_samples, of_corners}, out);
+  out.max_strain = strain;
 }
 
 namespace {
@@ -116,6 +132,7 @@ struct CastInF {
       out.wrench.head<3>() += force * n;
       out.wrench.tail<3>() += force * arm.cross(n);
       out.energy += share * sample.area * layers.energy;
+      out.strain = std::max(out.strain, layers.strain);
     }
     out.samples += answer.found.samples.size();
   }
@@ -257,6 +274,22 @@ ElasticContactResults ElasticContact::Parts::results_of(const Answers& answers,
   out.on_mobile = {load.wrench.head<3>(), load.wrench.tail<3>()};
   out.energy_nmm = load.energy;
   return out;
+}
+
+std::optional<Vec3> ElasticContact::refined_force_n(const Pose& X_FM) const {
+  core::require_in_range(X_FM);
+  const Parts& p = *parts_;
+  if (p.options.rays.rule == FaceRule::face_centre) return std::nullopt;
+  auto answers = p.spare.take();
+  try {
+    if (p.from_fixed) p.from_fixed->answer_by_parts(X_FM, answers->of_fixed);
+    if (p.from_mobile) p.from_mobile->answer_by_parts(inverted(X_FM), answers->of_mobile);
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
+  const Vec3 force = p.load_of(*answers, X_FM).wrench.head<3>();
+  p.spare.put_back(std::move(answers));
+  return force;
 }
 
 std::size_t ElasticContact::cut_off_by_reach(const Pose& X_FM) const {

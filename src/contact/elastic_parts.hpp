@@ -23,11 +23,14 @@ class ElasticCast {
     std::vector<double> of_border;  ///< pressures, MPa
   };
   void answer(const Pose& X_CT, Answer& out) const;
+  /// The same from 16 places of each face, for sums of loads only. Throws as answer() does.
+  void answer_by_parts(const Pose& X_CT, Answer& out) const;
   void add_up(const Answer& answer, SurfaceContact& out) const;
 
   const OverlapSampler& sampler() const noexcept { return sampler_; }
 
  private:
+  void answer_samples(Answer& out) const;
   /// Of an OverlapSample, an OverlapCorner or an OverlapBorder.
   LayerAnswer layers_at(const auto& place) const;
 
@@ -41,6 +44,7 @@ class ElasticCast {
 struct MobileLoad {
   Eigen::Matrix<double, 6, 1> wrench = Eigen::Matrix<double, 6, 1>::Zero();  ///< force, then moment
   double energy = 0;
+  double strain = 0;  ///< the largest
   std::size_t samples = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "contact/body_pair.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/lazy.hpp"
+#include "core/turned.hpp"
 
 namespace condyle {
 namespace {
@@ -114,6 +115,10 @@ JointContact::~JointContact() = default;
 JointContact::JointContact(JointContact&&) noexcept = default;
 JointContact& JointContact::operator=(JointContact&&) noexcept = default;
 
+const contact::BodyPair& contact::body_pair_of(const JointContact& joint) {
+  return joint.parts_->bodies();
+}
+
 const Mesh& JointContact::fixed() const noexcept {
   return parts_->fixed.mesh();
 }
@@ -164,7 +169,7 @@ TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F,
   }
   if (mobile().is_closed()) {
     const Pose X_MF = inverted(X_FM);
-    const auto table = parts_->mobile.ring_table(X_MF.translation(), X_MF.linear() * axis_F);
+    const auto table = parts_->mobile.ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
     contact.fixed_in_mobile = table->query(posed(X_MF, fixed().vertices()), rule);
   }
   contact.pairs = pairs(X_FM);

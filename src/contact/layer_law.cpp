@@ -26,10 +26,11 @@ double logarithmic_pressure(const LayerHere& a, const LayerHere& b, double d) no
 }  // namespace
 
 LayerAnswer answer_of(PressureLaw law, const LayerHere& a, const LayerHere& b, double d) noexcept {
+  const double strain = d / (a.thickness + b.thickness);
   if (law == PressureLaw::linear) {
     const double compliance =
         (a.thickness > 0 ? a.thickness / a.modulus : 0) + (b.thickness > 0 ? b.thickness / b.modulus : 0);
-    return {d / compliance, 1 / compliance, d * d / (2 * compliance)};
+    return {d / compliance, 1 / compliance, d * d / (2 * compliance), strain};
   }
   const double p = logarithmic_pressure(a, b, d);
   double softness = 0, complementary = 0;  // d(d)/dp, and the integral of d over p
@@ -38,7 +39,7 @@ LayerAnswer answer_of(PressureLaw law, const LayerHere& a, const LayerHere& b, d
     softness += layer.thickness / layer.modulus * std::exp(-p / layer.modulus);
     complementary += layer.thickness * (p + layer.modulus * std::expm1(-p / layer.modulus));
   }
-  return {p, 1 / softness, p * d - complementary};
+  return {p, 1 / softness, p * d - complementary, strain};
 }
 
 }  // namespace condyle::contact

@@ -15,6 +15,7 @@ struct LayerAnswer {
   double pressure;  ///< MPa
   double slope;     ///< of the pressure over the overlap, MPa / mm
   double energy;    ///< per area: integral of the pressure over the overlap, N / mm
+  double strain;    ///< the overlap over the thickness of both layers
 };
 
 /// For an overlap above 0, and below the sum of thicknesses with the logarithmic law. Both layers carry one pressure:

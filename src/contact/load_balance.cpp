@@ -1,9 +1,11 @@
 #include "condyle/load_balance.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -45,6 +47,12 @@ constexpr double measured_way = 0.05;
 constexpr double least_climb = measured_way;
 /// Rotations that move the surfaces about as far, rad: half a joint across is some 20 mm.
 constexpr double measured_angle = measured_way / 20;
+
+/// Layers that are compressed by so much of their thickness have no more to give; by all of it, the law says nothing any more.
+constexpr double exhausted_strain = 0.9, whole_strain = 1;
+
+/// Contact that carries less than this share of a force does not hold it: a corner that is grazed on the way out.
+constexpr double least_carried_share = 0.05;
 
 /// Which small motions of M are free.
 FreeMotions free_motions(const BalanceOptions& options) {
@@ -88,7 +96,7 @@ class Search {
 
   BalancedPose run() {
     answers_ = contact_.parts().spare.take(), tried_ = contact_.parts().spare.take();
-    out_.outcome = find();
+    out_.outcome = explained(find());
     out_.contact = contact_.parts().results_of(*answers_, now_);
     contact_.parts().spare.put_back(std::move(answers_));
     out_.residual = {residual_.head<3>(), residual_.tail<3>()};
@@ -128,7 +136,13 @@ class Search {
   /// The load at a pose that is tried, its answers kept until the next.
   MobileLoad tried(const Pose& X) {
     contact_.parts().answer(X, *tried_);
-    return contact_.parts().load_of(*tried_, X);
+    MobileLoad load = contact_.parts().load_of(*tried_, X);
+    const Vec3 force = along_free(load_at(X)).head<3>();
+    // How much of the force is carried: poses of the search are compared by it.
+    const double carried = force.isZero() ? 0 : -load.wrench.head<3>().dot(force) / force.squaredNorm();
+    if (load.samples > 0 && (!most_ || carried > most_->carried)) most_ = Most{X, carried, load.strain};
+    if (const double size = size_of(left(X, load)); !least_ || size < least_->size) least_ = Least{X, size};
+    return load;
   }
   /// The pose tried last is the one to go on from.
   void take(const Pose& X, const MobileLoad& load) {
@@ -162,9 +176,58 @@ class Search {
     return false;
   }
 
+  /// The outcome, and for one that carries no load the pose and the reason that say most.
+  BalanceOutcome explained(BalanceOutcome outcome) {
+    if (outcome != BalanceOutcome::pulled_apart && outcome != BalanceOutcome::over_the_rim) return outcome;
+    if (most_ && most_->carried >= 1 && most_->strain >= whole_strain) return BalanceOutcome::too_large;
+    if (most_ && most_->carried > 0 && most_->carried < 1 && most_->strain >= exhausted_strain) {
+      const Pose ended = out_.X_FM, most = most_->X;
+      take(most, tried(most));
+      // Squeezed against the load. What is pushed aside leaves over a rim.
+      const Vec3 left_over = residual_.head<3>(), along = along_free(load_at(most)).head<3>().normalized();
+      const double against = left_over.dot(along);
+      if ((left_over - against * along).norm() <= against / 2) return BalanceOutcome::too_large;
+      take(ended, tried(ended));
+    }
+    // What pushes along with the load leaves more than was applied. Further along the load it may leave go.
+    const bool carried_some = most_ && most_->carried > least_carried_share;
+    const bool leaves_less = size_of(residual_) <= size_of(along_free(load_at(out_.X_FM)));
+    if (carried_some && leaves_less) return outcome;
+    if (comes_apart()) return BalanceOutcome::pulled_apart;
+    // A refused load leaves no more than was applied, as it does where the bodies are apart.
+    if (!leaves_less && least_->size < size_of(residual_)) {
+      const Pose least = least_->X;
+      take(least, tried(least));
+    }
+    return outcome;
+  }
+
+  /// Goes along the load to where the bodies are apart, if that is near; else stays.
+  bool comes_apart() {
+    const Pose from = out_.X_FM;
+    const Vec3 force = along_free(load_at(from)).head<3>();
+    if (force.isZero()) return false;
+    for (double way = search_step; way <= options_.farthest_mm; way += search_step) {
+      Pose X = from;
+      X.translation() += way * force.normalized();
+      const MobileLoad load = tried(X);
+      // Another part of the contact holds it back.
+      if (load.wrench.head<3>().dot(force) < -least_carried_share * force.squaredNorm()) return false;
+      if (load.samples > 0) continue;
+      take(X, load);
+      return true;
+    }
+    return false;
+  }
+
   BalanceOutcome find() {
     take(start_, tried(start_));
-    if (now_.samples == 0 && !approach()) return BalanceOutcome::pulled_apart;
+    if (now_.samples == 0 && !approach()) {
+      if (!most_) return BalanceOutcome::pulled_apart;
+      resisted_ = most_->carried > 0;
+      take(most_->X, tried(most_->X));
+      return given_up();
+    }
     while (true) {
       resisted_ = resisted_ || now_.wrench.dot(load_at(out_.X_FM)) < 0;
       // How the contact pushes back against small motions along what is free.
@@ -267,6 +330,17 @@ class Search {
   MobileLoad now_;  ///< at out_.X_FM
   Vector6 residual_ = Vector6::Zero();
   bool resisted_ = false;
+  struct Most {
+    Pose X;
+    double carried;  ///< a share of the force
+    double strain;
+  };
+  std::optional<Most> most_;  ///< the pose that carries most of all poses in contact that were tried
+  struct Least {
+    Pose X;
+    double size;
+  };
+  std::optional<Least> least_;  ///< the pose that leaves least of all that were tried
   BalancedPose out_{};
 };
 
@@ -292,6 +366,8 @@ std::string_view name_of(BalanceOutcome outcome) noexcept {
       return "pulled_apart";
     case BalanceOutcome::over_the_rim:
       return "over_the_rim";
+    case BalanceOutcome::too_large:
+      return "too_large";
     case BalanceOutcome::unstable:
       return "unstable";
     case BalanceOutcome::free_direction:
@@ -299,6 +375,15 @@ std::string_view name_of(BalanceOutcome outcome) noexcept {
   }
   return "";
 }
+
+namespace {
+
+double strain_of(const ElasticContactResults& contact) {
+  return std::max(contact.fixed ? contact.fixed->max_strain : 0,
+                  contact.mobile ? contact.mobile->max_strain : 0);
+}
+
+}  // namespace
 
 std::string reason_of(const BalancedPose& pose) {
   // Of the moment nothing is left to tell where rotations are held.
@@ -322,6 +407,10 @@ std::string reason_of(const BalancedPose& pose) {
           "no pose nearby in which the contact carries the load: it leads over the rim, or to where the "
           "contact's force jumps; %s left",
           what_is_left(pose).c_str());
+    case BalanceOutcome::too_large:
+      return core::formatted(
+          "the load is too large for the layers, compressed by %.0f %% of their thickness; %s left",
+          100 * strain_of(pose.contact), what_is_left(pose).c_str());
     case BalanceOutcome::unstable:
       return core::formatted(
           "the contact balances the load and does not keep it: moved along (%.3f, %.3f, %.3f) the mobile "

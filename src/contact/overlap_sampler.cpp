@@ -136,7 +136,9 @@ std::optional<OverlapSampler::Overlap> OverlapSampler::overlap_of(const Vec3& di
   const Vec3 normal = core::turned(X_CT, target_normal_[triangle]);
   const bool met_from_front = direction_C.dot(normal) < 0;
   if (met_from_front && target_is_closed_) return std::nullopt;
-  return Overlap{{hits.distance[ray], triangle, depth_gradient(normal, direction_C)}, met_from_front};
+  return Overlap{{hits.distance[ray], triangle, depth_gradient(normal, direction_C)},
+                 met_from_front,
+                 std::abs(direction_C.dot(normal)) < oblique_cosine};
 }
 
 double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C, const Vec3& direction_C,
@@ -153,12 +155,18 @@ double OverlapSampler::target_thickness(const RayEnd& end, const Vec3& origin_C,
          in_c * of_vertices[corners[2]];
 }
 
-void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
-                            Found& out) const {
+void OverlapSampler::clear(Found& out) {
   out.samples.clear();
   out.corners.clear();
   out.borders.clear();
+  out.oblique_faces.clear();
   out.met_from_front = out.rim_faces = 0;
+  out.oblique_area = 0;
+}
+
+void OverlapSampler::sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses,
+                            Found& out) const {
+  clear(out);
   auto scratch = scratch_.take();
   cast_inwards(X_CT, *scratch, out);
   if (options_.rule == FaceRule::face_centre)
@@ -172,9 +180,12 @@ void OverlapSampler::cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out
   const Pose X_TC = inverted(X_CT);
   const std::size_t count = inward_.size();
   scratch.ends.clear(count);
+  scratch.oblique.assign(count, false);
   const auto take_end = [&](Index ray, std::size_t hit) {
     const auto overlap = overlap_of(inward_[ray].direction, scratch.hits, hit, X_CT);
     if (!overlap) return;
+    scratch.oblique[ray] = overlap->oblique;
+    if (overlap->oblique && options_.rule == FaceRule::cut_faces) return;
     scratch.ends.set(ray, overlap->end);
     out.met_from_front += overlap->met_from_front;
   };
@@ -202,6 +213,10 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
     if (ray == no_index || !scratch.ends.has(ray)) continue;
     const RayEnd& end = scratch.ends[ray];
     if (!(end.depth > 0)) continue;
+    if (scratch.oblique[ray]) {
+      out.oblique_area += face_area_[face];
+      out.oblique_faces.push_back(face);
+    }
     const auto& [centre, direction] = inward_[ray];
     OverlapSample sample{face, face_area_[face], end.depth, centre, end.gradient, 0, 0};
     if (!thicknesses.casting.empty()) {
@@ -218,12 +233,13 @@ void OverlapSampler::sample_centres(const Pose& X_CT, const LayerThicknesses& th
 std::size_t OverlapSampler::cut_off_by_reach(const Pose& X_CT) const {
   mesh::RayHits hits;
   mesh::nearest_hits(ray_target_, inverted(X_CT), inward_, 2 * options_.reach_mm, hits);
+  const double least_cosine = options_.rule == FaceRule::cut_faces ? oblique_cosine : 0;
   std::size_t count = 0;
   for (std::size_t ray = 0; ray < ray_owner_.size(); ++ray) {
     if (!hits.is_hit(ray) || hits.distance[ray] <= options_.reach_mm) continue;
     const Vec3 direction =
         options_.rule == FaceRule::face_centre ? -face_normal_[ray_owner_[ray]] : -ray_normal_[ray];
-    if (direction.dot(core::turned(X_CT, target_normal_[hits.triangle[ray]])) > 0) ++count;
+    if (direction.dot(core::turned(X_CT, target_normal_[hits.triangle[ray]])) > least_cosine) ++count;
   }
   return count;
 }
@@ -233,6 +249,7 @@ void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
   out.faces.clear();
   out.met_from_front = found.met_from_front;
   out.rim_faces = found.rim_faces;
+  out.oblique_area_mm2 = found.oblique_area;
   for (std::size_t i = 0; i < found.samples.size(); ++i) {
     const OverlapSample& sample = found.samples[i];
     if (out.faces.empty() || out.faces.back().face != sample.face)
@@ -261,6 +278,13 @@ void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
   // What a cut leaves of a face may be no more than rounding.
   std::erase_if(out.faces, [](const FaceContact& of) { return !(of.overlap_mm3 > 0); });
   out.totals = totals_of(out.faces, sampler.casting(), sampler.options().rule);
+  const auto is_peak = [&](const FaceContact& of) {
+    return of.max_depth_mm == out.totals.max_depth_mm ||
+           (pressures && of.max_pressure_mpa == out.totals.max_pressure_mpa);
+  };
+  out.peak_is_oblique = std::any_of(out.faces.begin(), out.faces.end(), [&](const FaceContact& of) {
+    return is_peak(of) && std::binary_search(found.oblique_faces.begin(), found.oblique_faces.end(), of.face);
+  });
 }
 
 std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach) {

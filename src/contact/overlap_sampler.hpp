@@ -61,9 +61,15 @@ class OverlapSampler {
     std::vector<OverlapCorner> corners;
     std::vector<OverlapBorder> borders;
     std::size_t met_from_front = 0, rim_faces = 0;
+    double oblique_area = 0;  ///< whose rays meet the target too far off its normal to have a depth
+    std::vector<Index>
+        oblique_faces;     ///< with face centres, which count all the same: those faces, ascending
     std::size_t rays = 0;  ///< cast
   };
   void sample(const Pose& X_CT, Quadrature quadrature, const LayerThicknesses& thicknesses, Found& out) const;
+  /// With cut faces: samples of each face that has a corner in contact at the centres of 16 parts, in place of depths that are linear
+  /// from corner to corner. No corners and no borders.
+  void sample_by_parts(const Pose& X_CT, const LayerThicknesses& thicknesses, Found& out) const;
   std::size_t cut_off_by_reach(const Pose& X_CT) const;
 
   /// Memory for samples, kept between queries.
@@ -118,18 +124,21 @@ class OverlapSampler {
     RayEnds ends;
     Penetrations inside;         ///< the origins in the target
     std::vector<char> outwards;  ///< per ray inwards: whether its other direction is cast too
+    std::vector<char> oblique;   ///< per ray inwards: whether it meets the target, and too far off its normal
     std::vector<mesh::Ray> rays;
     std::vector<Index> owner;
     std::vector<Index> active;  ///< faces, in their order
     std::vector<RimFace> rim;   ///< those of them at the rim, in their order
   };
 
+  static void clear(Found& out);
   /// Every ray inwards that can be in contact: its end.
   void cast_inwards(const Pose& X_CT, Scratch& scratch, Found& out) const;
-  /// Where a ray inwards ends, and whether it met the target from its front: of an open target that counts.
+  /// Where a ray inwards ends; whether it met the target from its front, which counts of an open target; and whether it met it too
+  /// far off its normal for a depth.
   struct Overlap {
     RayEnd end;
-    bool met_from_front;
+    bool met_from_front, oblique;
   };
   std::optional<Overlap> overlap_of(const Vec3& direction_C, const mesh::RayHits& hits, std::size_t ray,
                                     const Pose& X_CT) const;
@@ -155,7 +164,9 @@ class OverlapSampler {
     return casting_.vertices()[casting_.triangles()[face][k]];
   }
   /// Whether no line can be told that cuts a face at the rim.
-  bool is_decided_by_parts(Index face, const RayEnds& ends) const;
+  bool is_decided_by_parts(Index face, const Scratch& scratch) const;
+  /// How many of a face's corners have rays that meet the target too far off its normal.
+  int oblique_corners(Index face, const Scratch& scratch) const;
   /// Rays from corners inside the target along edges of rim faces that leave it other than where the depth is 0.
   void cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const;
   /// Rays from the parts of the rim faces that no line cuts.

@@ -2,13 +2,15 @@
 
 #include <cmath>
 
+#include "contact/body_pair.hpp"
 #include "mesh/surface_distance.hpp"
 
 namespace condyle {
+namespace {
 
-RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other) {
+/// `distance_of` gives the nearest distance of a vertex that is inside.
+RadialBodySummary summary_of(const RadialResults& results, const auto& distance_of) {
   RadialBodySummary summary;
-  std::optional<mesh::SurfaceDistance> distance;  // built where a vertex is inside
   const auto deepen = [](std::optional<DeepestVertex>& deepest, const DeepestVertex& candidate) {
     if (!deepest || candidate.depth_mm > deepest->depth_mm) deepest = candidate;
   };
@@ -17,8 +19,7 @@ RadialBodySummary summarise(const RadialResults& results, PointsView points, con
     switch (results.state[i]) {
       case PointState::inside: {
         ++summary.vertices_inside;
-        if (!distance) distance.emplace(other);
-        const DeepestVertex vertex{i, -gap, (*distance)(points[i]), results.ray_to_normal[i]};
+        const DeepestVertex vertex{i, -gap, distance_of(i), results.ray_to_normal[i]};
         deepen(summary.deepest, vertex);
         if (vertex.applies() == DepthKind::tangential) {
           ++summary.oblique_inside;
@@ -40,15 +41,28 @@ RadialBodySummary summarise(const RadialResults& results, PointsView points, con
   return summary;
 }
 
+}  // namespace
+
+RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other) {
+  std::optional<mesh::SurfaceDistance> distance;  // made if a vertex is inside
+  return summary_of(results, [&](Index v) {
+    if (!distance) distance.emplace(other);
+    return (*distance)(points[v]);
+  });
+}
+
 RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const RadialContact& contact) {
+  const contact::BodyPair& bodies = contact::body_pair_of(joint);
   RadialSummary summary;
-  if (contact.mobile_in_fixed) {
-    summary.mobile =
-        summarise(*contact.mobile_in_fixed, posed(X_FM, joint.mobile().vertices().view()), joint.fixed());
-  }
+  if (contact.mobile_in_fixed)
+    summary.mobile = summary_of(*contact.mobile_in_fixed, [&](Index v) {
+      return mesh::distance_to_surface(bodies.fixed_tree(), posed(X_FM, joint.mobile().vertices()[v]));
+    });
   if (contact.fixed_in_mobile) {
-    summary.fixed = summarise(*contact.fixed_in_mobile,
-                              posed(inverted(X_FM), joint.fixed().vertices().view()), joint.mobile());
+    const Pose X_MF = inverted(X_FM);
+    summary.fixed = summary_of(*contact.fixed_in_mobile, [&](Index v) {
+      return mesh::distance_to_surface(bodies.mobile_tree(), posed(X_MF, joint.fixed().vertices()[v]));
+    });
   }
   return summary;
 }

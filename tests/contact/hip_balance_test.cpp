@@ -66,5 +66,20 @@ INSTANTIATE_TEST_SUITE_P(Ways, HipBalance,
                                          Way{Casting::both, FaceRule::cut_faces, 30}),
                          name_of_way);
 
+TEST(RefusedLoad, LeavesNoMoreOnBonesThanWasApplied) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "the shared data is missing";
+  const ElasticLayer soft{12, 0.42, 1.5};
+  const ElasticContact contact(Mesh(test::read_ply(*data / "hip_vhf_right" / "hip_bone.ply")),
+                               Mesh(test::read_ply(*data / "hip_vhf_right" / "femur.ply")),
+                               {.fixed = soft, .mobile = soft});
+  for (const Vec3& force : {Vec3(0, -1500, 0), Vec3(0, 1e-3, 0), Vec3(0, 0, 800), Vec3(0, 1e5, 0)}) {
+    const BalancedPose pose = balance(contact, Pose::Identity(), {.on_mobile = {.force_n = force}});
+    if (pose.carries_load()) continue;
+    EXPECT_LE(pose.residual.force_n.norm(), force.norm() * (1 + 1e-12))
+        << force.transpose() << ": " << reason_of(pose);
+  }
+}
+
 }  // namespace
 }  // namespace condyle

@@ -148,6 +148,7 @@ TEST(LoadBalance, RefusesALoadThatLeavesOverTheRim) {
                             {.on_mobile = {.force_n = 2000 * Vec3(std::sin(angle), -std::cos(angle), 0)}});
   EXPECT_EQ(pose.outcome, BalanceOutcome::over_the_rim) << reason_of(pose);
   EXPECT_NE(reason_of(pose).find("over the rim"), std::string::npos);
+  EXPECT_LE(pose.residual.force_n.norm(), 2000 * (1 + 1e-12)) << "no more than was applied";
 }
 
 TEST(LoadBalance, RefusesALoadAlongAFreeDirection) {

@@ -17,7 +17,8 @@ class ArmIntoWall : public ::testing::Test {
   const JointAngles pose{Angle::degrees(25), {}, {}};
   const Pose X_FM = pose_at({.side = Side::right}, pose);
   const RadialContact contact = joint.radial(X_FM);
-  const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
+  const ContactMeasures measures =
+      measure_contact(joint, X_FM, MeasuredContact(contact), DistancesOf::vertices_inside);
 };
 
 TEST_F(ArmIntoWall, IsAsDeepAsTheRotationThatFreesItSoonest) {
@@ -75,7 +76,8 @@ TEST(ReliableDepths, WhereTheSurfaceFacesTheRayTheRadialDepthIsIt) {
   // A ball of radius 24 in a socket of radius 23: every ray is a normal, up to what flat triangles are off.
   const JointContact joint(socket({0, 0, 0}, 23, 60, 3), sphere({0, 0, 0}, 24, 3));
   const RadialContact contact = joint.radial(Pose::Identity());
-  const ContactMeasures measures = measure_contact(joint, Pose::Identity(), VertexStates(contact));
+  const ContactMeasures measures =
+      measure_contact(joint, Pose::Identity(), MeasuredContact(contact), DistancesOf::vertices_inside);
   const ReliableContact found =
       reliable_depths(joint, JointKind::ball, {.side = Side::right}, {}, contact, measures.distances);
   const RadialResults& radial = *contact.mobile_in_fixed;
