@@ -7,14 +7,10 @@
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
-#include "kinematics/socket_rim.hpp"
+#include "kinematics/hip_parts.hpp"
 
 namespace condyle {
 namespace {
-
-/// A head whose centre is near the joint centre lies within two of the largest radii that find_sphere() looks for; fewer
-/// vertices to search cost less.
-constexpr double largest_head_reach = 90;
 
 std::vector<std::uint8_t> triangles_within(const TriMesh& mesh, const Vec3& centre, double radius) {
   std::vector<std::uint8_t> near_centre(mesh.vertices.size());
@@ -28,7 +24,7 @@ std::vector<std::uint8_t> triangles_within(const TriMesh& mesh, const Vec3& cent
   return within;
 }
 
-/// The meshes of the mobile body that are told to be bearing: names, and marks of their triangles.
+/// The meshes of the mobile body that are called bearing: names, and marks of their triangles.
 void mark_bearing_parts(const Body& mobile, BearingSurface& surface) {
   surface.triangles.assign(mobile.mesh.triangles().size(), 0);
   for (const BodyPart& part : mobile.parts) {
@@ -83,37 +79,39 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   }
   BearingSurface surface;
   mark_bearing_parts(joint.mobile, surface);
-  const bool is_told = !surface.parts.empty();
-  if (is_told && options.margin_mm)
-    throw UsageError("bearing margin: " + joint.mobile.name +
-                     " has meshes told to be bearing, which need none");
-  try {
-    const SphericalPatch patch = find_sphere(is_told ? marked_part(mobile, surface.triangles) : mobile,
-                                             {.within = Sphere{Vec3::Zero(), largest_head_reach}});
-    surface.head = patch.fit.sphere;
-    surface.head_coverage = patch.coverage;
-  } catch (const MeshError&) {
-    return none(joint.mobile.name + (is_told ? ": nothing of the meshes told to be bearing is spherical"
-                                             : ": no head was found around the joint centre"));
-  }
+  const bool has_parts = !surface.parts.empty();
+  const std::optional<SphericalPatch> head = kinematics::head_near_centre(
+      has_parts ? Mesh(marked_part(mobile, surface.triangles)) : joint.mobile.mesh);
+  if (!head)
+    return none(joint.mobile.name + (has_parts ? ": nothing of the meshes called bearing is spherical"
+                                               : ": no head was found around the joint centre"));
+  surface.head = head->fit.sphere;
+  surface.head_coverage = head->coverage;
   if (const double off = surface.head.centre.norm(); off > farthest_head_centre_mm)
     return none(
         joint.mobile.name +
         core::formatted(": the sphere found as its head has its centre %.1f mm from the joint centre, "
                         "more than %g",
                         off, farthest_head_centre_mm));
-  if (const auto socket = kinematics::find_socket(joint.fixed.mesh, surface.head))
-    surface.socket = socket->fit.sphere;
-  if (const auto rim = kinematics::socket_rim(joint.fixed.mesh, surface.head))
-    surface.rim_gap_mm = rim->gap_mm;
-  if (is_told) return {std::move(surface), {}};
-  surface.margin_mm = options.margin_mm.value_or(
-      std::min(usual_bearing_margin_mm,
-               surface.rim_gap_mm.value_or(usual_bearing_margin_mm + rim_reserve_mm) - rim_reserve_mm));
+  if (const auto socket = kinematics::socket_around(joint.fixed.mesh, surface.head);
+      *socket && kinematics::fits_into(surface.head, **socket))
+    surface.socket = (*socket)->fit.sphere;
+  if (const auto rim = kinematics::rim_around(joint.fixed.mesh, surface.head); *rim)
+    surface.rim_gap_mm = (*rim)->gap_mm;
+  // A bearing cartilage reaches nearly to the rim's, and its own contact is none of impingement: no reserve is kept there.
+  const double reserve = has_parts ? 0 : rim_reserve_mm;
+  surface.margin_mm = options.margin_mm.value_or(std::min(
+      usual_bearing_margin_mm, surface.rim_gap_mm.value_or(usual_bearing_margin_mm + reserve) - reserve));
+  // Bone under a bearing cartilage is within its sphere, with a margin or without.
+  if (has_parts) surface.margin_mm = std::max(surface.margin_mm, 0.0);
   if (!(surface.margin_mm >= 0))
     return none(core::formatted("head and rim are only %.2f mm apart: no margin to tell bearing surfaces by",
                                 *surface.rim_gap_mm));
-  surface.triangles = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
+  const auto within = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
+  if (has_parts)
+    for (std::size_t t = 0; t < within.size(); ++t) surface.triangles[t] |= within[t];
+  else
+    surface.triangles = within;
   if (surface.count() == surface.triangles.size())
     return none(joint.mobile.name + ": all of it would be bearing surface");
   return {std::move(surface), {}};

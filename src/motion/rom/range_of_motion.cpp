@@ -6,6 +6,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/tangential.hpp"
+#include "core/lazy.hpp"
 #include "core/parallel.hpp"
 #include "core/per_thread.hpp"
 #include "mesh/surface_to_surface.hpp"
@@ -73,13 +74,19 @@ AxisFrame flexion_axis(CoordinateSystem system) {
 }  // namespace
 
 struct RangeOfMotion::Parts {
-  /// A part of the mobile body, resting about the axis of internal rotation.
+  /// A part of the mobile body.
   struct MobilePart {
     CountingBody body;
-    motion::RotationTable rotation_table;
+    AxisFrame rotation_axis;
+    core::Lazy<std::optional<motion::RotationTable>> table = {};
 
     MobilePart(motion::PartOfMesh part, CoordinateSystem system)
-        : body(std::move(part)), rotation_table(body.tree, rotation_axis_in_M(system)) {}
+        : body(std::move(part)), rotation_axis(rotation_axis_in_M(system)) {}
+
+    /// The part resting about the axis of internal rotation.
+    const motion::RotationTable& rotation_table() const {
+      return *table.get([&](auto& made) { made.emplace(body.tree, rotation_axis); });
+    }
   };
 
   JointKind kind;
@@ -146,9 +153,10 @@ struct RangeOfMotion::Parts {
       body.start_at(table.frame(), X);
       return Rotation{table, body};
     };
-    return vary == JointAngle::internal_rotation ? started(part.rotation_table, worker.fixed, inverted(X_FM))
-           : vary == JointAngle::adduction       ? started(adduction_table(worker, start), turning, X_FM)
-                                                 : started(flexion_table, turning, X_FM);
+    return vary == JointAngle::internal_rotation
+               ? started(part.rotation_table(), worker.fixed, inverted(X_FM))
+           : vary == JointAngle::adduction ? started(adduction_table(worker, start), turning, X_FM)
+                                           : started(flexion_table, turning, X_FM);
   }
 
   /// First contact of the fixed body and one part of the mobile one.

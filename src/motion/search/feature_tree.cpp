@@ -5,7 +5,7 @@
 
 namespace condyle::motion {
 
-FeatureTree::FeatureTree(const Mesh& mesh) : base_(mesh), is_closed_(mesh.is_closed()) {
+FeatureTree::FeatureTree(const Mesh& mesh) : base_(*mesh::tree_of(mesh)), is_closed_(mesh.is_closed()) {
   count_vertices();
   gather_edges(mesh::edges_of(mesh));
   component_vertices_ = base_.one_vertex_of_each_piece();

@@ -1,0 +1,131 @@
+#include "condyle/contact_checks.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/cup.hpp"
+
+/// What looks wrong with layers, loads and motions.
+
+namespace condyle {
+namespace {
+
+using Codes = std::vector<ContactNoteCode>;
+
+Codes codes_of(const std::vector<ContactNote>& notes) {
+  Codes codes;
+  for (const ContactNote& note : notes) {
+    EXPECT_FALSE(note.text.empty());
+    codes.push_back(note.code);
+  }
+  return codes;
+}
+
+/// A cartilage of 2.5 mm, as the shell of a ball.
+Mesh cartilage() {
+  return test::socket(Vec3::Zero(), 25, 27.5, 3);
+}
+Codes of_layer(const ElasticLayer& layer, const Mesh& mesh = cartilage()) {
+  return codes_of(check_layers(ElasticContact(mesh, test::sphere(Vec3::Zero(), 24, 2), {.fixed = layer})));
+}
+
+TEST(ContactChecks, SayNothingOfTissueAndImplants) {
+  for (const ElasticLayer& layer : {ElasticLayer{10, 0.45, 3.0},
+                                    {0.5, 0, 0.5},
+                                    {1000, 0.46, 8.0},
+                                    {230000, 0.3, 4.0},
+                                    {380000, 0.23, 5.0}})
+    EXPECT_EQ(of_layer(layer), Codes{}) << layer.youngs_modulus_mpa;
+}
+
+TEST(ContactChecks, NameWhatNoTissueOrImplantHas) {
+  EXPECT_EQ(of_layer({1e9, 0.45, 3.0}), Codes{ContactNoteCode::unlikely_modulus});
+  EXPECT_EQ(of_layer({0.012, 0.45, 3.0}), Codes{ContactNoteCode::unlikely_modulus});
+  EXPECT_EQ(of_layer({10, 0.4999, 3.0}), Codes{ContactNoteCode::unlikely_poisson_ratio});
+  EXPECT_EQ(of_layer({10, -0.2, 3.0}), Codes{ContactNoteCode::unlikely_poisson_ratio});
+  EXPECT_EQ(of_layer({10, 0.45, 1500.0}), Codes{ContactNoteCode::unlikely_thickness});
+  EXPECT_EQ(of_layer({10, 0.45, 0.0015}), Codes{ContactNoteCode::unlikely_thickness});
+  const Mesh mesh = cartilage();
+  std::vector<double> thickness(mesh.vertices().size(), 2.0);
+  thickness[7] = 0.05;
+  EXPECT_EQ(of_layer({10, 0.45, thickness}), Codes{ContactNoteCode::unlikely_thickness});
+  const auto notes = check_layers(ElasticContact(cartilage(), test::sphere(Vec3::Zero(), 24, 2),
+                                                 {.fixed = ElasticLayer{1e7, 0.45, 1500.0}}),
+                                  {"acetabular cartilage", "head"});
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].text.find("acetabular cartilage"), std::string::npos);
+  EXPECT_NE(notes[0].text.find("is it in Pa?"), std::string::npos);
+  EXPECT_NE(notes[1].text.find("is it in micrometres?"), std::string::npos);
+}
+
+TEST(ContactChecks, NameABoneThatIsGivenALayer) {
+  // A ball of radius 24: 2 V / A = 2 r / 3.
+  EXPECT_EQ(of_layer({10, 0.45, 3.0}, test::sphere(Vec3::Zero(), 24, 3)),
+            Codes{ContactNoteCode::layer_on_bone});
+  EXPECT_EQ(of_layer({10, 0.45, 3.0}, test::cup(24, 3)), Codes{}) << "an open sheet has no thickness";
+}
+
+TEST(ContactChecks, NameForcesBeyondTenBodyWeights) {
+  EXPECT_EQ(codes_of(check_load({.on_mobile = {.force_n = {0, 7300, 0}}})), Codes{});
+  const auto notes = check_load({.on_mobile = {.force_n = {0, 7400, 0}}});
+  ASSERT_EQ(codes_of(notes), Codes{ContactNoteCode::unlikely_load});
+  EXPECT_NE(notes[0].text.find("75 kg assumed"), std::string::npos);
+}
+
+Codes at_depth(double depth, FaceRule rule = FaceRule::cut_faces) {
+  const ElasticContact contact(test::plane(3, 4), test::box({-9, 0, -9}, {9, 40, 9}),
+                               {.casting = Casting::fixed,
+                                .rays = {.rule = rule, .reach_mm = 50},
+                                .fixed = ElasticLayer{1, 0.4, 3.0}});
+  return codes_of(check_contact(contact.at(test::translated({0, -depth, 0}))));
+}
+
+TEST(ContactChecks, NameLayersThatAreCompressedFarOrWholly) {
+  EXPECT_EQ(at_depth(0.89), Codes{});
+  EXPECT_EQ(at_depth(0.91), Codes{ContactNoteCode::large_strain});
+  EXPECT_EQ(at_depth(2.99), Codes{ContactNoteCode::large_strain});
+  EXPECT_EQ(at_depth(3.01), Codes{ContactNoteCode::deeper_than_layers});
+}
+
+/// Frames apart by a gap, or within each other by a depth.
+std::vector<std::optional<FrameContact>> frames(std::size_t apart, double gap, std::size_t deep, double depth,
+                                                std::size_t others) {
+  std::vector<std::optional<FrameContact>> all;
+  for (std::size_t i = 0; i < apart; ++i)
+    all.push_back(FrameContact{.X_FM = Pose::Identity(), .smallest_gap_mm = gap});
+  for (std::size_t i = 0; i < deep; ++i) {
+    all.push_back(FrameContact{.X_FM = Pose::Identity(), .in_contact = true});
+    all.back()->surface.totals.max_depth_mm = depth;
+  }
+  for (std::size_t i = 0; i < others; ++i)
+    all.push_back(FrameContact{.X_FM = Pose::Identity(), .smallest_gap_mm = 2});
+  all.emplace_back();  // a gap of the recording
+  return all;
+}
+
+TEST(ContactChecks, NameMotionsThatLeaveTheBodiesApartOrDeep) {
+  EXPECT_EQ(codes_of(check_motion(frames(5, 100, 0, 0, 5))), Codes{}) << "half of them";
+  EXPECT_EQ(codes_of(check_motion(frames(6, 100, 0, 0, 5))), Codes{ContactNoteCode::mostly_apart});
+  EXPECT_EQ(codes_of(check_motion(frames(6, 19, 0, 0, 5))), Codes{});
+  EXPECT_EQ(codes_of(check_motion(frames(0, 0, 6, 20, 5))), Codes{ContactNoteCode::mostly_deep});
+  EXPECT_EQ(codes_of(check_motion(frames(0, 0, 6, 9, 5))), Codes{});
+  EXPECT_EQ(codes_of(check_motion({})), Codes{});
+}
+
+TEST(ContactChecks, NameRecordedNumbersInAnotherUnit) {
+  EXPECT_FALSE(check_recorded("flexion", RecordedKind::angle_deg, 720));
+  EXPECT_EQ(check_recorded("flexion", RecordedKind::angle_deg, 5156)->code, ContactNoteCode::unlikely_angle);
+  EXPECT_FALSE(check_recorded("x", RecordedKind::length_mm, 999));
+  EXPECT_EQ(check_recorded("x", RecordedKind::length_mm, 40000)->code, ContactNoteCode::unlikely_translation);
+}
+
+TEST(ContactChecks, AddOnlyNewCodes) {
+  std::vector<ContactNote> notes = check_load({.on_mobile = {.force_n = {0, 8000, 0}}});
+  add_new(notes, {{ContactNoteCode::unlikely_load, "again"},
+                  {ContactNoteCode::large_strain, "one"},
+                  {ContactNoteCode::large_strain, "two"}});
+  EXPECT_EQ(codes_of(notes), (Codes{ContactNoteCode::unlikely_load, ContactNoteCode::large_strain,
+                                    ContactNoteCode::large_strain}));
+}
+
+}  // namespace
+}  // namespace condyle
