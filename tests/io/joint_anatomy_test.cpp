@@ -85,7 +85,9 @@ TEST_F(JointAnatomy, AHingeIsNoHipOrShoulder) {
 }
 
 TEST_F(JointAnatomy, AFreeJointMustSayWhichItIs) {
-  EXPECT_EQ(refusal("free", ""), "line 1: joint: is missing");
+  EXPECT_EQ(refusal("free", ""),
+            "line 1: joint: is missing: a free joint needs \"hip\", \"knee\", \"ankle\", \"elbow\" or "
+            "\"shoulder\", which name its angles");
 }
 
 TEST_F(JointAnatomy, OnlyAFreeJointHasATranslationFrame) {

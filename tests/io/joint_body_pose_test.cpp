@@ -143,8 +143,8 @@ TEST_F(JointBodyPose, AMatrixOfFewDigitsIsMadeARotationWithANote) {
       read_joint(write("pose = [0.8660254, -0.5, 0, 0, 0.5, 0.8660254, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n" +
                            std::string(plain_femur),
                        plain_tibia));
-  ASSERT_EQ(loaded.report.notes.size(), 1u);
-  EXPECT_NE(loaded.report.notes[0].find("fixed.pose: its rotation was off by"), std::string::npos);
+  ASSERT_EQ(loaded.report.processing.size(), 1u);
+  EXPECT_NE(loaded.report.processing[0].find("fixed.pose: its rotation was off by"), std::string::npos);
   // Seven digits of sine and cosine: their length is off by 4e-9 and is made 1, which turns nothing.
   EXPECT_NEAR(loaded.report.file.joint.fixed_in_W(0, 0), std::sqrt(3) / 2, 1e-8);
 }

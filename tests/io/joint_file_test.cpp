@@ -98,7 +98,7 @@ TEST_F(ReadJoint, StandardPlacementKeepsEveryBit) {
   EXPECT_EQ(joint.side, Side::right);
   EXPECT_EQ(joint.fixed.name, "hip bone");
   EXPECT_EQ(joint.mobile.name, "femur");
-  EXPECT_TRUE(report.notes.empty()) << report.notes.front();
+  EXPECT_TRUE(report.processing.empty()) << report.processing.front();
 }
 
 TEST_F(ReadJoint, AJointMadeByHandIsTheSameBitForBit) {
@@ -120,7 +120,7 @@ TEST_F(ReadJoint, AJointMadeByHandIsTheSameBitForBit) {
   EXPECT_EQ(by_file.mobile.name, by_hand.mobile.name);
   EXPECT_EQ(by_file.side, by_hand.side);
   EXPECT_EQ(report.placement.X_WF.matrix(), placement.X_WF.matrix());
-  EXPECT_EQ(report.notes, placement.notes);
+  EXPECT_EQ(report.processing, placement.processing);
 }
 
 TEST_F(ReadJoint, MetresBecomeMillimetres) {
@@ -135,7 +135,7 @@ TEST_F(ReadJoint, MetresBecomeMillimetres) {
     // The test's own scaling, that of the file and the centre's: u each, of at most 400 mm.
     EXPECT_LE((joint.mobile.mesh.vertices()[v] - (expected.vertices[v] - centre)).cwiseAbs().maxCoeff(),
               4 * core::rounding_unit * 400);
-  EXPECT_EQ(report.notes.size(), 1u);
+  EXPECT_EQ(report.processing.size(), 1u);
 }
 
 TEST_F(ReadJoint, ACentreIsSubtractedWithOneRounding) {
@@ -180,8 +180,9 @@ TEST_F(ReadJoint, AFittedCentreIsThatOfTheHeadAndIsReported) {
   // Vertices of 24 mm rounded to double lie on the sphere: see the tests of the fit.
   EXPECT_LE((report.placement.X_WF.translation() - Vec3(1.0 / 3, 0, 2.0 / 3)).norm(), 1e-12);
   EXPECT_NEAR(report.placement.sphere->fit.sphere.radius, 24, 1e-12);
-  ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_TRUE(report.notes[0].starts_with("centre fitted: sphere of radius 24.000 mm")) << report.notes[0];
+  ASSERT_EQ(report.processing.size(), 1u);
+  EXPECT_TRUE(report.processing[0].starts_with("centre fitted: sphere of radius 24.000 mm"))
+      << report.processing[0];
 }
 
 TEST_F(ReadJoint, ASocketCanBeFittedInstead) {
@@ -252,8 +253,8 @@ TEST_F(ReadJoint, LandmarksOfBothBodiesGiveTheNeutralPose) {
   const TriMesh neutral = femur_like();
   for (std::size_t v = 0; v < neutral.vertices.size(); ++v)
     ASSERT_LT((joint.mobile.mesh.vertices()[v] - neutral.vertices[v]).norm(), 1e-10);
-  EXPECT_NE(report.notes.back().find("flexion 12.00, adduction 4.00"), std::string::npos)
-      << report.notes.back();
+  EXPECT_NE(report.processing.back().find("flexion 12.00, adduction 4.00"), std::string::npos)
+      << report.processing.back();
   EXPECT_TRUE(refusal(both + "[reference_pose]\nflexion = 3\n").ends_with("leave it out"));
   EXPECT_NE(
       refusal(replaced(both, pelvis, pelvis + "hip_centre = [0, 0, 0]\n")).find("hip_centre: unknown key"),
@@ -284,7 +285,7 @@ TEST_F(ReadJoint, RepairsAreMadeInOrderAndReported) {
   ASSERT_EQ(report.mobile[0].repairs.size(), 2u);
   EXPECT_EQ(report.mobile[0].repairs[0].count, 1u);
   EXPECT_EQ(report.mobile[0].repairs[1].count, dirty.triangles.size());
-  EXPECT_EQ(report.notes.size(), 2u);
+  EXPECT_EQ(report.processing.size(), 2u);
 }
 
 TEST_F(ReadJoint, MeshesInContradictingUnitsAreRefusedNamingBoth) {
@@ -314,7 +315,7 @@ TEST_F(ReadJoint, ScannerAxesAreNamedByOneKey) {
         read(replaced(plain, axes, std::string("anterior = ") + anterior + "\nsuperior = [0, 0, 1]\n"));
     EXPECT_EQ(named.joint.mobile.mesh.vertices(), spelt.joint.mobile.mesh.vertices()) << name;
     EXPECT_EQ(named.report.placement.X_WF.linear().col(1), Vec3(Vec3::UnitZ()));
-    EXPECT_TRUE(named.report.notes.empty());
+    EXPECT_TRUE(named.report.processing.empty());
   }
   EXPECT_NE(
       refusal(replaced(plain, axes, "axes = \"LAS\"\n")).find("must be \"LPS\" or \"RAS\", not \"LAS\""),
@@ -425,8 +426,8 @@ TEST_F(ReadJoint, AxesThatAreNotOrthonormalAreRefusedSayingByHowMuch) {
 TEST_F(ReadJoint, AxesWithSixDecimalsAreMadeOrthonormalAndThatIsReported) {
   const auto [joint, report] = read(replaced(replaced(plain, "[1.0, 0.0, 0.0]", "[0.866025, 0.5, 0.0]"),
                                              "[0.0, 1.0, 0.0]", "[-0.5, 0.866025, 0.0]"));
-  ASSERT_EQ(report.notes.size(), 1u);
-  EXPECT_TRUE(report.notes[0].starts_with("axes made orthonormal")) << report.notes[0];
+  ASSERT_EQ(report.processing.size(), 1u);
+  EXPECT_TRUE(report.processing[0].starts_with("axes made orthonormal")) << report.processing[0];
 }
 
 TEST_F(ReadJoint, WhatIsNotTomlIsRefusedWithItsLine) {

@@ -47,9 +47,9 @@ TEST_F(ReadHinge, AFittedAxisRotatesTheFrameToItAndReportsByHowMuch) {
     const Vec3 p = joint.mobile.mesh.vertices()[v];
     EXPECT_NEAR(std::hypot(p.x(), p.y()), 12, 1e-11);
   }
-  ASSERT_FALSE(report.notes.empty());
-  EXPECT_TRUE(report.notes.back().starts_with("axis fitted: cylinder of radius 12.000 mm"))
-      << report.notes.back();
+  ASSERT_FALSE(report.processing.empty());
+  EXPECT_TRUE(report.processing.back().starts_with("axis fitted: cylinder of radius 12.000 mm"))
+      << report.processing.back();
 }
 
 TEST_F(ReadHinge, NamesLeftOutAreTheBodiesRoles) {

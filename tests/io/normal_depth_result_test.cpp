@@ -74,7 +74,8 @@ Pose at_height(double y) {
 DepthResult result_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
   const DepthQuestion question{.joint = joint, .pose = {.translation_mm = X_FM.translation()}, .X_FM = X_FM};
   const JointContact bodies(joint);
-  return depth_result(question, entry, measure_contact(bodies, X_FM, VertexStates()),
+  return depth_result(question, entry,
+                      measure_contact(bodies, X_FM, MeasuredContact(), DistancesOf::all_vertices),
                       normal_contact(bodies, X_FM, entry.casting, entry.rays));
 }
 Json json_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {

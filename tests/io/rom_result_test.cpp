@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/normal_range.hpp"
 #include "io/result/clock_hour.hpp"
 #include "rom_scene.hpp"
@@ -149,8 +151,8 @@ TEST(RomCsv, HasAsManyFieldsInEveryLineAndEveryBitOfTheNumbers) {
   std::from_chars(digits, lines[1].c_str() + lines[1].size(), turned);
   EXPECT_EQ(turned, limits[0].end.turned.degrees());
   EXPECT_NE(lines[1].find(",edge 3-17,face 40,"), std::string::npos);
-  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,,,"));
-  EXPECT_TRUE(lines[1].ends_with(",120")) << "the normal range of flexion";
+  EXPECT_TRUE(lines[3].ends_with(",,,,,,,,,,,,,end_unknown")) << lines[3];
+  EXPECT_TRUE(lines[1].ends_with(",120,bone_may_end")) << "the normal range of flexion, and what ends it";
 }
 
 TEST(RomCsv, NamesTheMeshesThatMeet) {
@@ -170,7 +172,7 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
                                         .bearing = {some_bearing(), {}},
                                         .bearing_rule = BearingRule::leave_out,
                                         .terms = {"left out: nothing"}}));
-  ASSERT_EQ(lines.size(), 10u);
+  ASSERT_EQ(lines.size(), 13u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];
   EXPECT_EQ(lines[3], "  left out: nothing");
@@ -212,6 +214,117 @@ TEST(RomJson, SaysThatTheTwoBedsideTestsAreAsDefinedHere) {
   for (const std::size_t i : {0, 2})
     EXPECT_EQ(motions[i]["definition"], "as defined here; no angles are agreed on");
   EXPECT_TRUE(motions[1]["definition"].is_null());
+}
+
+std::vector<std::string> codes_of(const Joint& joint, const Motion& motion) {
+  std::vector<std::string> codes;
+  for (const MotionCaveat& caveat : motion_caveats(joint, motion)) codes.emplace_back(name_of(caveat.code));
+  return codes;
+}
+
+/// By the table of docs/formats-rom.md.
+TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
+  using Codes = std::vector<std::string>;
+  const std::map<std::string, Codes> expected{
+      {"flexion", {"bone_may_end"}},
+      {"extension", {"soft_tissue_ends"}},
+      {"abduction", {"end_unknown"}},
+      {"adduction", {"end_unknown"}},
+      {"internal_rotation", {"capsule_restrains"}},
+      {"external_rotation", {"capsule_restrains"}},
+      {"abduction_at_90_flexion", {"bone_may_end"}},
+      {"adduction_at_90_flexion", {"soft_tissue_ends"}},
+      {"internal_rotation_at_90_flexion", {"soft_tissue_close", "labrum_not_modelled"}},
+      {"external_rotation_at_90_flexion", {"capsule_restrains"}},
+      {"fadir", {"bone_may_end", "labrum_not_modelled"}},
+      {"faber", {"capsule_restrains"}}};
+  const Joint joint = arm_and_post();
+  std::size_t known = 0;
+  for (const Motion& motion : hip_motions()) {
+    EXPECT_EQ(codes_of(joint, motion), expected.at(motion.name)) << motion.name;
+    ++known;
+    for (const MotionCaveat& caveat : motion_caveats(joint, motion)) {
+      EXPECT_TRUE(caveat.text.ends_with(".")) << caveat.text;
+      EXPECT_EQ(caveat.source.empty(), caveat.code == MotionCaveatCode::end_unknown) << motion.name;
+    }
+  }
+  EXPECT_EQ(known, expected.size());
+}
+
+TEST(MotionCaveats, AreOfMotionsThatTurnAsTheirNameSaysAndOfHipsOnly) {
+  Joint joint = arm_and_post();
+  Motion motion = motion_named(hip_motions(), "extension");
+  motion.sense = RotationSense::positive;
+  EXPECT_EQ(codes_of(joint, motion), std::vector<std::string>{"end_unknown"});
+  motion = motion_named(hip_motions(), "fadir");
+  joint.fixed.name = "pelvis with Labrum";
+  EXPECT_EQ(codes_of(joint, motion), std::vector<std::string>{"bone_may_end"});
+  joint.anatomy = Anatomy::knee;
+  EXPECT_TRUE(codes_of(joint, motion).empty());
+}
+
+TEST(Scope, IsOsseousOnlyWhereAllMeshesAreBones) {
+  Joint joint = arm_and_post();
+  EXPECT_TRUE(
+      scope_text(joint).starts_with("osseous contact of the meshes given; soft tissue is not modelled"));
+  const std::size_t vertices = joint.mobile.mesh.vertices().size();
+  const std::size_t triangles = joint.mobile.mesh.triangles().size();
+  joint.mobile.parts = {
+      {"femur", 0, vertices / 2, 0, triangles / 2},
+      {"Femoral_Cartilage", vertices / 2, vertices - vertices / 2, triangles / 2, triangles - triangles / 2}};
+  EXPECT_TRUE(scope_text(joint).starts_with("contact of the bones and cartilages given; "))
+      << scope_text(joint);
+  joint.fixed.name = "labrum";
+  EXPECT_TRUE(scope_text(joint).starts_with("contact of the bones, cartilages and labrum given; "))
+      << scope_text(joint);
+  joint.mobile.parts.clear();
+  joint.mobile.name = "lateral meniscus", joint.fixed.name = "tibial cartilage";
+  EXPECT_TRUE(scope_text(joint).starts_with("contact of the cartilages and menisci given; "))
+      << scope_text(joint);
+  for (const std::string& scope : {scope_text(joint), scope_text(arm_and_post()), scope_text()})
+    EXPECT_TRUE(scope.ends_with("; research software, not a medical device")) << scope;
+}
+
+TEST(Scope, TakesAllWordsOfAName) {
+  Joint joint = arm_and_post();
+  joint.fixed.name = "acetabular cartilage with labrum", joint.mobile.name = "implant";
+  EXPECT_TRUE(scope_text(joint).starts_with("contact of the cartilages, labrum and implants given; "))
+      << scope_text(joint);
+  EXPECT_EQ(codes_of(joint, motion_named(hip_motions(), "fadir")), std::vector<std::string>{"bone_may_end"});
+  joint.fixed.name = "joint capsule";
+  EXPECT_TRUE(scope_text(joint).starts_with("contact of the soft tissue and implants given; "))
+      << scope_text(joint);
+}
+
+TEST(Scope, NamesLayersThatSurfacesCarry) {
+  Joint joint = arm_and_post();
+  ContactEntry entry;
+  const auto scope = [&] { return scope_text(entry, surfaces_of(entry, joint)); };
+  EXPECT_TRUE(scope().starts_with("osseous contact")) << scope();
+  entry.mobile.emplace();
+  EXPECT_TRUE(scope().starts_with("contact of the bones and elastic layers given; ")) << scope();
+  entry.fixed.emplace();
+  EXPECT_TRUE(scope().starts_with("contact of the elastic layers given; ")) << scope();
+  joint.mobile.name = "femoral cartilage";
+  EXPECT_TRUE(scope().starts_with("contact of the cartilages and elastic layers given; ")) << scope();
+}
+
+TEST(RomText, HasALineForEachCaveatWithItsMotions) {
+  const Joint joint = arm_and_post();
+  std::vector<MotionLimit> limits(3);
+  for (std::size_t i = 0; i < 3; ++i)
+    limits[i].motion =
+        motion_named(hip_motions(), (std::array{"extension", "flexion", "adduction_at_90_flexion"})[i]);
+  const std::string text = rom_text({joint, limits});
+  EXPECT_NE(text.find("soft tissue usually ends them before bone does (Turley 2013, PMC3589629): extension, "
+                      "adduction_at_90_flexion\n"),
+            std::string::npos)
+      << text;
+  const Json extension = Json::parse(rom_json({joint, limits}))["motions"][0];
+  ASSERT_EQ(extension["caveats"].size(), 1u);
+  EXPECT_EQ(extension["caveats"][0]["code"], "soft_tissue_ends");
+  EXPECT_EQ(extension["caveats"][0]["source"], "Turley 2013, PMC3589629");
+  EXPECT_FALSE(extension["caveats"][0]["text"].get<std::string>().empty());
 }
 
 TEST(NormalHipRange, IsGivenWhereTheSourceHasAValue) {
@@ -257,7 +370,7 @@ TEST(ClockHour, HasTwelveSuperiorAndThreeAnteriorOnEitherSideOfTheBody) {
       EXPECT_NEAR(io::clock_hour(result, limits[i]).value(), hours[i], 1e-14);
     EXPECT_NEAR(Json::parse(rom_json(result))["motions"][2]["clock_hour"].get<double>(), 1.5, 1e-14);
     EXPECT_NE(rom_text(result).find("  1:30  "), std::string::npos);
-    EXPECT_NE(rom_csv(result).find(",1.5,,,,,,,,120\n"), std::string::npos);
+    EXPECT_NE(rom_csv(result).find(",1.5,,,,,,,,120,bone_may_end\n"), std::string::npos);
   }
 }
 

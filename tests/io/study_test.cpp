@@ -112,14 +112,15 @@ TEST_F(StudyOfArms, IsDoneAgainForOtherMeshesOtherOptionsAndFilesThatWereChanged
   EXPECT_EQ(found.failures, 3u);
 }
 
-TEST_F(StudyOfArms, IsDoneAgainForATableOfOtherBytesThatAreNoUtf8) {
+TEST_F(StudyOfArms, IsRefusedForATableOfBytesThatAreNoUtf8) {
   Study bytes = study("out");
   bytes.table = folder / "bytes.csv";
-  for (const char* table : {"id,joint,a\xff\nh,hip1.toml,x\n", "id,joint,a\xfe\nh,hip1.toml,x\n",
-                            "id,joint,a\xfe\nh,hip1.toml,\xfe\n", "id,joint,a\xfe\nh,hip1.toml,\xff\n"}) {
+  for (const char* table :
+       {"id,joint,a\xff\nh,hip1.toml,x\n", "id,joint,a\nh,hip1.toml,\xfe\n",
+        "id,joint,a\nh,hip1.toml,\xc0\xaf\n", "id,joint,a\nh,hip1.toml,\xed\xa0\x80\n",
+        "id,joint,a\nh,hip1.toml,\xf4\x90\x80\x80\n", "id,joint,a\nh,hip1.toml,\xe2\x82"}) {
     std::ofstream(bytes.table) << table;
-    EXPECT_FALSE(run(bytes).was_there) << table;
-    EXPECT_TRUE(run(bytes).was_there) << table;
+    EXPECT_THROW(run(bytes), FileError) << table;
   }
 }
 
@@ -248,6 +249,23 @@ std::vector<double> h5_numbers(hid_t file, const std::string& path) {
   return values;
 }
 
+/// A data set of texts of variable length.
+std::vector<std::string> h5_texts(hid_t file, const std::string& path) {
+  const hid_t set = H5Dopen2(file, path.c_str(), H5P_DEFAULT), space = H5Dget_space(set),
+              type = H5Dget_type(set);
+  EXPECT_GT(H5Tis_variable_str(type), 0) << path;
+  EXPECT_EQ(H5Tget_cset(type), H5T_CSET_UTF8) << path;
+  std::vector<char*> read(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
+  EXPECT_GE(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, read.data()), 0) << path;
+  std::vector<std::string> texts;
+  for (const char* text : read) texts.emplace_back(text ? text : "");
+  H5Dvlen_reclaim(type, space, H5P_DEFAULT, read.data());
+  H5Tclose(type);
+  H5Sclose(space);
+  H5Dclose(set);
+  return texts;
+}
+
 TEST_F(StudyOfArms, HasTheSameNumbersInItsHdf5File) {
   run(study("out"));
   const hid_t file = H5Fopen((folder / "out/study.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -264,7 +282,72 @@ TEST_F(StudyOfArms, HasTheSameNumbersInItsHdf5File) {
     }
   }
   EXPECT_EQ(h5_numbers(file, "/failures/exit_code"), (std::vector<double>{3, 3, 6, 3}));
+  for (const char* column : {"id", "group", "motion", "contact_kind"}) {
+    const std::vector<std::string> texts = h5_texts(file, std::string("/limits/") + column);
+    ASSERT_EQ(texts.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(texts[i], rows[i].at(column)) << column;
+  }
   H5Fclose(file);
+}
+
+TEST(StudyH5, GrowsWithTheTextsAndNotWithTheLongestOne) {
+  const TemporaryFolder folder;
+  const std::string remark(1'000'000, 'x');
+  constexpr std::size_t rows = 200;
+  std::string table = "id,joint,remark\n";
+  for (std::size_t i = 0; i < rows; ++i)
+    table += fmt::format("j{},nothere.toml,{}\n", i, i == 7 ? remark : "");
+  EXPECT_EQ(run_study({folder.file("table.csv", table), folder / "out"})->failures, rows);
+  // In the file a text has a reference of 16 bytes, and 16 beside it and up to 7 behind it where it lies; its columns, and
+  // what HDF5 has beside them, take less than 64 kB.
+  constexpr std::size_t text_columns = 4, beside_text = 16 + 16 + 7, beside_all = 1 << 16;
+  const auto texts = fs::file_size(folder / "out/failures.csv");
+  EXPECT_LT(fs::file_size(folder / "out/study.h5"), texts + rows * text_columns * beside_text + beside_all);
+  const hid_t file = H5Fopen((folder / "out/study.h5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  ASSERT_GE(file, 0);
+  EXPECT_EQ(h5_texts(file, "/failures/remark")[7], remark);
+  EXPECT_EQ(h5_texts(file, "/failures/remark")[8], "");
+  H5Fclose(file);
+}
+
+TEST_F(StudyOfArms, RefusesAPoseThatAHingeDoesNotTurnTo) {
+  std::string text = read_whole_file(folder / "hip1.toml");
+  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"\njoint = \"knee\"");
+  folder.file("knee.toml", text);
+  folder.file("knees.csv", "id,joint\nk,knee.toml\n");
+  Study asked{folder / "knees.csv", folder / "knees", {}};
+  asked.options.anatomy = Anatomy::knee;
+  const auto refusal = [&] { return message_of<UsageError>([&] { run_study(asked); }); };
+  constexpr auto says =
+      "knees.csv: line 2: joint 'k': pose: a hinge rotates in flexion only, not in adduction";
+  asked.options.depth_at = study_pose("flexion=30 adduction=10", Anatomy::knee);
+  EXPECT_TRUE(refusal().ends_with(says)) << refusal();
+  asked.options.depth_at = study_pose("flexion=20", Anatomy::knee);
+  EXPECT_EQ(run_study(asked)->joints, 1u);
+  asked.options.depth_at.reset();
+  asked.options.load.emplace().at = study_pose("flexion=30 adduction=10", Anatomy::knee);
+  EXPECT_TRUE(refusal().ends_with(says)) << refusal();
+  EXPECT_THROW(study_pose("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", Anatomy::knee), UsageError);
+}
+
+TEST_F(StudyOfArms, WithoutAnAnswerIsTheErrorOfItsFirstFailure) {
+  const auto refusal = [&](std::string_view table) {
+    return message_of<FileError>([&] {
+      const fs::path path = folder.file("none.csv", table);
+      require_answered(*run_study({path, folder / "none"}), path);
+    });
+  };
+  EXPECT_NE(refusal("id,joint\na,nothere.toml\nb,in_contact.toml\n")
+                .find("none.csv: none of 2 joints was answered; "
+                      "the first one: "),
+            std::string::npos);
+  const fs::path contact = folder.file("none.csv", "id,joint\nb,in_contact.toml\na,nothere.toml\n");
+  for (const bool again : {false, true}) {
+    const StudyDone done = *run_study({contact, folder / "none"});
+    EXPECT_EQ(done.was_there, again);
+    EXPECT_THROW(require_answered(done, contact), ReferenceContactError);
+  }
+  require_answered(run(study("some")), cohort.table());
 }
 
 TEST_F(StudyOfArms, NamesEveryColumnInItsDictionary) {
@@ -298,46 +381,6 @@ TEST_F(StudyOfArms, SaysInEveryTableWhichVersionAndOptionsItIsOf) {
   }
 }
 
-TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
-  const TemporaryFolder folder;
-  const auto expect = [&](std::string_view text, std::string_view saying) {
-    const fs::path table = folder.file("table.csv", text);
-    try {
-      run_study({table, folder / "out"});
-      ADD_FAILURE() << text;
-    } catch (const FileError& error) {
-      EXPECT_NE(std::string_view(error.what()).find(saying), std::string_view::npos) << error.what();
-      EXPECT_NE(std::string_view(error.what()).find("table.csv"), std::string_view::npos) << error.what();
-    }
-    EXPECT_FALSE(fs::exists(folder / "out")) << text;
-  };
-  expect("", "has no names of columns");
-  expect("id,joint\n", "has no row");
-  expect("joint\na.toml\n", "line 1: there is no column 'id'");
-  expect("id,joint,joint\na,b,c\n", "line 1: column 'joint' is there twice");
-  expect("id,joint,\na,b,c\n", "line 1: column 3 has no name");
-  expect("id;joint\na;b\n", "columns must be separated by commas");
-  expect("id,joint\na,b\n\nc\n", "line 4: 1 fields where there are 2 columns");
-  expect("id,joint\na,b\n,c\n", "line 3: id is empty");
-  expect("id,joint\na,b\nc,d\na,e\n", "line 4: id 'a' is that of line 2");
-  expect("id,joint\n\"a,b\n", "line 2: a quote is not closed");
-  expect("id,joint,a/b\nx,y,z\n", "line 1: column 'a/b'");
-  expect(std::string_view("id,joint,a\0b\nx,y,z\n", 19), "a name has no control characters");
-  expect("id,joint," + std::string(1001, 'a') + "\nx,y,z\n", "column 3 has a name of 1001 bytes");
-  expect("id,joint,limit_deg,table_limit_deg\nx,y,1,2\n", "line 1: column 'table_limit_deg' is there twice");
-}
-
-TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {
-  const TemporaryFolder folder;
-  const SmallCohort cohort(folder.path(), 1);
-  const fs::path table =
-      folder.file("other.csv", "\xEF\xBB\xBF# a remark\r\nid,joint,reason\r\nh1,hip1.toml,why not\r\n");
-  EXPECT_EQ(run_study({table, folder / "out"})->joints, 1u);
-  const auto rows = rows_of(folder / "out/limits.csv");
-  EXPECT_EQ(rows[0].at("table_reason"), "why not");
-  EXPECT_EQ(rows[0].at("reason"), "contact");
-}
-
 TEST(StudyOfSamples, GivesTheSameOfMeasuresAndOfMeshesInFiles) {
   const TemporaryFolder folder;
   SampleCohort cohort{.n = 2, .seed = 7};
@@ -353,47 +396,6 @@ TEST(StudyOfSamples, GivesTheSameOfMeasuresAndOfMeshesInFiles) {
   }
   EXPECT_EQ(read_whole_file(folder / "of_measures/limits.csv"),
             read_whole_file(folder / "of_files/limits.csv"));
-}
-
-TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
-  const TemporaryFolder folder;
-  const SampleHip hip = sample_hip({}, Scenario::one);
-  {
-    OutputFolder out(folder / "hip");
-    write_sample_hip(out, hip, Side::right);
-    out.commit();
-  }
-  TriMesh bone = hip.hip_bone, femur = hip.femur;
-  // In metres, X to the right, Y anterior, Z superior.
-  for (TriMesh* mesh : {&bone, &femur})
-    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
-      const Vec3 p = mesh->vertices[v];
-      mesh->vertices.set(v, Vec3(p.z(), p.x(), p.y()) / 1000);
-    }
-  write_mesh(folder / "bone_ras.ply", bone);
-  write_mesh(folder / "femur_ras.ply", femur);
-  folder.file("table.csv",
-              "id,joint,fixed,mobile,side,units,axes\n"
-              "a,hip/hip.toml,,,,,\n"
-              "b,,bone_ras.ply,femur_ras.ply,right,m,ras\n"
-              "c,,bone_ras.ply,femur_ras.ply,,m,ras\n"
-              "d,,bone_ras.ply,femur_ras.ply,right,cm,ras\n"
-              "e,hip/hip.toml,bone_ras.ply,femur_ras.ply,right,m,ras\n");
-  Study study{folder / "table.csv", folder / "out"};
-  study.options.motions = {"flexion", "fadir"};
-  run_study(study);
-  const auto limits = rows_of(folder / "out/limits.csv");
-  ASSERT_EQ(limits.size(), 4u);
-  // The centre of b is fitted to the head: within what triangles sag below the sphere.
-  for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_NEAR(std::stod(limits[i].at("limit_deg")), std::stod(limits[i + 2].at("limit_deg")), 0.5);
-  const auto failures = rows_of(folder / "out/failures.csv");
-  ASSERT_EQ(failures.size(), 3u);
-  EXPECT_NE(failures[0].at("message").find("line 4: column 'side': right or left is needed"),
-            std::string::npos);
-  EXPECT_NE(failures[1].at("message").find("line 5: column 'units': 'cm' is none of mm, m"),
-            std::string::npos);
-  EXPECT_NE(failures[2].at("message").find("line 6: a row needs"), std::string::npos);
 }
 
 }  // namespace

@@ -53,16 +53,9 @@ struct DepthResult {
   DepthArrays fixed, mobile;
 };
 
-/// Which depths an answer leads with.
-enum class DepthMethod {
-  reliable,  ///< of each vertex the one that means a depth there
-  radial,    ///< radial depths where they are depths
-};
-
-/// Of one pose: the depths to read, and the radial ones. `reliable` is reliable_depths() or reliable_radial_depths().
-DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
-                         const RadialContact& contact, const RadialSummary& summary,
-                         const ReliableContact& reliable);
+/// The depths to read, and the radial ones. `depth` is what depth_at() gave by this method.
+DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
+                         const RadialSummary& summary);
 
 /// The tangential depths about one axis.
 DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
@@ -79,6 +72,10 @@ struct DepthFiles {
   VtpEncoding encoding = VtpEncoding::binary;
   VertexTables vertices = VertexTables::leave_out;
 };
+
+/// Throws FileError where write_depth() could not write into the folder, or would write over a file that was read
+/// (Provenance::read): to be called before long work. Leaves nothing.
+void check_depth_folder(const std::filesystem::path& folder, const Provenance* from);
 
 /// Writes fixed.vtp and mobile.vtp (both in the fixed body's frame), pairs.csv and depth.json into a folder, on request
 /// fixed.csv and mobile.csv with a line per vertex; all or none, and files of an earlier result go. Returns what was

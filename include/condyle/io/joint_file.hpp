@@ -45,9 +45,12 @@ struct JointFile {
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table
   std::optional<RecordedMotionMapping> recorded_motion = {};  ///< of the [recorded_motion] table
   FileDigest digest = {};
-  std::vector<std::string> notes = {};  ///< one line each: what was corrected in reading
+  std::vector<std::string> processing = {};  ///< one line each: what was corrected in reading
 };
 JointFile read_joint_file(const std::filesystem::path& path);
+
+/// The file itself, its meshes, and what its layers are measured by.
+std::vector<std::filesystem::path> files_of(const JointFile& file);
 
 /// What became of one mesh on its way into the joint.
 struct BodyMeshReport {
@@ -65,7 +68,7 @@ struct JointReport {
   std::vector<BodyMeshReport> fixed, mobile;  ///< one for each mesh of the body
   JointPlacement placement;
   /// One line each: what was converted, repaired or fitted. What looks wrong is for check_joint().
-  std::vector<std::string> notes;
+  std::vector<std::string> processing;
 };
 
 struct LoadedJoint {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact_checks.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/motion_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
@@ -15,9 +16,10 @@ namespace condyle {
 struct JointMotion {
   FrameTimes times;
   std::vector<std::optional<Pose>> X_FM;  ///< in the joint frame; empty for gaps
-  std::vector<std::string> notes;         ///< of the table and of its reading
+  std::vector<std::string> processing;    ///< of the table and of its reading
   std::filesystem::path path = {};        ///< of the table
   FileDigest digest = {};
+  std::vector<ContactNote> notes = {};  ///< what looks wrong with its numbers: their unit
 };
 
 /// By the joint file's [recorded_motion]. Without one the table must have columns named after the joint's coordinates and

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact_checks.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -34,10 +35,18 @@ struct LoadAnswer {
   ElasticContactResults contact;
   std::optional<BalancedPose> balanced = {};
   std::size_t cut_off_by_reach = 0;  ///< rays
+  /// ElasticContact::refined_force_n() at that pose.
+  std::optional<Vec3> refined_force_n = {};
+  /// What looks wrong with layers, load and contact.
+  std::vector<ContactNote> notes = {};
 };
 
 std::string load_text(const LoadQuestion& question, const LoadAnswer& answer);
 std::string load_json(const LoadQuestion& question, const LoadAnswer& answer);
+
+/// Throws FileError where write_load() could not write into the folder, or would write over a file that was read
+/// (Provenance::read): to be called before long work. Leaves nothing.
+void check_load_folder(const std::filesystem::path& folder, const Provenance* from);
 
 /// Writes both surfaces as fixed.vtp and mobile.vtp, in F, with pressure, depth and area in contact of each triangle of what was cast,
 /// and load.json; all or none. Returns what was written. FileError.

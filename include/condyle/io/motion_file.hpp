@@ -20,7 +20,7 @@ struct MotionTable {
   std::vector<std::size_t> line_of_row;  ///< line of the file, from 1, for messages
   /// What `inDegrees=` of an OpenSim header says of angles; nothing where no header says it.
   std::optional<bool> in_degrees;
-  std::vector<std::string> notes;  ///< where the file contradicts itself and was read nevertheless
+  std::vector<std::string> processing;  ///< where the file contradicts itself and was read nevertheless
   FileDigest digest;
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/contact_checks.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/curve_files.hpp"
 #include "condyle/io/joint_motion.hpp"
@@ -38,10 +39,20 @@ struct MotionAnswer {
   std::vector<std::size_t> without_load = {};
   /// Contact between the samples too, where that was asked for; samples are numbered as the frames.
   std::optional<RecordedContact> between = {};
+  /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
+  /// ElasticContact::refined_force_n(). Empty without pressure.
+  std::optional<double> refined_largest_force_n = {};
+  /// What looks wrong with layers, loads and the motion.
+  std::vector<ContactNote> notes = {};
 };
 
-/// "exact", "bounded", "recording".
-std::string_view name_of(ContactEndKind kind) noexcept;
+/// The frame with the largest force on the mobile body; empty where there is none above 0.
+std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
+
+/// How one end of a contact is known: "exact", "bounded", "recording_begins" of an entry or "recording_ends" of an exit: the bodies
+/// were in contact before the first, or are after the last sample.
+enum class ContactEndRole { entry, exit };
+std::string_view name_of(ContactEndKind kind, ContactEndRole role) noexcept;
 
 /// contact_between() over frames with gaps: each run of frames without one is a recording of its own. Empty where it was
 /// stopped. UsageError where times are not in seconds.
@@ -68,6 +79,10 @@ struct MotionFiles {
   bool jam = false;                 ///< also jam.h5
   VtpEncoding encoding = VtpEncoding::binary;
 };
+
+/// Throws FileError where write_motion() could not write into the folder, or would write over a file that was read
+/// (Provenance::read): to be called before long work. Leaves nothing.
+void check_motion_folder(const std::filesystem::path& folder, const Provenance* from);
 
 /// Writes curves.csv, curves.sto and motion.json into a folder, contacts.csv where contact between the samples was looked
 /// for, regions.csv where the contact has regions, and what else is asked for; all or none. Returns what was

@@ -2,10 +2,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
 namespace condyle {
+
+namespace io {
+class TemporaryFolder;
+}
 
 /// A folder of result files that appear together or not at all.
 ///
@@ -13,7 +19,8 @@ namespace condyle {
 ///     write_mesh(out.file("femur.ply"), m);  written aside, in a hidden folder inside it
 ///     out.commit();                          all get their names, replacing older ones
 ///
-/// Without commit() nothing is left: no file, nor a folder that was created for them. Throws FileError.
+/// Without commit() nothing is left: no file, nor a folder that was created for them. Regular files and links are replaced,
+/// never a device or a FIFO. Throws FileError.
 class OutputFolder {
  public:
   /// Tells of a name whether some run of a command could have written it.
@@ -21,8 +28,10 @@ class OutputFolder {
 
   explicit OutputFolder(const std::filesystem::path& folder);
   /// What an earlier run of the command left and this one does not write goes at commit(): no file of another question
-  /// stays beside those of this one. Every name that file() is asked for must be of the command.
-  OutputFolder(const std::filesystem::path& folder, OfCommand of_command);
+  /// stays beside those of this one. Every name that file() is asked for must be of the command. Refused is a folder where one of
+  /// those that were `read` has a name of the command, directly or by a link: it would be replaced or go.
+  OutputFolder(const std::filesystem::path& folder, OfCommand of_command,
+               std::span<const std::filesystem::path> read = {});
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -36,11 +45,10 @@ class OutputFolder {
  private:
   std::vector<std::filesystem::path> left_by_earlier_runs() const;
 
-  std::filesystem::path folder_, aside_;
-  std::vector<std::filesystem::path> created_;  ///< folders, outermost first
+  std::filesystem::path folder_;
   std::vector<std::filesystem::path> names_;
   OfCommand of_command_;
-  bool committed_ = false;
+  std::unique_ptr<io::TemporaryFolder> aside_;
 };
 
 }  // namespace condyle

@@ -77,6 +77,8 @@ struct Provenance {
   Side side;
   MeshOrigin fixed, mobile;
   AnswerFrame frame;
+  /// All files that were read for it, which no answer is written over: those of the joint, and what else the question took.
+  std::vector<std::filesystem::path> read = {};
 };
 Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> command,
                          AnswerFrameName frame = AnswerFrameName::joint);

@@ -44,7 +44,7 @@ struct NamedCoordinates {
   std::vector<std::string> names;
   /// Per frame one value for each name, in degrees or mm; nothing where one of their columns has a gap.
   std::vector<std::optional<std::vector<double>>> frames;
-  std::vector<std::string> notes;  ///< of the table and of this reading
+  std::vector<std::string> processing;  ///< of the table and of this reading
 };
 
 /// Raises FileError for a column that is not there (naming one that was most likely meant) or could be two, and for an
@@ -57,7 +57,7 @@ struct RecordedPoses {
   FrameTimes times;
   /// X_FM = X_LF^-1 X_LM of the bodies' own frames, translation in mm; nothing where one of the 32 cells is a gap.
   std::vector<std::optional<Pose>> X_FM;
-  std::vector<std::string> notes;  ///< of the table and of this reading
+  std::vector<std::string> processing;  ///< of the table and of this reading
 };
 
 /// Poses from matrices of 4 x 4 numbers, row by row, in columns named

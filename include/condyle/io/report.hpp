@@ -43,6 +43,10 @@ struct Report {
 /// end of each limit; the rest is linear in meshes, map and frames. The same bytes whatever the threads.
 std::string report_html(const Report& report);
 
+/// Throws FileError where write_report() could not put a file there, or would write over a file that was read
+/// (Provenance::read): to be called before long work. Leaves nothing.
+void check_report_file(const std::filesystem::path& path, const Provenance* from);
+
 /// Writes it: whole or not at all; a folder that is missing is made. Throws FileError.
 void write_report(const std::filesystem::path& path, const Report& report);
 

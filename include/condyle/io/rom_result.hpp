@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "condyle/clock_face.hpp"
+#include "condyle/contact_checks.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -38,6 +39,8 @@ struct RomResult {
   std::optional<Vec3> held_translation_mm = {};
   /// What looks wrong with the joint.
   std::span<const JointNote> notes = {};
+  /// What looks wrong with the layers and the motion that a report shows beside the limits.
+  std::span<const ContactNote> contact_notes = {};
   /// One per limit where a depth was allowed, none where limits are exact.
   std::span<const DepthLimit> depths = {};
   /// One per limit where zones were computed, none where not.

@@ -35,9 +35,13 @@ struct StudyBands {
   StudyUncertainty sigma = {};
 };
 
+/// A pose that is asked of every joint, read as parse_pose() reads it. Whether a joint reaches it is decided joint by joint, as
+/// `condyle depth` decides it: one that a hinge does not turn to ends the study. Throws UsageError; a matrix is refused too.
+PoseDegrees study_pose(std::string_view text, Anatomy joint);
+
 /// Contact pressure in one pose, or in the place nearby where the contact carries a force.
 struct StudyLoad {
-  PoseDegrees at = {};
+  PoseDegrees at = {};  ///< study_pose()
   ContactChanges contact =
       {};  ///< layers for joints whose files have none, and what else differs from their files
   /// On the mobile body, N: anterior, superior, lateral, the same for both sides.
@@ -55,7 +59,8 @@ struct StudyOptions {
   std::optional<LeaveOutReferenceContacts> leave_out_reference_contacts = {};
   std::optional<MapGrid> map = {};
   std::optional<StudyBands> bands = {};
-  std::optional<PoseDegrees> depth_at = {};  ///< how deep the bodies are in each other in this pose
+  std::optional<PoseDegrees> depth_at =
+      {};  ///< how deep the bodies are in each other in this pose: study_pose()
   std::optional<StudyLoad> load = {};
 };
 
@@ -95,10 +100,17 @@ struct NotedJoint {
   std::string id, codes;  ///< codes with blanks between
 };
 
+/// Why a joint could not be answered, as failures.csv has it.
+struct StudyFailure {
+  int exit_code;
+  std::string message;
+};
+
 /// What a study came to.
 struct StudyDone {
   std::size_t joints = 0, failures = 0;
-  bool was_there = false;  ///< with the same key, and nothing was done
+  std::optional<StudyFailure> first_failure = {};  ///< of the lowest row
+  bool was_there = false;                          ///< with the same key, and nothing was done
   std::vector<std::filesystem::path> written = {};
   std::vector<NotedJoint> noted = {};  ///< of those answered, in the order of the table
 };
@@ -111,6 +123,9 @@ struct StudyDone {
 /// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
 /// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty where it was stopped: nothing is written.
 std::optional<StudyDone> run_study(const Study& study, const StudyControl& control = {});
+
+/// Throws where no joint was answered, which is no result: the error of the first failure, naming `table`.
+void require_answered(const StudyDone& done, const std::filesystem::path& table);
 
 /// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError where
 /// a shard is missing, or is of another table, other options or another version than the first, or was changed. Reads all tables

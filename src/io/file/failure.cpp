@@ -1,18 +1,16 @@
 #include "io/file/failure.hpp"
 
-#include <algorithm>
 #include <exception>
 #include <new>
 
 #include "condyle/error.hpp"
 #include "condyle/overlap_options.hpp"
+#include "io/file/plain_text.hpp"
 
 namespace condyle::io {
 
 std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  return text;
+  return plain_text(text);
 }
 
 Failure failure_of_current_exception() {

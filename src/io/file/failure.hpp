@@ -24,7 +24,7 @@ struct Failure {
 /// Of the exception that is being handled.
 Failure failure_of_current_exception();
 
-/// With a blank in place of every control character.
+/// With a blank in the place of what a terminal would obey: plain_text().
 std::string one_line(std::string text);
 
 }  // namespace condyle::io

@@ -33,12 +33,12 @@ void write_array(hid_t file, const std::string& path, hid_t stored, hid_t given,
   require(H5Dwrite(set.id(), given, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
 }
 
-/// Of texts this long; HDF5 has none of length 0.
+/// UTF-8 texts of this length, which is above 0, or H5T_VARIABLE.
 H5Handle text_type(std::size_t longest) {
   return {[&] {
             const hid_t type = H5Tcopy(H5T_C_S1);
-            require(H5Tset_size(type, std::max<std::size_t>(longest, 1)) >= 0);
-            require(H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0);
+            require(H5Tset_size(type, longest) >= 0);
+            require(H5Tset_strpad(type, longest == H5T_VARIABLE ? H5T_STR_NULLTERM : H5T_STR_NULLPAD) >= 0);
             require(H5Tset_cset(type, H5T_CSET_UTF8) >= 0);
             return type;
           }(),
@@ -74,22 +74,18 @@ void H5Image::numbers(const std::string& path, const std::vector<double>& values
 }
 
 void H5Image::texts(const std::string& path, std::span<const std::string> values) {
-  std::size_t longest = 1;
-  for (const std::string& value : values) longest = std::max(longest, value.size());
-  std::string side_by_side;
-  for (const std::string& value : values) {
-    side_by_side += value;
-    side_by_side.append(longest - value.size(), '\0');
-  }
+  std::vector<const char*> texts;
+  for (const std::string& value : values) texts.push_back(value.c_str());
   const hsize_t length = values.size();
   const H5Handle space(H5Screate_simple(1, &length, nullptr), H5Sclose);
-  const H5Handle type = text_type(longest);
-  write_array(file_.id(), path, type.id(), type.id(), space, side_by_side.data());
+  const H5Handle type = text_type(H5T_VARIABLE);
+  write_array(file_.id(), path, type.id(), type.id(), space, texts.data());
 }
 
 void H5Image::attribute(const std::string& path, const std::string& name, const std::string& text) {
   const H5Handle set(H5Dopen2(file_.id(), path.c_str(), H5P_DEFAULT), H5Dclose);
-  const H5Handle type = text_type(text.size()), space(H5Screate(H5S_SCALAR), H5Sclose);
+  const H5Handle type = text_type(std::max<std::size_t>(text.size(), 1)),
+                 space(H5Screate(H5S_SCALAR), H5Sclose);
   const H5Handle made(H5Acreate2(set.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
                       H5Aclose);
   require(H5Awrite(made.id(), type.id(), text.empty() ? "\0" : text.data()) >= 0);

@@ -52,7 +52,7 @@ class H5Image {
   void numbers(const std::string& path, const std::vector<double>& values, std::size_t rows,
                std::size_t columns);
 
-  /// Texts in UTF-8, each as long as the longest, filled up with zeros.
+  /// Texts in UTF-8 of variable length, without a character 0: a long one takes its own room only.
   void texts(const std::string& path, std::span<const std::string> values);
 
   /// A text that a data set has beside its values.

@@ -1,27 +1,53 @@
 #include "io/file/output_file.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
 #include "condyle/error.hpp"
 #include "condyle/io/output_folder.hpp"
+#include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
 
 namespace condyle::io {
 namespace {
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  return path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+namespace fs = std::filesystem;
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// Throws where no file can have this name.
+NameTaken checked(const fs::path& path) {
+  const NameTaken taken = what_has_the_name(path);
+  if (!path.has_filename() || taken == NameTaken::folder)
+    throw FileError(path.string() + ": is a folder, not a file");
+  if (taken == NameTaken::refused)
+    throw FileError(path.string() + ": is neither a file nor can it be written into, and is not replaced");
+  return taken;
 }
 
 }  // namespace
 
-void check_output_file(const std::filesystem::path& path) {
-  if (!path.has_filename() || std::filesystem::is_directory(path))
-    throw FileError(path.string() + ": is a folder, not a file");
-  OutputFolder{folder_of(path)};
+void check_output_file(const fs::path& path, std::span<const fs::path> read) {
+  const NameTaken taken = checked(path);
+  check_replaces_none({&path, 1}, read);
+  if (taken == NameTaken::replaceable) {
+    OutputFolder{folder_of(end_of_links(path))};
+  } else if (::access(path.c_str(), W_OK) != 0) {
+    throw FileError(
+        fmt::format("{}: cannot be written: {}", path.string(), std::generic_category().message(errno)));
+  }
 }
 
-void write_output_file(const std::filesystem::path& path, std::string_view bytes) {
-  OutputFolder out(folder_of(path));
-  write_whole_file(out.file(path.filename().string()), bytes);
+void write_output_file(const fs::path& path, std::string_view bytes) {
+  if (checked(path) == NameTaken::written_into) return write_whole_file(path, bytes);
+  const fs::path file = end_of_links(path);
+  OutputFolder out(folder_of(file));
+  write_whole_file(out.file(file.filename().string()), bytes);
   out.commit();
 }
 

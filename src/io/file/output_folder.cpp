@@ -5,30 +5,44 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
+#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "condyle/error.hpp"
+#include "io/file/replaced_files.hpp"
+#include "io/file/temporary_folder.hpp"
 
 namespace condyle {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The folders on the way to `folder` that are not there yet, outermost first.
-std::vector<fs::path> missing_folders(const fs::path& folder) {
-  std::vector<fs::path> missing;
-  std::error_code ignored;
-  for (fs::path at = folder; !at.empty() && !fs::exists(at, ignored); at = at.parent_path())
-    missing.push_back(at);
-  std::reverse(missing.begin(), missing.end());
-  return missing;
+std::string reason_of(int error) {
+  return std::generic_category().message(error);
 }
 
-void remove_empty(const std::vector<fs::path>& folders) noexcept {
-  std::error_code ignored;
-  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) fs::remove(*folder, ignored);
+/// "a/b/" and "a/b" are one folder; the empty last name would be created on its own.
+fs::path without_last_slash(const fs::path& folder) {
+  if (folder.empty()) throw FileError("output folder: no name given");
+  return folder.has_filename() ? folder : folder.parent_path();
+}
+
+/// What there is of the command in the folder, where there is a folder.
+std::vector<fs::path> files_of_command(const fs::path& folder, const OutputFolder::OfCommand& of_command) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (of_command(entry->path().filename().string())) files.push_back(entry->path());
+  return files;
+}
+
+void check_is_replaceable(const fs::path& path) {
+  const io::NameTaken taken = io::what_has_the_name(path);
+  if (taken == io::NameTaken::written_into || taken == io::NameTaken::refused)
+    throw FileError(path.string() + ": is no regular file and is not replaced");
 }
 
 }  // namespace
@@ -36,71 +50,53 @@ void remove_empty(const std::vector<fs::path>& folders) noexcept {
 OutputFolder::OutputFolder(const fs::path& folder)
     : OutputFolder(folder, [](std::string_view) { return false; }) {}
 
-OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command)
-    : folder_(folder), of_command_(std::move(of_command)) {
-  if (folder.empty()) throw FileError("output folder: no name given");
-  // "a/b/" and "a/b" are one folder; the empty last name would be created on its own.
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();
-  created_ = missing_folders(folder_);
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (!error && !fs::is_directory(folder_)) error = std::make_error_code(std::errc::not_a_directory);
-  std::string aside = (folder_ / ".condyle-XXXXXX").string();
-  if (!error && ::mkdtemp(aside.data()) == nullptr) error = {errno, std::generic_category()};
-  if (error) {
-    remove_empty(created_);
-    throw FileError(fmt::format("{}: cannot be written to: {}", folder_.string(), error.message()));
-  }
-  aside_ = aside;
+OutputFolder::OutputFolder(const fs::path& folder, OfCommand of_command, std::span<const fs::path> read)
+    : folder_(without_last_slash(folder)), of_command_(std::move(of_command)) {
+  const std::vector<fs::path> there = files_of_command(folder_, of_command_);
+  io::check_replaces_none(there, read);
+  for (const fs::path& file : there) check_is_replaceable(file);
+  aside_ = std::make_unique<io::TemporaryFolder>(folder_);
 }
 
-OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  fs::remove_all(aside_, ignored);
-  if (!committed_) remove_empty(created_);
-}
+OutputFolder::~OutputFolder() = default;
 
 fs::path OutputFolder::file(std::string_view name) {
   const fs::path path(name);
   assert(path.filename() == path && !path.empty());
   assert(std::find(names_.begin(), names_.end(), path) == names_.end());
   names_.push_back(path);
-  return aside_ / path;
+  return aside_->path() / path;
 }
 
 std::vector<fs::path> OutputFolder::left_by_earlier_runs() const {
-  std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(folder_)) {
-    const fs::path name = entry.path().filename();
-    if (entry.is_regular_file() && of_command_(name.string()) &&
-        std::find(names_.begin(), names_.end(), name) == names_.end())
-      left.push_back(entry.path());
-  }
+  std::vector<fs::path> left = files_of_command(folder_, of_command_);
+  std::erase_if(left, [&](const fs::path& file) {
+    std::error_code ignored;
+    return !fs::is_regular_file(file, ignored) ||
+           std::find(names_.begin(), names_.end(), file.filename()) != names_.end();
+  });
   return left;
 }
 
 std::vector<fs::path> OutputFolder::commit() {
-  // What would stop a move is looked for before the first one.
-  for (const fs::path& name : names_)
-    if (fs::is_directory(folder_ / name))
-      throw FileError(fmt::format("{}: is a folder", (folder_ / name).string()));
-  std::vector<fs::path> written;
+  // What would stop a move is looked for before the first one, and all memory is taken: nothing then stops between two moves
+  // but the file system.
+  std::vector<fs::path> from, to;
   for (const fs::path& name : names_) {
-    std::error_code error;
-    fs::rename(aside_ / name, folder_ / name, error);
-    if (error)
-      throw FileError(fmt::format("{}: cannot be written: {}", (folder_ / name).string(), error.message()));
-    written.push_back(folder_ / name);
-    committed_ = true;
+    from.push_back(aside_->path() / name);
+    to.push_back(folder_ / name);
+    if (fs::is_directory(to.back())) throw FileError(to.back().string() + ": is a folder");
+    check_is_replaceable(to.back());
   }
-  for (const fs::path& file : left_by_earlier_runs()) {
-    std::error_code error;
-    fs::remove(file, error);
-    if (error)
+  const std::vector<fs::path> left = left_by_earlier_runs();
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (std::rename(from[i].c_str(), to[i].c_str()) != 0)
+      throw FileError(fmt::format("{}: cannot be written: {}", to[i].string(), reason_of(errno)));
+  for (const fs::path& file : left)
+    if (::unlink(file.c_str()) != 0 && errno != ENOENT)
       throw FileError(
-          fmt::format("{}: left by an earlier run, cannot be removed: {}", file.string(), error.message()));
-  }
-  return written;
+          fmt::format("{}: left by an earlier run, cannot be removed: {}", file.string(), reason_of(errno)));
+  return to;
 }
 
 }  // namespace condyle

@@ -1,5 +1,6 @@
 #include "io/file/whole_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,8 +9,10 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "condyle/error.hpp"
+#include "io/file/replaced_files.hpp"
 
 namespace condyle::io {
 namespace {
@@ -55,22 +58,55 @@ std::string read_whole_file(const std::filesystem::path& path) {
   return bytes;
 }
 
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
-  const auto temporary = temporary_name_beside(path);
-  const auto fail = [&](const std::string& why) -> void {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), why));
-  };
-  File file(std::fopen(temporary.c_str(), "wbx"));
-  if (!file) throw FileError(fmt::format("{}: cannot be written: {}", path.string(), reason(errno)));
+std::filesystem::path end_of_links(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error) || !std::filesystem::exists(path, error)) return path;
+  auto end = std::filesystem::canonical(path, error);
+  if (error) throw FileError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
+  return end;
+}
+
+namespace {
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& path, const std::string& why) {
+  throw FileError(fmt::format("{}: cannot be written: {}", path.string(), why));
+}
+
+/// All bytes, and the file closed; 0, or why not.
+int write_and_close(File file, std::string_view bytes) noexcept {
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   const int write_error = errno;
   const bool closed = std::fclose(file.release()) == 0;
-  if (!written || !closed) fail(reason(written ? errno : write_error));
-  std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) fail(error.message());
+  return !written ? write_error : !closed ? errno : 0;
+}
+
+/// Nothing is made, cut off or replaced.
+void write_into(const std::filesystem::path& path, std::string_view bytes) {
+  const int stream = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
+  if (stream < 0) fail_to_write(path, reason(errno));
+  File file(::fdopen(stream, "wb"));
+  if (!file) {
+    ::close(stream);
+    fail_to_write(path, reason(ENOMEM));
+  }
+  if (const int error = write_and_close(std::move(file), bytes)) fail_to_write(path, reason(error));
+}
+
+}  // namespace
+
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes) {
+  const NameTaken taken = what_has_the_name(path);
+  if (taken == NameTaken::written_into) return write_into(path, bytes);
+  if (taken == NameTaken::refused) fail_to_write(path, "is neither a file nor can it be written into");
+  const auto end = end_of_links(path);
+  const auto temporary = temporary_name_beside(end);
+  File file(std::fopen(temporary.c_str(), "wbx"));
+  if (!file) fail_to_write(path, reason(errno));
+  int error = write_and_close(std::move(file), bytes);
+  if (error == 0 && std::rename(temporary.c_str(), end.c_str()) != 0) error = errno;
+  if (error == 0) return;
+  std::remove(temporary.c_str());
+  fail_to_write(path, reason(error));
 }
 
 }  // namespace condyle::io

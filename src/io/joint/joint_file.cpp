@@ -17,6 +17,7 @@
 #include "io/joint/mesh_path.hpp"
 #include "io/joint/pose_matrix.hpp"
 #include "io/joint/recorded_motion_table.hpp"
+#include "io/joint/toml_nesting.hpp"
 #include "io/joint/toml_table.hpp"
 
 namespace condyle {
@@ -25,6 +26,9 @@ namespace {
 using io::TomlTable;
 
 toml::table parsed(std::string_view text, const std::filesystem::path& path) {
+  if (const auto line = io::line_nested_too_deep(text))
+    throw FileError(fmt::format("{}: line {}: keys, lists and tables may be nested {} deep, not deeper",
+                                path.string(), *line, io::most_toml_levels));
   try {
     return toml::parse(text, path.string());
   } catch (const toml::parse_error& error) {
@@ -218,7 +222,10 @@ std::string hinge_text(const JointDescription& joint) {
 /// What the file says, else what its frame is of.
 Anatomy anatomy_of(io::TomlTable& file, const JointDescription& joint) {
   if (!file.has("joint")) {
-    if (joint.kind == JointKind::free) file.fail_missing("joint");
+    if (joint.kind == JointKind::free)
+      file.fail_missing("joint",
+                        "a free joint needs \"hip\", \"knee\", \"ankle\", \"elbow\" or \"shoulder\", which "
+                        "name its angles");
     const bool of_knee = std::holds_alternative<TransepicondylarAxis>(joint.frame.axes);
     return joint.kind == JointKind::hinge && of_knee ? Anatomy::knee : Anatomy::hip;
   }
@@ -356,8 +363,8 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.frame = frame_description(file, Lengths(joint.units));
   joint.anatomy = anatomy_of(file, joint);
   joint.translation_frame = translation_frame_of(file, joint);
-  joint.fixed_in_W = body_pose(fixed, "fixed", joint.coordinates(), Lengths(joint.units), out.notes);
-  joint.mobile_in_W = body_pose(mobile, "mobile", joint.coordinates(), Lengths(joint.units), out.notes);
+  joint.fixed_in_W = body_pose(fixed, "fixed", joint.coordinates(), Lengths(joint.units), out.processing);
+  joint.mobile_in_W = body_pose(mobile, "mobile", joint.coordinates(), Lengths(joint.units), out.processing);
   fixed.finish();
   mobile.finish();
   out.reference_pose = reference_pose(file, joint, Lengths(joint.units));
@@ -372,6 +379,18 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   refuse_other_names(file);
   file.finish();
   return out;
+}
+
+std::vector<std::filesystem::path> files_of(const JointFile& file) {
+  std::vector<std::filesystem::path> files = {file.path};
+  for (const BodyEntry* body : {&file.fixed, &file.mobile})
+    for (const MeshEntry& entry : body->meshes) files.push_back(entry.mesh);
+  if (!file.contact) return files;
+  for (const auto* layer : {&file.contact->fixed, &file.contact->mobile})
+    if (*layer)
+      for (const auto* path : {&(*layer)->behind, &(*layer)->thickness_file})
+        if (*path) files.push_back(**path);
+  return files;
 }
 
 }  // namespace condyle

@@ -29,6 +29,7 @@ double degrees(double cosine) {
 /// As TOML writes it, whatever it holds.
 std::string toml_text(std::string_view text) {
   std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // no memory is an error, not half a text
   out << toml::value<std::string>(std::string(text));
   return out.str();
 }

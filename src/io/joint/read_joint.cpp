@@ -103,15 +103,15 @@ void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
     notes.push_back(fmt::format("{}: {}", file_name(body), describe(done)));
 }
 
-std::vector<std::string> notes_on(const JointReport& report) {
+std::vector<std::string> processing_of(const JointReport& report) {
   std::vector<std::string> notes;
   const JointPlacement& placement = report.placement;
   if (report.file.joint.units == LengthUnit::metres)
     notes.push_back("meshes and lengths converted from metres to mm");
-  notes.insert(notes.end(), report.file.notes.begin(), report.file.notes.end());
+  notes.insert(notes.end(), report.file.processing.begin(), report.file.processing.end());
   for (const auto* meshes : {&report.fixed, &report.mobile})
     for (const BodyMeshReport& mesh : *meshes) note_repairs(mesh, notes);
-  notes.insert(notes.end(), placement.notes.begin(), placement.notes.end());
+  notes.insert(notes.end(), placement.processing.begin(), placement.processing.end());
   return notes;
 }
 
@@ -122,7 +122,7 @@ LoadedJoint io::load_joint(JointFile file) {
   PlacedJoint made = placed(file, std::move(fixed.body), std::move(mobile.body));
   JointReport report{
       std::move(file), std::move(fixed.reports), std::move(mobile.reports), std::move(made.placement), {}};
-  report.notes = notes_on(report);
+  report.processing = processing_of(report);
   return {std::move(made.joint), std::move(report)};
 }
 

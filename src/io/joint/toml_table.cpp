@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "core/near_name.hpp"
 #include "core/one_line.hpp"
+#include "io/file/plain_text.hpp"
 
 namespace condyle::io {
 namespace {
@@ -71,16 +72,24 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 double TomlTable::finite_number(const toml::node& node, std::string_view key) const {
   if (!node.is_number()) fail(key, fmt::format("must be a number, not {}", kind_of(node)));
-  const double value = *node.value<double>();
-  if (!std::isfinite(value)) fail(key, "must be a finite number");
-  return value;
+  // toml++ gives nothing for a whole number that rounding would change.
+  const std::optional<double> value = node.value<double>();
+  if (!value) fail(key, "is a whole number beyond 2^53 that no double holds");
+  if (!std::isfinite(*value)) fail(key, "must be a finite number");
+  return *value;
+}
+
+std::string TomlTable::plain(const toml::node& node, std::string_view key) const {
+  std::string text = *node.value<std::string>();
+  if (has_control_character(text)) fail(key, "must have no control character, such as a line end or a tab");
+  return text;
 }
 
 std::optional<std::string> TomlTable::text(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;
   if (!node->is_string()) fail(key, fmt::format("must be a text in quotes, not {}", kind_of(*node)));
-  return *node->value<std::string>();
+  return plain(*node, key);
 }
 
 std::optional<double> TomlTable::number(std::string_view key) {
@@ -137,7 +146,7 @@ std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) {
   for (const toml::node& element : *array) {
     if (!element.is_string())
       fail(key, fmt::format("must be a list of texts, not with {}", kind_of(element)));
-    out.push_back(*element.value<std::string>());
+    out.push_back(plain(element, key));
   }
   return out;
 }
@@ -177,12 +186,12 @@ std::size_t TomlTable::required_word(std::string_view key, std::initializer_list
   return required(key, word(key, words));
 }
 
-void TomlTable::fail_missing(std::string_view key) const {
+void TomlTable::fail_missing(std::string_view key, std::string_view needed_for) const {
   std::vector<std::string> unread;
   for (const auto& [name, node] : *table_)
     if (!known_.contains(name.str())) unread.emplace_back(name.str());
   const std::string near = core::near_name(key, unread);
-  if (near.empty()) fail(key, "is missing");
+  if (near.empty()) fail(key, fmt::format("is missing{}{}", needed_for.empty() ? "" : ": ", needed_for));
   fail(key, fmt::format("is missing; there is \"{}\" (did you mean \"{}\"?)", near, key));
 }
 

@@ -29,8 +29,8 @@ class TomlTable {
   /// Throws FileError "file: line 7: frame.centre: what is wrong"; the table's own line where the key is
   /// missing.
   [[noreturn]] void fail(std::string_view key, std::string_view what) const;
-  /// Of a key that must be there; names one that was most likely meant to be it.
-  [[noreturn]] void fail_missing(std::string_view key) const;
+  /// A key that must be there is not; names one that was most likely meant to be it, and says what it is needed for.
+  [[noreturn]] void fail_missing(std::string_view key, std::string_view needed_for = {}) const;
 
   /// The key's value, or nothing where it is not there. A wrong type fails.
   std::optional<std::string> text(std::string_view key);
@@ -62,6 +62,7 @@ class TomlTable {
  private:
   const toml::node* find(std::string_view key);
   double finite_number(const toml::node& node, std::string_view key) const;
+  std::string plain(const toml::node& node, std::string_view key) const;
   template <std::size_t N>
   std::optional<std::array<double, N>> numbers(std::string_view key, std::string_view count);
   std::string full(std::string_view key) const;

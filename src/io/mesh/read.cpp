@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -63,6 +64,17 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
 
 }  // namespace
 
+namespace {
+
+/// Volumes of voxels: scans, and label maps of segmentations.
+bool is_image(const std::string& name) {
+  for (const std::string_view ending : {".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".mgz", ".dcm"})
+    if (name.ends_with(ending)) return true;
+  return false;
+}
+
+}  // namespace
+
 MeshFormat mesh_format_of(const std::filesystem::path& path) {
   const auto extension = io::lower_case(path.extension().string());
   if (extension == ".stl") return MeshFormat::stl;
@@ -70,6 +82,12 @@ MeshFormat mesh_format_of(const std::filesystem::path& path) {
   if (extension == ".ply") return MeshFormat::ply;
   if (extension == ".vtp") return MeshFormat::vtp;
   if (extension == ".vtk") return MeshFormat::vtk;
+  if (is_image(io::lower_case(path.filename().string())))
+    throw FileError(fmt::format(
+        "{}: an image or label map is no mesh: .stl, .obj, .ply, .vtp and .vtk are read. Export the "
+        "surface of each bone from the program that segmented it (3D Slicer: Segmentations, Export to "
+        "files, STL)",
+        path.string()));
   throw FileError(fmt::format("{}: unknown extension '{}': .stl, .obj, .ply, .vtp and .vtk are read",
                               path.string(), path.extension().string()));
 }

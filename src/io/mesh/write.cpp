@@ -20,12 +20,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
 #include <span>
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/mesh/vtk_silence.hpp"
 
 static_assert(std::endian::native == std::endian::little,
               "PLY files are written as the machine has the numbers");
@@ -155,6 +157,7 @@ void add_fields(const std::vector<VtpField>& fields, vtkFieldData* out) {
 /// VTK writes into memory, so that a full disk is noticed here and nothing half done keeps the name.
 std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arrays,
                       std::span<const MeshArray> cell_arrays, const VtpOptions& options) {
+  const io::VtkSilence silence;
   vtkNew<vtkPolyData> data;
   data->SetPoints(is_float_valued(mesh.vertices) ? points_for_vtk<vtkFloatArray>(mesh.vertices)
                                                  : points_for_vtk<vtkDoubleArray>(mesh.vertices));
@@ -173,8 +176,11 @@ std::string vtp_bytes(const TriMesh& mesh, std::span<const MeshArray> point_arra
   }
   writer->SetHeaderTypeToUInt64();
   writer->WriteToOutputStringOn();
-  writer->Write();
-  return writer->GetOutputString();
+  // Its stream stops where memory ends, without an exception.
+  const bool written = writer->Write() != 0 && writer->GetErrorCode() == 0;
+  std::string bytes = writer->GetOutputString();
+  if (!written || !bytes.ends_with("</VTKFile>\n")) throw std::bad_alloc();
+  return bytes;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -39,13 +40,23 @@ std::vector<ColumnOfCoordinate> columns_by_name(const MotionTable& table, const 
 JointMotion of_coordinates(const Joint& joint, const MotionTable& table,
                            const std::vector<ColumnOfCoordinate>& mapping) {
   NamedCoordinates recorded = recorded_coordinates(table, mapping);
-  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes), {}, {}};
+  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.processing), {}, {}};
+  for (std::size_t i = 0; i < recorded.names.size(); ++i) {
+    double largest = 0;
+    for (const auto& frame : recorded.frames)
+      if (frame) largest = std::max(largest, std::abs((*frame)[i]));
+    const std::string& name = recorded.names[i];
+    const bool is_length = name == "x" || name == "y" || name == "z";
+    if (auto check =
+            check_recorded(name, is_length ? RecordedKind::length_mm : RecordedKind::angle_deg, largest))
+      motion.notes.push_back(std::move(*check));
+  }
   std::string missing;
   for (const io::CoordinateName& name : io::coordinate_names_of(joint.kind, joint.anatomy))
     if (std::find(recorded.names.begin(), recorded.names.end(), name.name) == recorded.names.end())
       missing += (missing.empty() ? "" : ", ") + name.name;
   if (!missing.empty())
-    motion.notes.push_back(fmt::format("{}: not recorded, held at 0: {}", table.path.string(), missing));
+    motion.processing.push_back(fmt::format("{}: not recorded, held at 0: {}", table.path.string(), missing));
   for (const auto& frame : recorded.frames) {
     if (!frame) {
       motion.X_FM.emplace_back();
@@ -76,9 +87,10 @@ Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
 
 JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const ColumnsOfPoses& mapping) {
   RecordedPoses recorded = recorded_poses(table, mapping);
-  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.notes), {}, {}};
+  JointMotion motion{std::move(recorded.times), {}, std::move(recorded.processing), {}, {}};
   const Provenance from = provenance_of(loaded, {});
   const LengthUnit unit = loaded.report.file.joint.units;
+  double farthest = 0;
   const Pose X_FA = joint_from_file(from.fixed, unit), X_BM = inverted(joint_from_file(from.mobile, unit));
   for (std::size_t i = 0; i < recorded.X_FM.size(); ++i) {
     if (!recorded.X_FM[i]) {
@@ -93,7 +105,10 @@ JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const 
           "translate",
           table.path.string(), table.line_of_row[i], X_FM.translation().norm(), name_of(loaded.joint.kind)));
     motion.X_FM.emplace_back(X_FM);
+    farthest = std::max(farthest, X_FM.translation().norm());
   }
+  if (auto check = check_recorded("the translation", RecordedKind::length_mm, farthest))
+    motion.notes.push_back(std::move(*check));
   return motion;
 }
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "condyle/error.hpp"
+#include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/motion/table_builder.hpp"
 
@@ -47,6 +48,9 @@ void TableBuilder::name_columns(std::vector<std::string> names, std::size_t line
   std::set<std::string_view> known;
   for (std::size_t c = 0; c < names.size(); ++c) {
     double number = 0;
+    if (end_of_utf8(names[c]) < names[c].size())
+      source_.fail(fmt::format("line {}: column {} is not UTF-8 (Latin-1?): save the table as UTF-8", line,
+                               in_quotes(names[c])));
     if (names[c].empty()) source_.fail(fmt::format("line {}: column {} has no name", line, c + 1));
     if (parse_number(names[c], number))
       source_.fail(

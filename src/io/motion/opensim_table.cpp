@@ -61,7 +61,7 @@ void check_data_type(const Header& header, const Source& source) {
 
 /// A count that the header promises, against what is there.
 void compare_count(const Header& header, const char* key, const char* what, std::size_t counted,
-                   const Source& source, std::vector<std::string>& notes) {
+                   const Source& source, std::vector<std::string>& processing) {
   const auto entry = header.entries.find(lower_case(key));
   if (entry == header.entries.end()) return;
   std::uint64_t promised = 0;
@@ -69,8 +69,8 @@ void compare_count(const Header& header, const char* key, const char* what, std:
     source.fail(fmt::format("line {}: {}: {} should be a whole number", entry->second.line, key,
                             in_quotes(entry->second.value)));
   if (promised != counted)
-    notes.push_back(fmt::format("the header promises {} {} and the file has {}: all of them are read",
-                                promised, what, counted));
+    processing.push_back(fmt::format("the header promises {} {} and the file has {}: all of them are read",
+                                     promised, what, counted));
 }
 
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -94,7 +94,7 @@ MotionTable read_opensim_table(const Source& source) {
   check_data_type(header, source);
   table.in_degrees = in_degrees(header, source);
   if (table.in_degrees && header.prose_in_degrees && *table.in_degrees != *header.prose_in_degrees)
-    table.notes.push_back(
+    table.processing.push_back(
         fmt::format("the header says inDegrees={0} and in words that angles are in {1}: inDegrees={0} "
                     "is followed",
                     *table.in_degrees ? "yes" : "no", *header.prose_in_degrees ? "degrees" : "radians"));
@@ -112,8 +112,8 @@ MotionTable read_opensim_table(const Source& source) {
     }
   }
   if (table.columns.empty()) source.fail("has no names of columns after 'endheader'");
-  compare_count(header, "nRows", "rows", table.line_of_row.size(), source, table.notes);
-  compare_count(header, "nColumns", "columns", table.columns.size(), source, table.notes);
+  compare_count(header, "nRows", "rows", table.line_of_row.size(), source, table.processing);
+  compare_count(header, "nColumns", "columns", table.columns.size(), source, table.processing);
   return builder.finish();
 }
 

@@ -51,7 +51,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
                                       const std::vector<ColumnOfCoordinate>& mapping) {
   NamedCoordinates out;
   out.times = frame_times(table);
-  out.notes = table.notes;
+  out.processing = table.processing;
   out.frames.assign(table.rows, std::vector<double>());
   for (const ColumnOfCoordinate& entry : mapping) {
     out.names.push_back(entry.coordinate);
@@ -66,7 +66,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
         frame->push_back(entry.sign * converted(column[row], unit) + entry.offset);
     }
   }
-  io::note_gaps(table, out.frames, out.notes);
+  io::note_gaps(table, out.frames, out.processing);
   return out;
 }
 

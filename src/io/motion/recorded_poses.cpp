@@ -159,14 +159,14 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
                     mobile = columns_of(table, mapping.mobile_body);
   RecordedPoses out;
   out.times = frame_times(table);
-  out.notes = table.notes;
+  out.processing = table.processing;
 
   FindTranslation translation(table);
   for (std::size_t row = 0; row < table.rows; ++row)
     for (const BodyColumns* columns : {&fixed, &mobile})
       if (const auto matrix = matrix_of(table, *columns, row)) translation.see(*matrix, row, columns->body);
   if (translation.found == Translation::unknown)
-    out.notes.push_back(
+    out.processing.push_back(
         "no matrix has a translation: the names of the columns say which way its rotations are meant");
 
   WorstRotation worst;
@@ -186,10 +186,10 @@ RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& map
     out.X_FM.push_back(X_LF && X_LM ? std::optional<Pose>(inverted(*X_LF) * *X_LM) : std::nullopt);
   }
   if (worst.off > said_beyond)
-    out.notes.push_back(
+    out.processing.push_back(
         fmt::format("rotations are orthonormal to {:.2g} only (line {}, {}): the nearest ones are used",
                     worst.off, table.line_of_row[worst.row], io::in_quotes(worst.body)));
-  io::note_gaps(table, out.X_FM, out.notes);
+  io::note_gaps(table, out.X_FM, out.processing);
   return out;
 }
 

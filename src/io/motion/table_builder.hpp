@@ -23,7 +23,7 @@ class TableBuilder {
   /// The whole table; checks that there are rows and that times increase.
   MotionTable finish();
 
-  MotionTable table;  ///< header and notes are the reader's to fill
+  MotionTable table;  ///< header and processing are the reader's to fill
 
  private:
   double cell(std::string_view text, std::size_t column, std::size_t line) const;

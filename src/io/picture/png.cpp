@@ -4,16 +4,19 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <new>
 #include <variant>
 
 #include "condyle/io/picture.hpp"
 #include "io/file/output_file.hpp"
+#include "io/mesh/vtk_silence.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
 
 std::string png_bytes(const Picture& picture, const Provenance* from) {
+  const io::VtkSilence silence;
   vtkNew<vtkImageData> image;
   image->SetDimensions(static_cast<int>(picture.width), static_cast<int>(picture.height), 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
@@ -29,6 +32,7 @@ std::string png_bytes(const Picture& picture, const Provenance* from) {
   writer->SetInputData(image);
   writer->WriteToMemoryOn();
   writer->Write();
+  if (writer->GetErrorCode() != 0 || writer->GetResult() == nullptr) throw std::bad_alloc();
   const vtkUnsignedCharArray& result = *writer->GetResult();
   return {reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray&>(result).GetPointer(0)),
           static_cast<std::size_t>(result.GetNumberOfValues())};
@@ -37,6 +41,7 @@ std::string png_bytes(const Picture& picture, const Provenance* from) {
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture& picture, const Provenance* from) {
+  io::check_output_file(path, io::files_read(from));
   io::write_output_file(path, png_bytes(picture, from));
 }
 

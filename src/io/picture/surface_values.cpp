@@ -34,22 +34,19 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
     mesh::require_solid(joint.mobile.mesh, joint.mobile.name);
   }
   const JointContact bodies(joint);
-  RadialContact contact = bodies.radial(X_FM);
-  if (colour == PictureColour::gap)
+  if (colour == PictureColour::gap) {
+    RadialContact contact = bodies.radial(X_FM);
     return {
         .fixed = {.mm = std::move(contact.fixed_in_mobile->radial_gap_mm), .outside = {}, .is_bound = {}},
         .mobile = {.mm = std::move(contact.mobile_in_fixed->radial_gap_mm), .outside = {}, .is_bound = {}}};
-  const ContactMeasures measures = measure_contact(bodies, X_FM, VertexStates(contact));
-  auto of_fixed = signed_distances(measures.distances.fixed, contact.fixed_in_mobile);
-  auto of_mobile = signed_distances(measures.distances.mobile, contact.mobile_in_fixed);
+  }
+  const DepthMethod method = colour == PictureColour::nearest ? DepthMethod::radial : DepthMethod::reliable;
+  auto [contact, measures, reliable] = depth_at(bodies, joint, at, X_FM, method, DistancesOf::all_vertices);
+  auto of_fixed = signed_distances(std::move(measures.distances.fixed), contact.fixed_in_mobile);
+  auto of_mobile = signed_distances(std::move(measures.distances.mobile), contact.mobile_in_fixed);
   if (colour == PictureColour::nearest)
     return {.fixed = {.mm = std::move(of_fixed), .outside = {}, .is_bound = {}},
             .mobile = {.mm = std::move(of_mobile), .outside = {}, .is_bound = {}}};
-  // About which axis a pose that translates would turn depends on how it got there.
-  ReliableContact reliable =
-      X_FM.translation() == Vec3::Zero()
-          ? reliable_depths(bodies, joint.kind, joint.coordinates(), at, contact, measures.distances)
-          : reliable_radial_depths(contact, measures.distances);
   return {.fixed = depths_of(std::move(reliable.fixed), std::move(of_fixed)),
           .mobile = depths_of(std::move(reliable.mobile), std::move(of_mobile))};
 }

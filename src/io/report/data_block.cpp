@@ -13,6 +13,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
@@ -261,6 +262,7 @@ std::string data_block(const Report& report) {
             {"coordinates", coordinates_json(joint.anatomy)},
             {"reference_deg", degrees_json(report.reference_pose.angles)},
             {"reference_mm", numbers(report.reference_pose.translation_mm)},
+            {"scope", scope_text(joint)},
             {"rom", rom_of(report)}};
   if (!report.rom) json["rom_error"] = report.rom_error;
   json["map"] = report.rom && report.rom->map ? map_json(*report.rom->map) : Json(nullptr);

@@ -4,11 +4,14 @@
 #include <vtkNew.h>
 #include <vtkZLibDataCompressor.h>
 
+#include <new>
 #include <stdexcept>
 
 #include "condyle/io/report.hpp"
 #include "io/file/output_file.hpp"
+#include "io/mesh/vtk_silence.hpp"
 #include "io/report/data_block.hpp"
+#include "io/result/provenance_forms.hpp"
 
 // The assembler reads the file into the program, so that an installed one needs none.
 asm(".pushsection .rodata\n"
@@ -38,10 +41,13 @@ const unsigned char* bytes_of(std::string_view text) {
 }
 
 std::string compressed(std::string_view bytes) {
+  const VtkSilence silence;
   vtkNew<vtkZLibDataCompressor> zlib;
   std::string out(zlib->GetMaximumCompressionSpace(bytes.size()), '\0');
-  out.resize(zlib->Compress(bytes_of(bytes), bytes.size(), reinterpret_cast<unsigned char*>(out.data()),
-                            out.size()));
+  const std::size_t size =
+      zlib->Compress(bytes_of(bytes), bytes.size(), reinterpret_cast<unsigned char*>(out.data()), out.size());
+  if (size == 0) throw std::bad_alloc();  // all that zlib can want for, given room enough
+  out.resize(size);
   return out;
 }
 
@@ -76,7 +82,12 @@ std::string report_html(const Report& report) {
   return io::page_with(io::report_template(), io::data_block(report));
 }
 
+void check_report_file(const std::filesystem::path& path, const Provenance* from) {
+  io::check_output_file(path, io::files_read(from));
+}
+
 void write_report(const std::filesystem::path& path, const Report& report) {
+  if (report.rom) check_report_file(path, report.rom->provenance);
   io::write_output_file(path, report_html(report));
 }
 

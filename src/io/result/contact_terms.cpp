@@ -87,6 +87,30 @@ Json totals_json(const ContactTotals& totals, bool with_pressure) {
   return json;
 }
 
+std::string oblique_text(const SurfaceContact& surface, FaceRule rule) {
+  // Less than this would print as nothing.
+  if (surface.oblique_area_mm2 < 0.005) return "";
+  const std::string area = fmt::format("    {:.2f} mm2", surface.oblique_area_mm2);
+  if (rule == FaceRule::cut_faces)
+    return area +
+           " more overlap where rays meet the other surface more than 60 degrees off its normal, as along a "
+           "rim: "
+           "no depth is counted there\n";
+  return area +
+         " of it where rays meet the other surface more than 60 degrees off its normal, as along a rim: "
+         "their "
+         "length is no depth" +
+         (surface.peak_is_oblique ? ", and the largest values are of such a triangle\n" : "\n");
+}
+
+std::string refined_force_text(const Vec3& force_n, const Vec3& refined_n) {
+  const double force = force_n.norm(), refined = refined_n.norm();
+  if (!(force > 0)) return "";
+  return fmt::format(
+      "    with 16 rays in each triangle {:.2f} N, {:+.1f} %: what the triangles' size leaves open\n",
+      refined, 100 * (refined - force) / force + 0.0);
+}
+
 const FaceContact* deepest_of(const SurfaceContact& surface) {
   const auto deepest =
       std::max_element(surface.faces.begin(), surface.faces.end(),

@@ -26,6 +26,11 @@ std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces&
 
 Json totals_json(const ContactTotals& totals, bool with_pressure);
 
+/// A line on overlap that has no depth along normals, as its rays meet the other surface at a slant; empty where there is none.
+std::string oblique_text(const SurfaceContact& surface, FaceRule rule);
+/// A line that compares a force with that of 16 places of each face.
+std::string refined_force_text(const Vec3& force_n, const Vec3& refined_n);
+
 /// The face in contact with the greatest depth; null without contact.
 const FaceContact* deepest_of(const SurfaceContact& surface);
 /// The part of the body that a triangle is of and its number there, under this key; nothing where the body is one mesh.

@@ -46,10 +46,14 @@ Points points_of(const AnswerFrame& frame, Points points) {
 
 }  // namespace
 
+void check_depth_folder(const std::filesystem::path& folder, const Provenance* from) {
+  OutputFolder{folder, is_of_depth, io::files_read(from)};
+}
+
 std::vector<std::filesystem::path> write_depth(const std::filesystem::path& folder,
                                                const DepthQuestion& question, const DepthResult& result,
                                                const DepthFiles& files) {
-  OutputFolder out(folder, is_of_depth);
+  OutputFolder out(folder, is_of_depth, io::files_read(question.provenance));
   const AnswerFrame frame = question.frame();
   const VtpOptions options{files.encoding, io::provenance_fields(question.provenance)};
   const auto write = [&](const std::string& name, const TriMesh& mesh, const DepthArrays& arrays) {

@@ -79,7 +79,18 @@ std::string measures_text(const DepthQuestion& question, const ContactMeasures& 
     text += fmt::format("  contact area:{}, centred {}\n", areas,
                         place_text(question.frame().fixed_point(*measures.centroid)));
   if (measures.centroid && measures.volume_mm3)
-    text += fmt::format("  penetration volume: {} mm3\n", core::rounded(*measures.volume_mm3, 1));
+    text += fmt::format("  penetration volume: {} mm3, to within {:.0e}\n",
+                        core::rounded(*measures.volume_mm3, 4), measures.volume_error_mm3);
+  const auto add_again = [&](const Body& body, double covered_again_mm3) {
+    if (covered_again_mm3 > 0)
+      text += fmt::format(
+          "    {} covers {:.3g} mm3 about the overlap more than once, where it crosses itself or has a "
+          "component in "
+          "another: the volume may count space there twice\n",
+          body.name, covered_again_mm3);
+  };
+  add_again(question.joint.mobile, measures.mobile_covered_again_mm3);
+  add_again(question.joint.fixed, measures.fixed_covered_again_mm3);
   return text + nearest_text(measures);
 }
 
@@ -98,10 +109,14 @@ void add_measures(Json& json, const DepthQuestion& question, const ContactMeasur
             {"mean_depth_mm", nullable(patch->mean_depth_mm)},
             {"centroid_mm", point(patch->centroid)}};
   };
-  json["contact"] = {{"mobile", patch_json(measures.mobile)},
-                     {"fixed", patch_json(measures.fixed)},
-                     {"centroid_mm", point(measures.centroid)},
-                     {"volume_mm3", nullable(measures.volume_mm3)}};
+  json["contact"] = {
+      {"mobile", patch_json(measures.mobile)},
+      {"fixed", patch_json(measures.fixed)},
+      {"centroid_mm", point(measures.centroid)},
+      {"volume_mm3", nullable(measures.volume_mm3)},
+      {"volume_error_mm3", measures.volume_mm3 ? Json(measures.volume_error_mm3) : Json(nullptr)},
+      {"mobile_covered_again_mm3", measures.mobile_covered_again_mm3},
+      {"fixed_covered_again_mm3", measures.fixed_covered_again_mm3}};
   add_nearest(json, question, measures);
 }
 

@@ -142,7 +142,7 @@ std::string to_text(const LoadedJoint& loaded) {
   out += fmt::format("\n  reference pose {}\n", to_text(reference_pose_of(report), joint.anatomy));
   out += text_of("fixed", joint.fixed, report.fixed, placement.fixed.bounds) +
          text_of("mobile", joint.mobile, report.mobile, placement.mobile.bounds);
-  for (const std::string& note : report.notes) out += fmt::format("  {:<8} {}\n", "note", note);
+  for (const std::string& note : report.processing) out += fmt::format("  {:<8} {}\n", "prepared", note);
   return out;
 }
 
@@ -167,7 +167,7 @@ std::string to_json(const LoadedJoint& loaded, std::span<const JointNote> notes,
                                     : Json();
   out["fixed"] = json_of(joint.fixed, report.fixed, placement.fixed.bounds);
   out["mobile"] = json_of(joint.mobile, report.mobile, placement.mobile.bounds);
-  out["done"] = report.notes;
+  out["processing"] = report.processing;
   out["notes"] = io::notes_json(notes);
   out["provenance"] = io::provenance_json(from);
   return io::document(out);

@@ -8,6 +8,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/repair_text.hpp"
 #include "condyle/version.hpp"
+#include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/json.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -73,8 +74,8 @@ std::string describe(const MeshComponent& c) {
 void append(std::string& out, const MeshInspection& mesh) {
   constexpr std::size_t components_listed = 5;  // the rest of a soup is counted, not listed
   const MeshReport& r = mesh.report;
-  out += fmt::format("{}\n  {} vertices, {} triangles, {}\n", mesh.path.string(), r.vertices, r.triangles,
-                     r.is_closed() ? "closed" : "not closed");
+  out += fmt::format("{}\n  {} vertices, {} triangles, {}\n", io::plain_text(mesh.path.string()), r.vertices,
+                     r.triangles, r.is_closed() ? "closed" : "not closed");
   if (mesh.welded_vertices > 0) out += fmt::format("  merged {} duplicate vertices\n", mesh.welded_vertices);
   for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", condyle::describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");

@@ -1,14 +1,28 @@
 #include "io/result/json.hpp"
 
-namespace condyle::io {
+#include <fmt/format.h>
 
+#include "condyle/error.hpp"
+#include "io/file/plain_text.hpp"
+
+namespace condyle::io {
 Json numbers(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-Json notes_json(std::span<const JointNote> notes) {
+Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact) {
   Json list = Json::array();
   for (const JointNote& note : notes) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  for (const ContactNote& note : of_contact)
+    list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  return list;
+}
+
+Json caveats_json(std::span<const MotionCaveat> caveats) {
+  Json list = Json::array();
+  for (const auto& [code, summary, text, source] : caveats)
+    list.push_back(
+        {{"code", name_of(code)}, {"text", text}, {"source", source.empty() ? Json(nullptr) : Json(source)}});
   return list;
 }
 
@@ -30,7 +44,16 @@ void drop_negative_zeros(Json& json) {
 
 std::string document(Json json) {
   drop_negative_zeros(json);
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return escaped_json(json.dump(2, ' ', false, Json::error_handler_t::replace)) + "\n";
+}
+
+Json parsed_json(std::string_view text) {
+  static constexpr int most_levels = 64;
+  return Json::parse(text, [](int depth, Json::parse_event_t, const Json&) {
+    if (depth > most_levels)
+      throw FileError(fmt::format("lists and objects are more than {} deep", most_levels));
+    return true;
+  });
 }
 
 }  // namespace condyle::io

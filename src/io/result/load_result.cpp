@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
@@ -43,6 +44,9 @@ Json surface_json(const ContactEntry& contact, const Body& body,
   if (deepest) io::add_triangle_part(json, "deepest_part", body, deepest->face);
   json["met_from_front"] = surface->met_from_front;
   json["rim_faces"] = surface->rim_faces;
+  json["oblique_area_mm2"] = surface->oblique_area_mm2;
+  json["peak_is_oblique"] = surface->peak_is_oblique;
+  json["max_strain"] = surface->max_strain;
   return json;
 }
 
@@ -69,7 +73,8 @@ std::string surface_text(const ContactEntry& contact, const Body& body,
                          const std::optional<SurfaceContact>& surface) {
   if (!surface) return "";
   const ContactTotals& totals = surface->totals;
-  if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name);
+  const std::string oblique = io::oblique_text(*surface, contact.rays.rule);
+  if (totals.triangles == 0) return fmt::format("  {}: no contact\n", body.name) + oblique;
   const Index deepest = io::deepest_of(*surface)->face;
   std::string text =
       fmt::format("  {}: {:.2f} mm2 in contact, depth {:.3f} mm in the mean, {:.3f} at most, triangle {}{}\n",
@@ -89,7 +94,7 @@ std::string surface_text(const ContactEntry& contact, const Body& body,
   if (surface->met_from_front > 0)
     text += fmt::format("    {} rays met the open surface from its front: overlap there may be none\n",
                         surface->met_from_front);
-  return text;
+  return text + oblique;
 }
 
 }  // namespace
@@ -113,6 +118,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   text +=
       fmt::format("  on {}: force {} N, {:.2f} in all; moment {} N mm about its origin\n", joint.mobile.name,
                   core::rounded(load.force_n, 2), load.force_n.norm(), core::rounded(load.moment_nmm, 2));
+  if (answer.refined_force_n) text += io::refined_force_text(load.force_n, *answer.refined_force_n);
   if (answer.cut_off_by_reach > 0)
     text += fmt::format("  the reach of {} mm cuts off {} rays that would be in contact\n",
                         question.contact.rays.reach_mm, answer.cut_off_by_reach);
@@ -154,19 +160,24 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
     json["mobile_regions"] = regions_json(question.contact, question.surfaces.mobile, answer.contact.mobile);
   }
   json["on_mobile"] = wrench_json(answer.contact.on_mobile);
+  json["refined_force_n"] = answer.refined_force_n ? io::numbers(*answer.refined_force_n) : Json(nullptr);
   json["energy_nmm"] = answer.contact.energy_nmm;
   json["cut_off_by_reach"] = answer.cut_off_by_reach;
   json["terms"] = io::foundation_note;
-  json["notes"] = io::notes_json(question.notes);
-  json["scope"] = io::scope_note;
+  json["notes"] = io::notes_json(question.notes, answer.notes);
+  json["scope"] = scope_text(question.contact, question.surfaces);
   json["provenance"] = io::provenance_json(question.provenance);
   return io::document(std::move(json));
+}
+
+void check_load_folder(const std::filesystem::path& folder, const Provenance* from) {
+  OutputFolder{folder, is_of_load, io::files_read(from)};
 }
 
 std::vector<std::filesystem::path> write_load(const std::filesystem::path& folder,
                                               const LoadQuestion& question, const LoadAnswer& answer,
                                               VtpEncoding encoding) {
-  OutputFolder out(folder, is_of_load);
+  OutputFolder out(folder, is_of_load, io::files_read(question.provenance));
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
   const VtpOptions options{encoding, io::provenance_fields(question.provenance)};
   const auto write = [&](const char* name, const Body& body, const TriMesh& in_F,

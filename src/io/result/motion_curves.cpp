@@ -121,6 +121,7 @@ Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer) {
   columns.add("intersecting_pairs", frames,
               [](const auto& f) { return static_cast<double>(f.intersecting_pairs); });
   columns.add("smallest_gap_mm", frames, [](const auto& f) { return f.smallest_gap_mm; });
+  columns.add("oblique_area_mm2", frames, [](const auto& f) { return f.surface.oblique_area_mm2; });
   const Joint& joint = question.joint.joint;
   const std::vector<io::CoordinateName> coordinates = io::coordinate_names_of(joint.kind, joint.anatomy);
   for (std::size_t i = 0; i < coordinates.size(); ++i)

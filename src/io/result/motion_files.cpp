@@ -44,16 +44,23 @@ std::string meeting_fields(const MotionQuestion& question, const ContactEnd& end
                      part(mobile, end.contact->mobile_feature));
 }
 
+/// When a contact begins or ends; without an uncertainty where the recording does before it.
+std::string end_fields(const ContactEnd& end, ContactEndRole role) {
+  return fmt::format("{},{},{},{}", end.time_s, name_of(end.kind, role),
+                     end.kind == ContactEndKind::recording ? "" : fmt::format("{}", end.uncertainty_s),
+                     end.turned.degrees());
+}
+
 std::string contacts_csv(const MotionQuestion& question, const RecordedContact& between) {
   std::string text =
-      "entry_s,entry_uncertainty_s,entry_turned_deg,exit_s,exit_uncertainty_s,exit_turned_deg,is_certain";
+      "entry_s,entry_kind,entry_uncertainty_s,entry_turned_deg,exit_s,exit_kind,exit_uncertainty_s,"
+      "exit_turned_deg,is_certain";
   for (const char* end : {"entry", "exit"})
     text += fmt::format(",{0}_x_mm,{0}_y_mm,{0}_z_mm,{0}_fixed_part,{0}_mobile_part", end);
   text += "\n";
   for (const ContactInterval& contact : between.contacts)
-    text += fmt::format("{},{},{},{},{},{},{}{}{}\n", contact.entry.time_s, contact.entry.uncertainty_s,
-                        contact.entry.turned.degrees(), contact.exit.time_s, contact.exit.uncertainty_s,
-                        contact.exit.turned.degrees(), contact.is_certain ? 1 : 0,
+    text += fmt::format("{},{},{}{}{}\n", end_fields(contact.entry, ContactEndRole::entry),
+                        end_fields(contact.exit, ContactEndRole::exit), contact.is_certain ? 1 : 0,
                         meeting_fields(question, contact.entry), meeting_fields(question, contact.exit));
   return text;
 }
@@ -89,12 +96,16 @@ void write_maps(OutputFolder& out, const MotionQuestion& question, const MotionA
 
 }  // namespace
 
+void check_motion_folder(const std::filesystem::path& folder, const Provenance* from) {
+  OutputFolder{folder, is_of_motion, io::files_read(from)};
+}
+
 std::vector<std::filesystem::path> write_motion(const std::filesystem::path& folder,
                                                 const MotionQuestion& question, const MotionAnswer& answer,
                                                 const MotionFiles& files) {
   if ((files.cycle || files.jam) && !question.motion.times.in_seconds)
     throw UsageError("a cycle and jam.h5 need times, and this motion has frame numbers only");
-  OutputFolder out(folder, is_of_motion);
+  OutputFolder out(folder, is_of_motion, io::files_read(question.provenance));
   Curves curves = curves_of(question, answer);
   // Without comments, so that every reader of tables takes it; motion.json says where it comes from.
   write_curves_csv(out.file("curves.csv"), curves);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
 #include "io/result/contact_terms.hpp"
@@ -20,7 +21,8 @@ using io::Json;
 
 /// What a person wants to know of a motion before looking at its curves.
 struct Summary {
-  std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0, cut_off = 0;
+  std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0, cut_off = 0,
+              oblique = 0, oblique_peak = 0;
   struct Largest {
     double value = 0, at = 0;
     const FrameContact* frame = nullptr;
@@ -42,6 +44,8 @@ Summary summary_of(const MotionQuestion& question, const MotionAnswer& answer) {
     if (frame->in_contact) ++summary.in_contact;
     if (frame->surface.met_from_front > 0) ++summary.from_front;
     if (frame->cut_off_by_reach > 0) ++summary.cut_off;
+    if (frame->surface.oblique_area_mm2 > 0) ++summary.oblique;
+    if (frame->surface.peak_is_oblique) ++summary.oblique_peak;
     const ContactTotals& totals = frame->surface.totals;
     const auto consider = [&](Summary::Largest& largest, double value) {
       if (value > largest.value) largest = {value, question.motion.times.values[i], &*frame};
@@ -83,10 +87,15 @@ const Body& casting_body(const MotionQuestion& question) {
   return question.contact.casting == Casting::fixed ? question.surfaces.fixed : question.surfaces.mobile;
 }
 
-Json end_json(const MotionQuestion& question, const ContactEnd& end) {
-  Json json{
-      {"time_s", end.time_s},      {"kind", name_of(end.kind)},          {"uncertainty_s", end.uncertainty_s},
-      {"after_frame", end.sample}, {"turned_deg", end.turned.degrees()}, {"point_mm", nullptr}};
+Json end_json(const MotionQuestion& question, const ContactEnd& end, ContactEndRole role) {
+  // Beyond the recording nothing is known.
+  const bool is_known = end.kind != ContactEndKind::recording;
+  Json json{{"time_s", end.time_s},
+            {"kind", name_of(end.kind, role)},
+            {"uncertainty_s", is_known ? Json(end.uncertainty_s) : Json(nullptr)},
+            {"after_frame", end.sample},
+            {"turned_deg", end.turned.degrees()},
+            {"point_mm", nullptr}};
   if (!end.contact) return json;
   const AnswerFrame frame = question.provenance ? question.provenance->frame : AnswerFrame{};
   json["point_mm"] = io::numbers(frame.fixed_point(end.contact->fixed_point));
@@ -101,8 +110,8 @@ Json between_json(const MotionQuestion& question, const RecordedContact& between
   const auto exact = std::count(between.searched.begin(), between.searched.end(), BetweenSamples::exact);
   Json contacts = Json::array();
   for (const ContactInterval& contact : between.contacts)
-    contacts.push_back({{"entry", end_json(question, contact.entry)},
-                        {"exit", end_json(question, contact.exit)},
+    contacts.push_back({{"entry", end_json(question, contact.entry, ContactEndRole::entry)},
+                        {"exit", end_json(question, contact.exit, ContactEndRole::exit)},
                         {"is_certain", contact.is_certain},
                         {"undecided_s", contact.undecided_s}});
   return {{"ways_exact", exact},
@@ -119,14 +128,14 @@ std::string between_text(const RecordedContact& between) {
   constexpr std::size_t most = 10;
   for (std::size_t i = 0; i < std::min(most, between.contacts.size()); ++i) {
     const ContactInterval& contact = between.contacts[i];
-    const auto end = [](const ContactEnd& at) {
+    const auto end = [](const ContactEnd& at, const char* of_recording) {
       return fmt::format("{:.6f} s{}", at.time_s,
-                         at.kind == ContactEndKind::recording ? " (of the recording)"
+                         at.kind == ContactEndKind::recording ? of_recording
                          : at.uncertainty_s > 0 ? fmt::format(" within {:.1e} s", at.uncertainty_s)
                                                 : "");
     };
-    text += fmt::format("    from {} to {}{}\n", end(contact.entry), end(contact.exit),
-                        contact.is_certain ? "" : ", possible only");
+    text += fmt::format("    from {} to {}{}\n", end(contact.entry, " (recording begins)"),
+                        end(contact.exit, " (recording ends)"), contact.is_certain ? "" : ", possible only");
   }
   if (between.contacts.size() > most)
     text += fmt::format("    and {} more\n", between.contacts.size() - most);
@@ -135,8 +144,22 @@ std::string between_text(const RecordedContact& between) {
 
 }  // namespace
 
-std::string_view name_of(ContactEndKind kind) noexcept {
-  return kind == ContactEndKind::exact ? "exact" : kind == ContactEndKind::bounded ? "bounded" : "recording";
+std::string_view name_of(ContactEndKind kind, ContactEndRole role) noexcept {
+  return kind == ContactEndKind::exact     ? "exact"
+         : kind == ContactEndKind::bounded ? "bounded"
+         : role == ContactEndRole::entry   ? "recording_begins"
+                                           : "recording_ends";
+}
+
+std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer) {
+  std::optional<std::size_t> largest;
+  double force = 0;
+  for (std::size_t i = 0; i < answer.frames.size(); ++i) {
+    if (!answer.frames[i] || !(answer.frames[i]->on_mobile.force_n.norm() > force)) continue;
+    force = answer.frames[i]->on_mobile.force_n.norm();
+    largest = i;
+  }
+  return largest;
 }
 
 std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const JointMotion& motion,
@@ -190,6 +213,8 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   if (question.with_pressure) {
     line("pressure", summary.pressure, "MPa");
     line("force", summary.force, "N");
+    if (answer.refined_largest_force_n)
+      text += io::refined_force_text({summary.force.value, 0, 0}, {*answer.refined_largest_force_n, 0, 0});
   }
   if (answer.between) text += between_text(*answer.between);
   if (!answer.balanced.empty()) {
@@ -206,6 +231,16 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
   if (summary.from_front > 0)
     text += fmt::format("  in {} frames rays met the open target from its front: overlap there may be none\n",
                         summary.from_front);
+  if (summary.oblique > 0)
+    text += fmt::format(
+        "  in {} frames rays meet the other surface more than 60 degrees off its normal, as along a rim: "
+        "{}\n",
+        summary.oblique,
+        question.contact.rays.rule == FaceRule::cut_faces
+            ? "that overlap is counted apart, without a depth"
+            : fmt::format(
+                  "their length is no depth, and the largest values of {} frames are of such a triangle",
+                  summary.oblique_peak));
   if (summary.cut_off > 0)
     text += fmt::format("  in {} frames the reach of {} mm cuts off rays that would be in contact\n",
                         summary.cut_off, question.contact.rays.reach_mm);
@@ -237,6 +272,8 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
             {"frames_in_contact", summary.in_contact},
             {"frames_met_from_front", summary.from_front},
             {"frames_cut_off_by_reach", summary.cut_off},
+            {"frames_with_oblique_area", summary.oblique},
+            {"frames_with_oblique_peak", summary.oblique_peak},
             {"largest_area_mm2", largest(summary.area)},
             {"largest_depth_mm", largest(summary.depth)}};
   if (summary.depth.frame) {
@@ -247,6 +284,7 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
   if (question.with_pressure) {
     json["largest_pressure_mpa"] = largest(summary.pressure);
     json["largest_force_n"] = largest(summary.force);
+    json["largest_force_n"]["refined"] = io::nullable(answer.refined_largest_force_n);
     json["terms"] = io::foundation_note;
   }
   if (!answer.balanced.empty()) {
@@ -261,9 +299,9 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
     json["without_balance"] = without;
   }
   json["between_samples"] = answer.between ? between_json(question, *answer.between) : Json(nullptr);
-  json["done"] = question.motion.notes;
-  json["notes"] = io::notes_json(question.notes);
-  json["scope"] = io::scope_note;
+  json["processing"] = question.motion.processing;
+  json["notes"] = io::notes_json(question.notes, answer.notes);
+  json["scope"] = scope_text(question.contact, question.surfaces);
   json["provenance"] = io::provenance_json(question.provenance);
   return io::document(std::move(json));
 }

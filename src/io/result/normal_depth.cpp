@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "condyle/io/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/pressure_map.hpp"
@@ -44,6 +45,8 @@ io::Json body_json(const Views& bodies, const View& view) {
                                                     : io::numbers(view.frame.fixed_point(*centre));
   json["met_from_front"] = surface.met_from_front;
   json["rim_faces"] = surface.rim_faces;
+  json["oblique_area_mm2"] = surface.oblique_area_mm2;
+  json["peak_is_oblique"] = surface.peak_is_oblique;
   json["cut_off_by_reach"] = cut_off_by_reach;
   return json;
 }
@@ -57,12 +60,12 @@ std::string json_of(const DepthQuestion& question, const ContactEntry& rays, con
   json["rays"] = io::contact_terms(rays, false);
   io::add_nearest(json, question, measures);
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(bodies, *view);
-  json["scope"] = io::scope_note;
+  json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
 
-std::string body_text(const Views& bodies, const View& view, double reach_mm) {
+std::string body_text(const Views& bodies, const View& view, const NormalDepthOptions& rays) {
   const auto& [surface, cut_off_by_reach] = *view.summary;
   const ContactTotals& totals = surface.totals;
   const std::string& target = other_of(bodies, view).body.name;
@@ -82,8 +85,9 @@ std::string body_text(const Views& bodies, const View& view, double reach_mm) {
   if (surface.rim_faces > 0)
     text += fmt::format("    {} triangles at the rim of {}, cut along it or decided by 16 parts of each\n",
                         surface.rim_faces, target);
+  text += io::oblique_text(surface, rays.rule);
   if (cut_off_by_reach > 0)
-    text += fmt::format("    the reach of {} mm cuts off {} rays that would be in contact\n", reach_mm,
+    text += fmt::format("    the reach of {} mm cuts off {} rays that would be in contact\n", rays.reach_mm,
                         cut_off_by_reach);
   return text;
 }
@@ -96,7 +100,7 @@ std::string text_of(const DepthQuestion& question, const ContactEntry& rays, con
   bool any_depth = false;
   for (const auto* view : bodies.both()) {
     if (!view->summary) continue;
-    text += body_text(bodies, *view, rays.rays.reach_mm);
+    text += body_text(bodies, *view, rays.rays);
     any_depth |= view->summary->surface.totals.triangles > 0;
   }
   if (any_depth && !contact.in_contact)

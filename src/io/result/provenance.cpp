@@ -164,7 +164,8 @@ Provenance provenance_of(const LoadedJoint& loaded, std::vector<std::string> com
           loaded.joint.side,
           origin_of(report.fixed, fixed_in_source(report), unit_mm),
           origin_of(report.mobile, mobile_in_source(report), unit_mm),
-          AnswerFrame(frame, report)};
+          AnswerFrame(frame, report),
+          files_of(report.file)};
 }
 
 namespace io {

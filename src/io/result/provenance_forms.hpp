@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,12 @@ namespace condyle::io {
 
 /// A file that an answer comes from.
 Json file_json(const std::filesystem::path& path, const FileDigest& digest);
+
+/// What was read for an answer; nothing where that is not known.
+inline std::span<const std::filesystem::path> files_read(const Provenance* from) {
+  if (from == nullptr) return {};
+  return from->read;
+}
 
 Json provenance_json(const Provenance* from);
 std::vector<VtpField> provenance_fields(const Provenance* from);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -49,15 +50,9 @@ struct DeepestOf {
 };
 
 std::optional<DeepestOf> deepest_of(const Views& bodies, const ReliableContact& reliable) {
-  std::optional<DeepestOf> deepest;
-  const auto offer = [&](const io::BodyView<RadialBodySummary>& view,
-                         const std::optional<ReliableDepths>& depths) {
-    if (!depths || !depths->deepest) return;
-    if (!deepest || depths->deepest->depth_mm > deepest->vertex.depth_mm) deepest = {&view, *depths->deepest};
-  };
-  offer(bodies.mobile, reliable.mobile);
-  offer(bodies.fixed, reliable.fixed);
-  return deepest;
+  const auto deepest = condyle::deepest_of(reliable);
+  if (!deepest) return std::nullopt;
+  return DeepestOf{deepest->is_mobile ? &bodies.mobile : &bodies.fixed, deepest->vertex};
 }
 
 const WayOut* rotation_of(const DeepestReliable& vertex) noexcept {
@@ -89,13 +84,9 @@ io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   return json;
 }
 
-std::size_t without_depth(const ReliableContact& reliable) {
-  return (reliable.mobile ? reliable.mobile->without : 0) + (reliable.fixed ? reliable.fixed->without : 0);
-}
-
-std::string json_of(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
-                    const RadialContact& contact, const RadialSummary& summary,
-                    const ReliableContact& reliable) {
+std::string json_of(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
+                    const RadialSummary& summary) {
+  const auto& [contact, measures, reliable] = depth;
   const Views bodies = views(question, summary);
   const auto deepest = deepest_of(bodies);
   const auto facing = deepest_facing_of(bodies);
@@ -113,7 +104,7 @@ std::string json_of(const DepthQuestion& question, DepthMethod method, const Con
   json["depth_to_read"] = deepest ? io::Json(name_of(deepest->vertex.applies())) : io::Json(nullptr);
   json["min_gap_mm"] = io::nullable(bodies.least(&RadialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
-  json["scope"] = io::scope_note;
+  json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
@@ -130,9 +121,9 @@ std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
                      io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);
 }
 
-std::string text_of(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
-                    const RadialContact& contact, const RadialSummary& summary,
-                    const ReliableContact& reliable) {
+std::string text_of(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
+                    const RadialSummary& summary) {
+  const auto& [contact, measures, reliable] = depth;
   const Views bodies = views(question, summary);
   std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
   if (const auto deepest = deepest_of(bodies, reliable))
@@ -148,7 +139,8 @@ std::string text_of(const DepthQuestion& question, DepthMethod method, const Con
                                             view->summary->vertices_on_surface)
                           : io::open_line(view->body);
   }
-  if (const auto gap = bodies.least(&RadialBodySummary::min_gap_mm))
+  // In contact it would be the gap of whatever vertex is nearest to being inside.
+  if (const auto gap = bodies.least(&RadialBodySummary::min_gap_mm); gap && !contact.in_contact)
     text += fmt::format("  smallest gap along a ray: {:.3f} mm\n", *gap);
   return text;
 }
@@ -183,11 +175,10 @@ std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results,
 
 }  // namespace
 
-DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const ContactMeasures& measures,
-                         const RadialContact& contact, const RadialSummary& summary,
-                         const ReliableContact& reliable) {
-  return {text_of(question, method, measures, contact, summary, reliable),
-          json_of(question, method, measures, contact, summary, reliable),
+DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
+                         const RadialSummary& summary) {
+  const auto& [contact, measures, reliable] = depth;
+  return {text_of(question, method, depth, summary), json_of(question, method, depth, summary),
           io::pairs_csv(question.joint, contact.pairs),
           io::arrays_of(question.joint.fixed,
                         arrays_of(contact.fixed_in_mobile, measures.distances.fixed, reliable.fixed),

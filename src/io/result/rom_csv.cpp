@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "io/joint/given_degrees.hpp"
@@ -83,6 +84,14 @@ Fields contact_fields(const RomResult& result, const std::optional<ContactWitnes
   return fields;
 }
 
+/// With blanks between.
+std::string caveat_codes(const std::vector<MotionCaveat>& caveats) {
+  std::string codes;
+  for (const MotionCaveat& caveat : caveats)
+    codes += fmt::format("{}{}", codes.empty() ? "" : " ", name_of(caveat.code));
+  return codes;
+}
+
 Fields band_fields(const LimitBand& band) {
   Fields fields;
   for (const Angle angle : {band.p5, band.median, band.p95, band.width_from.centre, band.width_from.axes,
@@ -108,11 +117,26 @@ std::vector<std::string> io::rom_columns(Anatomy joint) {
                     "range_deg"};
   append(columns, angle_columns("start", joint));
   append(columns, angle_columns("limit", joint));
-  append(columns,
-         {"contact_x_mm", "contact_y_mm", "contact_z_mm", "contact_mobile_x_mm", "contact_mobile_y_mm",
-          "contact_mobile_z_mm", "fixed_feature", "mobile_feature", "fixed_part", "mobile_part", "clock_hour",
-          "band_p5_deg", "band_median_deg", "band_p95_deg", "band_from_centre_deg", "band_from_axes_deg",
-          "band_from_surface_deg", "band_share_without_contact", "normal_range_deg"});
+  append(columns, {"contact_x_mm",
+                   "contact_y_mm",
+                   "contact_z_mm",
+                   "contact_mobile_x_mm",
+                   "contact_mobile_y_mm",
+                   "contact_mobile_z_mm",
+                   "fixed_feature",
+                   "mobile_feature",
+                   "fixed_part",
+                   "mobile_part",
+                   "clock_hour",
+                   "band_p5_deg",
+                   "band_median_deg",
+                   "band_p95_deg",
+                   "band_from_centre_deg",
+                   "band_from_axes_deg",
+                   "band_from_surface_deg",
+                   "band_share_without_contact",
+                   "normal_range_deg",
+                   "caveats"});
   return columns;
 }
 
@@ -125,6 +149,7 @@ std::vector<std::string> io::rom_fields(const RomResult& result, std::size_t i) 
   append(fields, result.bands.empty() ? Fields(7) : band_fields(result.bands[i]));
   const auto normal = io::normal_range(result, limit);
   fields.push_back(normal ? number_text(io::given_degrees(*normal)) : std::string());
+  fields.push_back(caveat_codes(motion_caveats(result.joint, limit.motion)));
   return fields;
 }
 

@@ -147,8 +147,12 @@ void write_bearing(OutputFolder& out, const RomResult& result) {
 
 }  // namespace
 
+void check_rom_folder(const std::filesystem::path& folder, const Provenance* from) {
+  OutputFolder{folder, is_of_rom, io::files_read(from)};
+}
+
 std::vector<std::filesystem::path> write_rom(const std::filesystem::path& folder, const RomResult& result) {
-  OutputFolder out(folder, is_of_rom);
+  OutputFolder out(folder, is_of_rom, io::files_read(result.provenance));
   io::write_whole_file(out.file("rom.json"), rom_json(result));
   io::write_whole_file(out.file("limits.csv"), rom_csv(result));
   write_bearing(out, result);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/normal_range.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -142,6 +143,7 @@ Json motion_json(const RomResult& result, std::size_t i) {
                                                           : Json(nullptr)},
       {"normal_range_deg", normal ? Json(io::given_degrees(*normal)) : Json(nullptr)},
       {"at_limit_deg", angles_json(limit.angles_at_limit(), joint)},
+      {"caveats", io::caveats_json(motion_caveats(result.joint, limit.motion))},
       {"guarantee", result.depths.empty() ? guarantee_text(limit) : guarantee_text(result.depths[i])}};
   if (!result.depths.empty()) json["depth"] = json_of(result.depths[i]);
   if (!result.zones.empty()) json["zone"] = json_of(result.zones[i], frame_of(result));
@@ -227,7 +229,7 @@ Json bearing_json(const RomResult& result) {
                        ? sphere_json(frame.fixed_point(surface->socket->centre), surface->socket->radius)
                        : Json(nullptr);
   json["parts"] = surface->parts;
-  json["margin_mm"] = surface->parts.empty() ? Json(surface->margin_mm) : Json(nullptr);
+  json["margin_mm"] = surface->margin_mm;
   json["rim_gap_mm"] = nullable(surface->rim_gap_mm);
   json["triangles"] = surface->count();
   return json;
@@ -250,12 +252,12 @@ std::string rom_json(const RomResult& result) {
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
             {"terms", result.terms},
-            {"notes", io::notes_json(result.notes)},
+            {"notes", io::notes_json(result.notes, result.contact_notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);
-  json["scope"] = io::scope_note;
+  json["scope"] = scope_text(result.joint);
   json["provenance"] = io::provenance_json(result.provenance);
   return io::document(json);
 }

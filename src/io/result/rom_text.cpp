@@ -1,9 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
+#include <string_view>
+#include <vector>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_result.hpp"
@@ -26,13 +31,15 @@ std::string bearing_text(const RomResult& result) {
                           : surface->margin_mm == usual_bearing_margin_mm
                               ? ", no rim was found: the usual margin"
                               : ", no rim was found";
-  const std::string told =
-      surface->parts.empty() ? fmt::format("within {:.2f} mm of the head's sphere", surface->margin_mm)
-                             : fmt::format("{}, as the joint file says", fmt::join(surface->parts, " and "));
+  const std::string within = fmt::format("within {:.2f} mm of the head's sphere", surface->margin_mm);
+  const std::string extent = surface->parts.empty()
+                                 ? within
+                                 : fmt::format("{}, as the joint file says, and what lies {}",
+                                               fmt::join(surface->parts, " and "), within);
   return fmt::format(
       "  bearing surface: {} of {} triangles of {}, {}\n"
       "    ({} {:.2f} mm{}); contact on it {}\n",
-      surface->count(), surface->triangles.size(), result.joint.mobile.name, told,
+      surface->count(), surface->triangles.size(), result.joint.mobile.name, extent,
       surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim,
       result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
 }
@@ -116,6 +123,69 @@ std::string band_text(const RomResult& result) {
   return text + table_text(std::array{name, median, low, high, centre, axes, surface, free});
 }
 
+/// What usually ends motions like these: a line for each caveat, with the motions that it is about.
+std::string caveat_text(const RomResult& result) {
+  struct Line {
+    MotionCaveat caveat;
+    std::vector<std::string_view> motions;
+  };
+  std::vector<Line> lines;
+  for (const MotionLimit& limit : result.limits)
+    for (const MotionCaveat& caveat : motion_caveats(result.joint, limit.motion)) {
+      const auto same = std::find_if(lines.begin(), lines.end(), [&](const Line& line) {
+        return line.caveat.summary == caveat.summary && line.caveat.source == caveat.source;
+      });
+      if (same == lines.end())
+        lines.push_back({caveat, {limit.motion.name}});
+      else
+        same->motions.push_back(limit.motion.name);
+    }
+  std::string text = lines.empty() ? "" : "  caveats, by studies of other hips:\n";
+  for (const auto& [caveat, motions] : lines)
+    text += fmt::format("    {}{}: {}\n", caveat.summary,
+                        caveat.source.empty() ? "" : fmt::format(" ({})", caveat.source),
+                        fmt::join(motions, ", "));
+  return text;
+}
+
+/// What meets past each limit; nothing without zones.
+std::string zones_text(const RomResult& result) {
+  if (std::none_of(result.zones.begin(), result.zones.end(),
+                   [](const auto& zone) { return zone.has_value(); }))
+    return "";
+  Column name{Align::left, {"motion"}},
+      of_fixed{Align::right, {"area of " + result.joint.fixed.name + " (mm2)"}},
+      of_mobile{Align::right, {"of " + result.joint.mobile.name}}, depth{Align::right, {"depth (mm)"}},
+      clock{Align::right, {result.clock_plane == ClockPlane::rim ? "rim clock" : "sagittal clock"}},
+      place{Align::left, {"centre (mm)"}};
+  double past_deg = 0;
+  for (const auto& zone : result.zones) {
+    if (!zone) continue;
+    past_deg = zone->past.degrees();
+    name.cells.push_back(zone->limit.motion.name);
+    of_fixed.cells.push_back(fmt::format("{:.1f}", zone->fixed.area_mm2));
+    of_mobile.cells.push_back(fmt::format("{:.1f}", zone->mobile.area_mm2));
+    double deepest = 0;
+    bool any_depth = false;
+    for (const BodyZone* body : {&zone->fixed, &zone->mobile}) {
+      for (const double arc_mm : body->tangential_depth_mm)
+        if (std::isfinite(arc_mm)) deepest = std::max(deepest, arc_mm);
+      any_depth |= !body->tangential_depth_mm.empty();
+    }
+    depth.cells.push_back(any_depth ? fmt::format("{:.2f}", deepest) : "-");
+    clock.cells.push_back(zone->zone_hour ? io::clock_text(*zone->zone_hour) : "-");
+    const auto& centre = zone->fixed.centroid_mm;
+    place.cells.push_back(centre ? core::rounded(frame_of(result).fixed_point(*centre), 2) : "-");
+  }
+  const std::string heading = fmt::format(
+      "  zones {:g} deg past the limit: triangles that meet, the deepest vertex along the motion's arc, and "
+      "where on {}:\n",
+      past_deg, result.joint.fixed.name);
+  return heading + (result.joint.is_hip()
+                        ? table_text(std::array{name, of_fixed, of_mobile, depth, clock, place})
+                        : table_text(std::array{name, of_fixed, of_mobile, depth, place}));
+}
+
 }  // namespace
 
 std::string rom_text(const RomResult& result) {
@@ -155,12 +225,14 @@ std::string rom_text(const RomResult& result) {
               ? table_text(std::array{name, turned, reason, clock, point, bearing, centres, space})
           : joint.is_hip() ? table_text(std::array{name, turned, reason, clock, point})
                            : table_text(std::array{name, turned, reason, point});
+  text += zones_text(result);
   text += band_text(result);
   if (std::any_of(result.limits.begin(), result.limits.end(),
                   [](const MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
+  text += caveat_text(result);
   if (result.map) text += map_text(*result.map);
-  return text + fmt::format("  {}\n", io::scope_note);
+  return text + fmt::format("  {}\n", scope_text(result.joint));
 }
 
 }  // namespace condyle

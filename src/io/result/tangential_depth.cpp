@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/provenance_forms.hpp"
@@ -67,7 +68,7 @@ std::string json_of(const DepthQuestion& question, const ContactMeasures& measur
   json["min_gap_deg"] = degrees_of(bodies.least(&TangentialBodySummary::min_gap));
   json["min_gap_mm"] = io::nullable(bodies.least(&TangentialBodySummary::min_gap_mm));
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(*view);
-  json["scope"] = io::scope_note;
+  json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
   return io::document(json);
 }
@@ -94,7 +95,7 @@ std::string text_of(const DepthQuestion& question, const ContactMeasures& measur
           fmt::format("  {} of them are inside at every angle of {}\n", view->summary->without_exit, about);
     }
   }
-  if (const auto gap = bodies.least(&TangentialBodySummary::min_gap)) {
+  if (const auto gap = bodies.least(&TangentialBodySummary::min_gap); gap && !contact.in_contact) {
     text += fmt::format("  smallest gap by rotating: {:.3f} deg\n", gap->degrees());
   }
   return text;

@@ -6,6 +6,8 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
+#include "io/file/replaced_files.hpp"
+#include "io/file/whole_file.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/study/study_files.hpp"
 
@@ -62,12 +64,34 @@ void append(io::StudyResults& whole, const io::StudyResults& shard, const fs::pa
   whole.record.failures += shard.record.failures;
 }
 
+/// The table of the study may lie in its folder under a name that the results have.
+void check_keeps_the_table(const fs::path& folder, const io::StudyRecord& record) {
+  for (const fs::path& file : io::study_result_files(folder)) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) continue;
+    const FileDigest there = digest_of(io::read_whole_file(file));
+    if (there.bytes == record.table_digest.bytes && there.sha256 == record.table_digest.sha256)
+      throw FileError(file.string() + ": is the table of this study, whose results would be written over it");
+  }
+}
+
+/// Throws FileError where the results would take the place of a shard's.
+void check_keeps_the_shards(const fs::path& folder, std::size_t of) {
+  std::vector<fs::path> read;
+  for (std::size_t number = 1; number <= of; ++number)
+    for (fs::path& file : io::study_result_files(io::shard_folder(folder, {number, of})))
+      read.push_back(std::move(file));
+  io::check_replaces_none(io::study_result_files(folder), read);
+}
+
 }  // namespace
 
 StudyDone merge_study(const fs::path& folder) {
   const std::size_t of = shards_in(folder);
   check_all_there(folder, of);
   io::StudyResults whole = io::read_study(io::shard_folder(folder, {1, of}));
+  check_keeps_the_table(folder, whole.record);
+  check_keeps_the_shards(folder, of);
   for (std::size_t number = 2; number <= of; ++number) {
     const fs::path shard = io::shard_folder(folder, {number, of});
     append(whole, io::read_study(shard), shard);
@@ -77,7 +101,11 @@ StudyDone merge_study(const fs::path& folder) {
                                 whole.record.joints + whole.record.failures, whole.record.table_rows));
   whole.record.key.clear();
   whole.record.is_merged = true;
-  return {whole.record.joints, whole.record.failures, false, io::write_study(folder, whole),
+  return {whole.record.joints,
+          whole.record.failures,
+          io::first_failure(whole),
+          false,
+          io::write_study(folder, whole),
           io::noted_joints(whole)};
 }
 

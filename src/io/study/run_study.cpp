@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <exception>
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -10,6 +12,7 @@
 #include "condyle/version.hpp"
 #include "core/parallel_tasks.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/file/replaced_files.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/study/json_digest.hpp"
 #include "io/study/study_answer.hpp"
@@ -144,6 +147,22 @@ io::StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const io::Study
   return texts;
 }
 
+/// What is read is never written over: by a shard not by what merge_study() will write either. Throws FileError.
+void check_replaces_none(const Study& study, const std::filesystem::path& folder, const StudyTable& table) {
+  std::vector<std::filesystem::path> written = io::study_result_files(study.folder);
+  if (folder != study.folder)
+    for (std::filesystem::path& file : io::study_result_files(folder)) written.push_back(std::move(file));
+  std::erase_if(written, [](const auto& file) {
+    std::error_code ignored;
+    return !std::filesystem::exists(file, ignored);
+  });
+  if (written.empty()) return;
+  std::vector<std::filesystem::path> read = {table.path};
+  for (const StudyRow& row : table.rows)
+    for (std::filesystem::path& file : io::files_of(table, row)) read.push_back(std::move(file));
+  io::check_replaces_none(written, read);
+}
+
 /// What lies in the folder, where it is what this run would write.
 std::optional<StudyDone> done_before(const std::filesystem::path& folder, const io::StudyRecord& asked,
                                      const std::string& columns, const StudyTable& table, Rows rows) {
@@ -158,10 +177,18 @@ std::optional<StudyDone> done_before(const std::filesystem::path& folder, const 
     results.record.failures = there->failures;
     io::write_study(folder, results);
   }
-  return StudyDone{there->joints, there->failures, true, {}, io::noted_joints(results)};
+  return StudyDone{
+      there->joints, there->failures, io::first_failure(results), true, {}, io::noted_joints(results)};
 }
 
 }  // namespace
+
+PoseDegrees study_pose(std::string_view text, Anatomy joint) {
+  if (is_matrix(text))
+    throw UsageError(fmt::format("pose: a study takes angles by their names, such as {}=90, and no matrix",
+                                 name_of(JointAngle::flexion, joint)));
+  return parse_pose(text, JointKind::ball, joint);
+}
 
 Shard Shard::parse(std::string_view text) {
   const std::size_t slash = text.find('/');
@@ -180,6 +207,7 @@ std::optional<StudyDone> run_study(const Study& study, const StudyControl& contr
   const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;
   const io::StudyColumns columns = io::study_columns(table, study.options);
   io::StudyResults results{record_of(study, table), io::columns_csv(columns), {}};
+  check_replaces_none(study, folder, table);
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
   const auto done = done_before(folder, results.record, results.columns, table, rows);
@@ -197,7 +225,11 @@ std::optional<StudyDone> run_study(const Study& study, const StudyControl& contr
   results.record.joints = rows.size() - results.record.failures;
   results.record.key = key_of(results.record, results.columns, rows, inputs);
   results.texts = texts_of(*answers, columns);
-  return StudyDone{results.record.joints, results.record.failures, false, io::write_study(folder, results),
+  return StudyDone{results.record.joints,
+                   results.record.failures,
+                   io::first_failure(results),
+                   false,
+                   io::write_study(folder, results),
                    io::noted_joints(results)};
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "condyle/contact_measures.hpp"
@@ -114,21 +115,32 @@ std::string name_of_way(DepthWay way, Anatomy joint) {
   return way == DepthWay::radial ? "radial" : "";
 }
 
+/// The pose as `condyle depth` reads it for this joint, which refuses one that a hinge does not turn to.
+PoseDegrees pose_of(const StudyTable& table, const StudyRow& row, const Joint& joint,
+                    const PoseDegrees& asked) {
+  try {
+    return parse_pose(to_text(asked, joint.anatomy), joint.kind, joint.anatomy);
+  } catch (const UsageError& error) {
+    throw UsageError(fmt::format("{}: line {}: joint {}: {}", table.path.string(), row.line,
+                                 in_quotes(table.id(row)), error.what()));
+  }
+}
+
 void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {
   const JointContact bodies(joint);
   const Pose X_FM = pose_at(joint.coordinates(), at.angles());
-  const RadialContact contact = bodies.radial(X_FM);
-  const ContactMeasures measures = measure_contact(bodies, X_FM, VertexStates(contact));
-  const ReliableContact depths =
-      reliable_depths(bodies, joint.kind, joint.coordinates(), at.angles(), contact, measures.distances);
-  const DeepestReliable* deepest = nullptr;
-  for (const auto* body : {&depths.mobile, &depths.fixed})
-    if (*body && (*body)->deepest && (!deepest || (*body)->deepest->depth_mm > deepest->depth_mm))
-      deepest = &*(*body)->deepest;
+  const PoseDepth depth =
+      depth_at(bodies, joint, at.angles(), X_FM, DepthMethod::reliable, DistancesOf::vertices_inside);
+  const auto& [contact, measures, depths] = depth;
+  const auto deepest = deepest_of(depths);
   fields.push_back(contact.in_contact ? "1" : "0");
-  fields.push_back(deepest ? fmt::format("{}", deepest->depth_mm) : "");
-  fields.push_back(deepest ? name_of_way(deepest->way, joint.anatomy) : "");
+  fields.push_back(deepest ? fmt::format("{}", deepest->vertex.depth_mm) : "");
+  fields.push_back(deepest ? name_of_way(deepest->vertex.way, joint.anatomy) : "");
   fields.push_back(text_of(measures.volume_mm3));
+  fields.push_back(measures.volume_mm3 ? fmt::format("{}", measures.volume_error_mm3) : "");
+  fields.push_back(measures.volume_mm3 ? fmt::format("{}", measures.mobile_covered_again_mm3 +
+                                                               measures.fixed_covered_again_mm3)
+                                       : "");
   fields.push_back(fmt::format("{}", measures.nearest.distance_mm));
 }
 
@@ -139,16 +151,18 @@ Fields hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std:
           surface ? fmt::format("{}", surface->margin_mm) : "", std::string(notes), std::string(inputs)};
 }
 
-/// Codes of what looks wrong with a joint that was read; a sample hip is as it was made. Throws MeshError where that is to end
+/// Codes of what looks wrong with a joint that was read, as a sample hip is as it was made, and with its load. Throws MeshError where that is to end
 /// the run.
 std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded,
-                     BadJoint bad_joint) {
+                     std::span<const ContactNote> of_load, BadJoint bad_joint) {
   std::string codes, texts;
-  if (is_sample(table, row)) return codes;
-  for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement)) {
+  const auto take = [&](const auto& note) {
     codes += (codes.empty() ? "" : " ") + std::string(name_of(note.code));
     texts += fmt::format("{}{}: {}", texts.empty() ? "" : "; ", name_of(note.code), note.text);
-  }
+  };
+  if (!is_sample(table, row))
+    for (const JointNote& note : check_joint(loaded.joint, loaded.report.placement)) take(note);
+  for (const ContactNote& note : of_load) take(note);
   if (bad_joint == BadJoint::ends_run && !codes.empty())
     throw MeshError(fmt::format("{}: line {}: joint {}: {}", table.path.string(), row.line,
                                 in_quotes(table.id(row)), texts));
@@ -162,8 +176,16 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   const StudyOptions& options = study.options;
   const LoadedJoint loaded = load_joint(table, row);
   check_anatomy(loaded, options);
-  const std::string notes = notes_on(table, row, loaded, study.bad_joint);
   const Joint& joint = loaded.joint;
+  std::optional<PoseDegrees> depth_at;
+  if (options.depth_at) depth_at = pose_of(table, row, joint, *options.depth_at);
+  LoadFields load;
+  if (options.load) {
+    StudyLoad posed = *options.load;
+    posed.at = pose_of(table, row, joint, posed.at);
+    load = load_fields(loaded, posed);
+  }
+  const std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
   const std::vector<Motion> motions = motions_of(loaded, options);
   const RangeOptions asked = range_options_of(loaded, options);
   const RangeOfMotion range(joint, asked);
@@ -189,9 +211,8 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     if (!map) return std::nullopt;
     add_map(of_hip, *map);
   }
-  if (options.depth_at) add_depth(of_hip, joint, *options.depth_at);
-  if (options.load)
-    for (std::string& field : load_fields(loaded, *options.load)) of_hip.push_back(std::move(field));
+  if (depth_at) add_depth(of_hip, joint, *depth_at);
+  for (std::string& field : load.fields) of_hip.push_back(std::move(field));
   return StudyAnswer{limit_lines(of_row, result, options), line_of(of_row, of_hip), {}, inputs};
 }
 

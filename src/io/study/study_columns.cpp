@@ -50,6 +50,10 @@ Columns depth_columns() {
       {"depth_mm", "mm", number, "of the deepest vertex of either body; empty where none is inside"},
       {"depth_way", "", text, "along which way it is a depth: radial, or the arc of this angle"},
       {"depth_volume_mm3", "mm^3", number, "of the space inside both; empty where a mesh is open"},
+      {"depth_volume_error_mm3", "mm^3", number, "bound on what the volume is off by rounding"},
+      {"depth_covered_again_mm3", "mm^3", number,
+       "how much of the overlap's surroundings a body covers more than once; above 0 the volume may count "
+       "space twice"},
       {"depth_nearest_distance_mm", "mm", number, "smallest distance of the surfaces, 0 where they meet"}};
 }
 
@@ -98,7 +102,8 @@ std::vector<StudyColumn> limit_columns(const StudyOptions& options) {
       {"contact_x_mm", "mm", number, "contact on the fixed body, joint frame, anterior"},
       {"contact_y_mm", "mm", number, "superior"},
       {"contact_z_mm", "mm", number, "to the subject's right"},
-      {"clock_hour", "h", number, "of the contact on the socket, 12 superior, 3 anterior, sagittal plane"}};
+      {"clock_hour", "h", number, "of the contact on the socket, 12 superior, 3 anterior, sagittal plane"},
+      {"caveats", "", text, "codes of what usually ends such a motion, with blanks between"}};
   if (options.bands) append(columns, band_columns());
   return columns;
 }

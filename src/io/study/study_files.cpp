@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "condyle/error.hpp"
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/output_folder.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/whole_file.hpp"
@@ -52,7 +53,7 @@ Json record_json(const StudyRecord& record, const std::vector<NamedFile>& files)
   json["joints"] = record.joints;
   json["failures"] = record.failures;
   for (const NamedFile& file : files) json["files"][file.name] = digest_json(digest_of(file.contents));
-  json["scope"] = scope_note;
+  json["scope"] = scope_text();
   return json;
 }
 
@@ -72,10 +73,11 @@ StudyRecord record_of(const Json& json) {
   return record;
 }
 
+constexpr std::string_view result_names[] = {"limits.csv",  "hips.csv", "failures.csv",
+                                             "columns.csv", "study.h5", record_name};
+
 bool is_of_study(std::string_view name) {
-  static constexpr std::string_view names[] = {"limits.csv",  "hips.csv", "failures.csv",
-                                               "columns.csv", "study.h5", record_name};
-  return std::find(std::begin(names), std::end(names), name) != std::end(names);
+  return std::find(std::begin(result_names), std::end(result_names), name) != std::end(result_names);
 }
 
 }  // namespace
@@ -84,11 +86,17 @@ fs::path shard_folder(const fs::path& folder, const Shard& shard) {
   return folder / "shards" / fmt::format("{}_of_{}", shard.number, shard.of);
 }
 
+std::vector<fs::path> study_result_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const std::string_view name : result_names) files.push_back(folder / name);
+  return files;
+}
+
 void prepare_study_folder(const fs::path& folder) {
   // Other shards make folders on the same way at the same time; one that was made is never taken away.
   std::error_code error;
   fs::create_directories(folder, error);
-  OutputFolder{folder};
+  OutputFolder{folder, is_of_study};
 }
 
 std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& results) {
@@ -108,7 +116,7 @@ std::vector<fs::path> write_study(const fs::path& folder, const StudyResults& re
 
 std::optional<StudyRecord> read_study_record(const fs::path& folder) {
   try {
-    const Json json = Json::parse(read_whole_file(folder / record_name));
+    const Json json = parsed_json(read_whole_file(folder / record_name));
     if (json.at("format") != format_version) return std::nullopt;
     for (const auto& [name, digest] : json.at("files").items())
       if (digest_json(digest_of(read_whole_file(folder / name))) != digest) return std::nullopt;

@@ -37,8 +37,14 @@ struct StudyResults {
 /// The joints of hips.csv that have notes.
 std::vector<NotedJoint> noted_joints(const StudyResults& results);
 
+/// The first row of failures.csv.
+std::optional<StudyFailure> first_failure(const StudyResults& results);
+
 /// Where a shard's results lie: "DIR/shards/3_of_7".
 std::filesystem::path shard_folder(const std::filesystem::path& folder, const Shard& shard);
+
+/// The files that a folder of results has, by their names there.
+std::vector<std::filesystem::path> study_result_files(const std::filesystem::path& folder);
 
 /// Makes the folder, which stays, and makes sure that files can be put there. Throws FileError.
 void prepare_study_folder(const std::filesystem::path& folder);

@@ -33,7 +33,7 @@ std::filesystem::path path_in(const StudyTable& table, const StudyRow& row, std:
   return table.path.parent_path() / std::filesystem::path(table.field(row, column));
 }
 
-/// The value that goes with a word; the first one where the field is empty.
+/// The value that goes with a word, spelt as in a joint file; the first one where the field is empty.
 template <class Value, std::size_t count>
 Value one_of(const StudyTable& table, const StudyRow& row, std::string_view column,
              const std::pair<std::string_view, Value> (&choices)[count]) {
@@ -57,7 +57,7 @@ JointFile described(const StudyTable& table, const StudyRow& row) {
   static constexpr std::pair<std::string_view, LengthUnit> units[] = {{"mm", LengthUnit::millimetres},
                                                                       {"m", LengthUnit::metres}};
   static const std::pair<std::string_view, FrameDirections> axes[] = {
-      {"joint", {}}, {"ras", ras_axes}, {"lps", lps_axes}};
+      {"joint", {}}, {"RAS", ras_axes}, {"LPS", lps_axes}};
   if (table.field(row, "side").empty())
     throw FileError(fmt::format("{}: right or left is needed beside meshes", table.place(row, "side")));
   JointFile file{.path = table.path, .joint = {}, .fixed = {}, .mobile = {}, .motions = {}};
@@ -144,6 +144,18 @@ LoadedJoint load_joint(const StudyTable& table, const StudyRow& row) {
 
 bool is_sample(const StudyTable& table, const StudyRow& row) {
   return source_of(table, row) == JointSource::sample;
+}
+
+std::vector<std::filesystem::path> files_of(const StudyTable& table, const StudyRow& row) {
+  std::vector<std::filesystem::path> files;
+  for (const std::string_view column : {"joint", "fixed", "mobile"})
+    if (!table.field(row, column).empty()) files.push_back(path_in(table, row, column));
+  if (table.field(row, "joint").empty()) return files;
+  try {
+    return condyle::files_of(read_joint_file(path_in(table, row, "joint")));
+  } catch (const FileError&) {
+    return files;  // the row will be a failure
+  }
 }
 
 std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "condyle/io/joint_file.hpp"
 #include "io/study/study_table.hpp"
@@ -13,6 +15,9 @@ LoadedJoint load_joint(const StudyTable& table, const StudyRow& row);
 
 /// Whether the row's joint is made, not read.
 bool is_sample(const StudyTable& table, const StudyRow& row);
+
+/// The files that the row names, those too that its joint file names; as many as can be known where one of them cannot be read.
+std::vector<std::filesystem::path> files_of(const StudyTable& table, const StudyRow& row);
 
 /// SHA-256 of the row and of the contents of the files it names, those that the joint was made of.
 std::string inputs_sha256(const StudyRow& row, const LoadedJoint& joint);

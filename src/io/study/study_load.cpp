@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "condyle/error.hpp"
 #include "condyle/load_balance.hpp"
 
@@ -33,7 +35,7 @@ void add(Fields& fields, const Vec3& v) {
 
 /// Empty where the body's surface was not cast, a mean or a centre also where nothing of it is in contact.
 void add_surface(Fields& fields, const std::optional<SurfaceContact>& surface) {
-  const std::size_t end = fields.size() + 8;
+  const std::size_t end = fields.size() + 9;
   if (surface) {
     const ContactTotals& totals = surface->totals;
     add(fields, totals.area_mm2);
@@ -41,7 +43,10 @@ void add_surface(Fields& fields, const std::optional<SurfaceContact>& surface) {
       for (const double value :
            {totals.mean_depth_mm, totals.max_depth_mm, totals.mean_pressure_mpa, totals.max_pressure_mpa})
         add(fields, value);
+    fields.resize(end - 4);
     if (totals.centre_of_pressure) add(fields, *totals.centre_of_pressure);
+    fields.resize(end - 1);
+    add(fields, surface->oblique_area_mm2);
   }
   fields.resize(end);
 }
@@ -64,8 +69,9 @@ BalancedPose balanced(const Joint& joint, const ElasticContact& layers, const Po
 std::vector<StudyColumn> load_columns() {
   std::vector<StudyColumn> columns = {
       {"load_outcome", "", text,
-       "balanced, at_jump or unstable; pulled_apart, over_the_rim or free_direction, where the other columns "
-       "are empty; empty without a force"},
+       "balanced, at_jump or unstable; pulled_apart, over_the_rim, too_large or free_direction, where the "
+       "other "
+       "columns are empty; empty without a force"},
       {"load_residual_n", "N", number, "what contact and force add up to; empty without a force"}};
   for (const char* axis : {"x", "y", "z"})
     columns.push_back({fmt::format("load_moved_{}_mm", axis), "mm", number,
@@ -83,16 +89,21 @@ std::vector<StudyColumn> load_columns() {
     for (const char* axis : {"x", "y", "z"})
       columns.push_back({fmt::format("load_{}_centre_{}_mm", body, axis), "mm", number,
                          fmt::format("centre of pressure on the {} body, its own frame", body)});
+    add("oblique_area_mm2", "mm^2", "overlap without a depth, as rays meet the other surface at a slant");
   }
   for (const char* axis : {"x", "y", "z"})
     columns.push_back({fmt::format("load_force_{}_n", axis), "N", number,
                        "of the contact on the mobile body, joint frame"});
+  columns.push_back(
+      {"load_refined_force_n", "N", number,
+       "length of that force with 16 rays in each triangle: what the meshes' edges leave open; empty "
+       "with one ray for each triangle"});
   columns.push_back({"load_cut_off_by_reach", "", number,
                      "rays that a longer reach would find in contact; 0: the reach suffices"});
   return columns;
 }
 
-Fields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
+LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
   const Joint& joint = loaded.joint;
   const ContactEntry contact = contact_of(loaded, load);
   const ContactSurfaces surfaces = surfaces_of(contact, joint);
@@ -101,12 +112,15 @@ Fields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
   Pose X_FM = pose_at(joint.coordinates(), load.at.angles());
   ElasticContactResults found;
   Fields fields;
+  const BodyNames names{surfaces.fixed.name, surfaces.mobile.name};
+  std::vector<ContactNote> notes = check_layers(layers, names);
   if (load.force_n) {
+    add_new(notes, check_load({.on_mobile = {.force_n = *load.force_n}}));
     const BalancedPose end = balanced(joint, layers, X_FM, load);
     fields.emplace_back(name_of(end.outcome));
     if (!end.carries_load()) {
       fields.resize(load_columns().size());
-      return fields;
+      return {std::move(fields), std::move(notes)};
     }
     add(fields, end.residual.force_n.norm());
     add(fields, end.X_FM.translation() - X_FM.translation());
@@ -119,8 +133,11 @@ Fields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
   add_surface(fields, found.fixed);
   add_surface(fields, found.mobile);
   add(fields, found.on_mobile.force_n);
+  const auto refined = layers.refined_force_n(X_FM);
+  fields.push_back(refined ? fmt::format("{}", refined->norm()) : "");
   fields.push_back(fmt::format("{}", layers.cut_off_by_reach(X_FM)));
-  return fields;
+  add_new(notes, check_contact(found, names));
+  return {std::move(fields), std::move(notes)};
 }
 
 }  // namespace condyle::io

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact_checks.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/study.hpp"
 #include "io/study/study_columns.hpp"
@@ -12,6 +13,10 @@ namespace condyle::io {
 std::vector<StudyColumn> load_columns();
 
 /// Those columns of this joint. FileError where it has no layers.
-std::vector<std::string> load_fields(const LoadedJoint& loaded, const StudyLoad& load);
+struct LoadFields {
+  std::vector<std::string> fields;
+  std::vector<ContactNote> notes;  ///< on layers, load and contact
+};
+LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load);
 
 }  // namespace condyle::io

@@ -3,11 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
+#include <initializer_list>
 #include <map>
 #include <set>
 
+#include "condyle/sample/hip_measures.hpp"
+#include "core/near_name.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/motion/table_builder.hpp"
 #include "io/result/csv_field.hpp"
@@ -22,6 +27,39 @@ constexpr std::string_view source_columns[] = {"id",   "joint", "fixed", "mobile
 
 bool is_source(std::string_view name) {
   return std::find(std::begin(source_columns), std::end(source_columns), name) != std::end(source_columns);
+}
+
+/// The columns that say something of a joint in this table, and that it does not have.
+std::vector<std::string> missing_columns(const StudyTable& table) {
+  const auto has = [&](std::string_view name) {
+    return std::find(table.columns.begin(), table.columns.end(), name) != table.columns.end();
+  };
+  std::vector<std::string> names;
+  const auto add = [&](std::initializer_list<std::string_view> more) {
+    for (const std::string_view name : more)
+      if (!has(name)) names.emplace_back(name);
+  };
+  const bool of_samples = has("sample"), of_meshes = has("fixed") || has("mobile");
+  if (of_samples || of_meshes) add({"side"});
+  if (of_meshes) add({"fixed", "mobile", "units", "axes"});
+  if (of_samples)
+    for (const HipMeasure& measure : hip_measures()) add({measure.name});
+  if (!of_samples && !of_meshes) add({"joint", "fixed", "mobile", "sample"});
+  return names;
+}
+
+/// A misspelt column would be carried into the results, and what it says of the joints left out of the answer.
+void check_spelling(const StudyTable& table, std::size_t line, const Source& source) {
+  const std::vector<std::string> missing = missing_columns(table);
+  for (const std::string& name : table.columns) {
+    if (is_source(name) || hip_measure_named(name)) continue;
+    std::string lower = name;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (const std::string near = core::near_name(lower, missing); !near.empty())
+      source.fail(fmt::format("line {}: column {}: did you mean '{}'? A covariate needs a name less like it",
+                              line, in_quotes(name), near));
+  }
 }
 
 /// What HDF5 takes as a name.
@@ -53,6 +91,7 @@ void check_columns(const StudyTable& table, std::size_t line, const Source& sour
       fail(fmt::format("column {} is there twice", in_quotes(name)));
   }
   if (!known.contains("id")) fail("there is no column 'id'");
+  check_spelling(table, line, source);
 }
 
 void check_ids(const StudyTable& table, const Source& source) {
@@ -105,6 +144,9 @@ StudyTable read_study_table(const std::filesystem::path& path) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   Source source{bytes, name};
   if (source.bytes.starts_with(byte_order_mark)) source.bytes.remove_prefix(byte_order_mark.size());
+  if (const std::size_t end = end_of_utf8(source.bytes); end < source.bytes.size())
+    source.fail(fmt::format("line {}: is not UTF-8 (Latin-1?): save the table as UTF-8",
+                            TextCursor(source, end).line()));
   StudyTable table{path, digest_of(bytes), {}, {}, {}};
   TextCursor cursor(source);
   while (!cursor.at_end()) {
@@ -120,6 +162,8 @@ StudyTable read_study_table(const std::filesystem::path& path) {
     if (fields.size() != table.columns.size())
       source.fail(fmt::format("line {}: {} fields where there are {} columns", line, fields.size(),
                               table.columns.size()));
+    // Texts of HDF5 end at such a character.
+    if (text.find('\0') != text.npos) source.fail(fmt::format("line {}: has a character 0", line));
     table.rows.push_back({table.rows.size() + 1, line, std::move(fields)});
   }
   if (table.columns.empty()) source.fail("has no names of columns");

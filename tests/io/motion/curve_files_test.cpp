@@ -50,7 +50,7 @@ void expect_read_back(const MotionTable& table, const Curves& curves) {
     EXPECT_EQ(table.columns[c + 1], curves.names[c]);
     expect_same_bits(table.values[c + 1], curves.values[c]);
   }
-  EXPECT_EQ(table.notes, std::vector<std::string>{});
+  EXPECT_EQ(table.processing, std::vector<std::string>{});
 }
 
 TEST(CurveFiles, AStoFileIsReadBackBitForBit) {

@@ -29,7 +29,7 @@ TEST(MotionFile, ReadsWhatTheOpenSimHeaderIsFollowedBy) {
   EXPECT_EQ(table.values, (std::vector<std::vector<double>>{{0.4, 0.5}, {19.5, 20}, {-0.25, 0.125}}));
   EXPECT_EQ(table.line_of_row, (std::vector<std::size_t>{12, 13}));
   EXPECT_EQ(table.in_degrees, true);
-  EXPECT_EQ(table.notes, Strings{});
+  EXPECT_EQ(table.processing, Strings{});
   EXPECT_EQ(table.digest, digest_of(mot));
 }
 
@@ -44,7 +44,7 @@ TEST(MotionFile, HeaderLinesComeInAnyOrderAndMayBeLeftOut) {
 TEST(MotionFile, InDegreesIsFollowedAgainstTheWordsAndANoteSaysSo) {
   const MotionTable table = read_table("a.mot", replaced(mot, "inDegrees=yes", "inDegrees=no"));
   EXPECT_EQ(table.in_degrees, false);
-  EXPECT_EQ(table.notes,
+  EXPECT_EQ(table.processing,
             Strings{"the header says inDegrees=no and in words that angles are in degrees: inDegrees=no is "
                     "followed"});
   // Words on their own are prose that programs leave unchanged: they decide nothing.
@@ -55,8 +55,9 @@ TEST(MotionFile, WrongCountsInTheHeaderAreNoted) {
   const MotionTable table =
       read_table("a.mot", replaced(replaced(mot, "nRows=2", "nRows=1"), "nColumns=3", "nColumns=7"));
   EXPECT_EQ(table.rows, 2u);
-  EXPECT_EQ(table.notes, (Strings{"the header promises 1 rows and the file has 2: all of them are read",
-                                  "the header promises 7 columns and the file has 3: all of them are read"}));
+  EXPECT_EQ(table.processing,
+            (Strings{"the header promises 1 rows and the file has 2: all of them are read",
+                     "the header promises 7 columns and the file has 3: all of them are read"}));
 }
 
 TEST(MotionFile, ReadsCsvWithComments) {
@@ -96,7 +97,7 @@ TEST(MotionFile, LineEndsMarksAndEmptyLinesAtTheEndMakeNoDifference) {
       EXPECT_EQ(table.columns, expected.columns);
       EXPECT_EQ(table.values, expected.values);
       EXPECT_EQ(table.line_of_row, expected.line_of_row);
-      EXPECT_EQ(table.notes, Strings{});
+      EXPECT_EQ(table.processing, Strings{});
     }
   }
 }
@@ -123,7 +124,7 @@ TEST(MotionFile, FramesAreCountedWhereThereIsNoTime) {
 TEST(MotionFile, TheSecondTyOfXmalabIsTz) {
   const MotionTable table = read_table("a.csv", "b_TX_9Hz , b_TY_9Hz , b_TY_9Hz , b_1_9Hz\n1 , 2 , 3 , 1\n");
   EXPECT_EQ(table.columns, (Strings{"b_TX_9Hz", "b_TY_9Hz", "b_TZ_9Hz", "b_1_9Hz"}));
-  EXPECT_EQ(table.notes.size(), 1u);
+  EXPECT_EQ(table.processing.size(), 1u);
 }
 
 TEST(MotionFile, ReadsRealFiles) {
@@ -135,17 +136,17 @@ TEST(MotionFile, ReadsRealFiles) {
   EXPECT_EQ(walk.in_degrees, true);
   EXPECT_EQ(walk.values[0].front(), 0.4);
   EXPECT_EQ(walk.values[0].back(), 1.6);
-  EXPECT_EQ(walk.notes, Strings{});
+  EXPECT_EQ(walk.processing, Strings{});
 
   const auto knee = *folder / "knee_lenhart2015_right";
   const MotionTable states = read_motion_table(knee / "passive_flexion_states.sto");
   EXPECT_EQ(states.rows, 251u);
   EXPECT_EQ(states.in_degrees, false);
-  EXPECT_EQ(states.notes, Strings{});
+  EXPECT_EQ(states.processing, Strings{});
   const MotionTable contact = read_motion_table(knee / "passive_flexion_contact_reference.sto");
   EXPECT_EQ(contact.columns.size(), 35u);
-  ASSERT_EQ(contact.notes.size(), 1u);
-  EXPECT_NE(contact.notes[0].find("inDegrees=no is followed"), std::string::npos);
+  ASSERT_EQ(contact.processing.size(), 1u);
+  EXPECT_NE(contact.processing[0].find("inDegrees=no is followed"), std::string::npos);
 }
 
 }  // namespace

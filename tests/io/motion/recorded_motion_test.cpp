@@ -36,7 +36,7 @@ TEST(RecordedCoordinates, UnitSignAndOffsetAreApplied) {
   EXPECT_EQ(out.frames, (std::vector<Frame>{{{-85, 0.5 * (180 / std::numbers::pi), 1250, -1.5}},
                                             {{35, -0.25 * (180 / std::numbers::pi), 2000, -3.5}}}));
   EXPECT_EQ(out.times.values, (std::vector<double>{0, 1}));
-  EXPECT_EQ(out.notes, Strings{});
+  EXPECT_EQ(out.processing, Strings{});
 }
 
 TEST(RecordedCoordinates, AnglesAreAsTheHeaderSays) {
@@ -77,7 +77,7 @@ TEST(RecordedCoordinates, AFrameWithAGapIsAGapAndOnlyInColumnsThatAreNeeded) {
       recorded_coordinates(table, {{.coordinate = "flexion", .column = "a", .unit = ColumnUnit::degrees},
                                    {.coordinate = "adduction", .column = "b", .unit = ColumnUnit::degrees}});
   EXPECT_EQ(out.frames, (std::vector<Frame>{{{1, 2}}, std::nullopt, std::nullopt, {{1, 2}}}));
-  EXPECT_EQ(out.notes,
+  EXPECT_EQ(out.processing,
             Strings{"2 of 4 frames are gaps, the first in line 3: they are left out, not interpolated"});
 }
 
@@ -173,8 +173,8 @@ TEST(RecordedPoses, WithoutAnyTranslationTheNamesTell) {
         {"F", "M", {}});
     EXPECT_NEAR(poses.X_FM[0]->linear()(0, 0), c, rounding);
     EXPECT_NEAR(poses.X_FM[0]->linear()(1, 0), s, rounding);
-    ASSERT_FALSE(poses.notes.empty());
-    EXPECT_NE(poses.notes.back().find("no matrix has a translation"), std::string::npos);
+    ASSERT_FALSE(poses.processing.empty());
+    EXPECT_NE(poses.processing.back().find("no matrix has a translation"), std::string::npos);
   }
 }
 
@@ -207,9 +207,9 @@ TEST(RecordedPoses, RotationsThatAreALittleOffBecomeTheNearestOnes) {
     // The singular value decomposition is good to some units of rounding.
     EXPECT_LE((poses.X_FM[0]->linear() - R).cwiseAbs().maxCoeff(), 4 * rounding) << stretch;
     // (1 + e)^2 - 1 = 2 e + e^2 is what it is off by.
-    EXPECT_EQ(poses.notes.size(), 2 * stretch > 1e-9 ? 1u : 0u) << stretch;
+    EXPECT_EQ(poses.processing.size(), 2 * stretch > 1e-9 ? 1u : 0u) << stretch;
     if (stretch > 1e-6) {
-      EXPECT_EQ(poses.notes[0],
+      EXPECT_EQ(poses.processing[0],
                 "rotations are orthonormal to 9.8e-05 only (line 2, 'M'): the nearest ones are used");
     }
   }
@@ -240,9 +240,9 @@ TEST(RecordedPoses, AKneeMeasuredByMriIsWhereItsReadmeSays) {
     EXPECT_LE((knee_angles(poses.X_FM[row]->linear()) / degree - angles_deg).cwiseAbs().maxCoeff(), 0.01)
         << row;
   }
-  ASSERT_EQ(poses.notes.size(), 2u);
-  EXPECT_EQ(poses.notes[0], "the header promises 48 rows and the file has 60: all of them are read");
-  EXPECT_TRUE(poses.notes[1].starts_with("rotations are orthonormal to ")) << poses.notes[1];
+  ASSERT_EQ(poses.processing.size(), 2u);
+  EXPECT_EQ(poses.processing[0], "the header promises 48 rows and the file has 60: all of them are read");
+  EXPECT_TRUE(poses.processing[1].starts_with("rotations are orthonormal to ")) << poses.processing[1];
 }
 
 TEST(RecordedCoordinates, OfARealWalkAndARealKnee) {
@@ -264,8 +264,9 @@ TEST(RecordedCoordinates, OfARealWalkAndARealKnee) {
         .kind = CoordinateKind::length,
         .column = "knee_tx_r",
         .unit = ColumnUnit::metres}});
-  EXPECT_NEAR(knee.frames[1]->at(0), -4.16602594765e-10 / degree, 1e-20);
-  EXPECT_NEAR(knee.frames[1]->at(1), 0.480085807434, 1e-12);
+  // The digits of the file, converted: a rounding of each number and one of each product.
+  EXPECT_DOUBLE_EQ(knee.frames[1]->at(0), -4.166025947653313e-10 / degree);
+  EXPECT_DOUBLE_EQ(knee.frames[1]->at(1), 0.4800858074338325);
 }
 
 }  // namespace

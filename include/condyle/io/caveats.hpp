@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/io/contact_entry.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/range_of_motion.hpp"
+
+/// What a number is not: which tissues an answer covers, and whether bone is what usually ends a motion. Written once, for every
+/// text, file, figure and page.
+
+namespace condyle {
+
+/// The tissues whose contact an answer covers, and those it does not: one line. A mesh is a cartilage, labrum, meniscus,
+/// ligament, capsule, tendon, muscle or implant where its name says so, else a bone; contact is called osseous only where all are bones.
+std::string scope_text(const Joint& joint);
+
+/// The same of the surfaces of an entry; one that carries a layer and is not called a cartilage is an elastic layer.
+std::string scope_text(const ContactEntry& entry, const ContactSurfaces& surfaces);
+
+/// The same of an answer about many joints, which may differ.
+std::string scope_text();
+
+enum class MotionCaveatCode : std::uint8_t {
+  bone_may_end,         ///< Bone met bone in normal hips in this motion.
+  soft_tissue_ends,     ///< Soft tissue ended it.
+  soft_tissue_close,    ///< Soft tissue ended it a few degrees before bone.
+  capsule_restrains,    ///< The capsule's ligaments restrain it.
+  labrum_not_modelled,  ///< A labrum ends it earlier, and no mesh is called one.
+  end_unknown,          ///< No source is known here.
+};
+
+/// As in files: "soft_tissue_ends".
+std::string_view name_of(MotionCaveatCode code) noexcept;
+
+/// What to know before a limit is compared with a living joint.
+struct MotionCaveat {
+  MotionCaveatCode code;
+  std::string_view summary;  ///< of several motions: "soft tissue usually ends them before bone does"
+  std::string_view text;     ///< one sentence
+  std::string_view source;   ///< where it is from; empty for end_unknown
+};
+
+/// The caveats of a motion, by its name, angle and sense. Every motion of a hip has one at least, which says whether bone usually
+/// ends it; for other joints no source is known here, and there are none.
+///
+///     flexion                            bone may end it         Turley et al. 2013
+///     extension                          soft tissue ends it     Turley et al. 2013
+///     abduction, adduction               not known
+///     internal_rotation, external_       the capsule restrains   van Arkel et al. 2015
+///     abduction_at_90_flexion            bone may end it         Turley et al. 2013
+///     adduction_at_90_flexion            soft tissue ends it     Turley et al. 2013
+///     internal_rotation_at_90_flexion    soft tissue ends it a few degrees earlier, Han et al. 2020; no labrum, PMC7754612
+///     external_rotation_at_90_flexion    the capsule restrains   van Arkel et al. 2015
+///     fadir                              bone may end it         Han et al. 2020; no labrum, PMC7754612
+///     faber                              the capsule restrains   van Arkel et al. 2015
+///
+/// No labrum: not where a mesh is called one.
+std::vector<MotionCaveat> motion_caveats(const Joint& joint, const Motion& motion);
+
+}  // namespace condyle

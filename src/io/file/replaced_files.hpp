@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+namespace condyle::io {
+
+/// Raises FileError, naming the file, where one of those that are to be written is one of those that were read: by another
+/// name, a hard or a symbolic link too.
+void check_replaces_none(std::span<const std::filesystem::path> written,
+                         std::span<const std::filesystem::path> read);
+
+/// What lies under a name that a result is to have.
+enum class NameTaken {
+  replaceable,  ///< nothing, a regular file, or a link to one or to nothing
+  folder,
+  written_into,  ///< a FIFO, or a device that takes characters one after the other: nothing can take its place
+  refused,       ///< a socket, or a disk as a device
+};
+NameTaken what_has_the_name(const std::filesystem::path& path);
+
+}  // namespace condyle::io

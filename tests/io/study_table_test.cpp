@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/sample_files.hpp"
+#include "condyle/io/study.hpp"
+#include "study_of_arms.hpp"
+
+/// What a study's table may say, and what is refused of it.
+
+namespace condyle::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(StudyTable, IsRefusedWithTheLineThatIsWrong) {
+  const TemporaryFolder folder;
+  const auto expect = [&](std::string_view text, std::string_view saying) {
+    const fs::path table = folder.file("table.csv", text);
+    try {
+      run_study({table, folder / "out"});
+      ADD_FAILURE() << text;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string_view(error.what()).find(saying), std::string_view::npos) << error.what();
+      EXPECT_NE(std::string_view(error.what()).find("table.csv"), std::string_view::npos) << error.what();
+    }
+    EXPECT_FALSE(fs::exists(folder / "out")) << text;
+  };
+  expect("", "has no names of columns");
+  expect("id,joint\n", "has no row");
+  expect("joint\na.toml\n", "line 1: there is no column 'id'");
+  expect("id,joint,joint\na,b,c\n", "line 1: column 'joint' is there twice");
+  expect("id,joint,\na,b,c\n", "line 1: column 3 has no name");
+  expect("id;joint\na;b\n", "columns must be separated by commas");
+  expect("id,joint\na,b\n\nc\n", "line 4: 1 fields where there are 2 columns");
+  expect("id,joint\na,b\n,c\n", "line 3: id is empty");
+  expect("id,joint\na,b\nc,d\na,e\n", "line 4: id 'a' is that of line 2");
+  expect("id,joint\n\"a,b\n", "line 2: a quote is not closed");
+  expect("id,joint,a/b\nx,y,z\n", "line 1: column 'a/b'");
+  expect(std::string_view("id,joint,a\0b\nx,y,z\n", 19), "a name has no control characters");
+  expect("id,joint," + std::string(1001, 'a') + "\nx,y,z\n", "column 3 has a name of 1001 bytes");
+  expect("id,joint,limit_deg,table_limit_deg\nx,y,1,2\n", "line 1: column 'table_limit_deg' is there twice");
+  expect("id,sample,haed_radius_mm\na,1,25\n",
+         "line 1: column 'haed_radius_mm': did you mean 'head_radius_mm'?");
+  expect("id,sample,Head_Radius_MM\na,1,25\n", "did you mean 'head_radius_mm'?");
+  expect("id,sample,sdie\na,1,left\n", "did you mean 'side'?");
+  expect("id,fixed,mobile,side,unit\na,b,c,left,m\n", "did you mean 'units'?");
+  expect("id,fixed,mobile,side,axis\na,b,c,left,LPS\n", "did you mean 'axes'?");
+  expect("id,fixed,moblie,side\na,b,c,left\n", "did you mean 'mobile'?");
+  expect("id,jiont\na,b\n", "did you mean 'joint'?");
+  expect(std::string_view("id,joint,a\nx,y,\0z\n", 18), "line 2: has a character 0");
+}
+
+TEST(StudyTable, CarriesColumnsThatAreNearlyCalledAsOnesThatItHasOrDoesNotNeed) {
+  const TemporaryFolder folder;
+  const fs::path table = folder.file(
+      "table.csv", "id,joint,side,site,haed_radius_mm,unit,age\na,nothere.toml,,Bern,25,orthopaedics,61\n");
+  run_study({table, folder / "out"});
+  const auto failure = rows_of(folder / "out/failures.csv").at(0);
+  for (const char* column : {"site", "haed_radius_mm", "unit", "age"}) EXPECT_TRUE(failure.contains(column));
+}
+
+TEST(StudyTable, TakesAByteOrderMarkCommentsAndLineEndsOfWindows) {
+  const TemporaryFolder folder;
+  const SmallCohort cohort(folder.path(), 1);
+  const fs::path table =
+      folder.file("other.csv", "\xEF\xBB\xBF# a remark\r\nid,joint,reason\r\nh1,hip1.toml,why not\r\n");
+  EXPECT_EQ(run_study({table, folder / "out"})->joints, 1u);
+  const auto rows = rows_of(folder / "out/limits.csv");
+  EXPECT_EQ(rows[0].at("table_reason"), "why not");
+  EXPECT_EQ(rows[0].at("reason"), "contact");
+}
+
+TEST(StudyOfMeshes, TakesSideUnitsAndAxesFromTheTable) {
+  const TemporaryFolder folder;
+  const SampleHip hip = sample_hip({}, Scenario::one);
+  {
+    OutputFolder out(folder / "hip");
+    write_sample_hip(out, hip, Side::right);
+    out.commit();
+  }
+  TriMesh bone = hip.hip_bone, femur = hip.femur;
+  // In metres, X to the right, Y anterior, Z superior.
+  for (TriMesh* mesh : {&bone, &femur})
+    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
+      const Vec3 p = mesh->vertices[v];
+      mesh->vertices.set(v, Vec3(p.z(), p.x(), p.y()) / 1000);
+    }
+  write_mesh(folder / "bone_ras.ply", bone);
+  write_mesh(folder / "femur_ras.ply", femur);
+  folder.file("table.csv",
+              "id,joint,fixed,mobile,side,units,axes\n"
+              "a,hip/hip.toml,,,,,\n"
+              "b,,bone_ras.ply,femur_ras.ply,right,m,RAS\n"
+              "c,,bone_ras.ply,femur_ras.ply,,m,RAS\n"
+              "d,,bone_ras.ply,femur_ras.ply,right,cm,RAS\n"
+              "e,hip/hip.toml,bone_ras.ply,femur_ras.ply,right,m,RAS\n"
+              "f,,bone_ras.ply,femur_ras.ply,right,m,ras\n"
+              "g,,bone_ras.ply,femur_ras.ply,R,m,RAS\n");
+  Study study{folder / "table.csv", folder / "out"};
+  study.options.motions = {"flexion", "fadir"};
+  run_study(study);
+  const auto limits = rows_of(folder / "out/limits.csv");
+  ASSERT_EQ(limits.size(), 4u);
+  // The centre of b is fitted to the head: within what triangles sag below the sphere.
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(std::stod(limits[i].at("limit_deg")), std::stod(limits[i + 2].at("limit_deg")), 0.5);
+  const auto failures = rows_of(folder / "out/failures.csv");
+  ASSERT_EQ(failures.size(), 5u);
+  EXPECT_NE(failures[0].at("message").find("line 4: column 'side': right or left is needed"),
+            std::string::npos);
+  EXPECT_NE(failures[1].at("message").find("line 5: column 'units': 'cm' is none of mm, m"),
+            std::string::npos);
+  EXPECT_NE(failures[2].at("message").find("line 6: a row needs"), std::string::npos);
+  // Words are spelt as in joint files.
+  EXPECT_NE(failures[3].at("message").find("line 7: column 'axes': 'ras' is none of joint, RAS, LPS"),
+            std::string::npos);
+  EXPECT_NE(failures[4].at("message").find("line 8: column 'side': 'R' is none of right, left"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle::test
