@@ -5,11 +5,13 @@ import condyle
 bones = condyle.sample_hip()  # or condyle.read_mesh("hip_bone.stl"), condyle.read_mesh("femur.stl")
 print(condyle.inspect(bones.femur))
 joint = condyle.Joint(bones.hip_bone, bones.femur, centre="fit", name="right hip")
-for note in joint.notes:
-    print(note)
+print(*joint.processing, sep="\n")  # the fit of the centre
+for note in joint.notes:  # what looks wrong; the first answer warns of it too
+    print(note.code, note.text)
 
-penetration = joint.penetration(joint.pose(flexion_deg=140))
-print(penetration)
+pose = joint.pose(flexion_deg=140)
+print(joint.depths(pose))
+print(joint.contact_measures(pose))
 
 rom = joint.range_of_motion()
 for limit in rom:

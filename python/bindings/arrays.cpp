@@ -127,7 +127,19 @@ py::object optional_number(const std::optional<double>& number) {
   return py::float_(*number);
 }
 
+void refuse_masked(const py::object& given, std::string_view name) {
+  // Loaded with numpy; an array of numpy itself, the usual case, is none.
+  if (Py_TYPE(given.ptr()) == reinterpret_cast<PyTypeObject*>(py::detail::npy_api::get().PyArray_Type_))
+    return;
+  if (py::isinstance<py::array>(given) && py::hasattr(given, "mask") && py::hasattr(given, "filled"))
+    throw UsageError(
+        fmt::format("{}: a masked array is not read, since what is masked has no value: give its filled() or "
+                    "compressed()",
+                    name));
+}
+
 py::array array_in(const py::object& given, std::string_view name, std::string_view wanted) {
+  refuse_masked(given, name);
   py::array array = py::array::ensure(given);  // clears the error where there is one
   if (!array || array.dtype().kind() == 'O')
     throw UsageError(fmt::format("{}: an array of shape {} is needed, not {}", name, wanted,

@@ -59,6 +59,9 @@ py::array array_of(const Pose& pose);
 py::object optional_array(const std::optional<Vec3>& vector);
 py::object optional_number(const std::optional<double>& number);
 
+/// UsageError for a masked array of numpy: its masked elements hold numbers that mean nothing.
+void refuse_masked(const py::object& given, std::string_view name);
+
 /// An array of numbers; `wanted` is what its shape is called in messages: "(V, 3)".
 py::array array_in(const py::object& given, std::string_view name, std::string_view wanted);
 /// The same of this shape; a size of -1 is any.

@@ -66,7 +66,7 @@ py::dict measures(const JointHandle& handle, const py::object& pose) {
     const RadialContact contact = handle.contact.radial(X_FM);
     in_contact = contact.in_contact;
     pair_count = contact.pairs.size();
-    return measure_contact(handle.contact, X_FM, VertexStates(contact));
+    return measure_contact(handle.contact, X_FM, MeasuredContact(contact), DistancesOf::all_vertices);
   }();
   py::dict dict;
   dict["in_contact"] = in_contact;
@@ -79,6 +79,9 @@ py::dict measures(const JointHandle& handle, const py::object& pose) {
   dict["mobile"] = patch_dict(found.mobile);
   dict["fixed"] = patch_dict(found.fixed);
   dict["volume_mm3"] = optional_number(found.volume_mm3);
+  dict["volume_error_mm3"] = found.volume_error_mm3;
+  dict["mobile_covered_again_mm3"] = found.mobile_covered_again_mm3;
+  dict["fixed_covered_again_mm3"] = found.fixed_covered_again_mm3;
   dict["centroid"] = optional_array(found.centroid);
   return dict;
 }
@@ -89,12 +92,9 @@ py::tuple reliable(const JointHandle& handle, const py::object& pose) {
   const Joint& joint = handle.joint();
   ReliableContact found = [&] {
     const py::gil_scoped_release released;
-    const RadialContact contact = handle.contact.radial(X_FM);
-    const NearestDistances distances = measure_contact(handle.contact, X_FM, VertexStates(contact)).distances;
-    const bool rotated_only = X_FM.translation() == Vec3::Zero();
-    return rotated_only ? reliable_depths(handle.contact, joint.kind, joint.coordinates(),
-                                          angles_at(joint.coordinates(), X_FM), contact, distances)
-                        : reliable_radial_depths(contact, distances);
+    return depth_at(handle.contact, joint, angles_at(joint.coordinates(), X_FM), X_FM, DepthMethod::reliable,
+                    DistancesOf::vertices_inside)
+        .reliable;
   }();
   return py::make_tuple(optional_dict(found.mobile), optional_dict(found.fixed));
 }

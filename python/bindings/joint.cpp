@@ -6,10 +6,12 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/propose_joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "joint_description.hpp"
+#include "joint_state.hpp"
 
 namespace condyle::python {
 namespace {
@@ -25,7 +27,7 @@ std::unique_ptr<JointHandle> made(const py::dict& description, const std::string
   report.file.joint = description_in(description);
   const py::gil_scoped_release released;
   auto [joint, placement] = make_joint(report.file.joint, {fixed_name, fixed}, {mobile_name, mobile});
-  report.notes = placement.notes;
+  report.processing = placement.processing;
   report.placement = std::move(placement);
   return std::make_unique<JointHandle>(LoadedJoint{std::move(joint), std::move(report)});
 }
@@ -131,7 +133,8 @@ void bind_joint(py::module_& module) {
       .def_property_readonly("mobile_parts", [](const JointHandle& h) { return parts_of(h.joint().mobile); })
       .def_property_readonly("angle_names",
                              [](const JointHandle& h) { return angle_names(h.joint().anatomy); })
-      .def_property_readonly("notes", [](const JointHandle& h) { return h.loaded.report.notes; })
+      .def_property_readonly("scope", [](const JointHandle& h) { return scope_text(h.joint()); })
+      .def_property_readonly("processing", [](const JointHandle& h) { return h.loaded.report.processing; })
       .def_property_readonly("X_WF",
                              [](const JointHandle& h) { return array_of(h.loaded.report.placement.X_WF); })
       .def_property_readonly("reference_pose",
@@ -151,7 +154,11 @@ void bind_joint(py::module_& module) {
            })
       .def("poses_at", &poses_at)
       .def("coordinates_of", &coordinates_of)
-      .def("checks", &checks_of);
+      .def("checks", &checks_of)
+      .def(py::pickle([](const JointHandle& h) { return py::bytes(state_of(h.loaded)); },
+                      [](const py::bytes& state) {
+                        return std::make_unique<JointHandle>(joint_of_state(std::string_view(state)));
+                      }));
   module.def("propose_joint", &proposed);
   module.def("angle_names_of", &angle_names_of);
   module.def("read_joint", &read);

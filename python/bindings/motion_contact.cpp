@@ -14,13 +14,16 @@
 namespace condyle::python {
 namespace {
 
-py::dict balance_dict(BalancedPose&& found, const ElasticContact& surfaces) {
+py::dict balance_dict(BalancedPose&& found, const ElasticContact& surfaces, const Load& load) {
   py::dict dict;
   dict["outcome"] = name_of(found.outcome);
   dict["reason"] = reason_of(found);
   dict["X_FM"] = array_of(found.X_FM);
   dict["residual"] = tuple_of(found.residual);
   dict["steps"] = found.steps;
+  std::vector<ContactNote> notes = check_load(load);
+  add_new(notes, check_contact(found.contact));
+  dict["notes"] = list_of(notes);
   dict["contact"] = dict_of(std::move(found.contact), surfaces);
   return dict;
 }
@@ -50,7 +53,7 @@ py::dict balanced(const ElasticContact& surfaces, const py::object& start, const
     const py::gil_scoped_release released;
     return balance(surfaces, X_FM, load, options);
   }();
-  return balance_dict(std::move(found), surfaces);
+  return balance_dict(std::move(found), surfaces, load);
 }
 
 /// Forces and moments have a row for all frames, or one for each; None for gaps.
@@ -66,15 +69,19 @@ py::list balanced_along(const ElasticContact& surfaces, const py::object& poses,
     return balance_along(surfaces, X_FM, loads, options, {.progress = report, .stop = stop});
   });
   py::list answers;
-  for (std::optional<BalancedPose>& pose : *found)
-    answers.append(pose ? py::object(balance_dict(std::move(*pose), surfaces)) : py::none());
+  for (std::size_t i = 0; i < found->size(); ++i) {
+    std::optional<BalancedPose>& pose = (*found)[i];
+    const Load& load = loads.size() == 1 ? loads.front() : loads[i];
+    answers.append(pose ? py::object(balance_dict(std::move(*pose), surfaces, load)) : py::none());
+  }
   return answers;
 }
 
-/// Frames of a motion with the surfaces of an ElasticContact, or else of rays that `casting` sends; None for gaps.
-py::list along(const JointHandle& handle, const py::object& poses, const ElasticContact* elastic,
-               const std::string& casting, const std::string& rule, double reach_mm,
-               const py::object& progress) {
+/// Frames of a motion with the surfaces of an ElasticContact, or else of rays that `casting` sends; None for gaps. And the notes on
+/// them.
+py::tuple along(const JointHandle& handle, const py::object& poses, const ElasticContact* elastic,
+                const std::string& casting, const std::string& rule, double reach_mm,
+                const py::object& progress) {
   const std::vector<std::optional<Pose>> X_FM = poses_with_gaps_in(poses, "poses");
   const Mesh &fixed = handle.contact.fixed(), &mobile = handle.contact.mobile();
   const bool fixed_casts = casting_in(casting) == Casting::fixed;
@@ -111,7 +118,10 @@ py::list along(const JointHandle& handle, const py::object& poses, const Elastic
     dict["cut_off_by_reach"] = frame->cut_off_by_reach;
     answers.append(dict);
   }
-  return answers;
+  std::vector<ContactNote> notes;
+  if (elastic) notes = check_layers(*elastic);
+  add_new(notes, check_motion(*found));
+  return py::make_tuple(answers, list_of(notes));
 }
 
 }  // namespace

@@ -73,6 +73,16 @@ void bind_pressure(py::module_& module) {
              const py::gil_scoped_release released;
              return contact.cut_off_by_reach(X_FM);
            })
+      .def("refined_force_n",
+           [](const ElasticContact& contact, const py::object& pose) -> py::object {
+             const Pose X_FM = one_pose(pose, "pose");
+             const auto force = [&] {
+               const py::gil_scoped_release released;
+               return contact.refined_force_n(X_FM);
+             }();
+             return force ? py::object(array_of(*force)) : py::none();
+           })
+      .def("notes", [](const ElasticContact& contact) { return list_of(check_layers(contact)); })
       .def_property_readonly("fixed", &ElasticContact::fixed)
       .def_property_readonly("mobile", &ElasticContact::mobile);
   module.def("elastic_of_file", &elastic_of_file);

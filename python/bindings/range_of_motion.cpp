@@ -5,6 +5,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/rom_result.hpp"
 #include "condyle/path_limit.hpp"
 #include "interrupts.hpp"
@@ -93,13 +94,22 @@ py::list built_in(const JointHandle& handle) {
   return list;
 }
 
+/// Code, text and source of each; no source is None.
+py::list caveats(const JointHandle& handle, const py::tuple& motion) {
+  py::list list;
+  for (const auto& [code, summary, text, source] : motion_caveats(handle.joint(), motion_in(motion)))
+    list.append(
+        py::make_tuple(name_of(code), text, source.empty() ? py::object(py::none()) : py::str(source)));
+  return list;
+}
+
 py::object bearing_of(const RangeHandle& handle) {
   const auto& surface = handle.range.bearing().surface;
   if (!surface) return py::none();
   py::dict dict;
   dict["head_centre"] = array_of(surface->head.centre);
   dict["head_radius_mm"] = surface->head.radius;
-  dict["margin_mm"] = surface->parts.empty() ? py::object(py::float_(surface->margin_mm)) : py::none();
+  dict["margin_mm"] = surface->margin_mm;
   dict["parts"] = surface->parts;
   dict["rim_gap_mm"] = surface->rim_gap_mm;
   dict["triangles"] = array_of(std::vector<std::uint8_t>(surface->triangles));
@@ -143,6 +153,7 @@ void bind_range_of_motion(py::module_& module) {
       });
   module.def("range_of_motion", &ready);
   module.def("motions", &built_in);
+  module.def("motion_caveats", &caveats);
   module.def("path_limit", &path_limit);
 }
 

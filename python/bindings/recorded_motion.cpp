@@ -11,6 +11,7 @@
 #include "condyle/recorded_contact.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
+#include "surface_contact.hpp"
 
 namespace condyle::python {
 namespace {
@@ -26,7 +27,7 @@ py::dict table_of(const std::filesystem::path& path) {
   py::dict dict;
   dict["columns"] = columns;
   dict["in_degrees"] = table.in_degrees;
-  dict["notes"] = table.notes;
+  dict["processing"] = table.processing;
   return dict;
 }
 
@@ -49,15 +50,17 @@ py::dict motion_of_file(const JointHandle& handle, const std::filesystem::path& 
   dict["in_seconds"] = motion.times.in_seconds;
   dict["time"] = array_of(std::move(motion.times.values));
   dict["X_FM"] = poses;
-  dict["notes"] = motion.notes;
+  dict["processing"] = motion.processing;
+  dict["notes"] = list_of(motion.notes);
   return dict;
 }
 
-py::dict dict_of_end(const ContactEnd& end) {
+py::dict dict_of_end(const ContactEnd& end, ContactEndRole role) {
   py::dict dict;
-  dict["kind"] = name_of(end.kind);
+  dict["kind"] = name_of(end.kind, role);
   dict["time_s"] = end.time_s;
-  dict["uncertainty_s"] = end.uncertainty_s;
+  dict["uncertainty_s"] = end.kind == ContactEndKind::recording ? py::object(py::none())
+                                                                : py::object(py::float_(end.uncertainty_s));
   dict["sample"] = end.sample;
   dict["turned_deg"] = end.turned.degrees();
   dict["contact"] = dict_of(end.contact);
@@ -75,8 +78,8 @@ py::dict recorded(const JointHandle& handle, const py::object& time_s, const py:
   py::list contacts;
   for (const ContactInterval& interval : found->contacts) {
     py::dict dict;
-    dict["entry"] = dict_of_end(interval.entry);
-    dict["exit"] = dict_of_end(interval.exit);
+    dict["entry"] = dict_of_end(interval.entry, ContactEndRole::entry);
+    dict["exit"] = dict_of_end(interval.exit, ContactEndRole::exit);
     dict["is_certain"] = interval.is_certain;
     dict["undecided_s"] = interval.undecided_s;
     contacts.append(dict);

@@ -35,6 +35,8 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
             const py::object& progress) {
   const std::vector<Motion> motions = motions_in(given);
   const LoadedJoint& loaded = handle.loaded;
+  std::optional<Provenance> from = files_of(loaded);
+  check_report_file(path, from ? &*from : nullptr);
   followed(progress, [&](const auto& follow, const std::stop_token& stop) {
     std::vector<MotionLimit> limits;
     each_limit(range.range, motions, stop, [&](MotionLimit&& limit) { limits.push_back(std::move(limit)); });
@@ -48,7 +50,6 @@ void report(const RangeHandle& range, const JointHandle& handle, const std::file
     const auto zones = zones_past(range, limits, past_deg);
     const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
     std::vector<std::string> terms = terms_of(range.options, range.range);
-    std::optional<Provenance> from = files_of(loaded);
     if (range.held_translation_mm) {
       terms.push_back(term_of_held(*range.held_translation_mm));
       if (from) from->frame = from->frame.of_held(*range.held_translation_mm);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "bindings.hpp"
+#include "condyle/io/grid_text.hpp"
 #include "condyle/io/sample_files.hpp"
 #include "interrupts.hpp"
 #include "surface_contact.hpp"
@@ -13,10 +14,10 @@ namespace condyle::python {
 namespace {
 
 /// Of what StudyLoad of Python has checked.
-StudyLoad load_in(const py::dict& given) {
+StudyLoad load_in(const py::dict& given, Anatomy anatomy) {
   const auto numbers = [&](const char* name) { return given[name].cast<std::vector<double>>(); };
   StudyLoad load;
-  load.at = parse_pose(given["at"].cast<std::string>(), JointKind::ball, Anatomy::hip);
+  load.at = study_pose(given["at"].cast<std::string>(), anatomy);
   load.contact.youngs_modulus_mpa = numbers("youngs_modulus_mpa");
   load.contact.poisson_ratio = numbers("poisson_ratio");
   load.contact.thickness_mm = numbers("thickness_mm");
@@ -35,43 +36,71 @@ StudyLoad load_in(const py::dict& given) {
   return load;
 }
 
-/// Of what run_study() of Python has checked; no bands where there are no samples.
-struct Asked {
-  std::vector<std::string> motions;
-  std::size_t band_samples;
-  std::optional<std::uint64_t> band_seed;
-  std::string depth_at;
-  std::optional<py::dict> load;
-};
+MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
+  MapGrid grid;
+  grid.column = parse_grid_axis(given[0].cast<std::string>(), anatomy);
+  grid.row = parse_grid_axis(given[1].cast<std::string>(), anatomy);
+  if (const py::object vary = given[2]; !vary.is_none()) {
+    grid.vary = joint_angle_named(vary.cast<std::string>(), anatomy);
+  } else {
+    for (const JointAngle angle : all_joint_angles)
+      if (angle != grid.column.angle && angle != grid.row.angle) grid.vary = angle;
+  }
+  check_grid(grid, JointKind::ball);
+  return grid;
+}
 
-StudyOptions options_of(const Asked& asked) {
+/// Options that run_study() of Python has checked; no bands without samples.
+StudyOptions options_in(const py::dict& given) {
   StudyOptions options;
-  options.motions = asked.motions;
-  if (asked.band_samples > 0) options.bands = {asked.band_samples, asked.band_seed, {}};
-  if (!asked.depth_at.empty())
-    options.depth_at = parse_pose(asked.depth_at, JointKind::ball, options.anatomy);
-  if (asked.load) options.load = load_in(*asked.load);
+  for (const Anatomy anatomy : all_anatomies)
+    if (given["anatomy"].cast<std::string>() == name_of(anatomy)) options.anatomy = anatomy;
+  options.motions = given["motions"].cast<std::vector<std::string>>();
+  if (given["count_bearing"].cast<bool>()) options.bearing.rule = BearingRule::count;
+  options.bearing.margin_mm = given["bearing_margin_mm"].cast<std::optional<double>>();
+  if (given["accept_reference_contact"].cast<bool>()) options.reference_contact = ReferenceContact::accept;
+  if (given["exclude_reference_contacts"].cast<bool>()) options.leave_out_reference_contacts.emplace();
+  if (const py::object map = given["map"]; !map.is_none())
+    options.map = grid_in(map.cast<py::tuple>(), options.anatomy);
+  const auto sigma = [&](const char* name) { return given[name].cast<std::optional<double>>(); };
+  if (const auto samples = given["band_samples"].cast<std::size_t>(); samples > 0)
+    options.bands = {samples,
+                     given["seed"].cast<std::optional<std::uint64_t>>(),
+                     {sigma("sigma_centre_mm"), sigma("sigma_axes_deg"), sigma("sigma_surface_mm")}};
+  if (const auto pose = given["depth_at"].cast<std::string>(); !pose.empty())
+    options.depth_at = study_pose(pose, options.anatomy);
+  if (const py::object load = given["load"]; !load.is_none())
+    options.load = load_in(load.cast<py::dict>(), options.anatomy);
   return options;
 }
 
-py::tuple study(const std::string& table, const std::string& folder, const std::vector<std::string>& motions,
-                std::size_t band_samples, std::optional<std::uint64_t> seed, const std::string& depth_at,
-                const std::optional<py::dict>& load, std::optional<std::pair<std::size_t, std::size_t>> shard,
-                bool is_strict, const py::object& progress) {
-  Study one{table, folder, options_of({motions, band_samples, seed, depth_at, load}), {}, {}};
+/// Names and codes.
+std::vector<std::pair<std::string, std::string>> noted(const StudyDone& done) {
+  std::vector<std::pair<std::string, std::string>> joints;
+  for (const NotedJoint& joint : done.noted) joints.emplace_back(joint.id, joint.codes);
+  return joints;
+}
+
+std::vector<std::pair<std::string, std::string>> study(
+    const std::string& table, const std::string& folder, const py::dict& options,
+    std::optional<std::pair<std::size_t, std::size_t>> shard, bool is_strict, const py::object& progress) {
+  Study one{table, folder, options_in(options), {}, {}};
   if (shard) one.shard = {shard->first, shard->second};
   if (is_strict) one.bad_joint = BadJoint::ends_run;
   const auto done = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     return run_study(one, {report, stop});
   });
-  return py::make_tuple(done->joints, done->failures);
+  if (!shard) require_answered(*done, one.table);
+  return noted(*done);
 }
 
-py::tuple merge(const std::string& folder) {
-  const py::gil_scoped_release released;
-  const StudyDone done = merge_study(folder);
-  const py::gil_scoped_acquire held;
-  return py::make_tuple(done.joints, done.failures);
+std::vector<std::pair<std::string, std::string>> merge(const std::string& folder) {
+  const StudyDone done = [&] {
+    const py::gil_scoped_release released;
+    return merge_study(folder);
+  }();
+  require_answered(done, folder);
+  return noted(done);
 }
 
 void cohort(const std::string& folder, std::size_t n, std::uint64_t seed, int scenario, bool with_meshes,

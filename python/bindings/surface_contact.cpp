@@ -45,6 +45,9 @@ py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule) {
   dict["totals"] = dict_of(contact.totals);
   dict["met_from_front"] = contact.met_from_front;
   dict["rim_faces"] = contact.rim_faces;
+  dict["oblique_area_mm2"] = contact.oblique_area_mm2;
+  dict["peak_is_oblique"] = contact.peak_is_oblique;
+  dict["max_strain"] = contact.max_strain;
   const py::object owner = py::cast(ContactFaces{std::move(contact.faces), casting, rule});
   const std::vector<FaceContact>& faces = owner.cast<const ContactFaces&>().faces;
   dict["_faces"] = owner;
@@ -60,12 +63,21 @@ py::dict dict_of(SurfaceContact&& contact, const Mesh& casting, FaceRule rule) {
   return dict;
 }
 
+py::list list_of(const std::vector<ContactNote>& notes) {
+  py::list list;
+  for (const ContactNote& note : notes)
+    list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  return list;
+}
+
 py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces) {
+  const py::list notes = list_of(check_contact(results));
   const auto of = [&](std::optional<SurfaceContact>& surface, const Mesh& casting) -> py::object {
     if (!surface) return py::none();
     return dict_of(std::move(*surface), casting, surfaces.options().rays.rule);
   };
   py::dict dict;
+  dict["notes"] = notes;
   dict["fixed"] = of(results.fixed, surfaces.fixed());
   dict["mobile"] = of(results.mobile, surfaces.mobile());
   dict["force_n"] = array_of(results.on_mobile.force_n);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "condyle/contact_checks.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 
@@ -25,6 +26,8 @@ py::dict dict_of(const ContactTotals& totals);
 /// Of what each body casts.
 py::dict dict_of(ElasticContactResults&& results, const ElasticContact& surfaces);
 py::tuple tuple_of(const Wrench& wrench);
+/// (code, text) of each.
+py::list list_of(const std::vector<ContactNote>& notes);
 
 /// By words that were checked in Python.
 Casting casting_in(const std::string& word);

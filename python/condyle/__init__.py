@@ -2,13 +2,15 @@
 
 Arrays are numpy's, lengths are millimetres, angles degrees; names say so where they have a unit. Frames: F is that of
 the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_F = X_FM p_M. Errors are
-:class:`FileError`, :class:`MeshError` and :class:`UsageError`, each with one line.
+:class:`FileError`, :class:`MeshError` and :class:`UsageError`, each with one line; what looks wrong with a joint is a
+:class:`JointWarning` at its first answer.
 """
 
 from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, neck_clock, sagittal_clock
+from ._contact_checks import ContactNote
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
 from ._described_joint import BodyPart, JointNote
-from ._errors import FileError, MeshError, ReferenceContactError, UsageError
+from ._errors import FileError, JointWarning, MeshError, ReferenceContactError, UsageError
 from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
@@ -16,10 +18,10 @@ from ._impingement_zone import BodyZone, ImpingementZone
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
 from ._limit_band import LimitBand
-from ._limits import KINDS, REASONS, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
+from ._limits import KINDS, REASONS, Caveat, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._motion import Motion
-from ._motion_contact import FrameContact
+from ._motion_contact import ContactFrames, FrameContact
 from ._motion_map import MapEnds, MotionMap
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
@@ -34,12 +36,13 @@ from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thic
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalanceOptions", "BalancedPose", "BodyPart", "BodyZone", "ClockFace", "ContactEnd", "ContactInterval",
-    "ContactMeasures", "ContactPatch", "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace",
+    "BalanceOptions", "BalancedPose", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ContactEnd", "ContactFrames",
+    "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactTotals", "ContactWitness", "CylinderFit",
+    "DeepestPlace",
     "DepthLimit", "DepthRange", "Depths", "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError",
     "Finding", "FirstContact", "FrameContact", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone",
-    "Joint", "JointMotion", "JointNote", "JointProposal", "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent",
-    "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX",
+    "Joint", "JointMotion", "JointNote", "JointProposal", "JointWarning", "KINDS", "Limit", "LimitBand", "MapEnds",
+    "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX",
     "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs", "PathLimit", "Penetration", "Penetrations", "REASONS",
     "RadialTable", "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits",
     "SampleCartilages", "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "TriMesh",

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._errors import UsageError
+from ._words import refuse_masked
 
 
 def position_in(given: Mapping[str, Any], names: Any, what: str, *, is_free: bool
@@ -35,6 +36,7 @@ def _table(given: Mapping[str, Any], names: Any, what: str, of_angles: str, of_l
         if name not in known:
             raise UsageError(f"{what}: unknown {str(name)[:60]!r}; there are {', '.join(known)}")
         column, sign = known[name]
+        refuse_masked(value, f"{what}: {name}")
         try:
             values = np.asarray(value)
             if values.dtype.kind not in "fiu" or values.ndim > most_dimensions:

@@ -66,7 +66,7 @@ class DepthRange:
                  ) -> None:
         self._joint = joint
         self._motions = Motions(joint._native)
-        self._native = _native.DepthRange(joint._native, number(allowed_depth_mm, "allowed_depth_mm"),
+        self._native = _native.DepthRange(joint._asked, number(allowed_depth_mm, "allowed_depth_mm"),
                                           number(step_deg, "step_deg"), number(tolerance_deg, "tolerance_deg"))
 
     def deepest(self, angles_deg: Mapping[str, float] = {}) -> DeepestPlace:

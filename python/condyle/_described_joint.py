@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._words import text_of, word
@@ -38,10 +41,17 @@ class JointNote:
 class DescribedJoint:
     """A joint before anything is asked of it."""
 
-    __slots__ = ("_native", "_fixed", "_mobile")
+    __slots__ = ("_native", "_fixed", "_mobile", "_notes", "_has_warned", "_lock")
     _native: NativeJoint
     _fixed: TriMesh
     _mobile: TriMesh
+    _notes: Optional[tuple[JointNote, ...]]
+    _has_warned: bool
+    _lock: Any
+
+    def _hold(self, native: NativeJoint, fixed: TriMesh, mobile: TriMesh) -> None:
+        self._native, self._fixed, self._mobile = native, fixed, mobile
+        self._notes, self._has_warned, self._lock = None, False, threading.RLock()
 
     @property
     def name(self) -> str:
@@ -121,13 +131,50 @@ class DescribedJoint:
         return pose
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What was converted, repaired or fitted, one line each."""
-        return tuple(self._native.notes)
+    def scope(self) -> str:
+        """The tissues whose contact answers cover, by the names of the meshes, and those they do not, in one line."""
+        return self._native.scope
 
-    def checks(self) -> tuple[JointNote, ...]:
-        """What looks wrong with the joint; nothing is changed. Half a second for 50,000 triangles.
+    @property
+    def processing(self) -> tuple[str, ...]:
+        """What was converted, repaired or fitted on the way to this joint, one line each."""
+        return tuple(self._native.processing)
+
+    @property
+    def notes(self) -> tuple[JointNote, ...]:
+        """What looks wrong with the joint, as `notes` of the command's JSON: docs/checks.md. Nothing is changed.
+
+        Computed once, here or at the first answer, which warns of each (:class:`JointWarning`): some tenths of a second
+        for 50,000 triangles.
 
         C++: `condyle::check_joint` in condyle/joint_checks.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(side="right")
+        >>> [note.code for note in condyle.Joint(bones.hip_bone, bones.femur, side="left").notes]
+        ['wrong_side']
         """
-        return tuple(JointNote(code, text) for code, text in self._native.checks())
+        if self._notes is None:
+            with self._lock:
+                if self._notes is None:
+                    self._notes = tuple(JointNote(code, text) for code, text in self._native.checks())
+        return self._notes
+
+    @property
+    def _asked(self) -> NativeJoint:
+        """The compiled joint, of which an answer is asked. The first one warns of each note."""
+        if not self._has_warned:
+            with self._lock:
+                self._warn()
+        return self._native
+
+    def _warn(self) -> None:
+        if self._has_warned:
+            return
+        self._has_warned = True  # whoever shows a warning may ask the joint
+        try:
+            for note in self.notes:
+                warn(f"{self.name}: {note.code}: {note.text}")
+        except BaseException:  # a warning that is an error is one again at the next answer
+            self._has_warned = False
+            raise

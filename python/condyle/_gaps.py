@@ -122,6 +122,19 @@ class Depths(BothBodies):
     mobile: Optional[VertexDepths]
     fixed: Optional[VertexDepths]
 
+    @property
+    def max_depth_mm(self) -> float:
+        """The depth that `condyle depth` leads with, of either body's deepest vertex; 0 if no vertex is inside.
+
+        NaN if vertices are inside and neither ray nor arc is a depth of any.
+        """
+        bodies = [body for body in (self.mobile, self.fixed) if body is not None]
+        return max((float(body.depth_mm[body.deepest]) for body in bodies if body.deepest is not None),
+                   default=float("nan") if any(body.without for body in bodies) else 0.0)
+
+    def __repr__(self) -> str:
+        return f"Depths({self.max_depth_mm:.3f} mm; mobile={self.mobile!r}, fixed={self.fixed!r})"
+
 
 @dataclass(frozen=True)
 class ContactPatch:
@@ -155,7 +168,12 @@ class ContactMeasures:
     mobile, fixed : ContactPatch or None
         None where the other mesh is open.
     volume_mm3 : float or None
-        Of the space inside both; None where either mesh is open.
+        Of the space inside both, each point as often as the bodies cover it; None where either mesh is open.
+    volume_error_mm3 : float
+        A bound on what the volume is off by rounding.
+    mobile_covered_again_mm3, fixed_covered_again_mm3 : float
+        By how much the body covers the surroundings of the overlap more than once: above 0 where it crosses itself or
+        has a component in another, and the volume may count space there twice.
     centroid : (3,) float64 or None
         Of the patches of both, in F.
     """
@@ -170,16 +188,23 @@ class ContactMeasures:
     mobile: Optional[ContactPatch]
     fixed: Optional[ContactPatch]
     volume_mm3: Optional[float]
+    volume_error_mm3: float
+    mobile_covered_again_mm3: float
+    fixed_covered_again_mm3: float
     centroid: Optional[NDArray[np.float64]]
 
     def _rows(self) -> list[tuple[str, str]]:
-        rows = [("in contact", "yes" if self.in_contact else "no"), ("triangle pairs", str(self.intersecting_pairs)),
-                ("smallest gap", f"{self.smallest_gap_mm:.6g} mm")]
+        rows = [("in contact", "yes" if self.in_contact else "no"), ("triangle pairs", str(self.intersecting_pairs))]
+        if not self.in_contact:
+            rows.append(("smallest gap", f"{self.smallest_gap_mm:.6g} mm"))
         for name, patch in (("mobile", self.mobile), ("fixed", self.fixed)):
             if patch is not None and patch.mean_depth_mm is not None:
                 rows.append((f"{name} patch", f"{patch.area_mm2:.6g} mm2, mean depth {patch.mean_depth_mm:.6g} mm"))
         if self.volume_mm3 is not None:
-            rows.append(("overlap", f"{self.volume_mm3:.6g} mm3"))
+            rows.append(("overlap", f"{self.volume_mm3:.6g} mm3, to within {self.volume_error_mm3:.0e}"))
+        for name, again in (("mobile", self.mobile_covered_again_mm3), ("fixed", self.fixed_covered_again_mm3)):
+            if again > 0:
+                rows.append((f"{name} covers again", f"{again:.3g} mm3 about the overlap: it may count twice"))
         return rows
 
     def __repr__(self) -> str:

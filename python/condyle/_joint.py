@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
+from ._contact_checks import reported
 from ._coordinates import positions_in
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
@@ -17,7 +18,7 @@ from ._joint_description import description_of
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._motion import MotionLike
-from ._motion_contact import FrameContact, contact_along
+from ._motion_contact import ContactFrames, contact_along
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
 from ._pressure import ElasticContact
@@ -62,7 +63,9 @@ class Joint(DescribedJoint):
     UsageError
         Where the description cannot be followed. MeshError where a fit finds nothing.
 
-    Any number of threads may ask; tables are built when the first question needs them, and kept.
+    What looks wrong (`notes`) is warned of at the first answer: :class:`JointWarning`. Any number of threads may ask;
+    tables are built when the first question needs them, and kept. Joints can be pickled; copies are the joint itself,
+    which nothing changes.
 
     C++: `condyle::make_joint` in condyle/make_joint.hpp, `condyle::JointContact` in condyle/contact.hpp.
 
@@ -93,21 +96,34 @@ class Joint(DescribedJoint):
             landmarks=landmarks, reference_pose=reference_pose, fixed_in_W=fixed_in_W, mobile_in_W=mobile_in_W)
         for text, what in ((fixed_name, "fixed_name"), (mobile_name, "mobile_name")):
             text_of(text, what)
-        self._native = _native.make_joint(description, fixed_name, fixed._native, mobile_name, mobile._native)
-        self._fixed = TriMesh._moved(self._native.fixed, fixed)
-        self._mobile = TriMesh._moved(self._native.mobile, mobile)
+        native = _native.make_joint(description, fixed_name, fixed._native, mobile_name, mobile._native)
+        self._hold(native, TriMesh._moved(native.fixed, fixed), TriMesh._moved(native.mobile, mobile))
 
     @classmethod
     def _of_native(cls, native: NativeJoint) -> Joint:
-        joint = cls.__new__(cls)
-        joint._native = native
-        joint._fixed, joint._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
-        return joint
+        return cls._remade(native, (None, None, None, ()), (None, None, None, ()))
 
     @classmethod
     def from_file(cls, path: Path) -> Joint:
         """The same as :func:`read_joint`."""
         return cls._of_native(_native.read_joint(path_of(path)))
+
+    # Copies. Nothing changes a joint: a copy is the joint itself, with the tables that it has built.
+
+    def __copy__(self) -> Joint:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Joint:
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Joint._remade, (self._native, self._fixed._numbering(), self._mobile._numbering())
+
+    @classmethod
+    def _remade(cls, native: NativeJoint, fixed: tuple[Any, ...], mobile: tuple[Any, ...]) -> Joint:
+        joint = cls.__new__(cls)
+        joint._hold(native, TriMesh._numbered(native.fixed, *fixed), TriMesh._numbered(native.mobile, *mobile))
+        return joint
 
     # Where it is.
 
@@ -158,6 +174,11 @@ class Joint(DescribedJoint):
         """Matrices, or a mapping of coordinates as `pose()` takes them."""
         return self.pose(**pose) if isinstance(pose, Mapping) else pose
 
+    def _asked_at(self, pose: PoseLike) -> tuple[NativeJoint, Any]:
+        """The joint and where it is asked: what is no pose is refused before a warning is given."""
+        matrices = self._matrices(pose)
+        return self._asked, matrices
+
     def _angle(self, about: str) -> int:
         positive = tuple(names[0] for names in self._native.angle_names)
         return positive.index(word(about, "about", positive))
@@ -193,8 +214,9 @@ class Joint(DescribedJoint):
         >>> import condyle
         >>> bones = condyle.sample_hip()
         >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
-        >>> joint.penetration(joint.pose(flexion_deg=140))
-        Penetration(radial; mobile 41 vertices up to 16.474 mm; fixed 26 vertices up to 25.977 mm)
+        >>> inside = joint.penetration(joint.pose(flexion_deg=140))
+        >>> len(inside.mobile), len(inside.fixed)
+        (41, 26)
         >>> many = joint.penetration(joint.pose(flexion_deg=[0, 70, 140]))
         >>> [len(each.mobile) for each in many]
         [0, 0, 41]
@@ -209,10 +231,10 @@ class Joint(DescribedJoint):
         matrices = self._matrices(pose)
         if method == "radial":
             is_one, mobile, fixed = _native.penetration_radial(
-                self._native, matrices, bodies != "fixed", bodies != "mobile", progress_of(progress))
+                self._asked, matrices, bodies != "fixed", bodies != "mobile", progress_of(progress))
         else:
             is_one, mobile, fixed = _native.penetration_tangential(
-                self._native, matrices, 0 if about is None else self._angle(about), progress_of(progress))
+                self._asked, matrices, 0 if about is None else self._angle(about), progress_of(progress))
         inside = vertices_inside(mobile, self._mobile, is_one), vertices_inside(fixed, self._fixed, is_one)
         if is_one:
             return Penetration(*inside, method)
@@ -225,7 +247,7 @@ class Joint(DescribedJoint):
 
         C++: `JointContact::pairs` in condyle/contact.hpp.
         """
-        is_one, found, offset = _native.pairs(self._native, self._matrices(pose), progress_of(progress))
+        is_one, found, offset = _native.pairs(*self._asked_at(pose), progress_of(progress))
         return found if is_one else [found[first:last] for first, last in zip(offset[:-1], offset[1:])]
 
     def in_contact(self, pose: PoseLike, *, progress: Progress = None) -> Any:
@@ -233,7 +255,7 @@ class Joint(DescribedJoint):
 
         C++: `JointContact::in_contact` in condyle/contact.hpp.
         """
-        is_one, answers = _native.in_contact(self._native, self._matrices(pose), progress_of(progress))
+        is_one, answers = _native.in_contact(*self._asked_at(pose), progress_of(progress))
         return bool(answers[0]) if is_one else answers
 
     def gaps(self, pose: PoseLike, method: str = "radial", *, about: Optional[str] = None) -> Gaps:
@@ -245,18 +267,24 @@ class Joint(DescribedJoint):
         if method == "radial":
             if about is not None:
                 raise UsageError("about: is for method tangential")
-            mobile, fixed = _native.radial_gaps(self._native, self._matrices(pose))
+            mobile, fixed = _native.radial_gaps(*self._asked_at(pose))
         else:
-            mobile, fixed = _native.tangential_gaps(self._native, self._matrices(pose),
+            mobile, fixed = _native.tangential_gaps(*self._asked_at(pose),
                                                     0 if about is None else self._angle(about))
         return Gaps(of_vertices(VertexGaps, mobile, self._mobile), of_vertices(VertexGaps, fixed, self._fixed))
 
     def depths(self, pose: PoseLike) -> Depths:
         """The depth to read of every vertex at one pose: see :class:`VertexDepths`. As `condyle depth` answers.
 
-        C++: `condyle::reliable_depths` in condyle/reliable_depth.hpp.
+        C++: `condyle::depth_at` in condyle/reliable_depth.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> f"{joint.depths(joint.pose(flexion_deg=140)).max_depth_mm:.2f} mm"
+        '10.98 mm'
         """
-        mobile, fixed = _native.reliable_depths(self._native, self._matrices(pose))
+        mobile, fixed = _native.reliable_depths(*self._asked_at(pose))
         return Depths(of_vertices(VertexDepths, mobile, self._mobile), of_vertices(VertexDepths, fixed, self._fixed))
 
     def contact_measures(self, pose: PoseLike) -> ContactMeasures:
@@ -264,7 +292,7 @@ class Joint(DescribedJoint):
 
         C++: `condyle::measure_contact` in condyle/contact_measures.hpp.
         """
-        return measures_of(_native.contact_measures(self._native, self._matrices(pose)), self._fixed, self._mobile)
+        return measures_of(_native.contact_measures(*self._asked_at(pose)), self._fixed, self._mobile)
 
     def normal_contact(self, pose: PoseLike, *, casting: str = "both", rule: str = "cut_faces", reach_mm: float = 20,
                        progress: Progress = None) -> Any:
@@ -287,8 +315,10 @@ class Joint(DescribedJoint):
 
     def contact_along(self, poses: ArrayLike, surfaces: Optional[ElasticContact] = None, *, casting: str = "mobile",
                       rule: str = "cut_faces", reach_mm: float = 20, progress: Progress = None
-                      ) -> list[Optional[FrameContact]]:
+                      ) -> ContactFrames:
         """Contact in each frame of a motion, (N, 4, 4) poses, on all threads; None for those of NaN, gaps.
+
+        A list of :class:`FrameContact` whose `notes` say what looks wrong with layers and motion (docs/checks.md).
 
         With `surfaces` their pressure, and their own casting, rule and reach; else depths along normals as
         :meth:`normal_contact` has them, one body casting.
@@ -311,7 +341,8 @@ class Joint(DescribedJoint):
         C++: `condyle::motion_of` in condyle/io/joint_motion.hpp.
         """
         found = _native.motion_of(self._native, path_of(path))
-        found["notes"] = tuple(found["notes"])
+        found["processing"] = tuple(found["processing"])
+        found["notes"] = reported(found["notes"])
         return JointMotion(**found)
 
     def recorded_contact(self, time_s: ArrayLike, poses: ArrayLike, *, resolution_s: float = 1e-5,
@@ -372,7 +403,7 @@ class Joint(DescribedJoint):
             "count_bearing": word(bearing, "bearing", ("leave_out", "count")) == "count",
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
-        return RangeOfMotion(self, _native.range_of_motion(self._native, translation_mm, options), motions)
+        return RangeOfMotion(self, _native.range_of_motion(self._asked, translation_mm, options), motions)
 
     def picture(self, pose: PoseLike, *, view: str = "anterior", colour: str = "depth", fixed: str = "solid",
                 mobile: str = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
@@ -401,7 +432,7 @@ class Joint(DescribedJoint):
         """
         looks = ("solid", "transparent", "hidden")
         return _native.picture(
-            self._native, self._matrices(pose), text_of(view, "view"),
+            *self._asked_at(pose), text_of(view, "view"),
             word(colour, "colour", ("depth", "gap", "nearest", "none")), word(fixed, "fixed", looks),
             word(mobile, "mobile", looks), count(width, "width"), count(height, "height"),
             None if range_mm is None else number(range_mm, "range_mm"),

@@ -32,10 +32,12 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
     word(kind, "kind", ("ball", "hinge", "free"))
     angles, translation = position_in({} if reference_pose is None else reference_pose,
                                       _native.angle_names_of(anatomy), "reference_pose", is_free=kind == "free")
+    frame = word(translation_frame, "translation_frame", ("fixed", "joint_axes"))
+    _refuse_what_files_refuse(kind, anatomy, frame, angles)
     return {
         "name": text_of(name, "name"), "kind": kind, "anatomy": anatomy,
         "side": word(side, "side", ("right", "left")), "units": units,
-        "translation_frame": word(translation_frame, "translation_frame", ("fixed", "joint_axes")),
+        "translation_frame": frame,
         "centre": None if centre is None or is_fit else _point_in_mm(centre, to_mm, "centre"),
         "fit": word(fit_body, "fit_body", ("mobile", "fixed")) if is_fit else None,
         "fit_within": None if fit_within is None else _ball_in_mm(fit_within, to_mm),
@@ -47,6 +49,17 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
         "mobile_in_W": _pose_in_mm(mobile_in_W, to_mm, "mobile_in_W"),
         "reference_angles_deg": angles, "reference_translation_mm": translation * to_mm,
     }
+
+
+def _refuse_what_files_refuse(kind: str, anatomy: str, frame: str, angles: NDArray[np.float64]) -> None:
+    if kind == "hinge" and anatomy == "shoulder":
+        raise UsageError("joint: a shoulder is no hinge")
+    if kind == "hinge" and (angles[1:] != 0).any():
+        raise UsageError(f"reference_pose: a hinge rotates in {_native.angle_names_of(anatomy)[0][0]} only")
+    if frame == "joint_axes" and kind != "free":
+        raise UsageError(f"translation_frame: a {kind} does not translate")
+    if frame == "joint_axes" and anatomy == "shoulder":
+        raise UsageError('translation_frame: a shoulder has two of its axes along one line: use "fixed"')
 
 
 def _directions(axes: Any, anterior: Any, superior: Any, landmarks: Any) -> tuple[Any, Any]:

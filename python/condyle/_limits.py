@@ -68,18 +68,32 @@ class Limit:
         return f"{type(self).__name__}({self.turned_deg:.6g} deg, {self.reason})"
 
 
+@dataclass(frozen=True)
+class Caveat:
+    """What to know before a limit is compared with a living joint.
+
+    `code` as in rom.json ("soft_tissue_ends"), `text` one sentence, `source` where it is from, None for "end_unknown".
+    """
+
+    code: str
+    text: str
+    source: Optional[str]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class MotionLimit(Limit):
     """Where one motion ends.
 
     Besides what a :class:`Limit` has: `motion`; `angles_deg`, the joint's angles there by name; `centre_distance_mm`
-    between head and socket and `joint_space_mm` of the bearing surface, None where not known.
+    between head and socket and `joint_space_mm` of the bearing surface, None where not known; `caveats`, a list of
+    :class:`Caveat`: whether bone usually ends such a motion of a hip, and what is not modelled; empty for other joints.
     """
 
     motion: Motion
     angles_deg: Mapping[str, float]
     centre_distance_mm: Optional[float]
     joint_space_mm: Optional[float]
+    caveats: list[Caveat]
 
     def __repr__(self) -> str:
         return f"MotionLimit({self.motion.name}: {self.turned_deg:.6g} deg, {self.reason})"
@@ -151,6 +165,7 @@ def witness_of(found: Optional[dict[str, Any]], fixed: TriMesh, mobile: TriMesh)
 
 def motion_limit_of(found: dict[str, Any], motions: Motions, fixed: TriMesh, mobile: TriMesh) -> MotionLimit:
     found["contact"] = witness_of(found["contact"], fixed, mobile)
+    found["caveats"] = [Caveat(*each) for each in motions.caveats(found["motion"])]
     found["motion"] = motions.motion_of(found["motion"])
     found["angles_deg"] = motions.named(found["angles_deg"])
     return MotionLimit(**found)
@@ -162,7 +177,7 @@ def path_limit(joint: Joint, waypoints: Sequence[Mapping[str, float]], tolerance
     rows = [position_in(each, joint.angle_names, "waypoints", is_free=False)[0] for each in waypoints]
     options = {"count_bearing": False, "bearing_margin_mm": None, "accept_reference_contact": False,
                "leave_out_rings": None}
-    found = _native.path_limit(joint._native, np.array(rows).reshape(-1, 3), number(tolerance_deg, "tolerance_deg"),
+    found = _native.path_limit(joint._asked, np.array(rows).reshape(-1, 3), number(tolerance_deg, "tolerance_deg"),
                                options)
     found["angles_deg"] = dict(zip((names[0] for names in joint.angle_names), found["angles_deg"]))
     found["contact"] = witness_of(found["contact"], joint.fixed, joint.mobile)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from . import _native
 from ._errors import UsageError
 from ._native import Mesh as NativeMesh
-from ._words import Path, path_of
+from ._words import Path, path_of, refuse_masked
 
 
 class TriMesh:
@@ -54,13 +54,13 @@ class TriMesh:
     TriMesh(4 vertices, 4 triangles, closed)
     """
 
-    __slots__ = ("_native", "_map", "_first", "_vertices", "_triangles", "_notes", "__weakref__")
+    __slots__ = ("_native", "_map", "_first", "_vertices", "_triangles", "_processing", "__weakref__")
     _native: NativeMesh
     _map: Optional[NDArray[np.uint32]]
     _first: Optional[NDArray[np.uint32]]
     _vertices: Optional[NDArray[np.float64]]
     _triangles: Optional[NDArray[np.uint32]]
-    _notes: tuple[str, ...]
+    _processing: tuple[str, ...]
 
     def __init__(self, vertices: Any, triangles: Any, *, merge: Optional[bool] = None) -> None:
         self._take(_native.Mesh(vertices, triangles), merge)
@@ -68,7 +68,7 @@ class TriMesh:
     def _take(self, given: NativeMesh, merge: Optional[bool]) -> None:
         self._native, self._map, self._first = given, None, None
         self._vertices = self._triangles = None
-        self._notes = ()
+        self._processing = ()
         if merge or (merge is None and not given.is_closed):
             merged, vertex_map = _native.merged(given)
             if merged.vertex_count < given.vertex_count:
@@ -79,19 +79,30 @@ class TriMesh:
                 self._first = first
 
     @classmethod
-    def _of_native(cls, native: NativeMesh, notes: Iterable[str] = ()) -> TriMesh:
+    def _of_native(cls, native: NativeMesh, processing: Iterable[str] = ()) -> TriMesh:
         mesh = cls.__new__(cls)
         mesh._take(native, merge=False)
-        mesh._notes = tuple(notes)
+        mesh._processing = tuple(processing)
         return mesh
 
     @classmethod
     def _moved(cls, native: NativeMesh, like: TriMesh) -> TriMesh:
         """A mesh whose vertices have moved, numbered like the one it was."""
-        mesh = cls._of_native(native, like._notes)
-        mesh._map, mesh._first = like._map, like._first
-        if like._map is not None:
-            mesh._vertices, mesh._triangles = np.asfortranarray(native.vertices[like._map]), like._triangles
+        return cls._numbered(native, *like._numbering())
+
+    def _numbering(self) -> tuple[Any, ...]:
+        """How vertices and triangles were numbered when given, and what was done to them."""
+        if self._map is None:
+            return None, None, None, self._processing
+        return self._map, self._first, self._triangles, self._processing
+
+    @classmethod
+    def _numbered(cls, native: NativeMesh, map: Optional[NDArray[np.uint32]], first: Optional[NDArray[np.uint32]],
+                  triangles: Optional[NDArray[np.uint32]], processing: tuple[str, ...]) -> TriMesh:
+        mesh = cls._of_native(native, processing)
+        mesh._map, mesh._first = map, first
+        if map is not None:
+            mesh._vertices, mesh._triangles = np.asfortranarray(native.vertices[map]), triangles
             mesh._vertices.flags.writeable = False
         return mesh
 
@@ -133,14 +144,14 @@ class TriMesh:
         return self._native.is_closed
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What was done to the mesh of a file in reading it, one line each."""
-        return self._notes
+    def processing(self) -> tuple[str, ...]:
+        """What was done to the mesh of a file in reading it, or in repairs, one line each."""
+        return self._processing
 
     def repaired(self, *repairs: str) -> TriMesh:
         """A mesh with the same surface, repaired: "weld", "drop_unreferenced", "flip_inverted", in this order.
 
-        Vertices that go take their numbers along: the result is a mesh of its own. `notes` says what was done.
+        Vertices that go take their numbers along: the result is a mesh of its own. `processing` says what was done.
         MeshError where a repair cannot be made.
         """
         for repair in repairs:
@@ -157,7 +168,7 @@ class TriMesh:
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _remade, (np.array(self.vertices), np.array(self.triangles), self._map is not None)
+        return _remade, (np.array(self.vertices), np.array(self.triangles), self._map is not None, self._processing)
 
     def __repr__(self) -> str:
         count, triangles = len(self.vertices), self._native.triangle_count
@@ -175,8 +186,10 @@ class TriMesh:
         return vertex if self._first is None else int(self._first[vertex])
 
 
-def _remade(vertices: Any, triangles: Any, merge: bool) -> TriMesh:
-    return TriMesh(vertices, triangles, merge=merge)
+def _remade(vertices: Any, triangles: Any, merge: bool, processing: tuple[str, ...] = ()) -> TriMesh:
+    mesh = TriMesh(vertices, triangles, merge=merge)
+    mesh._processing = processing
+    return mesh
 
 
 MeshLike = Union[TriMesh, "tuple[Any, Any]", Any]
@@ -184,6 +197,7 @@ MeshLike = Union[TriMesh, "tuple[Any, Any]", Any]
 
 def _triangles_of_flat(faces: Any, what: str) -> NDArray[Any]:
     """3 i j k 3 l m n ..., as VTK and PyVista store triangles."""
+    refuse_masked(faces, what)
     flat = np.asarray(faces)
     if flat.ndim != 1:
         return flat
@@ -198,6 +212,7 @@ def _triangles_of_cells(cells: Any) -> NDArray[Any]:
         (block.type, block.data) if hasattr(block, "type") else tuple(block) for block in cells]
     triangles = []
     for kind, data in pairs:
+        refuse_masked(data, "cells")
         if kind == "triangle":
             triangles.append(np.asarray(data))
         elif kind not in ("vertex", "line"):

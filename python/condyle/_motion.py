@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Mapping, Sequence, Union
+from typing import Any, Mapping, Optional, Sequence, Union
 
 from . import _native
 from ._errors import UsageError
@@ -36,12 +36,18 @@ class Motions:
     """The motions that a joint knows, and its angles between words and the compiled part."""
 
     def __init__(self, joint: NativeJoint) -> None:
+        self._joint = joint
         self.angles = tuple(joint.angle_names)
+        self.is_hinge = joint.kind == "hinge"
         self.known = tuple(self.motion_of(found) for found in _native.motions(joint))
 
     def motion_of(self, found: tuple[Any, ...]) -> Motion:
         name, vary, sense, start, range_deg = found
         return Motion(name, self.angles[vary][0 if sense > 0 else 1], range_deg, self.named(start))
+
+    def caveats(self, motion: tuple[Any, ...]) -> list[tuple[str, str, Optional[str]]]:
+        """Code, text and source of each caveat of a motion as the compiled part has it."""
+        return _native.motion_caveats(self._joint, motion)
 
     def named(self, degrees: Sequence[float]) -> dict[str, float]:
         """The three angles by their positive names."""
@@ -66,7 +72,14 @@ class Motions:
         for name, value in start_deg.items():
             which, sense = self.angle(name, "start_deg")
             angles[which] = sense * number(value, f"start_deg: {name}") + 0.0
+        if any(angles[1:]):
+            self.refuse_of_hinge("start_deg")
         return angles
+
+    def refuse_of_hinge(self, what: str) -> None:
+        """For angles other than the first, as poses are read."""
+        if self.is_hinge:
+            raise UsageError(f"{what}: a hinge rotates in {self.angles[0][0]} only")
 
     def tuple_of(self, motion: Motion) -> tuple[Any, ...]:
         vary, sense = self.angle(motion.vary, "vary")

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._contact_checks import ContactNote, reported
 from ._errors import UsageError
 from ._pressure import ElasticContact
 from ._surface_contact import SurfaceContact, surface_of
@@ -53,15 +54,23 @@ class FrameContact:
         return f"FrameContact({'in contact' if self.in_contact else 'apart'}; {self.surface!r})"
 
 
+class ContactFrames(list[Optional[FrameContact]]):
+    """A :class:`FrameContact` for each frame, None for gaps; `notes` is what looks wrong with layers and motion."""
+
+    notes: tuple[ContactNote, ...] = ()
+
+
 def contact_along(joint: Joint, poses: ArrayLike, surfaces: Optional[ElasticContact], casting: str, rule: str,
-                  reach_mm: float, progress: Progress) -> list[Optional[FrameContact]]:
+                  reach_mm: float, progress: Progress) -> ContactFrames:
     if surfaces is not None and not isinstance(surfaces, ElasticContact):
         raise UsageError(f"surfaces: an ElasticContact is needed, not {type(surfaces).__name__}")
-    found = _native.contact_along(
-        joint._native, poses, None if surfaces is None else surfaces._native,
+    found, notes = _native.contact_along(
+        joint._asked, poses, None if surfaces is None else surfaces._native,
         word(casting, "casting", ("fixed", "mobile")), word(rule, "rule", ("cut_faces", "face_centre")),
         number(reach_mm, "reach_mm"), progress_of(progress))
     for frame in found:
         if frame is not None:
             frame["surface"] = surface_of(frame["surface"])
-    return [None if frame is None else FrameContact(**frame) for frame in found]
+    frames = ContactFrames(None if frame is None else FrameContact(**frame) for frame in found)
+    frames.notes = reported(notes)
+    return frames

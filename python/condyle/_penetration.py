@@ -111,7 +111,8 @@ class Penetration:
     """What one pose shows, vertices of each body against the other one.
 
     `mobile` are vertices of the mobile body inside the fixed one; None where the fixed mesh is open and has no inside.
-    `fixed` likewise, or not asked for. `method` says along what depths are.
+    `fixed` likewise, or not asked for. `method` says along what depths are: a ray may run along a bone and be no depth.
+    How deep the bodies penetrate :meth:`Joint.depths` says, as `condyle depth` does.
     """
 
     mobile: Optional[VerticesInside]
@@ -123,18 +124,23 @@ class Penetration:
         """The largest depth of either body; 0 where nothing is inside."""
         return max((body.max_depth_mm for body in (self.mobile, self.fixed) if body is not None), default=0.0)
 
+    def _said(self, body: Optional[VerticesInside]) -> str:
+        if body is None:
+            return "not asked"
+        if not len(body):
+            return "none inside"
+        along = "rays" if self.method == "radial" else "arcs"
+        return f"{len(body)} vertices, {along} up to {body.max_depth_mm:.3f} mm"
+
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({self.method}; mobile {_said(self.mobile)}; fixed {_said(self.fixed)})"
+        # The longest ray may run along a bone.
+        hint = "; how deep: joint.depths" if self.method == "radial" else ""
+        return (f"{type(self).__name__}({self.method}; mobile {self._said(self.mobile)}; "
+                f"fixed {self._said(self.fixed)}{hint})")
 
     def _repr_html_(self) -> str:
-        return html_of(f"{self.method} penetration", [("mobile in fixed", _said(self.mobile)),
-                                                      ("fixed in mobile", _said(self.fixed))])
-
-
-def _said(body: Optional[VerticesInside]) -> str:
-    if body is None:
-        return "not asked"
-    return f"{len(body)} vertices up to {body.max_depth_mm:.3f} mm" if len(body) else "none inside"
+        return html_of(f"{self.method} penetration", [("mobile in fixed", self._said(self.mobile)),
+                                                      ("fixed in mobile", self._said(self.fixed))])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -175,12 +181,13 @@ class Penetrations(Penetration):
     def __repr__(self) -> str:
         depths = self.depths_mm
         inside = int((depths > 0).sum())
+        along = "rays" if self.method == "radial" else "arcs"
         return (f"Penetrations({self.method}; {self.count} poses, {inside} with vertices inside, "
-                f"up to {self.max_depth_mm:.6g} mm)")
+                f"{along} up to {self.max_depth_mm:.6g} mm)")
 
     def _repr_html_(self) -> str:
         return html_of(f"{self.method} penetration of {self.count} poses",
-                       [("mobile in fixed", _said(self.mobile)), ("fixed in mobile", _said(self.fixed))])
+                       [("mobile in fixed", self._said(self.mobile)), ("fixed in mobile", self._said(self.fixed))])
 
     def to_dataframe(self) -> Any:
         """A row per vertex inside, with columns `pose` and `body`. Needs pandas."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Iterable, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._contact_checks import ContactNote, contact_notes, warn_of
 from ._errors import UsageError
 from ._mesh import MeshLike, TriMesh
 from ._surface_contact import SurfaceContact, surface_of
@@ -47,7 +48,8 @@ class ElasticContactResults:
     """What one pose shows.
 
     `fixed` and `mobile` are the :class:`SurfaceContact` of those that cast; `force_n` and `moment_nmm` (3,) what the
-    fixed body exerts on the mobile one, in F, about the origin of M; `energy_nmm` stored in the layers.
+    fixed body exerts on the mobile one, in F, about the origin of M; `energy_nmm` stored in the layers; `notes` what looks
+    wrong with the contact, a :class:`ContactNote` each (docs/checks.md).
     """
 
     fixed: Optional[SurfaceContact]
@@ -55,6 +57,7 @@ class ElasticContactResults:
     force_n: NDArray[np.float64]
     moment_nmm: NDArray[np.float64]
     energy_nmm: float
+    notes: tuple[ContactNote, ...]
 
     def __repr__(self) -> str:
         return (f"ElasticContactResults(force {np.linalg.norm(self.force_n):.6g} N, energy {self.energy_nmm:.6g} N mm; "
@@ -96,9 +99,10 @@ class BalancedPose:
     """The pose in which the contact carries a load, or why there is none.
 
     `outcome` is "balanced", "at_jump" (all but a little of the load is carried, and the force jumps just beyond, or no
-    step leaves less), "pulled_apart", "over_the_rim", "unstable" or "free_direction"; `reason` one line where
+    step leaves less), "pulled_apart", "over_the_rim", "too_large", "unstable" or "free_direction"; `reason` one line where
     there is no balance; `X_FM` (4, 4) the pose found, or the last one looked at; `residual_force_n` and
-    `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose.
+    `residual_moment_nmm` (3,) what contact and load add up to along what is free; `contact` at that pose; `notes` what looks
+    wrong with the load or the contact.
     """
 
     outcome: str
@@ -108,6 +112,7 @@ class BalancedPose:
     residual_moment_nmm: NDArray[np.float64]
     steps: int
     contact: ElasticContactResults
+    notes: tuple[ContactNote, ...]
 
     @property
     def carries_load(self) -> bool:
@@ -142,12 +147,13 @@ class ElasticContact:
     ('balanced', [0.0, -800.0, 0.0])
     """
 
-    __slots__ = ("_native", "_fixed", "_mobile", "__weakref__")
+    __slots__ = ("_native", "_fixed", "_mobile", "_has_warned", "__weakref__")
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike, *, fixed_layer: Optional[ElasticLayer] = None,
                  mobile_layer: Optional[ElasticLayer] = None, casting: str = "both", rule: str = "cut_faces",
                  reach_mm: float = 20, law: str = "linear") -> None:
         self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
+        self._has_warned = False
         for layer, what in ((fixed_layer, "fixed_layer"), (mobile_layer, "mobile_layer")):
             if layer is not None and not isinstance(layer, ElasticLayer):
                 raise UsageError(f"{what}: an ElasticLayer is needed, not {type(layer).__name__}")
@@ -161,12 +167,13 @@ class ElasticContact:
     @classmethod
     def of_file(cls, joint: Joint) -> ElasticContact:
         """With the surfaces, layers and rays that the table [contact] of the joint's file says."""
-        native = _native.elastic_of_file(joint._native)
+        native = _native.elastic_of_file(joint._asked)
         if native is None:
             raise UsageError("joint: its file has no table [contact]")
         contact = cls.__new__(cls)
         contact._native = native
         contact._fixed, contact._mobile = TriMesh._of_native(native.fixed), TriMesh._of_native(native.mobile)
+        contact._has_warned = False
         return contact
 
     def at(self, pose: ArrayLike, *, progress: Progress = None) -> Any:
@@ -176,7 +183,32 @@ class ElasticContact:
         """
         is_one, found = self._native.at(pose, progress_of(progress))
         results = [results_of(each) for each in found]
+        self._warn(results)
         return results[0] if is_one else results
+
+    @property
+    def notes(self) -> tuple[ContactNote, ...]:
+        """What looks wrong with the layers: moduli, Poisson's ratios, thicknesses, a layer on a bone.
+
+        C++: `condyle::check_layers` in condyle/contact_checks.hpp.
+
+        >>> import condyle
+        >>> layers = condyle.sample_cartilages(clearance_mm=0)
+        >>> in_pascal = condyle.ElasticLayer(12e6, 0.42, 1.65)
+        >>> contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=in_pascal)
+        >>> [note.code for note in contact.notes]
+        ['unlikely_modulus']
+        """
+        return contact_notes(self._native.notes())
+
+    def refined_force_n(self, pose: ArrayLike) -> Optional[NDArray[np.float64]]:
+        """(3,) the force on the mobile body, in F, with the depth asked at 16 places of each face in contact.
+
+        How far it is from `at(pose).force_n` is what the triangles' size leaves open. None with the rule "face_centre".
+
+        C++: `condyle::ElasticContact::refined_force_n` in condyle/pressure.hpp.
+        """
+        return self._native.refined_force_n(pose)
 
     def cut_off_by_reach(self, pose: ArrayLike) -> int:
         """How many rays of this pose meet the other surface only beyond the reach, up to twice of it."""
@@ -189,12 +221,16 @@ class ElasticContact:
 
         `force_n` and `moment_nmm` about the origin of M are held in F, or with `frame="mobile"` go along with M.
         Directions (K, 3) in F along which the body may be translated, all if none are given; with `free_rotations` its
-        rotations are unknowns too. UsageError where the load is zero along what is free. Not ended by Ctrl-C.
+        rotations are unknowns too; without it a moment has nothing to balance it and is refused. UsageError where the load
+        is zero along what is free. Not ended by Ctrl-C.
 
         C++: `condyle::balance` in condyle/load_balance.hpp.
         """
-        return balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,
+        _refuse_moment(moment_nmm, free_rotations)
+        pose = balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,
                                         _terms(options, frame, free_directions, free_rotations)))
+        self._warn([pose])
+        return pose
 
     def balance_along(self, poses: ArrayLike, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0),
                       frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
@@ -209,10 +245,20 @@ class ElasticContact:
 
         C++: `condyle::balance_along` in condyle/motion_contact.hpp.
         """
+        _refuse_moment(moment_nmm, free_rotations)
         forces, moments = _loads(force_n, moment_nmm)
         found = _native.balance_along(self._native, poses, forces, moments,
                                       _terms(options, frame, free_directions, free_rotations), progress_of(progress))
-        return [None if pose is None else balanced(pose) for pose in found]
+        frames = [None if pose is None else balanced(pose) for pose in found]
+        self._warn(frames)
+        return frames
+
+    def _warn(self, answers: Iterable[Union[ElasticContactResults, BalancedPose, None]]) -> None:
+        """Warns of what looks wrong with answers, and with the layers at the first one."""
+        of_answers = [note for each in answers if each is not None for note in each.notes]
+        of_layers = () if self._has_warned else self.notes
+        warn_of([*of_layers, *of_answers])
+        self._has_warned = True  # a warning that is an error is one again at the next answer
 
     def __repr__(self) -> str:
         return f"ElasticContact(fixed={self._fixed!r}, mobile={self._mobile!r})"
@@ -231,6 +277,12 @@ def _loads(force_n: ArrayLike, moment_nmm: ArrayLike) -> tuple[NDArray[Any], NDA
     return forces, moments
 
 
+def _refuse_moment(moment_nmm: ArrayLike, free_rotations: bool) -> None:
+    moments = array(moment_nmm, "moment_nmm", "an array of shape (3,) or (N, 3)")
+    if not free_rotations and moments.dtype.kind in "fiu" and moments.any():
+        raise UsageError("moment_nmm: needs free_rotations")
+
+
 def _terms(options: BalanceOptions, frame: str, free_directions: ArrayLike, free_rotations: bool) -> dict[str, Any]:
     if not isinstance(options, BalanceOptions):
         raise UsageError(f"options: BalanceOptions are needed, not {type(options).__name__}")
@@ -243,9 +295,11 @@ def _terms(options: BalanceOptions, frame: str, free_directions: ArrayLike, free
 def balanced(found: dict[str, Any]) -> BalancedPose:
     found["residual_force_n"], found["residual_moment_nmm"] = found.pop("residual")
     found["contact"] = results_of(found["contact"])
+    found["notes"] = contact_notes(found["notes"])
     return BalancedPose(**found)
 
 
 def results_of(found: dict[str, Any]) -> ElasticContactResults:
     found["fixed"], found["mobile"] = surface_of(found["fixed"]), surface_of(found["mobile"])
+    found["notes"] = contact_notes(found["notes"])
     return ElasticContactResults(**found)

@@ -96,6 +96,8 @@ class RangeOfMotion:
         (2, True)
         """
         which = self._motions.positive_angle(vary, "vary")
+        if which != 0:
+            self._motions.refuse_of_hinge("vary")
         low, high = number(negative_deg, "negative_deg", -180, 0), number(positive_deg, "positive_deg", 0, 180)
         found = self._native.free_angles(which, self._motions.start(start_deg), low, high)
         intervals = np.array([interval[:2] for interval in found["intervals"]]).reshape(-1, 2)
@@ -218,6 +220,11 @@ class RangeOfMotion:
         """
         found: Optional[Mapping[str, Any]] = self._native.bearing
         return found
+
+    @property
+    def scope(self) -> str:
+        """The tissues whose contact the limits cover, and those they do not, in one line."""
+        return self._joint.scope
 
     @property
     def why_no_bearing(self) -> str:

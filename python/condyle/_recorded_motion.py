@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
+from ._contact_checks import ContactNote
 from ._limits import ContactWitness, witness_of
 from ._words import Path, Progress, number, path_of, progress_of
 
@@ -25,7 +26,7 @@ class MotionTable:
 
     columns: Mapping[str, NDArray[np.float64]]
     in_degrees: Optional[bool]
-    notes: tuple[str, ...]
+    processing: tuple[str, ...]
 
     def __getitem__(self, column: str) -> NDArray[np.float64]:
         return self.columns[column]
@@ -45,13 +46,15 @@ class MotionTable:
 class JointMotion:
     """A recorded motion of a joint: `time` (N,), in seconds where `in_seconds`, else numbers of frames.
 
-    `X_FM` (N, 4, 4) poses in the joint frame, mm, NaN for gaps; `is_gap` (N,) bool.
+    `X_FM` (N, 4, 4) poses in the joint frame, mm, NaN for gaps; `is_gap` (N,) bool; `notes` what looks wrong with its
+    numbers: their unit.
     """
 
     time: NDArray[np.float64]
     X_FM: NDArray[np.float64]
     in_seconds: bool
-    notes: tuple[str, ...]
+    processing: tuple[str, ...]
+    notes: tuple[ContactNote, ...] = ()
 
     @property
     def is_gap(self) -> NDArray[np.bool_]:
@@ -71,14 +74,15 @@ class JointMotion:
 class ContactEnd:
     """Where a contact begins or ends.
 
-    `kind` "exact", "bounded" or "recording" (the recording begins or ends before it). Contact begins at `time_s` or
-    later by at most `uncertainty_s`, and ends at `time_s` or earlier by at most that. `sample`: on the way from it to
+    `kind` "exact", "bounded", or "recording_begins" of an entry and "recording_ends" of an exit: in contact before the first,
+    or after the last sample. Contact begins at `time_s` or later by at most `uncertainty_s`, and ends at `time_s` or earlier
+    by at most that; None where the recording begins or ends. `sample`: on the way from it to
     the next, `turned_deg` after it. `contact`: the features that meet, or None.
     """
 
     kind: str
     time_s: float
-    uncertainty_s: float
+    uncertainty_s: Optional[float]
     sample: int
     turned_deg: float
     contact: Optional[ContactWitness]
@@ -115,7 +119,7 @@ class RecordedContact:
 
 def recorded_contact(joint: Joint, time_s: ArrayLike, poses: ArrayLike, resolution_s: float, progress: Progress
                      ) -> RecordedContact:
-    found = _native.contact_between(joint._native, time_s, poses, number(resolution_s, "resolution_s"),
+    found = _native.contact_between(joint._asked, time_s, poses, number(resolution_s, "resolution_s"),
                                     progress_of(progress))
     for interval in found["contacts"]:
         for name in ("entry", "exit"):
@@ -132,4 +136,4 @@ def read_motion_table(path: Path) -> MotionTable:
     C++: `condyle::read_motion_table` in condyle/io/motion_file.hpp.
     """
     found = _native.read_motion_table(path_of(path))
-    return MotionTable(found["columns"], found["in_degrees"], tuple(found["notes"]))
+    return MotionTable(found["columns"], found["in_degrees"], tuple(found["processing"]))

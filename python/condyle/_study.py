@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import hashlib
 import json
 import math
@@ -17,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
-from ._errors import FileError, UsageError
+from ._errors import FileError, UsageError, warn
 from ._pressure import ElasticLayer
 from ._words import Path, Progress, count, number, number_array, path_of, progress_of, text_of, word
 
@@ -27,9 +26,9 @@ _LAYER = ("youngs_modulus_mpa", "poisson_ratio", "thickness_mm")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class StudyTable(Mapping[str, NDArray[Any]]):
-    """A table of a study: `columns` by name, (N,) float64 or str each; `units` and `meanings` by the same names.
+    """A table of a study: `columns` by name, (N,) each; `units` and `meanings` by the same names.
 
-    A number that is not there is NaN, a text that is not there is "".
+    Numbers are float64, one that is not there NaN; texts are str in arrays of objects, one that is not there "".
     """
 
     columns: Mapping[str, NDArray[Any]]
@@ -69,7 +68,7 @@ class StudyLoad:
     at : str
         The pose, such as "flexion=30"; the reference pose if empty.
     force_n : (3,) array, optional
-        On the femur, anterior, superior, lateral: it is moved to where the contact carries this force. The pose
+        On the mobile body, anterior, superior, lateral: it is moved to where the contact carries this force. The pose
         itself if not given.
     free_directions : (K, 3) array, optional
         Directions of the same components that it may be translated in; all if not given.
@@ -168,7 +167,23 @@ def _text_of(folder: FilePath, name: str) -> str:
 
 def _rows_of(text: str) -> list[list[str]]:
     """From the header on: comments come before it."""
-    return list(csv.reader(dropwhile(lambda line: line.startswith("#"), text.splitlines())))
+    # The last line ends with a line end, too. Only that character ends a line: a name may hold others that Python counts.
+    return [_fields_of(line) for line in dropwhile(lambda line: line.startswith("#"), text.split("\n")[:-1])]
+
+
+def _fields_of(line: str) -> list[str]:
+    """As the tables are written, RFC 4180 without line ends in fields; of any length, where Python's csv has a bound."""
+    if '"' not in line:
+        return line.split(",")
+    fields: list[str] = []
+    is_open = False
+    for part in line.split(","):
+        if is_open:
+            fields[-1] += "," + part
+        else:
+            fields.append(part)
+        is_open ^= part.count('"') % 2 == 1
+    return [each[1:-1].replace('""', '"') if each.startswith('"') else each for each in fields]
 
 
 def _table_of(texts: Mapping[str, str], name: str, folder: FilePath) -> StudyTable:
@@ -179,8 +194,9 @@ def _table_of(texts: Mapping[str, str], name: str, folder: FilePath) -> StudyTab
     columns: dict[str, NDArray[Any]] = {}
     for i, (_, column, _, kind, _) in enumerate(dictionary):
         fields = [row[i] for row in rows]
+        # Objects: in an array of fixed length each text would be as long as the longest.
         columns[column] = (np.array([_number(field) for field in fields], float) if kind == "number" else
-                           np.array(fields, str))
+                           np.array(fields, object))
     return StudyTable(columns, {row[1]: row[2] for row in dictionary}, {row[1]: row[4] for row in dictionary})
 
 
@@ -197,7 +213,7 @@ def read_study(folder: Path) -> Study:
     >>> study
     Study(1 joints, 0 failures, 2 motions)
     >>> study.limits["motion"]
-    array(['flexion', 'fadir'], dtype='<U7')
+    array(['flexion', 'fadir'], dtype=object)
     >>> study.limits.units["limit_deg"]
     'deg'
     """
@@ -208,7 +224,7 @@ def read_study(folder: Path) -> Study:
         record = json.loads(_text_of(place, "study.json"))
         digests = {name: of["sha256"] for name, of in record["files"].items()}
         options = record["options"]
-    except (ValueError, KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise FileError(f"{place / 'study.json'}: is not the record of a study") from None
     texts = {}
     for name in ("columns.csv", "limits.csv", "hips.csv", "failures.csv"):
@@ -219,17 +235,73 @@ def read_study(folder: Path) -> Study:
                  _table_of(texts, "failures", place), options)
 
 
-def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, band_samples: int = 0,
-              seed: Optional[int] = None, depth_at: str = "", load: Optional[StudyLoad] = None,
-              shard: Optional[tuple[int, int]] = None, strict: bool = False, progress: Progress = None) -> Study:
-    """Answers for every row of a table of hips and writes the results: docs/cohort.md has both.
+_JOINTS = ("hip", "knee", "ankle", "elbow", "shoulder")
+_SIGMAS = ("sigma_centre_mm", "sigma_axes_deg", "sigma_surface_mm")
+Axis = Mapping[str, Sequence[float]]
 
-    `motions` by their names, all if not given; bands of `band_samples` displaced joints (20 or more; 0: none) by
-    `seed`, that of each joint's file, else 1, if not given; how deep the bones are in each other in the pose
-    `depth_at`, such as "flexion=90 internal_rotation=30"; contact pressure by `load`; `shard` (3, 7) is the third of
-    seven parts, which :func:`merge_study` puts together. What lies there of the same inputs, options and version is
-    not computed again. A hip that cannot be answered is a row of `failures`; with `strict` its error is raised, and a
-    MeshError for one with which something looks wrong (`notes` in `hips`).
+
+def _axis(given: Any, what: str) -> str:
+    """As the command's --map has it, "flexion=0:120:5"."""
+    if not isinstance(given, Mapping) or len(given) != 1:
+        raise UsageError(f'{what}: one angle with first, last and step is needed: {{"flexion": (0, 120, 10)}}')
+    (name, values), = given.items()
+    if not isinstance(values, (tuple, list)) or len(values) not in (2, 3):
+        raise UsageError(f"{what}: first, last and step are needed")
+    return f"{text_of(name, what)}={':'.join(repr(number(value, what)) for value in values)}"
+
+
+def _grid(given: Any, vary: Optional[str]) -> Optional[tuple[str, str, Optional[str]]]:
+    if given is None:
+        if vary is not None:
+            raise UsageError("vary: is for map")
+        return None
+    if not isinstance(given, (tuple, list)) or len(given) != 2:
+        raise UsageError('map: two angles are needed: ({"flexion": (0, 120, 5)}, {"adduction": (-30, 30, 5)})')
+    return _axis(given[0], "map"), _axis(given[1], "map"), None if vary is None else text_of(vary, "vary")
+
+
+def _warn_of(noted: Sequence[tuple[str, str]]) -> None:
+    for joint, codes in noted:
+        warn(f"{joint}: {codes}")
+
+
+def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, anatomy: str = "hip",
+              bearing: str = "leave_out", bearing_margin_mm: Optional[float] = None,
+              accept_reference_contact: bool = False, exclude_reference_contacts: bool = False,
+              map: Optional[tuple[Axis, Axis]] = None, vary: Optional[str] = None, band_samples: int = 0,
+              seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
+              sigma_axes_deg: Optional[float] = None, sigma_surface_mm: Optional[float] = None, depth_at: str = "",
+              load: Optional[StudyLoad] = None, shard: Optional[tuple[int, int]] = None, strict: bool = False,
+              progress: Progress = None) -> Study:
+    """Answers for every row of a table of joints and writes the results: docs/cohort.md has both.
+
+    Parameters
+    ----------
+    motions : names, optional
+        All that a joint has if not given.
+    anatomy : "hip", "knee", "ankle", "elbow" or "shoulder"
+        Of all joints of the table.
+    bearing, bearing_margin_mm, accept_reference_contact, exclude_reference_contacts
+        As of :meth:`Joint.range_of_motion`.
+    map : two mappings, optional
+        Column and row of a map of each joint, as of :meth:`RangeOfMotion.map`: `({"flexion": (0, 120, 5)},
+        {"adduction": (-30, 30, 5)})`; `vary` is the third angle if not given.
+    band_samples : int
+        For bands of so many displaced joints (20 or more; 0: none), by `seed` and the standard deviations `sigma_...`;
+        those not given are those of each joint's file, else 1, 0.5 mm, 1 degree and 0.25 mm.
+    depth_at : str
+        How deep the bodies are in each other in this pose, such as "flexion=90 internal_rotation=30".
+    load : StudyLoad, optional
+        Contact pressure.
+    shard : (number, of), optional
+        (3, 7) is the third of seven parts, which :func:`merge_study` puts together.
+    strict : bool
+        A joint that cannot be answered raises its error, and MeshError one with which something looks wrong.
+
+    What lies there of the same inputs, options and version is not computed again. Without `strict` a joint that cannot
+    be answered is a row of `failures`, and one with which something looks wrong (`notes` in `hips`) is warned of,
+    :class:`JointWarning`. Where no joint could be answered, the error of the first one is raised once the files are
+    written; not of a shard.
 
     C++: `condyle::run_study` in condyle/io/study.hpp; `condyle study`.
     """
@@ -246,20 +318,34 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         raise UsageError("motions and depth_at are texts")
     if load is not None and not isinstance(load, StudyLoad):
         raise UsageError(f"load: a StudyLoad is needed, not {type(load).__name__}")
+    samples = count(band_samples, "band_samples", high=100_000)
+    sigmas = dict(zip(_SIGMAS, (sigma_centre_mm, sigma_axes_deg, sigma_surface_mm)))
+    for name, given in (("seed", seed), *sigmas.items()):
+        if given is not None and samples == 0:
+            raise UsageError(f"{name}: is for band_samples")
+    options = {
+        "anatomy": word(anatomy, "anatomy", _JOINTS), "motions": names,
+        "count_bearing": word(bearing, "bearing", ("leave_out", "count")) == "count",
+        "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
+        "accept_reference_contact": bool(accept_reference_contact),
+        "exclude_reference_contacts": bool(exclude_reference_contacts), "map": _grid(map, vary),
+        "band_samples": samples, "seed": None if seed is None else count(seed, "seed", high=2**64 - 1),
+        **{name: None if given is None else number(given, name) for name, given in sigmas.items()},
+        "depth_at": depth_at, "load": None if load is None else load._checked()}
     out = path_of(folder, "folder")
-    _native.run_study(path_of(table, "table"), out, names, count(band_samples, "band_samples", high=100_000),
-                      None if seed is None else count(seed, "seed", high=2**64 - 1), depth_at,
-                      None if load is None else load._checked(), part, bool(strict), progress_of(progress))
+    _warn_of(_native.run_study(path_of(table, "table"), out, options, part, bool(strict), progress_of(progress)))
     return read_study(out if part is None else os.path.join(out, "shards", f"{part[0]}_of_{part[1]}"))
 
 
 def merge_study(folder: Path) -> Study:
     """Puts the shards below a folder together: the same bytes as of one run. FileError where one is missing.
 
+    Warns, and raises where no joint was answered, as :func:`run_study` of all rows does.
+
     C++: `condyle::merge_study` in condyle/io/study.hpp; `condyle merge`.
     """
     out = path_of(folder, "folder")
-    _native.merge_study(out)
+    _warn_of(_native.merge_study(out))
     return read_study(out)
 
 

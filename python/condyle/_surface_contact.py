@@ -57,6 +57,13 @@ class SurfaceContact(Columns):
         Rays that met the front of an open target: counted as depths all the same.
     rim_faces : int
         With cut faces: those at the rim of the target, cut where their edges leave it or, of an open one, decided by parts.
+    oblique_area_mm2 : float
+        Overlapping area whose rays meet the target more than 60 degrees off its normal, as along a rim: their length is no
+        depth. With "cut_faces" it counts for nothing else, with "face_centre" it is a part of the faces.
+    peak_is_oblique : bool
+        With "face_centre": the largest depth or pressure comes from such a ray.
+    max_strain : float
+        The largest depth over the thickness of both layers; 0 where no pressure was asked for.
     """
 
     face: NDArray[np.uint32]
@@ -69,6 +76,9 @@ class SurfaceContact(Columns):
     totals: ContactTotals
     met_from_front: int
     rim_faces: int
+    oblique_area_mm2: float
+    peak_is_oblique: bool
+    max_strain: float
     _faces: Optional[_native.ContactFaces] = field(repr=False)
 
     def __len__(self) -> int:
@@ -88,7 +98,7 @@ class SurfaceContact(Columns):
         """The faces whose centre is in all half-spaces, and what they add up to: a compartment, say.
 
         Each is (normal, offset_mm): the points p with normal.p > offset_mm in the casting body's frame. Numbers of
-        rays and of rim faces stay those of the whole. UsageError for copies, which know no mesh.
+        rays and of rim faces, oblique area and strain stay those of the whole. UsageError for copies, which know no mesh.
 
         C++: `condyle::faces_within` and `totals_of` in condyle/normal_depth.hpp.
 
@@ -104,7 +114,8 @@ class SurfaceContact(Columns):
             raise UsageError("within: for faces as the joint gave them, not for a copy of them")
         checked = [_half_space(each) for each in region]
         found = self._faces.within(checked)
-        found["met_from_front"], found["rim_faces"] = self.met_from_front, self.rim_faces
+        for name in ("met_from_front", "rim_faces", "oblique_area_mm2", "peak_is_oblique", "max_strain"):
+            found[name] = getattr(self, name)
         part = surface_of(found)
         assert part is not None
         return part
@@ -148,7 +159,7 @@ def surface_of(found: Optional[dict[str, Any]]) -> Optional[SurfaceContact]:
 
 def normal_contact(joint: Joint, pose: PoseLike, casting: str, rule: str, reach_mm: float, progress: Progress) -> Any:
     is_one, found = _native.normal_contact(
-        joint._native, joint._matrices(pose), word(casting, "casting", ("both", "fixed", "mobile")),
+        *joint._asked_at(pose), word(casting, "casting", ("both", "fixed", "mobile")),
         word(rule, "rule", ("cut_faces", "face_centre")), number(reach_mm, "reach_mm"), progress_of(progress))
     contacts = [NormalContact(surface_of(fixed), surface_of(mobile)) for fixed, mobile in found]
     return contacts[0] if is_one else contacts

@@ -33,6 +33,7 @@ def path_of(given: Any, name: str = "path") -> str:
 
 def number(given: SupportsFloat, name: str, low: float = -math.inf, high: float = math.inf) -> float:
     """A finite number from low to high."""
+    refuse_masked(given, name)
     try:
         if isinstance(given, (str, bytes)):
             raise TypeError
@@ -75,8 +76,16 @@ def word(given: Any, name: str, known: tuple[str, ...]) -> str:
     return given
 
 
+def refuse_masked(given: Any, name: str) -> None:
+    """UsageError for a masked array: its masked elements hold numbers that mean nothing."""
+    if isinstance(given, np.ma.MaskedArray):
+        raise UsageError(f"{name}: a masked array is not read, since what is masked has no value: give its filled() or "
+                         "compressed()")
+
+
 def array(given: ArrayLike, name: str, wanted: str) -> NDArray[Any]:
     """An array of whatever shape; `wanted` is what is asked for: "an array of shape (V, 3)"."""
+    refuse_masked(given, name)
     try:
         values: NDArray[Any] = np.asarray(given)
     except (TypeError, ValueError):  # rows of different lengths
@@ -86,6 +95,7 @@ def array(given: ArrayLike, name: str, wanted: str) -> NDArray[Any]:
 
 def number_array(given: Any, name: str, wanted: str) -> NDArray[np.float64]:
     """As doubles, of whatever shape; `wanted` is what is asked for: "three numbers"."""
+    refuse_masked(given, name)
     try:
         values = np.asarray(given)
         if values.dtype.kind not in "fiu":  # complex numbers and texts would be cast

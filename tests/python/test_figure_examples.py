@@ -30,6 +30,6 @@ def test_the_knee_is_that_which_was_published(source: Path, tmp_path: Path):
     if not (data / "knee_lenhart2015_right").is_dir():
         pytest.skip("no shared data: set CONDYLE_DATA")
     said = run(source, "knee_over_motion.py", tmp_path / "knee.svg", 50, CONDYLE_DATA=str(data))
-    # Published coordinates are printed to 1e-8 m, 3e-5 of a depth of 0.18 mm: docs/knee.md.
-    assert said.startswith("6 frames, 8 numbers each") and float(said.split("at most ")[1].split(" ")[0]) <= 5e-5
+    # Single precision on the publisher's side leaves 2e-5 open: docs/knee.md.
+    assert said.startswith("6 frames, 8 numbers each") and float(said.split("at most ")[1].split(" ")[0]) <= 2e-5
     assert (tmp_path / "knee.svg").read_bytes().startswith(b"<?xml")

@@ -63,8 +63,9 @@ def test_parts_of_a_body_are_told_by_name(layered):
 def test_a_bearing_surface_is_told_by_its_margin_or_by_parts_that_are_called_so(layered, hip):
     joint, _ = layered
     bearing = joint.range_of_motion([]).bearing
-    assert bearing["parts"] == ["cartilage"] and bearing["margin_mm"] is None
-    assert bearing["triangles"].sum() == joint.mobile_parts[1].triangles
+    assert bearing["parts"] == ["cartilage"] and bearing["margin_mm"] >= 0
+    # The cartilage, and the bone under it that lies within the head's margin.
+    assert joint.mobile_parts[1].triangles <= bearing["triangles"].sum() < bearing["triangles"].size
     plain = hip.range_of_motion([]).bearing
     assert plain["parts"] == [] and plain["margin_mm"] > 0
 

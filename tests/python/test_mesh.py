@@ -106,7 +106,7 @@ def test_a_soup_read_from_stl_is_joined_with_a_map_from_its_corners(tmp_path):
                      + "endloop\nendfacet\n" for face in FACES)
     path.write_text(f"solid t\n{facets}endsolid t\n")
     mesh = condyle.read_mesh(path)
-    assert mesh.is_closed and len(mesh.vertices) == 4 and mesh.notes
+    assert mesh.is_closed and len(mesh.vertices) == 4 and mesh.processing
     np.testing.assert_array_equal(mesh.vertices[mesh.triangles], CORNERS[FACES])
 
 

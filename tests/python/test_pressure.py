@@ -57,13 +57,15 @@ def test_frames_are_balanced_where_the_closed_form_says() -> None:
 
 def test_one_force_with_moments_of_each_frame_and_the_reverse_are_balanced() -> None:
     contact, free = on_the_plane(), {"free_directions": [[0, 1, 0]]}
-    expected = contact.balance_along([lowered(0.1)] * 2, [[0, -300, 0]] * 2, moment_nmm=[[0, 0, 1]] * 2, **free)
-    for force, moment in (([0, -300, 0], [[0, 0, 1]] * 2), ([[0, -300, 0]] * 2, [0, 0, 1]),
-                          ([[0, -300, 0]], [0, 0, 1])):
+    expected = contact.balance_along([lowered(0.1)] * 2, [[0, -300, 0]] * 2, moment_nmm=[[0, 0, 0]] * 2, **free)
+    for force, moment in (([0, -300, 0], [[0, 0, 0]] * 2), ([[0, -300, 0]] * 2, [0, 0, 0]),
+                          ([[0, -300, 0]], [0, 0, 0])):
         found = contact.balance_along([lowered(0.1)] * 2, force, moment_nmm=moment, **free)
         assert [pose.X_FM.tolist() for pose in found] == [pose.X_FM.tolist() for pose in expected]
     with pytest.raises(condyle.UsageError, match="3 moments for 2 forces"):
-        contact.balance_along([lowered(0.1)] * 2, [[0, -300, 0]] * 2, moment_nmm=[[0, 0, 1]] * 3, **free)
+        contact.balance_along([lowered(0.1)] * 2, [[0, -300, 0]] * 2, moment_nmm=[[0, 0, 0]] * 3, **free)
+    with pytest.raises(condyle.UsageError, match="needs free_rotations"):
+        contact.balance_along([lowered(0.1)] * 2, [0, -300, 0], moment_nmm=[[0, 0, 0], [0, 0, 1]], **free)
 
 
 def test_gaps_of_a_motion_stay_gaps() -> None:

@@ -31,6 +31,15 @@ def test_limits_are_those_of_the_command(rom, said):
         assert theirs["error_bound_deg"] == ours.error_bound_deg
 
 
+def test_caveats_and_scope_are_those_of_the_command(rom, said):
+    assert rom.scope == said["scope"]
+    for theirs, ours in zip(said["motions"], rom.limits):
+        assert isinstance(ours.caveats, list)
+        assert theirs["caveats"] == [vars(caveat) for caveat in ours.caveats] != []
+    assert [caveat.code for caveat in rom["extension"].caveats] == ["soft_tissue_ends"]
+    assert "PMC3589629" in rom["extension"].caveats[0].source
+
+
 def test_a_map_is_that_of_the_command(hip, rom, command, hip_file, tmp_path):
     subprocess.run([command, "rom", hip_file, "--motion", "flexion", "--map", "flexion=0:120:40", "adduction=-20:20:20",
                     "--out", tmp_path], check=True, capture_output=True)

@@ -112,6 +112,7 @@ def compare_reliable(said, joint, named, method):
     measures = joint.contact_measures(named)
     assert said["nearest_distance_mm"] == measures.smallest_gap_mm
     assert said["contact"]["volume_mm3"] == measures.volume_mm3
+    assert said["contact"]["volume_error_mm3"] == measures.volume_error_mm3
     assert said["contact"]["mobile"]["area_mm2"] == measures.mobile.area_mm2
     assert said["contact"]["fixed"]["mean_depth_mm"] == measures.fixed.mean_depth_mm
 

@@ -60,6 +60,90 @@ def test_the_command_writes_the_same_bytes(study: condyle.Study, table: Path, co
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
 
 
+def same_files(a: Path, b: Path) -> None:
+    for name in ("limits.csv", "hips.csv", "failures.csv", "columns.csv", "study.h5", "study.json"):
+        assert (a / name).read_bytes() == (b / name).read_bytes(), name
+
+
+def test_every_option_of_the_command_is_one_of_python(table: Path, command: str, tmp_path: Path):
+    subprocess.run([command, "study", table, "--out", tmp_path / "a", "--motion", "flexion", "--bearing", "1.5",
+                    "--accept-reference-contact", "--exclude-reference-contacts", "--map", "flexion=0:20:10",
+                    "internal_rotation=-10:10:10", "--vary", "adduction", "--band=20", "--seed", "3", "--sigma-centre",
+                    "0.4", "--sigma-axes", "0.5", "--sigma-surface", "0.1", "--depth", "flexion=140"], check=True,
+                   capture_output=True)
+    condyle.run_study(table, tmp_path / "b", motions=["flexion"], bearing_margin_mm=1.5, accept_reference_contact=True,
+                      exclude_reference_contacts=True,
+                      map=({"flexion": (0, 20, 10)}, {"internal_rotation": (-10, 10, 10)}), vary="adduction",
+                      band_samples=20, seed=3, sigma_centre_mm=0.4, sigma_axes_deg=0.5, sigma_surface_mm=0.1,
+                      depth_at="flexion=140")
+    same_files(tmp_path / "a", tmp_path / "b")
+    subprocess.run([command, "study", table, "--out", tmp_path / "c", "--motion", "flexion", "--bearing", "count"],
+                   check=True, capture_output=True)
+    condyle.run_study(table, tmp_path / "d", motions=["flexion"], bearing="count")
+    same_files(tmp_path / "c", tmp_path / "d")
+
+
+@pytest.fixture
+def knees(hip_file: Path, tmp_path: Path) -> Path:
+    """A hinge: the sample's bones, called a knee."""
+    text = hip_file.read_text(encoding="utf-8").replace('kind = "ball"', 'kind = "hinge"\njoint = "knee"')
+    knee = hip_file.with_name("knee.toml")
+    knee.write_text(text, encoding="utf-8")
+    path = tmp_path / "knees.csv"
+    path.write_text(f"id,joint\nk,{knee}\n", encoding="utf-8")
+    return path
+
+
+@pytest.mark.filterwarnings("ignore::condyle.JointWarning")
+def test_other_joints_are_studied_too(knees: Path, command: str, tmp_path: Path):
+    subprocess.run([command, "study", knees, "--out", tmp_path / "a", "--anatomy", "knee", "--depth", "flexion=30"],
+                   check=True, capture_output=True)
+    condyle.run_study(knees, tmp_path / "b", anatomy="knee", depth_at="flexion=30")
+    same_files(tmp_path / "a", tmp_path / "b")
+
+
+@pytest.mark.parametrize("pose", ["flexion=30 adduction=10", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"])
+def test_one_pose_is_read_in_one_way_by_depth_and_study(pose: str, knees: Path, hip_file: Path, command: str,
+                                                        tmp_path: Path):
+    study = subprocess.run([command, "study", knees, "--out", tmp_path / "a", "--anatomy", "knee", "--depth", pose],
+                           capture_output=True, text=True)
+    assert study.returncode == 2, study.stderr
+    for wrong in ({"depth_at": pose}, {"load": condyle.StudyLoad(pose)}):
+        with pytest.raises(condyle.UsageError) as raised:
+            condyle.run_study(knees, tmp_path / "b", anatomy="knee", **wrong)
+        assert f"condyle: {raised.value}\n" == study.stderr
+    if "adduction" in pose:
+        depth = subprocess.run([command, "depth", hip_file.with_name("knee.toml"), "--pose", pose], capture_output=True,
+                               text=True)
+        said = depth.stderr.splitlines()[-1].removeprefix("condyle: ")
+        assert depth.returncode == 2 and study.stderr.endswith(f"joint 'k': {said}\n")
+        with pytest.raises(condyle.UsageError, match="a hinge rotates in flexion only"):
+            condyle.read_joint(hip_file.with_name("knee.toml")).depths({"flexion_deg": 30, "adduction_deg": 10})
+
+
+def test_a_study_without_an_answer_is_an_error(tmp_path: Path):
+    (tmp_path / "table.csv").write_text("id,joint\na,nothere.toml\nb,nothere.toml\n")
+    with pytest.raises(condyle.FileError, match="none of 2 joints was answered; the first one: .*nothere.toml"):
+        condyle.run_study(tmp_path / "table.csv", tmp_path / "out")
+    assert condyle.read_study(tmp_path / "out").failures.rows == 2
+    for number in (1, 2):  # what a shard comes to is no answer yet
+        assert condyle.run_study(tmp_path / "table.csv", tmp_path / "parts", shard=(number, 2)).failures.rows == 1
+    with pytest.raises(condyle.FileError, match="none of 2 joints was answered"):
+        condyle.merge_study(tmp_path / "parts")
+
+
+def test_one_long_text_is_read_in_its_own_room(tmp_path: Path):
+    rows, remark = 2000, "x" * 1_000_000
+    (tmp_path / "table.csv").write_text("id,joint,remark\n" + "".join(
+        f"j{n},nothere.toml,{remark if n == 5 else ''}\n" for n in range(rows)))
+    with pytest.raises(condyle.FileError):
+        condyle.run_study(tmp_path / "table.csv", tmp_path / "out")
+    # 8 GB in an array of texts of one length, 2 GB in an HDF5 file of such texts.
+    read = condyle.read_study(tmp_path / "out").failures["remark"]
+    assert read.dtype == object and read[5] == remark and set(read[6:]) == {""}
+    assert (tmp_path / "out/study.h5").stat().st_size < 3_000_000
+
+
 def test_a_load_is_that_of_elastic_contact(table: Path, hip: condyle.Joint, command: str, tmp_path: Path):
     layer = condyle.ElasticLayer(12, 0.42, 1.5)
     study = condyle.run_study(table, tmp_path / "a", motions=["flexion"],
@@ -108,6 +192,9 @@ def test_what_is_not_a_study_is_refused(table: Path, tmp_path: Path):
 def test_arguments_are_checked(table: Path, tmp_path: Path):
     for wrong in ({"shard": (0, 3)}, {"shard": (4, 3)}, {"shard": 3}, {"motions": "flexion"}, {"motions": ["flexoin"]},
                   {"band_samples": -1}, {"band_samples": 7}, {"depth_at": "yaw=3"}, {"motions": [3]},
+                  {"anatomy": "hips"}, {"bearing": "none"}, {"map": {"flexion": (0, 1)}}, {"vary": "flexion"},
+                  {"map": ({"flexion": (0, 1)},)}, {"map": ({"flexion": 3}, {"adduction": (0, 1)})},
+                  {"map": ({"flexion": (0, 1)}, {"flexion": (0, 1)})}, {"seed": 3}, {"sigma_axes_deg": 1.0},
                   {"load": "flexion=20"}, {"load": condyle.StudyLoad("yaw=3")}, {"load": condyle.StudyLoad(layer=3)},
                   {"load": condyle.StudyLoad(force_n=(1, 2))}, {"load": condyle.StudyLoad(casting="none")},
                   {"load": condyle.StudyLoad(free_directions=(0, 1, 0))}, {"load": condyle.StudyLoad(rule="faces")},

@@ -2,6 +2,7 @@
 
 import gc
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,6 +20,21 @@ def reflected():
 CASES = {
     "flat vertices": (lambda hip: condyle.TriMesh(V.ravel(), T), condyle.UsageError, r"\(12,\)"),
     "two columns": (lambda hip: condyle.TriMesh(V[:, :2], T), condyle.UsageError, r"\(4, 2\)"),
+    "masked vertices": (lambda hip: condyle.TriMesh(masked(V), T), condyle.UsageError, "vertices: a masked array"),
+    "masked triangles": (lambda hip: condyle.TriMesh(V, masked(T)), condyle.UsageError, "triangles: a masked array"),
+    "masked faces of another package": (lambda hip: condyle.inspect(SimpleNamespace(vertices=V, faces=masked(T))),
+                                        condyle.UsageError, "faces: a masked array"),
+    "a masked pose": (lambda hip: hip.penetration(masked(np.eye(4))), condyle.UsageError, "pose: a masked array"),
+    "masked angles": (lambda hip: hip.pose(flexion_deg=masked(np.arange(3))), condyle.UsageError,
+                      "pose: flexion_deg: a masked array"),
+    "a masked centre": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, centre=masked(np.zeros(3))),
+                        condyle.UsageError, "centre: a masked array"),
+    "a masked number": (lambda hip: condyle.DepthRange(hip, np.ma.masked), condyle.UsageError,
+                        "allowed_depth_mm: a masked array"),
+    "masked points of a table": (lambda hip: condyle.RadialTable(hip.fixed).query(masked(V)), condyle.UsageError,
+                                 "masked array"),
+    "masked thicknesses": (lambda hip: condyle.ElasticContact(hip.fixed, hip.mobile, fixed_layer=condyle.ElasticLayer(
+        1, 0.3, masked(np.ones(len(hip.fixed.vertices))))), condyle.UsageError, "masked array"),
     "complex vertices": (lambda hip: condyle.TriMesh(V + 1j, T), condyle.UsageError, "complex128"),
     "vertices of text": (lambda hip: condyle.TriMesh(V.astype(str), T), condyle.UsageError, "real numbers"),
     "ragged vertices": (lambda hip: condyle.TriMesh([[0, 0, 0], [1, 0]], T), condyle.UsageError, "vertices"),
@@ -99,6 +115,22 @@ CASES = {
                                   "beyond 1e30 mm"),
     "a mesh beyond all bounds": (lambda hip: condyle.RingTable((1e307 * V, T), [0, 0, 0], [0, 0, 1]),
                                  condyle.MeshError, "beyond 1e30"),
+    "a hinge asked beside its axis": (lambda hip: hinge(hip).range_of_motion([]).free_angles("adduction"),
+                                      condyle.UsageError, "vary: a hinge rotates in flexion only"),
+    "a hinge started beside its axis": (lambda hip: hinge(hip).range_of_motion([]).contact_set(
+        "flexion", {"adduction": 3}), condyle.UsageError, "start_deg: a hinge rotates in flexion only"),
+    "a hinge placed beside its axis": (lambda hip: condyle.DepthRange(hinge(hip), 1.0).deepest({"adduction": 3}),
+                                       condyle.UsageError, "start_deg: a hinge rotates in flexion only"),
+    "a hinge given beside its axis": (lambda hip: condyle.Joint(
+        hip.fixed, hip.mobile, kind="hinge", joint="knee", reference_pose={"adduction": 3}), condyle.UsageError,
+                                      "reference_pose: a hinge rotates in flexion only"),
+    "a hinge of a shoulder": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, kind="hinge", joint="shoulder"),
+                              condyle.UsageError, "a shoulder is no hinge"),
+    "a ball that translates": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, translation_frame="joint_axes"),
+                               condyle.UsageError, "a ball does not translate"),
+    "a moment that nothing balances": (lambda hip: condyle.ElasticContact(
+        hip.fixed, hip.mobile, fixed_layer=condyle.ElasticLayer(1, 0.3, 1)).balance([0, 1, 0], moment_nmm=[1, 0, 0]),
+                                       condyle.UsageError, "moment_nmm: needs free_rotations"),
     "no layer": (lambda hip: condyle.ElasticContact(hip.fixed, hip.mobile), condyle.UsageError,
                  "one of them needs a layer"),
     "a layer like rubber": (lambda hip: condyle.ElasticContact(
@@ -116,9 +148,17 @@ CASES = {
 }
 
 
+def masked(values):
+    return np.ma.masked_array(values, mask=np.arange(np.size(values)).reshape(np.shape(values)) == 1)
+
+
 def soup_table():
     centred = V - 0.1
     return condyle.RadialTable((centred[T].reshape(-1, 3), np.arange(12).reshape(-1, 3)))
+
+
+def hinge(hip):
+    return condyle.Joint(hip.fixed, hip.mobile, kind="hinge", joint="knee")
 
 
 def closed_file():

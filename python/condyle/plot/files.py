@@ -43,6 +43,8 @@ def read_json(path: PathLike) -> Dict[str, Any]:
         value = json.loads(_text(path))
     except json.JSONDecodeError as error:
         raise ReadError(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise ReadError(f"{path}: not a result of condyle: its lists are nested too deep") from None
     if not isinstance(value, dict) or "condyle" not in value:
         raise ReadError(f"{path}: not a result of condyle: it has no key 'condyle'")
     return value
@@ -130,6 +132,10 @@ def _check_motion(where: str, motion: Any) -> None:
     for key in ("bearing_contact_deg", "normal_range_deg", "clock_hour"):
         if motion.get(key) is not None:
             _check_number(where, motion, key)
+    caveats = motion.get("caveats", [])
+    if not isinstance(caveats, list) or not all(isinstance(each, dict) and isinstance(each.get("code"), str)
+                                                for each in caveats):
+        raise ReadError(f"{where}: 'caveats' is not a list of objects with a code")
     band = motion.get("band")
     if band is not None:
         for key in ("p5_deg", "median_deg", "p95_deg"):

@@ -10,7 +10,8 @@ from matplotlib.ticker import MultipleLocator
 
 from . import style
 from .motion_ends import Band, MotionEnd, motion_ends
-from .words import AS_DEFINED_HERE, in_two_lines, is_as_defined_here, motion_name, of, step_of_ticks
+from .words import AS_DEFINED_HERE, SOFT_TISSUE_ENDS, SOFT_TISSUE_MARK, in_two_lines, is_as_defined_here
+from .words import motion_name, of, scope_clause, step_of_ticks
 
 
 class End(NamedTuple):
@@ -64,6 +65,15 @@ def _normal(ax: Axes, y: float, degrees: float) -> None:
     ax.vlines(degrees, y - 0.37, y + 0.37, color=style.GREY, linewidth=0.9, zorder=1)
 
 
+def _is_ended_by_soft_tissue(end: MotionEnd) -> bool:
+    return "soft_tissue_ends" in end.caveats
+
+
+def _name(end: MotionEnd) -> str:
+    name = motion_name(end.name)
+    return in_two_lines(f"{name} {SOFT_TISSUE_MARK}" if _is_ended_by_soft_tissue(end) else name)
+
+
 def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     """What is shown, for the legend."""
     shown = {end.end for end in ends}
@@ -82,6 +92,8 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
         handles.append(Patch(color=style.LIGHT_GREY, label="normal range" + (f" ({source})" if source else "")))
     if any(is_as_defined_here(end.name) for end in ends):
         handles.append(Line2D([], [], linestyle="none", label=AS_DEFINED_HERE))
+    if any(_is_ended_by_soft_tissue(end) for end in ends):
+        handles.append(Line2D([], [], linestyle="none", label=SOFT_TISSUE_ENDS))
     return handles
 
 
@@ -94,7 +106,8 @@ def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequenc
     result
         A `condyle.RangeOfMotion`, what `files.read_rom` gives, or a mapping or object with `motions`, each with what
         `rom.json` has of it: `name`, `limit_deg`, `reason`, `contact_kind`, and where there is one
-        `bearing_contact_deg`, `band` (with `p5_deg`, `median_deg`, `p95_deg`) and `normal_range_deg`.
+        `bearing_contact_deg`, `band` (with `p5_deg`, `median_deg`, `p95_deg`), `normal_range_deg` and `caveats`; and its
+        `scope`, whose first clause stands below the axis.
     ax
         Where to draw; without it new axes as wide as a column, under `print_style`.
     bands
@@ -111,7 +124,8 @@ def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequenc
     Returns
     -------
     The axes: one bar (gid `limit`) per motion, from the top; its mark (gid `end`) tells what ended it, a diamond on the
-    bar (gid `bearing_contact`) where bearing surfaces met on the way.
+    bar (gid `bearing_contact`) where bearing surfaces met on the way. A dagger marks the names of motions that soft
+    tissue usually ends before bone does.
     """
     ends = motion_ends(result, bands)
     if normal_ranges is not True:
@@ -136,10 +150,10 @@ def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequenc
         ax.set_xlim(0, step * -(-longest // step))
         ax.xaxis.set_major_locator(MultipleLocator(step))
         ax.set_ylim(len(ends) - 0.5, -0.5)
-        ax.set_yticks(range(len(ends)), [in_two_lines(motion_name(end.name)) for end in ends])
+        ax.set_yticks(range(len(ends)), [_name(end) for end in ends])
         ax.tick_params(axis="y", length=0)
         ax.grid(axis="x")
-        ax.set_xlabel("turned from the start of the motion (°)")
+        ax.set_xlabel("\n".join(filter(None, ("turned from the start of the motion (°)", scope_clause(result)))))
         if legend:
             source = of(result, "normal_range_source") if normal_ranges is True else None
             style.legend_below(ax, is_ours, _handles(ends, source))

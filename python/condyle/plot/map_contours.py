@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from . import style
 from .motion_grid import MotionGrid
-from .words import OPPOSITE, angle_axis, in_two_lines, number, of, spaced, step_of_ticks
+from .words import OPPOSITE, angle_axis, in_two_lines, number, of, scope_clause, spaced, step_of_ticks
 
 Array = NDArray[np.float64]
 VIEWS = ("positive", "negative", "free_range")
@@ -215,7 +215,7 @@ def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None
             ax.spines[side].set_visible(True)
         _angle_ticks(ax.xaxis, grid.columns_deg)
         _angle_ticks(ax.yaxis, grid.rows_deg)
-        ax.set_xlabel(angle_axis(*grid.column, *ax.get_xlim()))
+        ax.set_xlabel("\n".join(filter(None, (angle_axis(*grid.column, *ax.get_xlim()), scope_clause(result)))))
         ax.set_ylabel(angle_axis(*grid.row, *ax.get_ylim()))
         if colour_bar:
             bar = ax.figure.colorbar(filled, ax=ax, pad=0.02, aspect=28)

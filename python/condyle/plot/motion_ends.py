@@ -1,7 +1,7 @@
 """What figures need of a range of motion, whether it comes from rom.json or from `Joint.range_of_motion`."""
 from __future__ import annotations
 
-from typing import Any, List, NamedTuple, Optional, Sequence, Union
+from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from .words import of
 
@@ -16,7 +16,8 @@ class Band(NamedTuple):
 
 class MotionEnd(NamedTuple):
     """Where a motion ends. `end` is "impingement", "bearing", "contact" (of an unknown kind), "end_of_range" or
-    "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12).
+    "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12); `caveats`
+    the codes of what usually ends such a motion.
     """
 
     name: str
@@ -26,6 +27,7 @@ class MotionEnd(NamedTuple):
     band: Optional[Band]
     normal_deg: Optional[float]
     hour: Optional[float]
+    caveats: Tuple[str, ...] = ()
 
 
 def _end(reason: str, kind: Optional[str]) -> str:
@@ -38,16 +40,20 @@ def _band(found: Any) -> Optional[Band]:
     return None if found is None else Band(*(float(of(found, name)) for name in Band._fields))
 
 
+def _caveats(limit: Any) -> Tuple[str, ...]:
+    return tuple(of(caveat, "code") for caveat in of(limit, "caveats") or ())
+
+
 def _of_file(limit: Any) -> MotionEnd:
     return MotionEnd(of(limit, "name"), of(limit, "limit_deg"), _end(of(limit, "reason"), of(limit, "contact_kind")),
                      of(limit, "bearing_contact_deg"), _band(of(limit, "band")), of(limit, "normal_range_deg"),
-                     of(limit, "clock_hour"))
+                     of(limit, "clock_hour"), _caveats(limit))
 
 
 def _of_limit(limit: Any) -> MotionEnd:
     kind = limit.contact.kind if limit.contact is not None else None
     return MotionEnd(limit.motion.name, limit.turned_deg, _end(limit.reason, kind), limit.bearing_contact_deg, None,
-                     of(limit, "normal_range_deg"), of(limit, "clock_hour"))
+                     of(limit, "normal_range_deg"), of(limit, "clock_hour"), _caveats(limit))
 
 
 def motion_ends(result: Any, bands: Union[bool, Sequence[Any]] = True) -> List[MotionEnd]:

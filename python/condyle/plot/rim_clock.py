@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from . import style
 from .limit_bars import ENDS
 from .motion_ends import motion_ends
-from .words import motion_name, of
+from .words import in_two_lines, motion_name, of, scope_clause
 
 
 def clock_text(hour: float) -> str:
@@ -141,6 +141,8 @@ def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -
             end = ENDS[place.end]
             ax.plot(*([v] for v in _on_face(1, place.hour)), marker=end.marker, color=end.colour,
                     markeredgecolor="white", markeredgewidth=0.6, markersize=5.5, linestyle="none", zorder=3, gid="end")
+        ax.text(0, -HALF_HEIGHT, in_two_lines(scope_clause(result), 30), ha="center", va="bottom",
+                fontsize=style.smaller(2.5), color="#555555", linespacing=1.05, gid="scope")
         if not found:
             ax.text(0, 0, "no contact", ha="center", va="center", gid="none")
         style.legend_below(ax, is_ours, handles)

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 from pathlib import Path
 from typing import Any, Dict, Iterator, Optional, Sequence, Union
 
@@ -155,8 +156,12 @@ def save(drawn: Union[Axes, Figure], path: Union[str, Path], dpi: float = 300) -
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Writes beside the file first, then puts it in its place."""
-    beside = path.with_name(path.name + ".part")
+    """Writes beside the file first, then puts it in its place; a FIFO or a device is written into."""
+    path = path.resolve()
+    if path.exists() and not path.is_file() and not path.is_dir():
+        path.write_bytes(content)
+        return
+    beside = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
         beside.write_bytes(content)
         beside.replace(path)

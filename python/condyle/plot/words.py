@@ -18,6 +18,16 @@ AS_DEFINED_HERE = "FADIR, FABER: as defined here"
 """What a figure says of the two tests, whose angles nobody has agreed on."""
 
 
+SOFT_TISSUE_MARK = "†"
+SOFT_TISSUE_ENDS = f"{SOFT_TISSUE_MARK} soft tissue usually ends it first"
+"""What a figure says of motions with the caveat `soft_tissue_ends`."""
+
+
+def scope_clause(result: Any) -> str:
+    """What is in contact, the first clause of a result's `scope`; empty where it has none."""
+    return str(of(result, "scope") or "").partition(";")[0]
+
+
 def is_as_defined_here(name: str) -> bool:
     """Whether a motion is one of these."""
     return name in _SHORT

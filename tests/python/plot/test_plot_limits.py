@@ -75,6 +75,18 @@ def test_fadir_and_faber_are_said_to_be_as_defined_here():
     assert "FADIR, FABER: as defined here" not in said("flexion")
 
 
+def test_a_dagger_marks_what_soft_tissue_usually_ends_and_the_scope_stands_below():
+    caveats = [{"code": "soft_tissue_ends", "text": "It does.", "source": "someone"}]
+    ax = figures.limits({"motions": [motion("extension", 72.8, caveats=caveats), motion("flexion", 120.0)],
+                         "scope": "osseous contact of the meshes given; soft tissue is not modelled"})
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["Extension †", "Flexion"]
+    assert "† soft tissue usually ends it first" in [text.get_text() for text in ax.get_legend().get_texts()]
+    assert ax.get_xlabel().splitlines()[1] == "osseous contact of the meshes given"
+    without = figures.limits({"motions": [motion("flexion", 120.0)]})
+    assert "†" not in "".join(text.get_text() for text in without.get_legend().get_texts())
+    assert len(without.get_xlabel().splitlines()) == 1
+
+
 def test_whiskers_reach_from_5_to_95_percent_with_the_median_between():
     ax = figures.limits(RESULT)
     (whisker,) = [c for c in ax.containers if hasattr(c, "has_xerr")]
@@ -130,7 +142,10 @@ def test_nothing_to_draw_is_said_and_leaves_no_figure():
 
 
 def test_all_words_are_on_the_paper():
-    for ax in (figures.limits(RESULT), figures.clock_face(RESULT)):
+    scoped = {**RESULT, "scope": "contact of the bones, cartilages and labrum given; other tissue is not modelled"}
+    scoped["motions"] = [{**each, "caveats": [{"code": "soft_tissue_ends"}]} for each in RESULT["motions"]]
+    drawn = (figures.limits(RESULT), figures.clock_face(RESULT), figures.limits(scoped), figures.clock_face(scoped))
+    for ax in drawn:
         figure = ax.figure
         figure.canvas.draw()
         page = figure.bbox

@@ -1,0 +1,297 @@
+#include "joint_state.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "condyle/error.hpp"
+#include "condyle/version.hpp"
+
+namespace condyle::python {
+namespace {
+
+template <class T>
+concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+template <class T, template <class...> class Of>
+constexpr bool is_a = false;
+template <template <class...> class Of, class... Parts>
+constexpr bool is_a<Of<Parts...>, Of> = true;
+
+template <class T>
+constexpr bool is_array = false;
+template <class T, std::size_t N>
+constexpr bool is_array<std::array<T, N>> = true;
+
+/// Calls back with all members of a struct. One that gets a member more no longer compiles here.
+template <class T, class Each>
+void members(T& value, const Each& each) {
+  using Struct = std::remove_const_t<T>;
+  if constexpr (std::is_same_v<Struct, Points>) {
+    auto& [x, y, z] = value;
+    each(x, y, z);
+  } else if constexpr (std::is_same_v<Struct, TriMesh>) {
+    auto& [vertices, triangles] = value;
+    each(vertices, triangles);
+  } else if constexpr (std::is_same_v<Struct, BodyPart>) {
+    auto& [name, first_vertex, vertices, first_triangle, triangles, is_bearing] = value;
+    each(name, first_vertex, vertices, first_triangle, triangles, is_bearing);
+  } else if constexpr (std::is_same_v<Struct, Body>) {
+    auto& [name, mesh, parts] = value;
+    each(name, mesh, parts);
+  } else if constexpr (std::is_same_v<Struct, Joint>) {
+    auto& [name, kind, side, fixed, mobile, anatomy, frame] = value;
+    each(name, kind, side, fixed, mobile, anatomy, frame);
+  } else if constexpr (std::is_same_v<Struct, Sphere>) {
+    auto& [centre, radius] = value;
+    each(centre, radius);
+  } else if constexpr (std::is_same_v<Struct, SphereFit>) {
+    auto& [sphere, rms, largest, vertices] = value;
+    each(sphere, rms, largest, vertices);
+  } else if constexpr (std::is_same_v<Struct, SphericalPatch>) {
+    auto& [fit, coverage, bound] = value;
+    each(fit, coverage, bound);
+  } else if constexpr (std::is_same_v<Struct, Cylinder>) {
+    auto& [point, direction, radius] = value;
+    each(point, direction, radius);
+  } else if constexpr (std::is_same_v<Struct, CylinderFit>) {
+    auto& [cylinder, rms, largest, vertices, coverage, direction_bound, axis_bound] = value;
+    each(cylinder, rms, largest, vertices, coverage, direction_bound, axis_bound);
+  } else if constexpr (std::is_same_v<Struct, AxisErrors>) {
+    auto& [anterior, superior, right_angle] = value;
+    each(anterior, superior, right_angle);
+  } else if constexpr (std::is_same_v<Struct, FrameDirections>) {
+    auto& [anterior, superior] = value;
+    each(anterior, superior);
+  } else if constexpr (std::is_same_v<Struct, PelvisLandmarks>) {
+    auto& [a, b, c, d] = value;
+    each(a, b, c, d);
+  } else if constexpr (std::is_same_v<Struct, AnteriorPelvicPlane> ||
+                       std::is_same_v<Struct, TransepicondylarAxis>) {
+    auto& [a, b, c] = value;
+    each(a, b, c);
+  } else if constexpr (std::is_same_v<Struct, FemurLandmarks>) {
+    auto& [medial, lateral] = value;
+    each(medial, lateral);
+  } else if constexpr (std::is_same_v<Struct, CentreFit>) {
+    auto& [body, within] = value;
+    each(body, within);
+  } else if constexpr (std::is_same_v<Struct, FrameDescription>) {
+    auto& [centre, axes, mobile_axes] = value;
+    each(centre, axes, mobile_axes);
+  } else if constexpr (std::is_same_v<Struct, JointAngles>) {
+    auto& [flexion, adduction, internal_rotation] = value;
+    each(flexion, adduction, internal_rotation);
+  } else if constexpr (std::is_same_v<Struct, JointCoordinates>) {
+    auto& [angles, translation] = value;
+    each(angles, translation);
+  } else if constexpr (std::is_same_v<Struct, PoseDegrees>) {
+    auto& [flexion, adduction, internal_rotation, translation] = value;
+    each(flexion, adduction, internal_rotation, translation);
+  } else if constexpr (std::is_same_v<Struct, JointDescription>) {
+    auto& [name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W] = value;
+    each(name, kind, side, units, frame, pose, anatomy, translation_frame, fixed_in_W, mobile_in_W);
+  } else if constexpr (std::is_same_v<Struct, LikelyUnit>) {
+    auto& [unit, reason] = value;
+    each(unit, reason);
+  } else if constexpr (std::is_same_v<Struct, BoundingBox>) {
+    auto& [low, high] = value;
+    each(low, high);
+  } else if constexpr (std::is_same_v<Struct, BodyPlacement>) {
+    auto& [unit, bounds] = value;
+    each(unit, bounds);
+  } else if constexpr (std::is_same_v<Struct, JointPlacement>) {
+    auto& [X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes] =
+        value;
+    each(X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes);
+  } else if constexpr (std::is_same_v<Struct, MeshEntry>) {
+    auto& [part, mesh, repairs, is_bearing] = value;
+    each(part, mesh, repairs, is_bearing);
+  } else if constexpr (std::is_same_v<Struct, BodyEntry>) {
+    auto& [name, meshes] = value;
+    each(name, meshes);
+  } else if constexpr (std::is_same_v<Struct, Motion>) {
+    auto& [name, vary, sense, start, range] = value;
+    each(name, vary, sense, start, range);
+  } else if constexpr (std::is_same_v<Struct, Uncertainty>) {
+    auto& [centre, axes, surface] = value;
+    each(centre, axes, surface);
+  } else if constexpr (std::is_same_v<Struct, NormalDepthOptions>) {
+    auto& [rule, reach] = value;
+    each(rule, reach);
+  } else if constexpr (std::is_same_v<Struct, LayerEntry>) {
+    auto& [modulus, ratio, thickness, behind, file, unit] = value;
+    each(modulus, ratio, thickness, behind, file, unit);
+  } else if constexpr (std::is_same_v<Struct, HalfSpace>) {
+    auto& [normal, offset] = value;
+    each(normal, offset);
+  } else if constexpr (std::is_same_v<Struct, RegionEntry>) {
+    auto& [name, half_spaces] = value;
+    each(name, half_spaces);
+  } else if constexpr (std::is_same_v<Struct, ContactEntry>) {
+    auto& [fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions] = value;
+    each(fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions);
+  } else if constexpr (std::is_same_v<Struct, ColumnOfCoordinate>) {
+    auto& [coordinate, kind, column, unit, sign, offset] = value;
+    each(coordinate, kind, column, unit, sign, offset);
+  } else if constexpr (std::is_same_v<Struct, ColumnsOfPoses>) {
+    auto& [fixed_body, mobile_body, unit] = value;
+    each(fixed_body, mobile_body, unit);
+  } else if constexpr (std::is_same_v<Struct, FileDigest>) {
+    auto& [bytes, sha256] = value;
+    each(bytes, sha256);
+  } else if constexpr (std::is_same_v<Struct, JointFile>) {
+    auto& [path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, digest, notes] =
+        value;
+    each(path, joint, fixed, mobile, motions, uncertainty, seed, pose, contact, recorded, digest, notes);
+  } else if constexpr (std::is_same_v<Struct, RepairDone>) {
+    auto& [repair, count] = value;
+    each(repair, count);
+  } else if constexpr (std::is_same_v<Struct, BodyMeshReport>) {
+    auto& [part, mesh, vertices, triangles, welded, repairs, digest] = value;
+    each(part, mesh, vertices, triangles, welded, repairs, digest);
+  } else if constexpr (std::is_same_v<Struct, JointReport>) {
+    auto& [file, fixed, mobile, placement, notes] = value;
+    each(file, fixed, mobile, placement, notes);
+  } else {
+    static_assert(std::is_same_v<Struct, LoadedJoint>);
+    auto& [joint, report] = value;
+    each(joint, report);
+  }
+}
+
+class Writer {
+ public:
+  template <class T>
+  void put(const T& value) {
+    if constexpr (Plain<T>) {
+      put_bytes(&value, sizeof(T));
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      put(value.size());
+      put_bytes(value.data(), value.size());
+    } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+      put(value.native());
+    } else if constexpr (std::is_same_v<T, Angle>) {
+      put(value.radians());
+    } else if constexpr (std::is_same_v<T, Vec3>) {
+      put_bytes(value.data(), 3 * sizeof(double));
+    } else if constexpr (std::is_same_v<T, Pose>) {
+      put_bytes(value.matrix().data(), 16 * sizeof(double));
+    } else if constexpr (std::is_same_v<T, Mesh>) {
+      put(value.arrays());
+    } else if constexpr (is_a<T, std::optional>) {
+      put(value.has_value());
+      if (value) put(*value);
+    } else if constexpr (is_a<T, std::vector>) {
+      put(value.size());
+      for (const auto& each : value) put(each);
+    } else if constexpr (is_array<T>) {
+      for (const auto& each : value) put(each);
+    } else if constexpr (is_a<T, std::variant>) {
+      put(value.index());
+      std::visit([&](const auto& held) { put(held); }, value);
+    } else if constexpr (!std::is_same_v<T, std::monostate>) {
+      members(value, [&](const auto&... each) { (put(each), ...); });
+    }
+  }
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  void put_bytes(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  std::string bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : left_(bytes) {}
+
+  template <class T>
+  void get(T& value) {
+    if constexpr (Plain<T>) {
+      get_bytes(&value, sizeof(T));
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      value.resize(count());
+      get_bytes(value.data(), value.size());
+    } else if constexpr (std::is_same_v<T, std::filesystem::path>) {
+      value = made<std::string>();
+    } else if constexpr (std::is_same_v<T, Angle>) {
+      value = Angle::radians(made<double>());
+    } else if constexpr (std::is_same_v<T, Vec3>) {
+      get_bytes(value.data(), 3 * sizeof(double));
+    } else if constexpr (std::is_same_v<T, Pose>) {
+      get_bytes(value.matrix().data(), 16 * sizeof(double));
+    } else if constexpr (std::is_same_v<T, Mesh>) {
+      value = Mesh(made<TriMesh>());
+    } else if constexpr (is_a<T, std::optional>) {
+      if (made<bool>()) get(value.emplace());
+    } else if constexpr (is_a<T, std::vector>) {
+      value.resize(count());
+      for (auto& each : value) get(each);
+    } else if constexpr (is_array<T>) {
+      for (auto& each : value) get(each);
+    } else if constexpr (is_a<T, std::variant>) {
+      get_held(value, made<std::size_t>(), std::make_index_sequence<std::variant_size_v<T>>());
+    } else if constexpr (!std::is_same_v<T, std::monostate>) {
+      members(value, [&](auto&... each) { (get(each), ...); });
+    }
+  }
+
+ private:
+  template <class T>
+  T made() {
+    T value{};
+    get(value);
+    return value;
+  }
+  template <class T, std::size_t... I>
+  void get_held(T& value, std::size_t index, std::index_sequence<I...>) {
+    ((I == index ? get(value.template emplace<I>()) : void()), ...);
+  }
+  /// How many follow, each of a byte at least.
+  std::size_t count() {
+    const auto number = made<std::size_t>();
+    if (number > left_.size()) fail();
+    return number;
+  }
+  void get_bytes(void* data, std::size_t size) {
+    if (size > left_.size()) fail();
+    std::memcpy(data, left_.data(), size);
+    left_.remove_prefix(size);
+  }
+  [[noreturn]] static void fail() { throw UsageError("joint: what was pickled is cut off"); }
+
+  std::string_view left_;
+};
+
+Body no_body() {
+  return {"", Mesh(TriMesh{}), {}};
+}
+
+}  // namespace
+
+std::string state_of(const LoadedJoint& joint) {
+  Writer writer;
+  writer.put(std::string(version));
+  writer.put(joint);
+  return writer.take();
+}
+
+LoadedJoint joint_of_state(std::string_view state) {
+  Reader reader(state);
+  std::string written_by;
+  reader.get(written_by);
+  if (written_by != version)
+    throw UsageError(
+        fmt::format("joint: was pickled by condyle {:.40}, and this is {}: make it anew from its files",
+                    written_by, version));
+  LoadedJoint joint{Joint{"", JointKind::ball, Side::right, no_body(), no_body()}, {}};
+  reader.get(joint);
+  return joint;
+}
+
+}  // namespace condyle::python

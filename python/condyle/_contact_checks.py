@@ -1,0 +1,36 @@
+"""What looks wrong with materials, loads and motions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterable
+
+from ._errors import warn
+
+
+@dataclass(frozen=True)
+class ContactNote:
+    """What looks wrong with layers, a load or a motion: `code` as in files ("unlikely_modulus"), `text` one sentence.
+
+    docs/checks.md has the codes and the sources of the bounds.
+    """
+
+    code: str
+    text: str
+
+
+def contact_notes(found: Iterable[tuple[str, str]]) -> tuple[ContactNote, ...]:
+    return tuple(ContactNote(code, text) for code, text in found)
+
+
+def warn_of(notes: Iterable[ContactNote]) -> None:
+    """A JointWarning for each note; one for notes that several answers share."""
+    for note in dict.fromkeys(notes):
+        warn(f"{note.code}: {note.text}")
+
+
+def reported(found: Iterable[tuple[str, str]]) -> tuple[ContactNote, ...]:
+    """The notes of an answer, each with a JointWarning."""
+    notes = contact_notes(found)
+    warn_of(notes)
+    return notes

@@ -1,0 +1,91 @@
+"""Every wrong set-up of wrong_setups.py gets one clear line or note, from the command and from the module."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import warnings
+from pathlib import Path
+
+import pytest
+from wrong_setups import ERRORS, SETUPS, Scene, Setup
+
+import condyle
+
+NOTE, ERROR = "condyle: note: ", "condyle: "
+LONGEST = 400
+
+
+@pytest.fixture(scope="module")
+def bones() -> condyle.SampleHip:
+    return condyle.sample_hip(scenario=1)
+
+
+@pytest.fixture(scope="module")
+def joint_file(command: str, tmp_path_factory: pytest.TempPathFactory) -> str:
+    folder = tmp_path_factory.mktemp("sample")
+    subprocess.run([command, "sample", "hip", "--out", folder], check=True, capture_output=True)
+    return (folder / "hip.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def scene(bones: condyle.SampleHip, joint_file: str, tmp_path: Path) -> Scene:
+    return Scene(tmp_path, bones, joint_file)
+
+
+def require_one_line(text: str) -> None:
+    assert "\n" not in text and 0 < len(text) < LONGEST and text.isprintable(), text
+
+
+def require_command_says(setup: Setup, command: str, folder: Path) -> None:
+    ran = subprocess.run([command, *shlex.split(setup.command)], cwd=folder, capture_output=True, text=True,
+                         timeout=300)
+    notes = [line for line in ran.stderr.splitlines() if line.startswith(NOTE)]
+    rest = [line for line in ran.stderr.splitlines() if not line.startswith(NOTE)]
+    assert ran.returncode == setup.ends, ran.stderr
+    if setup.ends == 0:
+        # Those on what was written or read have no code.
+        coded = [line for line in notes if re.match(NOTE + "[a-z_]+: ", line)]
+        assert coded and any(setup.says in line for line in coded), ran.stderr
+        assert rest == []
+        return
+    line, = rest
+    assert line.startswith(ERROR) and setup.says in line, line
+    assert not setup.untrue or setup.untrue not in line, line
+    require_one_line(line)
+
+
+def require_module_says(setup: Setup, scene: Scene) -> None:
+    if setup.ask is None:
+        return
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        if setup.ends == 0:
+            setup.ask(scene)
+        else:
+            with pytest.raises(ERRORS[setup.ends]) as raised:
+                setup.ask(scene)
+            assert (setup.says_in_python or setup.says) in str(raised.value)
+            assert not setup.untrue or setup.untrue not in str(raised.value)
+            require_one_line(str(raised.value))
+            return
+    said = [str(each.message) for each in caught if issubclass(each.category, condyle.JointWarning)]
+    assert any(setup.says in text for text in said), said
+    for text in said:
+        require_one_line(text)
+
+
+@pytest.mark.parametrize("name", SETUPS)
+def test_a_wrong_setup_is_reported(name: str, scene: Scene, command: str):
+    require_reported(SETUPS[name], scene, command)
+
+
+def test_there_are_sixty() -> None:
+    assert len(SETUPS) >= 60
+
+
+def require_reported(setup: Setup, scene: Scene, command: str) -> None:
+    setup.spoil(scene)
+    require_command_says(setup, command, scene.folder)
+    require_module_says(setup, scene)
