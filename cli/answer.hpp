@@ -10,14 +10,18 @@ namespace condyle::cli {
 /// How an answer is printed.
 enum class AnswerForm { text, json };
 
-/// Writes an answer to standard output. Throws FileError where it cannot be written (closed, disk full).
+/// Writes an answer to standard output, after the notes; what a terminal would obey is left out (plain_text()). Throws FileError
+/// where it cannot be written (closed, disk full).
 void print(std::string_view answer);
 
-/// Says something that is no answer and no error, as one line on standard error,
-/// whatever a name in it holds.
+/// Something that is no answer and no error, one line on standard error whatever a name in it holds. It waits for the
+/// answer, or for the refusal that it may explain.
 void note(std::string remark);
 
-/// Says on standard error which files were written; paths as OutputFolder::commit() returns them.
+/// Says the notes that wait.
+void say_notes();
+
+/// Notes which files were written; paths as OutputFolder::commit() returns them.
 void say_written(const std::vector<std::filesystem::path>& files);
 
 }  // namespace condyle::cli

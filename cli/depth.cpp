@@ -42,47 +42,49 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, DepthMethod method) {
-  const Pose& X_FM = question.X_FM;
-  const RadialContact contact = joint.radial(X_FM);
-  const ContactMeasures measures = measure_contact(joint, X_FM, VertexStates(contact));
-  // About which axis such a pose would turn depends on how it got there.
-  const bool rotated_only = X_FM.translation() == Vec3::Zero();
-  const ReliableContact reliable =
-      method == DepthMethod::reliable && rotated_only
-          ? reliable_depths(joint, question.joint.kind, question.joint.coordinates(), question.pose.angles(),
-                            contact, measures.distances)
-          : reliable_radial_depths(contact, measures.distances);
-  return depth_result(question, method, measures, contact, summarise(joint, X_FM, contact), reliable);
+/// Which vertices an answer says the nearest distance of: files have it of all.
+DistancesOf distances_of(const Options& options) {
+  return options.out.empty() ? DistancesOf::vertices_inside : DistancesOf::all_vertices;
 }
 
-DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about) {
+DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, DepthMethod method,
+                      DistancesOf distances) {
+  const Pose& X_FM = question.X_FM;
+  const PoseDepth depth = depth_at(joint, question.joint, question.pose.angles(), X_FM, method, distances);
+  return depth_result(question, method, depth, summarise(joint, X_FM, depth.contact));
+}
+
+DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about,
+                          DistancesOf distances) {
   require_at_centre(question.X_FM, "--method tangential", "--method radial");
   const RotationAxis axis{about, axis_of(about, question.joint.coordinates(), question.pose.angles())};
   const TangentialContact contact = joint.tangential(question.X_FM, axis.direction_F);
-  return depth_result(question, measure_contact(joint, question.X_FM, VertexStates(contact)), axis, contact);
+  return depth_result(question, measure_contact(joint, question.X_FM, MeasuredContact(contact), distances),
+                      axis, contact);
 }
 
-DepthResult by_normal(const DepthQuestion& question, const JointContact& joint, const ContactEntry& entry) {
-  return depth_result(question, entry, measure_contact(joint, question.X_FM, VertexStates()),
+DepthResult by_normal(const DepthQuestion& question, const JointContact& joint, const ContactEntry& entry,
+                      DistancesOf distances) {
+  return depth_result(question, entry, measure_contact(joint, question.X_FM, MeasuredContact(), distances),
                       normal_contact(joint, question.X_FM, entry.casting, entry.rays));
 }
 
 DepthResult answer_of(const Options& options, const DepthQuestion& question, const ContactEntry& entry) {
   const JointContact joint(question.joint);
+  const DistancesOf distances = distances_of(options);
   switch (options.method) {
     case Method::reliable:
-      return by_radial(question, joint, DepthMethod::reliable);
+      return by_radial(question, joint, DepthMethod::reliable, distances);
     case Method::radial:
-      return by_radial(question, joint, DepthMethod::radial);
+      return by_radial(question, joint, DepthMethod::radial, distances);
     case Method::normal:
-      return by_normal(question, joint, entry);
+      return by_normal(question, joint, entry, distances);
     case Method::tangential:
       break;
   }
   const JointAngle about =
       options.about ? joint_angle_named(*options.about, question.joint.anatomy) : JointAngle::flexion;
-  return by_tangential(question, joint, about);
+  return by_tangential(question, joint, about, distances);
 }
 
 /// By its coordinates, as a matrix, or as a matrix in a file.
@@ -156,7 +158,9 @@ void run(const Options& options, const CLI::App& command) {
   const GivenPose given = pose_of(options, joint);
   for (const std::string& remark : given.notes) note("pose: " + remark);
   require_meshes(loaded, options);
-  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  if (!options.matrix.empty()) from.read.emplace_back(options.matrix);
+  if (!options.out.empty()) check_depth_folder(options.out, &from);
   const DepthQuestion question{.joint = joint,
                                .pose = given.pose,
                                .X_FM = given.X_FM,
@@ -177,7 +181,7 @@ void add_depth(CLI::App& app) {
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep\n"
-      "         condyle depth sample/hip.toml --pose flexion=130 --method normal --casting mobile");
+      "         condyle depth sample/hip.toml --pose flexion=140 --method normal --casting mobile");
   auto options = std::make_shared<Options>();
   command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
   auto* pose = command->add_option(

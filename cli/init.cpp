@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/propose_joint.hpp"
-#include "io/file/whole_file.hpp"
+#include "io/file/output_file.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -24,13 +24,16 @@ struct Options {
 void run(Options options) {
   namespace fs = std::filesystem;
   options.request.joint_file = options.out.empty() ? fs::path("joint.toml") : fs::path(options.out);
-  if (!options.out.empty() && fs::exists(options.out))
-    throw FileError(options.out +
-                    ": is there already; a joint file may have been edited and is not replaced");
+  if (!options.out.empty()) {
+    if (fs::exists(fs::symlink_status(options.out)))
+      throw FileError(options.out +
+                      ": is there already; a joint file may have been edited and is not replaced");
+    io::check_output_file(options.out);
+  }
   const JointProposal proposal = propose_joint(options.request);
   for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
   if (options.out.empty()) return print(proposal.toml);
-  io::write_whole_file(options.out, proposal.toml);
+  io::write_output_file(options.out, proposal.toml);
   note("wrote " + options.out);
 }
 

@@ -1,6 +1,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <set>
@@ -41,7 +42,15 @@ void check_names_differ(const Options& options) {
 void run(const Options& options, const CLI::App& command) {
   std::vector<Repair> repairs;
   for (const std::string& name : options.repairs) repairs.push_back(repair_named(name));
-  if (!options.out.empty()) check_names_differ(options);
+  const std::vector<std::filesystem::path> meshes(options.meshes.begin(), options.meshes.end());
+  const auto is_repaired = [&](std::string_view name) {
+    return std::any_of(meshes.begin(), meshes.end(),
+                       [&](const auto& mesh) { return repaired_name(mesh) == name; });
+  };
+  if (!options.out.empty()) {
+    check_names_differ(options);
+    OutputFolder{options.out, is_repaired, meshes};
+  }
 
   std::vector<MeshInspection> inspections;
   std::vector<TriMesh> repaired;
@@ -51,7 +60,7 @@ void run(const Options& options, const CLI::App& command) {
     if (!options.out.empty()) repaired.push_back(std::move(inspected.mesh));
   }
   if (!options.out.empty()) {
-    OutputFolder out(options.out);
+    OutputFolder out(options.out, is_repaired, meshes);
     for (std::size_t i = 0; i < repaired.size(); ++i)
       write_mesh(out.file(repaired_name(options.meshes[i])), repaired[i]);
     out.commit();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <csignal>
 #include <stdexcept>
 
@@ -11,14 +12,17 @@ class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// From now on SIGINT or SIGTERM ends the process at once with one line and exit code 130, where it was not told to ignore them. A
+/// From now on SIGINT, SIGTERM or SIGHUP ends the process at once with one line and exit code 130, and nothing half-written
+/// is left; not one that the parent had it ignore, as nohup and shells in the background do. A
 /// file that would grow past what the process may write is an error of writing like a full disk, and no signal.
 void say_when_interrupted() noexcept;
 
-/// While it lives, the first SIGINT or SIGTERM is noted instead of ending the process, so that it can end with
+/// While it lives, the first of these signals is noted instead of ending the process, so that it can end with
 /// nothing half-written; a second one ends it as ever. One at a time.
 class InterruptWatch {
  public:
+  static constexpr std::array<int, 3> signals = {SIGINT, SIGTERM, SIGHUP};
+
   InterruptWatch();
   ~InterruptWatch();
   InterruptWatch(const InterruptWatch&) = delete;
@@ -27,7 +31,7 @@ class InterruptWatch {
   bool interrupted() const noexcept;
 
  private:
-  struct sigaction old_int_, old_term_;
+  std::array<struct sigaction, signals.size()> before_;
 };
 
 }  // namespace condyle::cli

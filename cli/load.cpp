@@ -3,6 +3,8 @@
 #include <CLI/Formatter.hpp>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "answer.hpp"
 #include "command_line.hpp"
@@ -27,7 +29,7 @@ struct Options {
 
 LoadAnswer answer_of(const ElasticContact& surfaces, const LoadQuestion& question,
                      const BalanceGiven& given) {
-  LoadAnswer answer{question.X_FM, {}, {}, 0};
+  LoadAnswer answer{question.X_FM, {}};
   if (question.load) {
     answer.balanced = balance(surfaces, question.X_FM, *question.load, balance_options_of(given));
     if (!answer.balanced->carries_load()) throw UsageError("--force: " + reason_of(*answer.balanced));
@@ -37,6 +39,7 @@ LoadAnswer answer_of(const ElasticContact& surfaces, const LoadQuestion& questio
     answer.contact = surfaces.at(question.X_FM);
   }
   answer.cut_off_by_reach = surfaces.cut_off_by_reach(answer.X_FM);
+  answer.refined_force_n = surfaces.refined_force_n(answer.X_FM);
   return answer;
 }
 
@@ -46,6 +49,7 @@ void run(const Options& options, const CLI::App& command) {
   const GivenPose given = given_pose(options.pose, joint);
   for (const std::string& remark : given.notes) note(remark);
   const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  if (!options.out.empty()) check_load_folder(options.out, &from);
   const ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
   const ContactSurfaces surfaces = surfaces_of(contact, joint);
   LoadQuestion question{
@@ -53,7 +57,13 @@ void run(const Options& options, const CLI::App& command) {
   if (options.balance->any()) question.load = load_of(*options.balance);
   const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                               elastic_options(contact, surfaces, loaded));
-  const LoadAnswer answer = answer_of(layers, question, *options.balance);
+  const BodyNames names{surfaces.fixed.name, surfaces.mobile.name};
+  std::vector<ContactNote> notes;
+  note_contact(notes, check_layers(layers, names), loaded, options.strictness);
+  if (question.load) note_contact(notes, check_load(*question.load), loaded, options.strictness);
+  LoadAnswer answer = answer_of(layers, question, *options.balance);
+  note_contact(notes, check_contact(answer.contact, names), loaded, options.strictness);
+  answer.notes = std::move(notes);
   if (!options.out.empty())
     say_written(write_load(options.out, question, answer, options.where->vtp_encoding));
   print(options.form == AnswerForm::json ? load_json(question, answer) : load_text(question, answer));

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/global_control.h>
 #include <unistd.h>
 
@@ -8,8 +9,12 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "answer.hpp"
@@ -19,6 +24,7 @@
 #include "help_formatter.hpp"
 #include "interrupt.hpp"
 #include "io/file/failure.hpp"
+#include "io/file/temporary_folder.hpp"
 
 namespace {
 
@@ -42,31 +48,93 @@ int fail(const condyle::io::Failure& failure) {
   return failure.exit_code;
 }
 
-/// What is wrong with the command line, with the commands there are where none was given.
-std::string describe(const CLI::ParseError& error, const CLI::App& app) {
-  if (!app.get_subcommands().empty()) {
-    const CLI::App& command = *app.get_subcommands().front();
-    std::string text = command.get_name() + ": " + error.what();
-    const auto unexpected = app.remaining(true);
-    if (unexpected.empty()) return text;
-    std::vector<std::string> options;
-    for (const CLI::Option* option : command.get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
-    return text +
-           condyle::core::did_you_mean(unexpected.front().substr(0, unexpected.front().find('=')), options);
+/// Notes come after the refusal, which is often what they explain; after an error of the program nothing does. Where there is
+/// no memory for the message either, that is what is said.
+int refuse_for_current_exception() noexcept {
+  try {
+    const condyle::io::Failure failure = condyle::io::failure_of_current_exception();
+    fail(failure);
+    if (failure.exit_code != condyle::io::internal_error) cli::say_notes();
+    return failure.exit_code;
+  } catch (...) {
+    std::fputs("condyle: out of memory\n", stderr);
+    return condyle::io::internal_error;
   }
-  std::string commands;
+}
+
+/// Where an exception cannot be handled: some destructors of libraries take memory, and none may fail.
+[[noreturn]] void end_without_answer() noexcept {
+  std::string_view line = "condyle: internal error: ended\n";
+  try {
+    if (std::current_exception()) throw;
+  } catch (const std::bad_alloc&) {
+    line = "condyle: out of memory\n";
+  } catch (...) {
+  }
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, line.data(), line.size());
+  condyle::io::end_temporary_folders();
+  ::_exit(condyle::io::internal_error);
+}
+
+/// The commands below one, "hip, cartilages, cohort".
+std::vector<std::string> commands_of(const CLI::App& app) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands(nullptr)) {
-    commands += (commands.empty() ? "" : ", ") + command->get_name();
-    names.push_back(command->get_name());
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+bool is_number(const std::string& word) {
+  return !word.empty() && word.find_first_not_of("0123456789") == word.npos;
+}
+
+/// A number after the flag --band, which takes it after an equals sign only: the next word may be a file.
+std::optional<std::string> number_after_band(const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i + 1 < words.size(); ++i)
+    if (words[i] == "--band" && is_number(words[i + 1])) return words[i + 1];
+  return std::nullopt;
+}
+
+/// An argument that the command does not take.
+std::string describe_unexpected(const std::string& word, const CLI::App& command) {
+  const std::string& name = command.get_name();
+  if (const auto below = commands_of(command); !below.empty() && !word.starts_with('-'))
+    return fmt::format("{0}: there is no {0} '{1}'{2}; there are {3}", name, word,
+                       condyle::core::did_you_mean(word, below), fmt::join(below, ", "));
+  if (word == "-q" || word == "--quiet")
+    return fmt::format(
+        "{}: there is no option {}: answers go to standard output, and 2>/dev/null hides notes and "
+        "progress",
+        name, word);
+  if (!word.starts_with('-'))
+    return fmt::format("{0}: '{1}' is one argument too many; condyle help {0} has them", name, word);
+  std::vector<std::string> options;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& known : option->get_lnames()) options.push_back("--" + known);
+  const std::string option = word.substr(0, word.find('='));
+  return fmt::format("{0}: there is no option {1}{2}; condyle help {0} has those there are", name, option,
+                     condyle::core::did_you_mean(option, options));
+}
+
+/// What is wrong with the command line, with what to write in its place.
+std::string describe(const CLI::ParseError& error, const CLI::App& app,
+                     const std::vector<std::string>& words) {
+  if (!app.get_subcommands().empty()) {
+    const CLI::App* command = app.get_subcommands().front();
+    while (!command->get_subcommands().empty()) command = command->get_subcommands().front();
+    if (const auto number = number_after_band(words))
+      return fmt::format("{}: --band takes a number after an equals sign only: --band={}",
+                         command->get_name(), *number);
+    const auto unexpected = app.remaining(true);
+    if (!unexpected.empty()) return describe_unexpected(unexpected.front(), *command);
+    return command->get_name() + ": " + error.what();
   }
+  const std::vector<std::string> names = commands_of(app);
   const auto unknown = app.remaining();
   if (!unknown.empty())
     return fmt::format("unknown command '{}'{}; there are {}", unknown.front(),
-                       condyle::core::did_you_mean(unknown.front(), names), commands);
+                       condyle::core::did_you_mean(unknown.front(), names), fmt::join(names, ", "));
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::RequiredError))
-    return fmt::format("a command is needed: {}", commands);
+    return fmt::format("a command is needed: {}", fmt::join(names, ", "));
   return error.what();
 }
 
@@ -117,14 +185,16 @@ int run(int argc, char** argv) {
   cli::add_study(app);
   cli::add_merge(app);
 
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   try {
     app.parse(arguments(argc, argv));
   } catch (const CLI::Success& request) {  // --help or --version
     const bool version = dynamic_cast<const CLI::CallForVersion*>(&request) != nullptr;
     cli::print(version ? app.version() + "\n" : app.help());
   } catch (const CLI::ParseError& error) {
-    return fail({condyle::io::bad_usage, condyle::io::one_line(describe(error, app))});
+    return fail({condyle::io::bad_usage, condyle::io::one_line(describe(error, app, words))});
   }
+  cli::say_notes();
   return condyle::io::answered;
 }
 
@@ -133,11 +203,13 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   hold_standard_streams();
   cli::say_when_interrupted();
+  std::set_terminate(end_without_answer);
   try {
     return run(argc, argv);
   } catch (const cli::Interrupted& stopped) {
-    return fail({condyle::io::interrupted, stopped.what()});
+    std::fprintf(stderr, "condyle: %s\n", stopped.what());
+    return condyle::io::interrupted;
   } catch (...) {
-    return fail(condyle::io::failure_of_current_exception());
+    return refuse_for_current_exception();
   }
 }

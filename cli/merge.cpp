@@ -18,7 +18,7 @@ void add_merge(CLI::App& app) {
       "Example: condyle merge study\n"
       "The tables are those of a run of the whole table, byte for byte.\n"
       "Exit code 3: a shard is missing or not whole, or is of another table, other options or another "
-      "version.");
+      "version. Where no joint was answered: that of the first failure.");
   auto folder = std::make_shared<std::string>();
   command->add_option("DIR", *folder, "What condyle study --shard was given as --out")->required();
   command->callback([folder] {
@@ -26,6 +26,7 @@ void add_merge(CLI::App& app) {
     for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);
     say_written(done.written);
     print(fmt::format("{} answered, {} failed\n", done.joints, done.failures));
+    require_answered(done, *folder);
   });
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "answer.hpp"
@@ -45,10 +46,10 @@ std::vector<Load> loads_of(const Options& options, JointMotion& motion) {
     return options.balance->any() ? std::vector<Load>{load_of(*options.balance)} : std::vector<Load>{};
   const MotionTable table = read_motion_table(options.loads);
   const auto given = io::loads_of(table, motion.times, options.balance->frame, options.balance->rotations);
-  std::vector<std::string> notes = table.notes;
-  io::note_gaps(table, given, notes);
-  for (const std::string& remark : notes)
-    motion.notes.push_back(fmt::format("{}: {}", options.loads, remark));
+  std::vector<std::string> processing = table.processing;
+  io::note_gaps(table, given, processing);
+  for (const std::string& remark : processing)
+    motion.processing.push_back(fmt::format("{}: {}", options.loads, remark));
   std::vector<Load> loads(given.size());
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i])
@@ -68,9 +69,8 @@ bool holds_centre(std::span<const std::optional<Pose>> X_FM) {
   });
 }
 
-MotionAnswer answer_of(const Options& options, const MotionQuestion& question,
+MotionAnswer answer_of(const Options& options, const MotionSurfaces& surfaces, const MotionQuestion& question,
                        const std::vector<Load>& loads) {
-  const MotionSurfaces surfaces(question);
   MotionAnswer answer;
   std::vector<std::optional<Pose>> X_FM = question.motion.X_FM;
   if (!loads.empty()) {
@@ -101,6 +101,10 @@ MotionAnswer answer_of(const Options& options, const MotionQuestion& question,
     });
   }
   answer.frames = surfaces.frames(X_FM);
+  if (surfaces.elastic())
+    if (const auto largest = frame_of_largest_force(answer))
+      if (const auto refined = surfaces.elastic()->refined_force_n(answer.frames[*largest]->X_FM))
+        answer.refined_largest_force_n = refined->norm();
   return answer;
 }
 
@@ -110,14 +114,31 @@ void run(const Options& options, const CLI::App& command) {
   if (options.between && !motion.times.in_seconds)
     throw UsageError("--between: needs times in seconds, and this motion has frame numbers only");
   const std::vector<Load> loads = loads_of(options, motion);
-  for (const std::string& remark : motion.notes) note(remark);
+  for (const std::string& remark : motion.processing) note(remark);
   const bool with_pressure = options.with_pressure || !loads.empty();
-  const Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
+  for (const std::string* file : {&options.motion, &options.loads})
+    if (!file->empty()) from.read.emplace_back(*file);
+  if (!options.out.empty()) check_motion_folder(options.out, &from);
   const ContactEntry contact = motion_contact_of(*options.contact, loaded.report.file, with_pressure);
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
   const MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
-  const MotionAnswer answer = answer_of(options, question, loads);
+  const MotionSurfaces ready(question);
+  std::vector<ContactNote> notes;
+  const auto also_note = [&](std::vector<ContactNote> more) {
+    note_contact(notes, std::move(more), loaded, options.strictness);
+  };
+  const BodyNames names{surfaces.fixed.name, surfaces.mobile.name};
+  also_note(motion.notes);
+  if (ready.elastic()) also_note(check_layers(*ready.elastic(), names));
+  const auto largest = std::max_element(loads.begin(), loads.end(), [](const Load& a, const Load& b) {
+    return a.on_mobile.force_n.norm() < b.on_mobile.force_n.norm();
+  });
+  if (largest != loads.end()) also_note(check_load(*largest));
+  MotionAnswer answer = answer_of(options, ready, question, loads);
+  also_note(check_motion(answer.frames, names));
+  answer.notes = std::move(notes);
   if (!options.out.empty()) {
     MotionFiles files = options.files;
     files.encoding = options.where->vtp_encoding;

@@ -6,6 +6,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <string>
+#include <utility>
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
@@ -16,19 +17,37 @@ void add_strict(CLI::App& command, Strictness& strictness) {
   command.add_flag_callback(
       "--strict", [&strictness] { strictness = Strictness::errors; },
       "Answer nothing, with exit code 4, where something looks wrong with the joint: side, axes, units, "
-      "centre, meshes");
+      "centre, meshes; or with its layers, load or motion");
 }
 
-std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness) {
-  std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
+namespace {
+
+template <class Note>
+void say(const std::vector<Note>& notes, const LoadedJoint& joint, Strictness strictness) {
   if (strictness == Strictness::errors && !notes.empty()) {
     std::string all;
-    for (const JointNote& each : notes)
+    for (const Note& each : notes)
       all += fmt::format("{}{}: {}", all.empty() ? "" : "; ", name_of(each.code), each.text);
     throw MeshError(fmt::format("{}: {} (--strict)", joint.report.file.path.string(), all));
   }
-  for (const JointNote& each : notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+  for (const Note& each : notes) note(fmt::format("{}: {}", name_of(each.code), each.text));
+}
+
+}  // namespace
+
+std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness) {
+  std::vector<JointNote> notes = check_joint(joint.joint, joint.report.placement);
+  say(notes, joint, strictness);
   return notes;
+}
+
+void note_contact(std::vector<ContactNote>& notes, std::vector<ContactNote> more, const LoadedJoint& joint,
+                  Strictness strictness) {
+  std::vector<ContactNote> all = notes;
+  add_new(all, std::move(more));
+  say(std::vector<ContactNote>(all.begin() + static_cast<std::ptrdiff_t>(notes.size()), all.end()), joint,
+      strictness);
+  notes = std::move(all);
 }
 
 }  // namespace condyle::cli

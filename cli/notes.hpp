@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "condyle/contact_checks.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/joint_checks.hpp"
 
@@ -17,8 +18,12 @@ enum class Strictness { notes, errors };
 /// --strict for a command that answers for a joint; `strictness` is written while arguments are read.
 void add_strict(CLI::App& command, Strictness& strictness);
 
-/// Looks at a joint as it was read and says each note on standard error, before anything is computed: what fails later
+/// Looks at a joint as it was read and notes what looks wrong, before anything is computed: what fails later
 /// may fail for that. Where notes are errors, throws MeshError with all of them.
 std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness);
+
+/// The same of notes on layers, loads and motions: says those whose code is not among `notes` yet, and adds them.
+void note_contact(std::vector<ContactNote>& notes, std::vector<ContactNote> more, const LoadedJoint& joint,
+                  Strictness strictness);
 
 }  // namespace condyle::cli

@@ -57,8 +57,8 @@ void run(const Options& options, const CLI::App& command) {
   picture.mobile = look_of(BodyRole::mobile, options);
   if (!options.out.ends_with(".png")) throw UsageError("--out: " + options.out + " does not end in .png");
   noted(loaded, options.strictness);
-  io::check_output_file(options.out);
   const Provenance from = provenance_of(loaded, words_of(command));
+  io::check_output_file(options.out, from.read);
   write_png(options.out, draw_joint(joint, given.pose.angles(), given.X_FM, picture), &from);
   say_written({options.out});
 }

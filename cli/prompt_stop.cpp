@@ -11,6 +11,7 @@
 
 #include "interrupt.hpp"
 #include "io/file/failure.hpp"
+#include "io/file/temporary_folder.hpp"
 #include "progress.hpp"
 
 namespace condyle::cli {
@@ -40,10 +41,12 @@ StudyDone stopped_promptly(
     while (!ended.stop_requested() && !watch.interrupted()) std::this_thread::sleep_for(between_looks);
     if (ended.stop_requested()) return;
     stop.request_stop();
-    for (auto waited = 0ms; waited < patience; waited += between_looks) {
+    // What is being written is done in moments, and then it is whole.
+    for (auto waited = 0ms; waited < patience || io::temporary_folders_live(); waited += between_looks) {
       if (ended.stop_requested()) return;
       std::this_thread::sleep_for(between_looks);
     }
+    io::end_temporary_folders();
     std::fprintf(stderr, "condyle: %s\n", words_for(done, total, what).c_str());
     std::_Exit(io::interrupted);
   });

@@ -29,6 +29,8 @@ BearingOptions parse_bearing(const std::string& text) {
   return bearing;
 }
 
+constexpr const char* map_needs = "a map needs two angles, such as --map flexion=0:120:5 adduction=-30:30:5";
+
 }  // namespace
 
 CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
@@ -38,7 +40,14 @@ CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given
               "--map", given->map,
               "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
               "adduction=-40:30:1; the first one runs to the right")
-          ->expected(2);
+          // One is refused below, and a file that was taken for the second one: with words that help.
+          ->expected(1, 2)
+          ->check(
+              [](const std::string& axis) {
+                return axis.find('=') == axis.npos ? "'" + axis + "' is no axis: " + map_needs
+                                                   : std::string();
+              },
+              "");
   command.add_option("--translation", given->translation,
                      "Of a free joint: what all motions keep, such as \"x=1.5 y=-0.2 z=0\" in mm; without it "
                      "that of the reference pose");
@@ -99,6 +108,7 @@ std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy 
     if (!given.vary.empty()) throw UsageError("--vary: is for --map");
     return std::nullopt;
   }
+  if (given.map.size() < 2) throw UsageError("--map: only " + given.map[0] + " is given: " + map_needs);
   MapGrid grid;
   grid.column = parse_grid_axis(given.map[0], anatomy);
   grid.row = parse_grid_axis(given.map[1], anatomy);

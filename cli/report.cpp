@@ -7,6 +7,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "answer.hpp"
 #include "command_line.hpp"
@@ -16,7 +18,6 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/report.hpp"
-#include "io/file/output_file.hpp"
 #include "motion_surfaces.hpp"
 #include "notes.hpp"
 #include "range.hpp"
@@ -61,7 +62,7 @@ struct Recorded {
         contact(motion_contact_of({}, loaded.report.file, options.with_pressure)),
         surfaces(surfaces_of(contact, loaded.joint)),
         question{loaded, motion, surfaces, contact, options.with_pressure} {
-    for (const std::string& remark : motion.notes) note(remark);
+    for (const std::string& remark : motion.processing) note(remark);
   }
   Recorded(const Recorded&) = delete;
   Recorded& operator=(const Recorded&) = delete;
@@ -91,17 +92,35 @@ void run(const Options& options, const CLI::App& command) {
   const std::optional<Vec3> translation = held_translation(options.range->translation, loaded);
   const Joint held = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  Provenance from = provenance_of(loaded, words_of(command));
+  if (recorded) from.read.emplace_back(options.motion);
   // Where the file cannot be written is reported before the work, not after it.
-  io::check_output_file(options.out);
+  check_report_file(options.out, &from);
 
-  if (recorded) recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
+  std::vector<ContactNote> contact_notes;
+  const auto also_note = [&](std::vector<ContactNote> more) {
+    note_contact(contact_notes, std::move(more), loaded, options.strictness);
+  };
+  if (recorded) {
+    recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
+    also_note(recorded->motion.notes);
+    also_note(check_motion(recorded->answer.frames, {loaded.joint.fixed.name, loaded.joint.mobile.name}));
+  }
+  ContactEntry contact;
+  std::optional<ReportedLayers> layers;
+  if (options.with_pressure) {
+    contact = contact_of({}, loaded.report.file, true);
+    const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
+    layers.emplace(ReportedLayers{contact, elastic_options(contact, surfaces, loaded)});
+    also_note(check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
+                           {surfaces.fixed.name, surfaces.mobile.name}));
+  }
   const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, held);
   const BandOptions band = band_options_of(*options.range, loaded.report.file);
   auto [found, error] = range_of(options, loaded, held, band);
   if (translation) found.terms.push_back(term_of_held(*translation));
 
   const std::vector<std::optional<ImpingementZone>> zones = zones_of(finder, found.limits);
-  Provenance from = provenance_of(loaded, words_of(command));
   if (translation) from.frame = from.frame.of_held(*translation);
   const RomResult rom{.joint = held,
                       .limits = found.limits,
@@ -110,6 +129,7 @@ void run(const Options& options, const CLI::App& command) {
                       .terms = found.terms,
                       .held_translation_mm = translation,
                       .notes = notes,
+                      .contact_notes = contact_notes,
                       .zones = zones,
                       .map = found.map ? &*found.map : nullptr,
                       .bands = found.bands,
@@ -120,12 +140,7 @@ void run(const Options& options, const CLI::App& command) {
                 .reference_pose = loaded.report.placement.reference_pose,
                 .rom = error.empty() ? &rom : nullptr,
                 .rom_error = error};
-  ContactEntry contact;
-  if (options.with_pressure) {
-    contact = contact_of({}, loaded.report.file, true);
-    report.layers.emplace(
-        ReportedLayers{contact, elastic_options(contact, surfaces_of(contact, loaded.joint), loaded)});
-  }
+  if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)
     report.recorded.emplace(ReportedMotion{std::filesystem::path(options.motion).filename().string(),
                                            recorded->question, recorded->answer});

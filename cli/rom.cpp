@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,7 +15,6 @@
 #include "condyle/error.hpp"
 #include "condyle/held_translation.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/output_folder.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_files.hpp"
 #include "condyle/io/rom_result.hpp"
@@ -26,8 +24,6 @@
 
 namespace condyle::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 enum class Task { limits, list_motions };
 enum class ReferenceContacts { count, leave_out };
@@ -126,8 +122,9 @@ void run(const Options& options, const CLI::App& command) {
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   const ClockFace clock = clock_of(options, joint);
   const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, joint, clock);
+  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   // A folder that cannot be written to is reported before the work, not after it.
-  if (!options.out.empty()) OutputFolder{fs::path(options.out)};
+  if (!options.out.empty()) check_rom_folder(options.out, &from);
 
   const BandOptions band = band_options_of(*options.range, loaded.report.file);
   RangeFound found = options.allow_depth_mm ? depth_limits(options, joint, motions)
@@ -135,7 +132,6 @@ void run(const Options& options, const CLI::App& command) {
   if (translation) found.terms.push_back(term_of_held(*translation));
   const std::vector<std::optional<ImpingementZone>> zones = zones_of(finder, found.limits);
 
-  Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   if (translation) from.frame = from.frame.of_held(*translation);
   const RomResult result{.joint = joint,
                          .limits = found.limits,

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -37,6 +38,13 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
       files[fs::relative(at->path(), folder).string()] = io::read_whole_file(at->path());
   }
   return files;
+}
+
+bool has_temporary(const fs::path& folder) {
+  if (!fs::exists(folder)) return false;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename().string().starts_with(".condyle-")) return true;
+  return false;
 }
 
 /// Starts `condyle ARGUMENTS` in a folder of its own process; standard error goes into a file.
@@ -150,7 +158,7 @@ TEST_P(BrokenOff, AtAnyMomentLeavesEachFileOldOrNewAndTheNextRunTheSameBytes) {
   int ended_early = 0;
   for (int i = 0; i < kills(); ++i) {
     restore();
-    const int signal = i % 3 == 0 ? SIGINT : SIGKILL;
+    const int signal = std::array{SIGINT, SIGKILL, SIGTERM, SIGKILL, SIGHUP, SIGKILL}[i % 6];
     const pid_t child = start(here(), GetParam().after, err());
     const double share = 1.1 * static_cast<double>(random() % 1000) / 1000;
     std::this_thread::sleep_for(std::chrono::duration<double>(takes_) * share);
@@ -169,7 +177,10 @@ TEST_P(BrokenOff, AtAnyMomentLeavesEachFileOldOrNewAndTheNextRunTheSameBytes) {
       EXPECT_EQ(said.back(), '\n') << said;
     } else if (!finished) {
       // Before the program had begun to listen.
-      EXPECT_EQ(WTERMSIG(status), SIGINT);
+      EXPECT_EQ(WTERMSIG(status), signal);
+    }
+    if (signal != SIGKILL) {
+      EXPECT_FALSE(has_temporary(here() / "result")) << signal;
     }
     expect_whole_files();
     run_whole(GetParam().after);

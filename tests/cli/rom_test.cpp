@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 
 #include "command.hpp"
 #include "condyle/io/mesh_file.hpp"
@@ -118,6 +121,21 @@ TEST_F(RomCommand, WritesZonesPastTheLimitsThatEndInContact) {
   for (const char* name :
        {"radial_depth_mm", "ray_to_normal_deg", "tangential_depth_deg", "tangential_depth_mm", "in_zone"})
     EXPECT_NE(bytes.find(name), bytes.npos) << name;
+  // The text has them too, a line for each.
+  const std::string text = run("rom joint.toml --motion flexion --past 4").out;
+  const std::size_t zones = text.find("  zones 4 deg past the limit");
+  ASSERT_NE(zones, text.npos) << text;
+  const Json& zone = motions[0]["zone"];
+  const double deepest = std::max(zone["fixed"]["max_tangential_depth_mm"].get<double>(),
+                                  zone["mobile"]["max_tangential_depth_mm"].get<double>());
+  for (const auto& [value, decimals] :
+       {std::pair(zone["fixed"]["area_mm2"].get<double>(), 1),
+        std::pair(zone["mobile"]["area_mm2"].get<double>(), 1), std::pair(deepest, 2)}) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.*f", decimals, value);
+    EXPECT_NE(text.find(number, zones), text.npos) << number << " in\n" << text;
+  }
+  EXPECT_EQ(run("rom joint.toml --motion flexion").out.find("zones"), text.npos);
   // No file for the motion without contact, nor one outside the folder.
   for (const auto& entry : fs::recursive_directory_iterator(here))
     EXPECT_EQ(entry.path().string().find("down"), std::string::npos) << entry.path();
@@ -147,8 +165,9 @@ TEST_F(RomCommand, SaysWhereItComesFromInEveryFile) {
       std::string("rom --motion flexion --motion fadir --past 4 joint.toml --out out --json") + small_map);
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json from = Json::parse(ran.out)["provenance"];
-  EXPECT_EQ(from["command"], Json({"rom", "joint.toml", "--motion", "flexion", "--motion", "fadir", "--map",
-                                   "adduction=-10:10:5", "internal_rotation=-20:20:10", "--past", "4"}));
+  EXPECT_EQ(from["command"],
+            Json({"rom", "joint.toml", "--motion", "flexion", "--motion", "fadir", "--map",
+                  "adduction=-10:10:5", "--map", "internal_rotation=-20:20:10", "--past", "4"}));
   const std::string sha = from["fixed_mesh"]["sha256"];
   for (const char* name : {"limits.csv", "map.csv"})
     EXPECT_NE(io::read_whole_file(here / "out" / name).find(sha), std::string::npos) << name;
@@ -283,14 +302,15 @@ TEST_F(RomCommand, BodiesInContactInTheReferencePoseAreExitCodeSixWithoutAnOptio
   EXPECT_FALSE(answer["terms"].empty());
 }
 
-/// Runs the command on one thread and ends it by SIGINT once it says how far its map is.
+/// Runs the command on one thread and ends it by SIGTERM once it says how far its map is; SIGINT is ignored in the background of
+/// a shell.
 Ran run_interrupted(const fs::path& folder, const std::string& arguments) {
   const TemporaryFolder caught;
   const std::string err = (caught / "err").string();
   const std::string command = "cd '" + folder.string() + "' && { '" CONDYLE_COMMAND "' --threads 1 " +
                               arguments + " >'" + (caught / "out").string() + "' 2>'" + err +
                               "' & p=$!; while kill -0 $p 2>/dev/null && ! grep -qs 'map points' '" + err +
-                              "'; do sleep 0.1; done; kill -INT $p; wait $p; }";
+                              "'; do sleep 0.1; done; kill -TERM $p; wait $p; }";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, io::read_whole_file(caught / "out"),
           io::read_whole_file(err)};

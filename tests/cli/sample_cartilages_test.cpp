@@ -51,5 +51,18 @@ TEST(SampleCartilagesJoint, IsFreeByTheClearanceAndStaysSoHoweverFarItRotates) {
   EXPECT_EQ(range["motions"][0]["reason"], "end_of_range");
 }
 
+TEST(SampleCartilagesJoint, ThatTouchOrArePressedLookRight) {
+  const TemporaryFolder folder;
+  for (const char* clearance : {"0", "-0.3"}) {
+    ASSERT_EQ(run_condyle(folder.path(), std::string("sample cartilages --scenario 7 --out ") + clearance +
+                                             " --clearance=" + clearance)
+                  .exit_code,
+              0);
+    const Ran ran =
+        run_condyle(folder.path(), "frame ./" + std::string(clearance) + "/cartilages.toml --strict");
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  }
+}
+
 }  // namespace
 }  // namespace condyle::test

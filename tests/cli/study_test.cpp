@@ -56,6 +56,23 @@ TEST_F(StudyCommand, EndsAtABadJointWithItsExitCodeWhereThatIsAskedFor) {
   EXPECT_FALSE(fs::exists(here / "out/limits.csv"));
 }
 
+TEST_F(StudyCommand, EndsWithTheExitCodeOfTheFirstFailureWhereNoneIsAnswered) {
+  std::ofstream(here / "none.csv") << "id,joint\nb,in_contact.toml\nc,nothere.toml\n";
+  for (const char* round : {"computed", "there already"}) {
+    const Ran ran = run("study none.csv --out none");
+    EXPECT_EQ(ran.exit_code, 6) << round;
+    EXPECT_EQ(ran.out, "0 answered, 2 failed\n");
+    EXPECT_TRUE(is_one_error_line(without_notes(ran.err))) << ran.err;
+    EXPECT_NE(ran.err.find("condyle: none.csv: none of 2 joints was answered; the first one: "), ran.err.npos)
+        << ran.err;
+    EXPECT_TRUE(fs::exists(here / "none/failures.csv"));
+  }
+  // A shard may hold bad joints only; what is merged is the study.
+  for (const char* shard : {"1/2", "2/2"})
+    EXPECT_EQ(run(std::string("study none.csv --out parted --shard ") + shard).exit_code, 0) << shard;
+  EXPECT_EQ(run("merge parted").exit_code, 6);
+}
+
 TEST_F(StudyCommand, OfShardsMergedIsTheWholeStudy) {
   ASSERT_EQ(run("study table.csv --out whole --band=20 --motion flexion").exit_code, 0);
   for (int i = 7; i >= 1; --i) {

@@ -33,7 +33,7 @@ test("two meshes dropped on the empty page answer as the same files do on the co
   const run = (...words) => execFileSync(condyle, words, { stdio: ["ignore", "pipe", "ignore"] });
   rmSync(joint, { force: true });
   run("init", ...files, "--out", joint);
-  const { motions, provenance, bearing, normal_range_source } = JSON.parse(run("rom", joint, "--json"));
+  const { motions, provenance, bearing, normal_range_source, scope } = JSON.parse(run("rom", joint, "--json"));
   for (const [i, motion] of motions.entries()) {
     const limit = await page.evaluate((question) => condyle.query({ of: "limit", limit: question }), {
       start: Object.values(motion.start_deg), vary: Object.keys(motion.start_deg).indexOf(motion.vary),
@@ -49,7 +49,8 @@ test("two meshes dropped on the empty page answer as the same files do on the co
   assert.equal(await page.locator(".plot .normal").count(), motions.filter(({ normal_range_deg }) => normal_range_deg !== null).length);
   const told = await page.locator("#panels").innerText();
   for (const words of [provenance.version, provenance.fixed_mesh.sha256, provenance.mobile_mesh.sha256, String(provenance.mobile_mesh.bytes),
-    normal_range_source, `radius ${bearing.head.radius_mm.toFixed(2)} mm`, `reaches ${bearing.margin_mm.toFixed(2)} mm`, "centre: the head's"])
+    normal_range_source, `radius ${bearing.head.radius_mm.toFixed(2)} mm`, `reaches ${bearing.margin_mm.toFixed(2)} mm`, "centre: the head's",
+    scope.slice(1), ...motions.flatMap(({ caveats }) => caveats.map(({ text }) => text))])
     assert.ok(told.includes(words), words);
   await keep(page, "dropped");
   assert.deepEqual(complaints, []);

@@ -91,14 +91,30 @@ test("free angles of a map of ten degrees are those of the command line to the b
 
 test("depths, pairs and contact are those of condyle depth", async () => {
   const { page } = await openPage(browser, pathOf("sample"));
-  let inside = 0;
+  let inside = 0, deep = 0;
   for (let i = 0; i < 24; ++i) {
     const angles = [(37 * i) % 140, ((23 * i) % 90) - 45, ((41 * i) % 130) - 65];
     const pose = `flexion=${angles[0]} adduction=${angles[1]} internal_rotation=${angles[2]}`;
-    const told = JSON.parse(execFileSync(condyle, ["depth", join(reports, "sample/hip.toml"), "--method", "radial", "--pose", pose, "--json"],
+    const told = JSON.parse(execFileSync(condyle, ["depth", join(reports, "sample/hip.toml"), "--pose", pose, "--json"],
       { stdio: ["ignore", "pipe", "ignore"] }));
     const shown = await page.evaluate((at) => condyle.query({ of: "pose", at }), { angles, translation: [0, 0, 0] });
     assert.equal(shown.inContact, told.in_contact);
+    // The depth that the command leads with, where and along what, areas and volume: to the bit.
+    const depth = await page.evaluate((at) => condyle.query({ of: "depth", at }), { angles, translation: [0, 0, 0] });
+    const reliable = told.reliable_depth, axes = ["flexion", "adduction", "internal_rotation"];
+    assert.equal(depth.deepest === null, reliable === null);
+    if (reliable) {
+      const { depth_mm, about, depth_deg, body, vertex, nearest_mm, point } = depth.deepest;
+      assert.deepEqual(
+        { depth_mm, about: about === null ? null : axes[about], depth_deg, body, vertex, nearest_distance_mm: nearest_mm, point_mm: point },
+        Object.fromEntries(["depth_mm", "about", "depth_deg", "body", "vertex", "nearest_distance_mm", "point_mm"]
+          .map((key) => [key, reliable[key]])));
+      ++deep;
+    }
+    assert.equal(depth.withoutDepth, told.vertices_without_depth);
+    assert.deepEqual(
+      [depth.volume_mm3, depth.volumeError_mm3, depth.area_mm2.mobile, depth.area_mm2.fixed],
+      [told.contact.volume_mm3, told.contact.volume_error_mm3, told.contact.mobile.area_mm2, told.contact.fixed.area_mm2]);
     const flat = (typed) => Object.values(typed);
     const gaps = await page.evaluate((at) => condyle.query({ of: "values", at, quantity: "gap" }), { angles, translation: [0, 0, 0] });
     assert.equal(flat(shown.pairs).length / 2, told.triangle_pairs);
@@ -112,6 +128,7 @@ test("depths, pairs and contact are those of condyle depth", async () => {
     }
   }
   assert.ok(inside > 100, `${inside} vertices inside`);
+  assert.ok(deep > 5, `${deep} poses with a depth`);
   await page.context().close();
 });
 

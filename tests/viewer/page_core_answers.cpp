@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <fstream>
@@ -130,15 +131,20 @@ void answer_pose(CondyleJoint* joint, const double* question, double X[16], std:
   checked(condyle_pose(joint, question, question + 3, X));
   answers << "pose";
   for (int i = 0; i < 16; ++i) answers << ' ' << bits(X[i]);
-  for (const int of_fixed : {0, 1}) {
+  for (const int of_fixed : {0, 1})
     answers << (of_fixed ? "\nfixed " : "\nmobile ") << penetrations(joint, X, of_fixed);
-    double depth[2];
-    checked(condyle_depth_to_read(joint, X, of_fixed, depth));
-    answers << "\ndepth " << of_fixed << ' ' << bits(depth[0]) << ' ' << bits(depth[1]);
-  }
   answers << "\ncontact " << checked(condyle_in_contact(joint, X)) << "\npairs";
   const int pairs = checked(condyle_pairs(joint, X));
   for (int k = 0; k < 2 * pairs; ++k) answers << ' ' << condyle_pair_triangles(joint)[k];
+  answers << '\n';
+}
+
+/// What `condyle depth` answers there; the question's angles come first.
+void answer_depth(CondyleJoint* joint, const double* question, const double X[16], std::ostream& answers) {
+  double depth[16];
+  checked(condyle_depth(joint, X, question, depth));
+  answers << "depth";
+  for (const double value : depth) answers << ' ' << (std::isnan(value) ? "none" : bits(value));
   answers << '\n';
 }
 
@@ -213,6 +219,8 @@ void answer(const Scene& scene, const std::string& folder) {
     answer_pose(joint, &scene.questions[6 * i], X, answers);
     constexpr std::size_t every = 50;  // distances of all vertices take long
     if (i % every == 0) answer_shown(joint, X, vertices, shown);
+    constexpr std::size_t every_depth = 10;  // tables about the joint's axes are made for each
+    if (i % every_depth == 0) answer_depth(joint, &scene.questions[6 * i], X, answers);
   }
   for (const Motion& motion : hip_motions()) answer_limit(joint, motion, answers);
   answer_map(joint, answers);

@@ -25,11 +25,11 @@ const penetrations = (ofFixed) => {
 };
 const equal = (native, page) => native.length === page.length && native.every((value, i) => Object.is(value, page[i]));
 
-const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(56);
+const pose = core._malloc(128), angles = core._malloc(24), translation = core._malloc(24), limit = core._malloc(56), depth = core._malloc(128);
 const values = core._malloc(4 * Math.max(...vertexCount)), marks = core._malloc(Math.max(...vertexCount));
 const wrong = [];
 const count = {
-  answers: 0, poses: 0, limits: 0, penetrating: 0, shown: 0, coloured: 0, mapPoints: 0, intervals: 0,
+  answers: 0, poses: 0, depths: 0, limits: 0, penetrating: 0, shown: 0, coloured: 0, mapPoints: 0, intervals: 0,
 };
 let shownAt = 0;
 
@@ -70,9 +70,11 @@ const answerers = {
     count.penetrating += Number(fields[0]);
     return penetrations(1);
   },
-  depth([ofFixed]) {
-    checked(core._condyle_depth_to_read(joint, pose, Number(ofFixed), limit));
-    return [ofFixed, ...Array.from(f64(limit, 2), bits)].join(" ");
+  // Of the last pose; its angles are where they were.
+  depth() {
+    checked(core._condyle_depth(joint, pose, angles, depth));
+    ++count.depths;
+    return Array.from(f64(depth, 16), (value) => (Number.isNaN(value) ? "none" : bits(value))).join(" ");
   },
   contact: () => `${checked(core._condyle_in_contact(joint, pose))}`,
   pairs() {
@@ -109,6 +111,6 @@ console.log(`${count.answers} answers, ${count.penetrating} penetrating vertices
   `vertices under pressure, ${count.mapPoints} points of a map with ${count.intervals} intervals, ` +
   `${count.poses} poses, ${count.limits} limits: ${wrong.length} wrong`);
 for (const text of wrong.slice(0, 5)) console.error(text);
-const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.mapPoints === 120 &&
+const complete = count.penetrating > 0 && count.coloured > 0 && count.limits === 12 && count.poses === 1000 && count.depths === 100 && count.mapPoints === 120 &&
   shownAt === shownNatively.length;
 process.exit(wrong.length || !complete ? 1 : 0);

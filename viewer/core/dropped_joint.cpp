@@ -10,6 +10,7 @@
 
 #include "condyle/clock_face.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/caveats.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"
@@ -92,7 +93,7 @@ Json angles_json(const JointAngles& angles) {
 }
 
 /// The keys of rom.json that the page reads.
-Json motion_json(const MotionLimit& limit, const std::optional<BearingSurface>& surface) {
+Json motion_json(const Joint& joint, const MotionLimit& limit, const std::optional<BearingSurface>& surface) {
   const auto& contact = limit.end.contact;
   const auto& bearing = limit.end.bearing_contact;
   const auto vary = static_cast<std::size_t>(limit.motion.vary);
@@ -113,6 +114,7 @@ Json motion_json(const MotionLimit& limit, const std::optional<BearingSurface>& 
           {"start_deg", angles_json(limit.motion.start)},
           {"at_limit_deg", angles_json(limit.angles_at_limit())},
           {"normal_range_deg", normal ? Json(normal->degrees()) : Json(nullptr)},
+          {"caveats", io::caveats_json(motion_caveats(joint, limit.motion))},
           {"band", nullptr}};
 }
 
@@ -123,6 +125,14 @@ Json bearing_json(const BearingFinding& found) {
           {"head", {{"radius_mm", surface.head.radius}}},
           {"socket", surface.socket ? Json{{"radius_mm", surface.socket->radius}} : Json(nullptr)},
           {"margin_mm", surface.margin_mm}};
+}
+
+/// Its bodies called as their files are, which say what tissue a mesh is of.
+Joint named_by_files(const CondyleJoint& joint) {
+  Joint named = joint.joint;
+  named.fixed.name = joint.proposal.fixed.name;
+  named.mobile.name = joint.proposal.mobile.name;
+  return named;
 }
 
 Json file_json(const PageFile& file) {
@@ -200,14 +210,16 @@ const char* condyle_description(CondyleJoint* joint) {
   return guarded(static_cast<const char*>(nullptr), [&] {
     const RangeOfMotion& range = range_of(*joint);
     const PageProposal& proposal = joint->proposal;
+    const Joint named = named_by_files(*joint);
     Json motions = Json::array();
     for (const MotionLimit& limit : range.limits(hip_motions()))
-      motions.push_back(motion_json(limit, range.bearing().surface));
+      motions.push_back(motion_json(named, limit, range.bearing().surface));
     const Json rom{{"clock_plane", "sagittal"},
                    {"motions", std::move(motions)},
                    {"notes", io::notes_json(proposal.notes)},
                    {"terms", proposal.told},
                    {"normal_range_source", normal_hip_range_source},
+                   {"scope", scope_text(named)},
                    {"bearing", bearing_json(range.bearing())},
                    {"provenance",
                     {{"version", version},

@@ -69,6 +69,9 @@ void tell_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetrations
   }
 }
 
+/// About the axes in their order.
+constexpr std::array ways_about{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
+
 /// What is shown of each vertex of a body.
 struct ShownValues {
   float* mm;
@@ -191,18 +194,37 @@ const double* condyle_depths(const CondyleJoint* joint) {
   return joint->penetrations.depth_mm.data();
 }
 
-int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed, double answer[2]) {
+int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_deg, double answer[16]) {
   return guarded(-1, [&] {
-    const Pose X_FM = pose_of(pose), X = of_fixed ? inverted(X_FM) : X_FM;
-    double deepest = 0, without = 0;
-    tell_inside(*joint, X, of_fixed, joint->penetrations, [&](const DeepestVertex& vertex) {
-      if (vertex.applies() == DepthKind::radial)
-        deepest = std::max(deepest, vertex.depth_mm);
-      else
-        ++without;
-    });
-    answer[0] = deepest;
-    answer[1] = without;
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const Pose X_FM = pose_of(pose);
+    const auto [contact, measures, reliable] =
+        depth_at(joint->bodies, joint->joint, angles_of(angles_deg), X_FM, DepthMethod::reliable,
+                 DistancesOf::vertices_inside);
+    std::fill_n(answer, 16, none);
+    answer[0] = contact.in_contact ? 1 : 0;
+    answer[1] = 0;
+    if (const auto deepest = deepest_of(reliable)) {
+      const DeepestReliable& vertex = deepest->vertex;
+      const Vec3 own = vertices_of(*joint, !deepest->is_mobile)[vertex.vertex];
+      const Vec3 point = deepest->is_mobile ? posed(X_FM, own) : own;
+      answer[1] = static_cast<double>(vertex.way);
+      answer[2] = vertex.depth_mm;
+      answer[3] = deepest->is_mobile ? 0 : 1;
+      answer[4] = vertex.vertex;
+      for (int i = 0; i < 3; ++i) answer[5 + i] = point[i];
+      answer[8] = vertex.nearest_distance_mm;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        if (vertex.way == ways_about[axis]) answer[9] = vertex.rotations[axis]->angle.degrees();
+    }
+    answer[10] = static_cast<double>(without_depth(reliable));
+    if (measures.mobile) answer[11] = measures.mobile->area_mm2;
+    if (measures.fixed) answer[12] = measures.fixed->area_mm2;
+    if (measures.volume_mm3) {
+      answer[13] = *measures.volume_mm3;
+      answer[14] = measures.volume_error_mm3;
+      answer[15] = measures.mobile_covered_again_mm3 + measures.fixed_covered_again_mm3;
+    }
     return 0;
   });
 }

@@ -41,9 +41,12 @@ int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed);
 const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint);
 const double* condyle_depths(const CondyleJoint* joint);
 
-/// Of the last answer, asked again with its pose and body: the largest radial depth that is a depth, 0 where none is, and how many
-/// vertices inside have none.
-int condyle_depth_to_read(CondyleJoint* joint, const double* pose, int of_fixed, double answer[2]);
+/// What `condyle depth` answers at a pose, which these angles made: in `answer` 1 if the bodies are in contact, else 0; along which way
+/// the deepest vertex is a depth (0 no vertex has one, 1 the ray, 2 to 4 the arcs about the joint's axes); its depth in mm; its body (0
+/// mobile, 1 fixed), number and place in F; the distance to its nearest surface; the arc's angle in degrees; how many vertices inside
+/// have no depth; the areas of the mobile and of the fixed body in contact, mm^2; the volume, mm^3, a bound on its error, and how much
+/// of the overlap's surroundings a body covers more than once. NaN for what there is none of. Takes far longer than the vertices inside.
+int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_deg, double answer[16]);
 
 /// What every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) shows at a pose, for colours: in `values` mm, in
 /// `marks` 0 for nothing, 1 for the value, 2 for a value that is no more than a bound. `quantity`: 0 the gap along its ray,

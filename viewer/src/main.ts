@@ -14,7 +14,7 @@ import { figure } from "./plots/figure";
 import { limitsDrawing } from "./plots/limits";
 import { MapPlot } from "./plots/map";
 import {
-  bytesOf, inflated, Report, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
+  bytesOf, inflated, Report, scopeOf, textOfProposal, type MapAnswer, type MotionAnswer, type ReportText, type StoredPose,
 } from "./report";
 import { jointArraysOf } from "./joint_arrays";
 import { JointScene } from "./scene/scene";
@@ -112,6 +112,7 @@ class Page {
       },
       values: (values) => this.show(values),
       limit: (at, limit) => this.motion.setLimit(at, limit),
+      depth: (depth) => this.motion.showDepth(depth),
       bearing: (triangles) => this.markBearing(triangles),
       mapPoint: (point, intervals) => {
         this.mapPlot?.set(point, intervals);
@@ -306,7 +307,9 @@ function openEmpty(): void {
       found("messages").replaceChildren();
       panel.element.remove();
       found("scene").replaceChildren();
-      new Page(textOfProposal(proposal, fixed.name, mobile.name), proposal.joint, null).compute(core);
+      const text = textOfProposal(proposal, fixed.name, mobile.name);
+      found("scope").textContent = words.scope(scopeOf(text));
+      new Page(text, proposal.joint, null).compute(core);
       return true;
     } catch (error) {
       warnOnly(lineOf(error));
@@ -320,10 +323,11 @@ async function open(): Promise<void> {
   found("unfinished").remove();
   found("licences-title").textContent = words.licences;
   found("licences-place").addEventListener("toggle", () => void showLicences(), { once: true });
-  found("scope").textContent = words.scope;
+  found("scope").textContent = words.scope(null);
   const data = textOf("condyle-data");
   if (data === null) return openEmpty();
   const report = await Report.read(data);
+  found("scope").textContent = words.scope(scopeOf(report.text));
   const arrays = jointArraysOf(report);
   const page = new Page(report.text, arrays, report);
   if (!canCompute) return page.useStoredPoses();

@@ -34,6 +34,14 @@ export interface MotionAnswer {
   normal_range_deg: number | null;
   band: Band | null;
   error_bound_deg?: number;
+  caveats?: MotionCaveat[];
+}
+
+/// What to know before a limit is compared with a living joint.
+export interface MotionCaveat {
+  code: string;
+  text: string;
+  source: string | null;
 }
 
 export interface MeshSource {
@@ -152,6 +160,7 @@ export interface ReportText {
   coordinates: { name: string; opposite: string }[];
   reference_deg: [number, number, number];
   reference_mm: [number, number, number];
+  scope?: string;
   rom: RomAnswer | null;
   rom_error?: string;
   map: MapAnswer | null;
@@ -180,6 +189,11 @@ export function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
 
 export async function inflated(bytes: Uint8Array<ArrayBuffer>, format: CompressionFormat): Promise<ArrayBuffer> {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
+}
+
+/// What the joint's answers cover, and what not.
+export function scopeOf({ scope, rom }: ReportText): string | null {
+  return scope ?? rom?.scope ?? null;
 }
 
 /// A data block: its text, and arrays by name.
@@ -230,7 +244,7 @@ export function textOfProposal(proposal: Proposal, fixed: string, mobile: string
       { name: "internal_rotation", opposite: "external_rotation" },
     ],
     reference_deg: [0, 0, 0], reference_mm: [0, 0, 0],
-    rom: { ...proposal.rom, scope: words.scope },
+    scope: proposal.rom.scope, rom: proposal.rom,
     map: null, zones: [], layers: null, parts: { fixed: [], mobile: [] }, arrays: {}, poses: [], recorded: null,
   };
 }

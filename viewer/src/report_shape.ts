@@ -43,7 +43,7 @@ const motion = object({
   bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
   sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
   normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
-  error_bound_deg: ifThere(number),
+  error_bound_deg: ifThere(number), caveats: ifThere(list(object({ code: text, text, source: orNull(text) }))),
 });
 
 const sphere = object({ radius_mm: number });
@@ -76,7 +76,7 @@ const report = object({
     side: oneOf("right", "left"), fixed: text, mobile: text, translation_frame: oneOf("fixed", "joint_axes"),
   }),
   coordinates: list(object({ name: text, opposite: text }), 3), reference_deg: three, reference_mm: three,
-  rom: orNull(rom), rom_error: ifThere(text),
+  scope: ifThere(text), rom: orNull(rom), rom_error: ifThere(text),
   map: orNull(object({
     columns: mapAxis, rows: mapAxis, vary: text, vary_opposite: text, start_deg: number, intervals: list(list(list(number, 4))),
   })),

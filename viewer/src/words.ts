@@ -14,8 +14,9 @@ export const words = {
   sides: { right: "right", left: "left" },
   anatomies: { hip: "hip", knee: "knee", ankle: "ankle", elbow: "elbow", shoulder: "shoulder" },
   kinds: { ball: "ball joint", hinge: "hinge", free: "free joint" },
-  scope:
-    "Osseous contact of the meshes given; soft tissue is not modelled. Research software, not a medical device. " +
+  /// What the joint's answers cover, as the core says it; null: the page has no joint.
+  scope: (said: string | null) =>
+    `${said === null ? "Research software, not a medical device" : said.charAt(0).toUpperCase() + said.slice(1)}. ` +
     "Everything is computed in this page: no data leaves this computer.",
   loading: "Making the joint ready…",
   noWebAssembly:
@@ -88,9 +89,18 @@ export const words = {
   manoeuvres: "Go to the end of",
   inContact: "In contact",
   notInContact: "Not in contact",
-  inside: (body: string, { count, deepest_mm, without }: { count: number; deepest_mm: number; without: number }) =>
-    `${count} vertices of ${body} inside` + (deepest_mm > 0 ? `, deepest ${deepest_mm.toFixed(2)} mm` : "") +
-    (without > 0 ? `, ${without} of them where the ray tells no depth` : ""),
+  inside: (body: string, { count }: { count: number }) => `${count} vertices of ${body} inside`,
+  depthAlong: (depth_mm: number, along: string, vertex: number, body: string, nearest_mm: number) =>
+    `depth ${depth_mm.toFixed(2)} mm along ${along}, vertex ${vertex} of ${body}; its nearest surface is ${nearest_mm.toFixed(2)} mm away`,
+  theRay: "the ray",
+  theArc: (angle: string, deg: number) => `the arc of ${angle}, ${deg.toFixed(1)}°`,
+  withoutDepth: (count: number) => `${count} vertices inside have no depth along their ray or an arc`,
+  contactArea: (area_mm2: number, body: string) => `${area_mm2.toFixed(1)} mm² of ${body}`,
+  contactAreas: (areas: string) => `contact area ${areas}`,
+  penetrationVolume: (volume_mm3: number, error_mm3: number) =>
+    `penetration volume ${volume_mm3.toFixed(2)} mm³, to within ${error_mm3.toExponential(0)}`,
+  coveredAgain: (volume_mm3: number) =>
+    `a body covers ${volume_mm3.toPrecision(3)} mm³ about the overlap more than once: the volume may count space there twice`,
   pairsCount: (count: number) => `${count} pairs of triangles meet`,
   stepTook: (ms: number) => `answered in ${ms.toFixed(1)} ms`,
   precomputed: "Poses",
@@ -178,6 +188,8 @@ export const words = {
   notes: "Notes of the checks",
   noNotes: "The checks found nothing unusual.",
   terms: "Read with",
+  caveats: "What usually ends these motions",
+  caveat: (motions: string, text: string, source: string | null) => `${motions}: ${text}${source === null ? "" : ` (${source})`}`,
   file: "file",
   sha256: "SHA-256",
   bytes: "bytes",

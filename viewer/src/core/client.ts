@@ -1,5 +1,5 @@
 import type {
-  BothValues, Coordinates, DroppedFile, FromWorker, GivenSide, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query,
+  BothValues, Coordinates, Depth, DroppedFile, FromWorker, GivenSide, JointArrays, LiveLimit, MapQuestion, Proposal, Quantity, Query,
   QueryAnswer, Shown, ToWorker,
 } from "./protocol";
 
@@ -9,6 +9,7 @@ export interface Answers {
   shown(at: Coordinates, shown: Shown, roundTripMs: number): void;
   values(values: BothValues): void;
   limit(at: Coordinates, limit: LiveLimit): void;
+  depth(depth: Depth): void;
   bearing(triangles: Uint8Array): void;
   mapPoint(point: number, intervals: [number, number, number, number][]): void;
   failed(message: string): void;
@@ -125,6 +126,9 @@ export class CoreClient {
       case "limit":
         // A limit of a pose that is past is nobody's.
         if (message.id === this.answered?.id) this.answers?.limit(this.answered.at, message.limit);
+        return;
+      case "depth":
+        if (message.id === this.answered?.id) this.answers?.depth(message.depth);
         return;
       case "queried":
         this.queries.get(message.id)?.(message.answer, message.error);

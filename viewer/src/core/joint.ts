@@ -1,6 +1,6 @@
 import pageCore, { type PageCore } from "page-core";
 import {
-  quantityNumber, type BothPenetrations, type BothValues, type Coordinates, type Details, type DroppedFile, type GivenSide,
+  quantityNumber, type BothPenetrations, type BothValues, type Coordinates, type Depth, type Details, type DroppedFile, type GivenSide,
   type Inside, type JointArrays, type Layers, type LimitQuestion, type LiveLimit, type MapQuestion, type Penetrations,
   type Proposal, type Quantity, type Shown, type Surface, type Values,
 } from "./protocol";
@@ -76,7 +76,7 @@ export class CoreJoint {
     this.pose = core._malloc(poseBytes);
     this.three = core._malloc(3 * 8);
     this.otherThree = core._malloc(3 * 8);
-    this.answer = core._malloc(7 * 8);
+    this.answer = core._malloc(16 * 8);
     this.shownPlace = core._malloc(4 * most);
     this.marksPlace = core._malloc(Math.max(most, this.mobileTriangles));
   }
@@ -111,6 +111,25 @@ export class CoreJoint {
     return {
       vary, positive, turned_deg: turned_deg!, reason: reasons[reason!]!, kind: kinds[kind!]!,
       bearing_deg: bearing! < 0 ? null : bearing!, point: Number.isNaN(x!) ? null : [x!, y!, z!],
+    };
+  }
+
+  /// As `condyle depth` answers.
+  depth(at: Coordinates): Depth {
+    this.place(at);
+    this.checked(this.core._condyle_depth(this.joint, this.pose, this.three, this.answer));
+    const answer = this.f64(this.answer, 16);
+    const [inContact, way, depth_mm, body, vertex, x, y, z, nearest_mm] = answer as unknown as [
+      number, number, number, number, number, number, number, number, number];
+    const orNull = (place: number): number | null => (Number.isNaN(answer[place]!) ? null : answer[place]!);
+    return {
+      inContact: inContact === 1,
+      deepest: way === 0 ? null : {
+        depth_mm, about: way === 1 ? null : way - 2, depth_deg: orNull(9), body: body === 0 ? "mobile" : "fixed", vertex,
+        point: [x, y, z], nearest_mm,
+      },
+      withoutDepth: answer[10]!, area_mm2: { mobile: orNull(11), fixed: orNull(12) }, volume_mm3: orNull(13),
+      volumeError_mm3: orNull(14), coveredAgain_mm3: orNull(15),
     };
   }
 
@@ -173,12 +192,8 @@ export class CoreJoint {
   }
 
   private inside(ofFixed: number): Inside {
-    if (!this.core._condyle_can_penetrate(this.joint, ofFixed)) return { count: 0, deepest_mm: 0, without: 0 };
-    const count = this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed));
-    if (count === 0) return { count, deepest_mm: 0, without: 0 };
-    this.checked(this.core._condyle_depth_to_read(this.joint, this.pose, ofFixed, this.answer));
-    const [deepest_mm, without] = this.f64(this.answer, 2) as unknown as [number, number];
-    return { count, deepest_mm, without };
+    if (!this.core._condyle_can_penetrate(this.joint, ofFixed)) return { count: 0 };
+    return { count: this.checked(this.core._condyle_penetrations(this.joint, this.pose, ofFixed)) };
   }
 
   private setBearing(bearing: JointArrays["bearing"]): void {

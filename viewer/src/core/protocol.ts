@@ -58,11 +58,28 @@ export interface Coordinates {
   translation: [number, number, number];
 }
 
-/// Of a body's vertices in the other one: the largest radial depth that is a depth, 0 where none is, and how many have none.
+/// How many of a body's vertices are in the other one.
 export interface Inside {
   count: number;
-  deepest_mm: number;
-  without: number;
+}
+
+/// What `condyle depth` answers at a pose. `about`: the axis, in the joint's order, whose arc is the depth; null along the ray.
+export interface Depth {
+  inContact: boolean;
+  deepest: {
+    depth_mm: number;
+    about: number | null;
+    depth_deg: number | null;
+    body: "mobile" | "fixed";
+    vertex: number;
+    point: [number, number, number];
+    nearest_mm: number;
+  } | null;
+  withoutDepth: number;
+  area_mm2: { mobile: number | null; fixed: number | null };
+  volume_mm3: number | null;
+  volumeError_mm3: number | null;
+  coveredAgain_mm3: number | null;
 }
 
 /// What one pose shows.
@@ -124,6 +141,7 @@ export type Query =
   | { of: "pose"; at: Coordinates }
   /// 16 numbers, row by row.
   | { of: "poseMatrix"; X_FM: number[] }
+  | { of: "depth"; at: Coordinates }
   /// Both bodies' vertices inside, without what else a pose tells.
   | { of: "penetrations"; at: Coordinates }
   | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
@@ -131,7 +149,7 @@ export type Query =
   | { of: "mapPoint"; question: MapQuestion; point: number }
   /// Bytes that the core has taken.
   | { of: "memory" };
-export type QueryAnswer = number | Details | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
+export type QueryAnswer = number | Details | Depth | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
 
 /// A mesh file and its name, whose ending tells the format.
 export interface DroppedFile {
@@ -146,7 +164,7 @@ export type GivenSide = "told" | "right" | "left";
 export interface Proposal {
   joint: JointArrays;
   /// What a report would have of its limits; `terms` are what told the joint.
-  rom: Omit<RomAnswer, "scope">;
+  rom: RomAnswer;
 }
 
 export type ToWorker =
@@ -164,6 +182,7 @@ export type FromWorker =
   | { type: "shown"; id: number; shown: Shown }
   | { type: "values"; id: number; values: BothValues }
   | { type: "limit"; id: number; limit: LiveLimit }
+  | { type: "depth"; id: number; depth: Depth }
   | { type: "queried"; id: number; answer: QueryAnswer | null; error: string }
   | { type: "bearing"; triangles: Uint8Array }
   | { type: "mapPoint"; point: number; intervals: [number, number, number, number][] };

@@ -2,7 +2,7 @@ import { lineOf } from "./error_line";
 import { CoreJoint } from "./joint";
 import type { FromWorker, MapQuestion, Quantity, Query, QueryAnswer, ToWorker } from "./protocol";
 
-/// Answers in the order of what matters to the eye: the latest pose, then its colours, its limits one by one, then all else. A
+/// Answers in the order of what matters to the eye: the latest pose, then its colours, its limits one by one, its depth, then all else. A
 /// message that arrives meanwhile comes in between; what is left to say of a pose that is past is dropped.
 
 type PoseQuestion = Extract<ToWorker, { type: "pose" }>;
@@ -45,6 +45,8 @@ function next(): void {
       const limit = joint!.limitFrom(asked.at, vary, positive === 1, range_deg);
       say({ type: "limit", id: asked.id, limit });
     })));
+    // Last: it takes longest.
+    if (shown.inContact) aboutPose.push(() => say({ type: "depth", id: asked.id, depth: joint!.depth(asked.at) }));
   } else {
     (aboutPose.shift() ?? afterwards.shift())?.();
   }
@@ -68,6 +70,8 @@ function answerTo(query: Query): QueryAnswer {
       return joint!.details(query.at);
     case "poseMatrix":
       return joint!.detailsOf(query.X_FM);
+    case "depth":
+      return joint!.depth(query.at);
     case "penetrations":
       return joint!.penetrationsAt(query.at);
     case "values":

@@ -1,6 +1,6 @@
 import { scaleLinear } from "d3-scale";
 import { button, html, named, section, shortened, spaced, svg } from "../dom";
-import type { Coordinates, LiveLimit, Shown } from "../core/protocol";
+import type { Coordinates, Depth, LiveLimit, Shown } from "../core/protocol";
 import { toldBand } from "../plots/limits";
 import type { MotionAnswer, ReportText } from "../report";
 import { words } from "../words";
@@ -26,6 +26,7 @@ export class MotionPanel {
   private readonly sliders: Slider[];
   private readonly translations: HTMLInputElement[] = [];
   private readonly answer = html("p", { id: "answer", "aria-live": "polite" });
+  private readonly depth = html("p", { id: "depth", "aria-live": "polite" });
   private readonly took = html("p", { class: "small no-print", "aria-hidden": "true" });
   private animation = 0;
   private toldAt = 0;
@@ -43,7 +44,7 @@ export class MotionPanel {
     if (report.joint.kind === "free") rows.push(html("div", { class: "row" }, ...axes.map((axis) => this.translation(axis))));
     const manoeuvres = (report.rom?.motions ?? []).map((motion) =>
       button(shortened(spaced(motion.name)), () => this.goToEnd(motion), { class: "manoeuvre", disabled: !this.hasPose(motion.name) }));
-    this.element = section(words.motion, ...rows, this.answer, this.took,
+    this.element = section(words.motion, ...rows, this.answer, this.depth, this.took,
       html("div", { class: "row no-print" },
         button(words.reset, () => (showStored ? showStored("reference") : this.goTo([...report.reference_deg])),
           { disabled: !this.hasPose("reference") }),
@@ -103,7 +104,29 @@ export class MotionPanel {
     this.drawStrip(slider, at.angles[limit.vary]!);
   }
 
+  /// Comes once the joint rests, as `condyle depth` answers.
+  showDepth({ deepest, withoutDepth, area_mm2, volume_mm3, volumeError_mm3, coveredAgain_mm3 }: Depth): void {
+    const bodies = { fixed: named(this.report.joint.fixed), mobile: named(this.report.joint.mobile) };
+    const lines: string[] = [];
+    if (deepest) {
+      const along = deepest.about === null ? words.theRay
+        : words.theArc(spaced(this.report.coordinates[deepest.about]!.name), deepest.depth_deg!);
+      lines.push(words.depthAlong(deepest.depth_mm, along, deepest.vertex, bodies[deepest.body], deepest.nearest_mm));
+    }
+    if (withoutDepth > 0) lines.push(words.withoutDepth(withoutDepth));
+    const areas = (["mobile", "fixed"] as const).flatMap((body) => {
+      const area = area_mm2[body];
+      return area ? [words.contactArea(area, bodies[body])] : [];
+    });
+    if (areas.length) lines.push(words.contactAreas(areas.join(", ")));
+    if (volume_mm3 !== null) lines.push(words.penetrationVolume(volume_mm3, volumeError_mm3!));
+    if (coveredAgain_mm3) lines.push(words.coveredAgain(coveredAgain_mm3));
+    this.depth.textContent = lines.join("; ");
+  }
+
   show(shown: Shown, roundTrip_ms: number): void {
+    // That of another pose is nobody's.
+    this.depth.textContent = "";
     const fixed = named(this.report.joint.fixed), mobile = named(this.report.joint.mobile);
     const inside = ([["mobile", mobile], ["fixed", fixed]] as const)
       .filter(([key]) => shown.inside[key].count > 0)

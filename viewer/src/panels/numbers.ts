@@ -1,6 +1,6 @@
 import { html, named, section, shortened, spaced } from "../dom";
 import { limitAlone, toldBand } from "../plots/limits";
-import type { MeshSource, ReportText, RomAnswer } from "../report";
+import { scopeOf, type MeshSource, type ReportText, type RomAnswer } from "../report";
 import { words } from "../words";
 
 /// More of a note, or of a path in the first column of a table, is not read.
@@ -29,6 +29,8 @@ export function numbersPanel(report: ReportText, counts: { fixed: [number, numbe
   if (rom) {
     parts.push(limitsTable(rom), html("h3", {}, words.how), lines(howFound(rom)), html("h3", {}, words.notes));
     parts.push(rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
+    const caveats = caveatsOf(rom);
+    if (caveats.length) parts.push(html("h3", {}, words.caveats), lines(caveats));
     if (rom.terms.length) parts.push(html("h3", {}, words.terms), lines(rom.terms));
     if (rom.provenance) {
       const { provenance } = rom;
@@ -41,7 +43,23 @@ export function numbersPanel(report: ReportText, counts: { fixed: [number, numbe
   } else {
     parts.push(html("p", { class: "warning" }, words.noLimits + (report.rom_error ?? "")));
   }
-  return section(words.numbers, ...parts, html("p", {}, words.scope));
+  return section(words.numbers, ...parts, html("p", {}, words.scope(scopeOf(report))));
+}
+
+/// A line for each caveat, with the motions that it is about.
+function caveatsOf({ motions }: RomAnswer): string[] {
+  interface About {
+    names: string[];
+    source: string | null;
+  }
+  const about = new Map<string, About>();
+  for (const { name, caveats } of motions)
+    for (const { text, source } of caveats ?? []) {
+      const known: About = about.get(text) ?? { names: [], source };
+      known.names.push(named(spaced(name)));
+      about.set(text, known);
+    }
+  return [...about].map(([text, { names, source }]) => words.caveat(names.join(", "), text, source));
 }
 
 function limitsTable({ motions }: RomAnswer): HTMLElement {
