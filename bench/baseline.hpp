@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment.hpp"
@@ -15,6 +16,9 @@ namespace bench {
 /// is better.
 using Ratios = std::map<std::string, double>;
 
+/// What the names of ratios of whole commands begin with: how many times longer reading their meshes took than they did.
+inline constexpr std::string_view command_ratios = "command/";
+
 Ratios ratios_of(const ExperimentResult& result);
 
 /// JSON, one ratio a line.
@@ -24,7 +28,7 @@ std::string baseline_text(const Ratios& ratios);
 Ratios read_baseline(const std::string& file);
 
 /// One line for each ratio in both that is now below `tolerated` of what it was, the worst first: by
-/// default those where Condyle got a quarter slower, or more, beside the other.
+/// default those where Condyle got a quarter slower, or more, beside the other. A whole command may lose a tenth at most.
 std::vector<std::string> worse_than(const Ratios& baseline, const Ratios& now, double tolerated = 0.8);
 
 }  // namespace bench

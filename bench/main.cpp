@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "baseline.hpp"
+#include "commands.hpp"
 #include "experiment_tables.hpp"
 #include "goals.hpp"
 #include "io/file/whole_file.hpp"
@@ -115,10 +116,22 @@ class LazyScene {
   bool is_made_ = false;
 };
 
-void write_files(const Report& report, const ExperimentResult& experiment, const Options& options) {
+/// What a run has: the experiment, and ratios that are of whole commands.
+struct Measured {
+  ExperimentResult experiment;
+  Ratios of_commands;
+
+  Ratios ratios() const {
+    Ratios all = ratios_of(experiment);
+    all.insert(of_commands.begin(), of_commands.end());
+    return all;
+  }
+};
+
+void write_files(const Report& report, const Measured& measured, const Options& options) {
   if (!options.json.empty()) condyle::io::write_whole_file(options.json, to_json(report).dump(1) + "\n");
   if (!options.baseline.empty())
-    condyle::io::write_whole_file(options.baseline, baseline_text(ratios_of(experiment)));
+    condyle::io::write_whole_file(options.baseline, baseline_text(measured.ratios()));
   if (options.csv.empty()) return;
   for (const Table& table : report.tables)
     if (table.head.is_long) condyle::io::write_whole_file(options.csv, csv_text(table));
@@ -137,14 +150,15 @@ void finish(const ExperimentResult& experiment, Report& report) {
 }
 
 /// What a run has so far is kept if it is broken off: under the names of its files, and saying so.
-void write_unfinished(Report report, const ExperimentResult& experiment, const Options& options) {
+void write_unfinished(Report report, const Measured& measured, const Options& options) {
   report.machine.emplace_back("unfinished", "broken off before its end");
-  finish(experiment, report);
-  write_files(report, experiment, options);
+  finish(measured.experiment, report);
+  write_files(report, measured, options);
 }
 
-ExperimentResult run(const Options& options, Report& report) {
-  ExperimentResult experiment;
+Measured run(const Options& options, Report& report) {
+  Measured measured;
+  ExperimentResult& experiment = measured.experiment;
   const Budget budget = options.effort == Effort::full ? Budget{} : Budget::quick();
   for (const SceneName& name : scene_names()) {
     LazyScene scene(name.name);
@@ -164,7 +178,7 @@ ExperimentResult run(const Options& options, Report& report) {
       timed("experiment", [&](const Scene& s) {
         run_experiment(name, s, ExperimentFilter{options.filter}, budget, experiment);
       });
-    write_unfinished(report, experiment, options);
+    write_unfinished(report, measured, options);
   }
   for (const MotionQuestion& question : motion_questions) {
     if (question.name.find(options.filter) == std::string_view::npos) continue;
@@ -173,16 +187,23 @@ ExperimentResult run(const Options& options, Report& report) {
       fmt::print(stderr, "{}: {:.1f} s\n", question.name, watch.wall_seconds());
     else
       report.skipped.push_back(fmt::format("{}: its meshes or its motion are not there", question.name));
-    write_unfinished(report, experiment, options);
+    write_unfinished(report, measured, options);
+  }
+  for (const std::string& joint : command_joints(options.effort)) {
+    if (fmt::format("command/{}", joint).find(options.filter) == std::string::npos) continue;
+    const Stopwatch watch;
+    measured.of_commands.merge(ask_commands(joint, options.effort, report));
+    fmt::print(stderr, "command/{}: {:.1f} s\n", joint, watch.wall_seconds());
+    write_unfinished(report, measured, options);
   }
   finish(experiment, report);
-  return experiment;
+  return measured;
 }
 
 /// How many ratios got worse.
-std::size_t print_comparison(const ExperimentResult& experiment, const Options& options) {
+std::size_t print_comparison(const Measured& measured, const Options& options) {
   if (options.compare.empty()) return 0;
-  const std::vector<std::string> worse = worse_than(read_baseline(options.compare), ratios_of(experiment));
+  const std::vector<std::string> worse = worse_than(read_baseline(options.compare), measured.ratios());
   for (const std::string& line : worse) fmt::print("\nWORSE: {}\n", line);
   if (worse.empty()) fmt::print("\nNo ratio is worse than in {}\n", options.compare);
   return worse.size();
@@ -231,12 +252,12 @@ int main(int argc, char** argv) {
     report.machine = bench::describe_machine();
     report.machine.emplace_back("run", description(options));
     const double load_before = bench::load_average();
-    const bench::ExperimentResult experiment = bench::run(options, report);
+    const bench::Measured measured = bench::run(options, report);
     report.machine.emplace_back("load", fmt::format("{:.1f} before, {:.1f} after (this program included)",
                                                     load_before, bench::load_average()));
-    bench::write_files(report, experiment, options);
+    bench::write_files(report, measured, options);
     const int printed = bench::print(report);
-    return bench::print_comparison(experiment, options) > 0 ? 1 : printed;
+    return bench::print_comparison(measured, options) > 0 ? 1 : printed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "condyle-bench: {}\n", error.what());
     return 2;

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "baseline.hpp"
+#include "commands.hpp"
 #include "growth.hpp"
 #include "scenes.hpp"
 #include "support/temporary_folder.hpp"
@@ -32,6 +33,24 @@ TEST(Baseline, OnlyWhatGotClearlyWorseIsTold) {
   ASSERT_EQ(lines.size(), 2u);
   EXPECT_EQ(lines[0], "c: 2 times Condyle's time, was 10");
   EXPECT_EQ(lines[1], "b: 7 times Condyle's time, was 10");
+}
+
+TEST(Baseline, AWholeCommandThatLostATenthIsTold) {
+  const Ratios before{{"command/hip/depth", 0.5}, {"command/hip/rom", 0.25}, {"pairs/hip/fcl", 5}};
+  const Ratios now{{"command/hip/depth", 0.44}, {"command/hip/rom", 0.24}, {"pairs/hip/fcl", 4.4}};
+  const auto lines = worse_than(before, now);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], "command/hip/depth: 2.27 times as long as inspect, was 2");
+}
+
+TEST(Commands, OfTheSampleAnswerAndAreComparedWithReadingItsMeshes) {
+  const auto joints = command_joints(Effort::quick);
+  ASSERT_EQ(joints, std::vector<std::string>{"sample_1"});
+  Report report;
+  const Ratios ratios = ask_commands(joints.front(), Effort::quick, report);
+  EXPECT_TRUE(report.disagreements.empty());
+  EXPECT_GT(ratios.at("command/sample_1/depth"), 0);
+  EXPECT_EQ(ratios.count("command/sample_1/inspect"), 0u) << "it is what the others are compared with";
 }
 
 TEST(Baseline, IsReadAsItWasWritten) {
