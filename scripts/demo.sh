@@ -37,7 +37,7 @@ echo
 echo "Results are in $out, a folder for each pose: fixed.vtp and mobile.vtp (open them in ParaView or 3D Slicer),"
 echo "pairs.csv and depth.json. Limits and their figures are in $out/range_of_motion. The joint itself is"
 echo "$out/sample/hip.toml."
-echo "Osseous contact only: soft tissue is not modelled. Research software, not a medical device."
+echo "The bones of the sample hip only: soft tissue is not modelled. Research software, not a medical device."
 
 "$condyle" report "$out/sample/hip.toml" --band=40 --map flexion=0:120:10 adduction=-30:20:10 \
   --out "$out/report.html"

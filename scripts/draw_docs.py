@@ -48,7 +48,8 @@ def save(drawn, name):
 
 
 def draw_hip():
-    condyle("sample", "hip", "--scenario", 2, "--out", OUT / "sample")
+    """By the commands of docs/figures.md."""
+    condyle("sample", "hip", "--out", OUT / "sample")
     condyle("rom", OUT / "sample/hip.toml", "--band=40", "--out", OUT / "rom")
     condyle("rom", OUT / "sample/hip.toml", "--map", "flexion=0:130:5", "adduction=-40:30:5", "--out", OUT / "map")
     draw(OUT / "rom", {"limits": "limits.png", "clock_face": "clock_face.png"})

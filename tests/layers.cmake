@@ -25,7 +25,7 @@ set(kinematics_headers fit held_translation joint joint_checks joint_coordinates
 set(radial_headers radial)
 set(tangential_headers tangential)
 set(contact_headers contact contact_measures load_balance normal_contact normal_depth pressure reliable_depth)
-set(motion_headers bearing clock_face depth_limit first_contact impingement_zone limit_band motion_contact motion_map
+set(motion_headers bearing clock_face contact_checks depth_limit first_contact impingement_zone limit_band motion_contact motion_map
                    overlap_options path_limit range_of_motion recorded_contact)
 set(sample_headers)
 set(io_headers)
