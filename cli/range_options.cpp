@@ -31,6 +31,15 @@ BearingOptions parse_bearing(const std::string& text) {
 
 constexpr const char* map_needs = "a map needs two angles, such as --map flexion=0:120:5 adduction=-30:30:5";
 
+/// The pose's syntax, with translations only. A joint that does not translate is left to the request's check.
+std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) {
+  if (text.empty()) return std::nullopt;
+  if (joint.kind != JointKind::free) return Vec3::Zero();
+  const PoseDegrees pose = parse_pose(text, joint.kind, joint.anatomy);
+  if (pose.angles() != JointAngles{}) throw UsageError("--translation: takes x, y and z only");
+  return pose.translation_mm;
+}
+
 }  // namespace
 
 CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
@@ -95,14 +104,6 @@ CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& give
                             "Also find the impingement zones this many degrees past each limit");
 }
 
-std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint,
-                                         const ClockFace& socket_clock) {
-  if (!given.past_deg) return std::nullopt;
-  return ZoneFinder(
-      joint,
-      {.bearing = given.bearing, .past = Angle::degrees(*given.past_deg), .socket_clock = socket_clock});
-}
-
 std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy) {
   if (given.map.empty()) {
     if (!given.vary.empty()) throw UsageError("--vary: is for --map");
@@ -118,18 +119,22 @@ std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy 
   return grid;
 }
 
-RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose) {
-  RangeOptions range;
-  range.bearing = given.bearing;
-  range.overlap.reference_pose = reference_pose;
-  range.overlap.reference_contact = given.reference_contact;
-  return range;
-}
-
-BandOptions band_options_of(const RangeGiven& given, const JointFile& file) {
-  return {.sigma = given.sigma.over(file.uncertainty),
-          .samples = given.band_samples,
-          .seed = given.seed.value_or(file.band_seed)};
+RangeRequest range_request_of(const RangeGiven& given, const LoadedJoint& loaded,
+                              std::vector<Motion> motions) {
+  const Joint& joint = loaded.joint;
+  const JointFile& file = loaded.report.file;
+  RangeRequest request{.motions = std::move(motions)};
+  request.range.bearing = given.bearing;
+  request.range.overlap.reference_contact = given.reference_contact;
+  request.translation_mm = translation_of(given.translation, joint);
+  request.map = grid_of(given, joint.kind, joint.anatomy);
+  if (given.past_deg) request.zones_past = Angle::degrees(*given.past_deg);
+  if (given.band_samples > 0)
+    request.bands = {.sigma = given.sigma.over(file.uncertainty),
+                     .samples = given.band_samples,
+                     .seed = given.seed.value_or(file.band_seed)};
+  check_range_request(joint, loaded.report.placement, request);
+  return request;
 }
 
 }  // namespace condyle::cli

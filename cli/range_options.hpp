@@ -6,11 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "condyle/impingement_zone.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/study.hpp"
-#include "condyle/limit_band.hpp"
-#include "condyle/motion_map.hpp"
 
 namespace CLI {
 class App;
@@ -39,13 +37,11 @@ CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& gi
 CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given);
 
-/// Nothing where no map was asked for. Throws UsageError.
+/// Nothing if no map is requested. Throws UsageError.
 std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy);
-/// Nothing where no zones were asked for. Throws UsageError.
-std::optional<ZoneFinder> zone_finder_of(const RangeGiven& given, const Joint& joint,
-                                         const ClockFace& socket_clock = sagittal_clock());
-RangeOptions range_options_of(const RangeGiven& given, const JointAngles& reference_pose);
-/// What was given, else what the joint file says, else what is usual.
-BandOptions band_options_of(const RangeGiven& given, const JointFile& file);
+/// The request, checked against the joint; bands by what was given, else what the joint file says, else what is usual. Throws
+/// UsageError.
+RangeRequest range_request_of(const RangeGiven& given, const LoadedJoint& loaded,
+                              std::vector<Motion> motions);
 
 }  // namespace condyle::cli

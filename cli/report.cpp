@@ -39,16 +39,13 @@ struct Options {
 
 /// The limits, or in one line why there are none: the page shows the joint all the same.
 struct RangeOrError {
-  RangeFound found;
+  std::optional<RangeAnswer> answer;
   std::string error;
 };
 
-RangeOrError range_of(const Options& options, const LoadedJoint& loaded, const Joint& held,
-                      const BandOptions& band) {
-  const std::optional<MapGrid> grid = grid_of(*options.range, held.kind, held.anatomy);
-  const RangeOptions asked = range_options_of(*options.range, loaded.report.placement.reference_pose.angles);
+RangeOrError range_of(const LoadedJoint& loaded, const RangeRequest& request) {
   try {
-    return {exact_range(held, motions_of(loaded), asked, grid, band), {}};
+    return {answered_range(loaded, request), {}};
   } catch (const MeshError& error) {
     note(fmt::format("no limits: {}", error.what()));
     return {{}, error.what()};
@@ -89,8 +86,7 @@ void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   std::optional<Recorded> recorded;
   if (!options.motion.empty()) recorded.emplace(options, loaded);
-  const std::optional<Vec3> translation = held_translation(options.range->translation, loaded);
-  const Joint held = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
+  const RangeRequest request = range_request_of(*options.range, loaded, motions_of(loaded));
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
   Provenance from = provenance_of(loaded, words_of(command));
   if (recorded) from.read.emplace_back(options.motion);
@@ -115,30 +111,16 @@ void run(const Options& options, const CLI::App& command) {
     also_note(check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
                            {surfaces.fixed.name, surfaces.mobile.name}));
   }
-  const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, held);
-  const BandOptions band = band_options_of(*options.range, loaded.report.file);
-  auto [found, error] = range_of(options, loaded, held, band);
-  if (translation) found.terms.push_back(term_of_held(*translation));
-
-  const std::vector<std::optional<ImpingementZone>> zones = zones_of(finder, found.limits);
-  if (translation) from.frame = from.frame.of_held(*translation);
-  const RomResult rom{.joint = held,
-                      .limits = found.limits,
-                      .bearing = found.bearing,
-                      .bearing_rule = found.bearing_rule,
-                      .terms = found.terms,
-                      .held_translation_mm = translation,
-                      .notes = notes,
-                      .contact_notes = contact_notes,
-                      .zones = zones,
-                      .map = found.map ? &*found.map : nullptr,
-                      .bands = found.bands,
-                      .band_options = band,
-                      .provenance = &from};
+  const auto [answer, error] = range_of(loaded, request);
+  std::optional<RomResult> rom;
+  if (answer) {
+    rom.emplace(rom_result_of(*answer, notes, &from));
+    rom->contact_notes = contact_notes;
+  }
   Report report{.title = options.title.value_or(loaded.joint.name),
                 .joint = loaded.joint,
                 .reference_pose = loaded.report.placement.reference_pose,
-                .rom = error.empty() ? &rom : nullptr,
+                .rom = rom ? &*rom : nullptr,
                 .rom_error = error};
   if (layers) report.layers.emplace(std::move(*layers));
   if (recorded)

@@ -6,14 +6,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "condyle/depth_limit.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/held_translation.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_files.hpp"
@@ -68,18 +68,19 @@ std::string list_of(const std::vector<Motion>& motions, Anatomy joint) {
   return text;
 }
 
-RangeOptions range_options(const Options& options, const JointAngles& reference_pose) {
-  RangeOptions range = range_options_of(*options.range, reference_pose);
+RangeRequest request_of(const Options& options, const LoadedJoint& loaded, std::vector<Motion> motions) {
+  RangeRequest request = range_request_of(*options.range, loaded, std::move(motions));
   if (options.reference_contacts == ReferenceContacts::leave_out)
-    range.overlap.leave_out_reference_contacts.emplace();
-  return range;
+    request.range.overlap.leave_out_reference_contacts.emplace();
+  if (options.allow_depth_mm) request.allowed_depth = AllowedDepth{.depth_mm = *options.allow_depth_mm};
+  request.clock = options.clock;
+  return request;
 }
 
-/// The exact answer; where the bodies are in contact in the reference pose, the error names the options there are.
-RangeFound exact_limits(const Joint& joint, const std::vector<Motion>& motions, const RangeOptions& asked,
-                        const std::optional<MapGrid>& grid, const BandOptions& band) {
+/// Where the bodies are in contact in the reference pose, the error names the options there are.
+RangeAnswer answer_of(const LoadedJoint& loaded, const RangeRequest& request) {
   try {
-    return exact_range(joint, motions, asked, grid, band);
+    return answered_range(loaded, request);
   } catch (const ReferenceContactError& error) {
     throw ReferenceContactError(std::string(error.what()) +
                                 " (--allow-depth, --exclude-reference-contacts, "
@@ -87,68 +88,19 @@ RangeFound exact_limits(const Joint& joint, const std::vector<Motion>& motions, 
   }
 }
 
-/// Where the deepest depth exceeds the allowed one.
-RangeFound depth_limits(const Options& options, const Joint& joint, const std::vector<Motion>& motions) {
-  AllowedDepth allowed;
-  allowed.depth_mm = *options.allow_depth_mm;
-  const DepthRange range(joint, allowed);
-  RangeFound found;
-  found.depths = range.limits(motions);
-  found.bearing = range.bearing();
-  for (const DepthLimit& depth : found.depths) found.limits.push_back(depth.limit);
-  found.terms.push_back(fmt::format("allowed: a radial depth of {:g} mm; limits are searched for, not exact",
-                                    allowed.depth_mm));
-  return found;
-}
-
-/// The clock that is wanted; throws MeshError where the socket has none.
-ClockFace clock_of(const Options& options, const Joint& joint) {
-  if (options.clock == ClockPlane::sagittal) return sagittal_clock();
-  const auto bearing = find_bearing_surface(joint, options.range->bearing).surface;
-  const auto clock = bearing ? find_rim_clock(joint.fixed.mesh, bearing->head) : std::nullopt;
-  if (!clock)
-    throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
-  return *clock;
-}
-
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
-  const std::optional<Vec3> translation = held_translation(options.range->translation, loaded);
-  const Joint joint = held_at(loaded.joint, translation.value_or(Vec3::Zero()));
-  const std::vector<Motion> motions = chosen_motions(motions_of(loaded), options.motions);
-  if (options.task == Task::list_motions) return print(list_of(motions, joint.anatomy));
-  const std::optional<MapGrid> grid = grid_of(*options.range, joint.kind, joint.anatomy);
-  const RangeOptions asked = range_options(options, loaded.report.placement.reference_pose.angles);
+  std::vector<Motion> motions = chosen_motions(motions_of(loaded), options.motions);
+  if (options.task == Task::list_motions) return print(list_of(motions, loaded.joint.anatomy));
+  const RangeRequest request = request_of(options, loaded, std::move(motions));
   const std::vector<JointNote> notes = noted(loaded, options.strictness);
-  const ClockFace clock = clock_of(options, joint);
-  const std::optional<ZoneFinder> finder = zone_finder_of(*options.range, joint, clock);
   Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
   // A folder that cannot be written to is reported before the work, not after it.
   if (!options.out.empty()) check_rom_folder(options.out, &from);
 
-  const BandOptions band = band_options_of(*options.range, loaded.report.file);
-  RangeFound found = options.allow_depth_mm ? depth_limits(options, joint, motions)
-                                            : exact_limits(joint, motions, asked, grid, band);
-  if (translation) found.terms.push_back(term_of_held(*translation));
-  const std::vector<std::optional<ImpingementZone>> zones = zones_of(finder, found.limits);
-
-  if (translation) from.frame = from.frame.of_held(*translation);
-  const RomResult result{.joint = joint,
-                         .limits = found.limits,
-                         .bearing = found.bearing,
-                         .bearing_rule = found.bearing_rule,
-                         .clock = clock,
-                         .clock_plane = options.clock,
-                         .terms = found.terms,
-                         .held_translation_mm = translation,
-                         .notes = notes,
-                         .depths = found.depths,
-                         .zones = zones,
-                         .map = found.map ? &*found.map : nullptr,
-                         .bands = found.bands,
-                         .band_options = band,
-                         .provenance = &from,
-                         .vtp_encoding = options.where->vtp_encoding};
+  const RangeAnswer answer = answer_of(loaded, request);
+  RomResult result = rom_result_of(answer, notes, &from);
+  result.vtp_encoding = options.where->vtp_encoding;
   if (!options.out.empty()) say_written(write_rom(options.out, result));
   print(options.form == AnswerForm::json ? rom_json(result) : rom_text(result));
 }

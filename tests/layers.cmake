@@ -5,7 +5,7 @@
 
 cmake_minimum_required(VERSION 3.25)  # a script knows IN_LIST only with a policy version
 
-set(layers core simd mesh kinematics radial tangential contact motion sample io)
+set(layers core simd mesh kinematics radial tangential contact motion answer sample io)
 set(core_uses)
 set(simd_uses core)
 set(mesh_uses core simd)
@@ -14,8 +14,9 @@ set(radial_uses core simd mesh)
 set(tangential_uses core simd mesh)
 set(contact_uses core mesh kinematics radial tangential)
 set(motion_uses core mesh kinematics radial tangential contact)
+set(answer_uses core kinematics motion)
 set(sample_uses core mesh)
-set(io_uses core mesh kinematics contact motion sample)
+set(io_uses core mesh kinematics contact motion answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
 set(core_headers angle axis_frame error points pose version)
@@ -27,6 +28,7 @@ set(tangential_headers tangential)
 set(contact_headers contact contact_measures load_balance normal_contact normal_depth pressure reliable_depth)
 set(motion_headers bearing clock_face contact_checks depth_limit first_contact impingement_zone limit_band motion_contact motion_map
                    overlap_options path_limit range_of_motion recorded_contact)
+set(answer_headers answer)
 set(sample_headers)
 set(io_headers)
 

@@ -18,6 +18,8 @@ namespace condyle {
 inline constexpr double usual_bearing_margin_mm = 2;
 /// Kept between the bearing surface and the rim, so that nothing that can meet the rim is called bearing.
 inline constexpr double rim_reserve_mm = 0.5;
+/// Segmented surfaces are as rough as this: with a narrower margin contact inside the socket may be called impingement.
+inline constexpr double narrow_bearing_margin_mm = 1;
 /// A head whose centre is farther from the joint centre is no basis to tell bearing surfaces by.
 inline constexpr double farthest_head_centre_mm = 5;
 
@@ -61,10 +63,17 @@ struct BearingOptions {
   std::optional<BearingSurface> surface = {};
 };
 
+/// A margin that the gap at the rim limits; below 0 if the gap is smaller than rim_reserve_mm.
+struct NarrowMargin {
+  double rim_gap_mm, margin_mm;
+};
+
 /// The bearing surface of a joint, or in one sentence why none can be told.
 struct BearingFinding {
-  std::optional<BearingSurface> surface;
-  std::string why_none;
+  std::optional<BearingSurface> surface = {};
+  std::string why_none = {};
+  /// If the gap at the rim makes the usual margin smaller than narrow_bearing_margin_mm.
+  std::optional<NarrowMargin> narrow_margin = {};
 
   /// Of a contact on this feature of the mobile mesh. Linear in its triangles for vertices and edges.
   ContactKind kind_of(const TriMesh& mobile, const Feature& feature) const noexcept;

@@ -54,5 +54,6 @@
 #include "condyle/impingement_zone.hpp"
 #include "condyle/recorded_contact.hpp"
 #include "condyle/contact_checks.hpp"
+#include "condyle/answer.hpp"
 
 #include "condyle/version.hpp"

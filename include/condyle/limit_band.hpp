@@ -63,4 +63,16 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
                                                   const RangeOptions& range, const BandOptions& options,
                                                   const BandControl& control);
 
+/// One motion's limit in a joint that is displaced.
+struct DisplacedLimit {
+  Angle turned = {};
+  LimitReason reason = LimitReason::end_of_range;
+};
+
+/// Exact limits of the joint as it would turn about each of these centres, given in the reference pose in mm from the joint
+/// centre: for each centre one per motion. Throws UsageError where check_motion() does. A search per centre and motion, of
+/// some milliseconds for twelve motions of a hip.
+std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
+                                         const RangeOptions& range, std::span<const Vec3> centres);
+
 }  // namespace condyle

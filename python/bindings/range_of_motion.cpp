@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/caveats.hpp"
 #include "condyle/io/rom_result.hpp"
@@ -13,22 +14,6 @@
 
 namespace condyle::python {
 namespace {
-
-/// The translation that a free joint keeps: the one given, else that of its reference pose. Empty for the others.
-std::optional<Vec3> held_translation(const JointHandle& handle, const py::object& given) {
-  const Joint& joint = handle.joint();
-  if (joint.kind != JointKind::free) {
-    if (!given.is_none()) throw UsageError("translation_mm: only a free joint translates");
-    return std::nullopt;
-  }
-  const Vec3 held = given.is_none() ? handle.loaded.report.placement.reference_pose.translation_mm
-                                    : vector_in(given, "translation_mm");
-  if (joint.translation_frame == TranslationFrame::joint_axes && held != Vec3::Zero())
-    throw UsageError(
-        "translation_mm: held along the joint's axes it would turn with them: motions need zero or "
-        "translation_frame = \"fixed\"");
-  return held;
-}
 
 RangeOptions options_in(const JointHandle& handle, const py::dict& given) {
   RangeOptions options;
@@ -44,7 +29,10 @@ RangeOptions options_in(const JointHandle& handle, const py::dict& given) {
 
 std::unique_ptr<RangeHandle> ready(const JointHandle& handle, const py::object& translation_mm,
                                    const py::dict& given) {
-  const std::optional<Vec3> translation = held_translation(handle, translation_mm);
+  std::optional<Vec3> requested;
+  if (!translation_mm.is_none()) requested = vector_in(translation_mm, "translation_mm");
+  const std::optional<Vec3> translation =
+      held_translation(handle.joint(), handle.loaded.report.placement, requested);
   RangeOptions options = options_in(handle, given);
   return followed(py::none(), [&](const auto&, const std::stop_token&) {
     auto range = std::make_unique<RangeHandle>(handle.joint(), translation, options);
@@ -63,6 +51,18 @@ py::list limits(const RangeHandle& handle, const py::list& given) {
   });
   py::list list;
   for (const MotionLimit& limit : found) list.append(dict_of(limit));
+  return list;
+}
+
+/// (code, text) of each.
+py::list notes(const RangeHandle& handle, const py::list& given) {
+  const std::vector<Motion> motions = motions_in(given);
+  const std::vector<RangeNote> found = [&] {
+    const py::gil_scoped_release released;
+    return range_notes(handle.joint, motions, handle.options, handle.range.bearing());
+  }();
+  py::list list;
+  for (const RangeNote& note : found) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
   return list;
 }
 
@@ -144,6 +144,7 @@ py::dict path_limit(const JointHandle& handle, const py::object& given, double t
 void bind_range_of_motion(py::module_& module) {
   py::class_<RangeHandle>(module, "RangeOfMotion")
       .def("limits", &limits)
+      .def("notes", &notes)
       .def("free_angles", &free_angles)
       .def_property_readonly("bearing", &bearing_of)
       .def_property_readonly("why_no_bearing",

@@ -5,7 +5,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/impingement_zone.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/picture.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
@@ -19,57 +19,37 @@ std::optional<Provenance> files_of(const LoadedJoint& loaded) {
   return provenance_of(loaded, {"condyle.RangeOfMotion.write_report"});
 }
 
-std::vector<std::optional<ImpingementZone>> zones_past(const RangeHandle& range,
-                                                       const std::vector<MotionLimit>& limits,
-                                                       const std::optional<double>& past_deg) {
-  std::vector<std::optional<ImpingementZone>> zones;
-  if (!past_deg) return zones;
-  const ZoneFinder finder(range.joint, {.bearing = range.options.bearing, .past = Angle::degrees(*past_deg)});
-  for (const MotionLimit& limit : limits) zones.push_back(finder.zone(limit));
-  return zones;
+/// What the limits of `range` were computed for, with what a report adds.
+RangeRequest request_of(const RangeHandle& range, std::vector<Motion> motions) {
+  RangeRequest request{.motions = std::move(motions), .range = range.options};
+  request.range.bearing.surface.reset();  // found again with its notes
+  request.translation_mm = range.held_translation_mm;
+  return request;
 }
 
 void report(const RangeHandle& range, const JointHandle& handle, const std::filesystem::path& path,
             const std::optional<std::string>& title, const py::list& given, std::size_t band_samples,
             std::optional<std::uint64_t> seed, const std::optional<double>& past_deg,
             const py::object& progress) {
-  const std::vector<Motion> motions = motions_in(given);
   const LoadedJoint& loaded = handle.loaded;
+  const JointFile& file = loaded.report.file;
+  RangeRequest request = request_of(range, motions_in(given));
+  if (band_samples > 0)
+    request.bands = {
+        .sigma = file.uncertainty, .samples = band_samples, .seed = seed.value_or(file.band_seed)};
+  if (past_deg) request.zones_past = Angle::degrees(*past_deg);
   std::optional<Provenance> from = files_of(loaded);
   check_report_file(path, from ? &*from : nullptr);
   followed(progress, [&](const auto& follow, const std::stop_token& stop) {
-    std::vector<MotionLimit> limits;
-    each_limit(range.range, motions, stop, [&](MotionLimit&& limit) { limits.push_back(std::move(limit)); });
-    const JointFile& file = loaded.report.file;
-    const BandOptions band{
-        .sigma = file.uncertainty, .samples = band_samples, .seed = seed.value_or(file.band_seed)};
-    std::vector<LimitBand> bands;
-    if (band_samples > 0)
-      bands = limit_bands(range.joint, motions, range.options, band, {.progress = follow, .stop = stop})
-                  .value_or(std::vector<LimitBand>{});
-    const auto zones = zones_past(range, limits, past_deg);
+    const auto by_stage = [&](std::string_view, std::size_t done, std::size_t total) { follow(done, total); };
+    const auto answer = answer_range(loaded.joint, loaded.report.placement, request, {by_stage, stop});
+    if (!answer) return true;
     const std::vector<JointNote> notes = check_joint(loaded.joint, loaded.report.placement);
-    std::vector<std::string> terms = terms_of(range.options, range.range);
-    if (range.held_translation_mm) {
-      terms.push_back(term_of_held(*range.held_translation_mm));
-      if (from) from->frame = from->frame.of_held(*range.held_translation_mm);
-    }
-    const RomResult rom{.joint = range.joint,
-                        .limits = limits,
-                        .bearing = range.range.bearing(),
-                        .bearing_rule = range.range.bearing_rule(),
-                        .terms = terms,
-                        .held_translation_mm = range.held_translation_mm,
-                        .notes = notes,
-                        .zones = zones,
-                        .bands = bands,
-                        .band_options = band,
-                        .provenance = from ? &*from : nullptr};
-    if (!stop.stop_requested())
-      write_report(path, {.title = title.value_or(loaded.joint.name),
-                          .joint = loaded.joint,
-                          .reference_pose = loaded.report.placement.reference_pose,
-                          .rom = &rom});
+    const RomResult rom = rom_result_of(*answer, notes, from ? &*from : nullptr);
+    write_report(path, {.title = title.value_or(loaded.joint.name),
+                        .joint = loaded.joint,
+                        .reference_pose = loaded.report.placement.reference_pose,
+                        .rom = &rom});
     return true;
   });
 }

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._answer import html_of
+from ._contact_checks import ContactNote, reported
 from ._errors import UsageError
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand
@@ -31,18 +32,21 @@ class RangeOfMotion:
     """A joint made ready for motions, and the limits of those asked for. Made by :meth:`Joint.range_of_motion`.
 
     `limits` is a tuple of :class:`MotionLimit`; `rom["flexion"]` is one of them. Limits are exact: never past a
-    contact, short of one by at most `error_bound_deg`. Any number of threads may ask.
+    contact, short of one by at most `error_bound_deg`. `notes` is what they must be read with because of the joint's shape, each
+    with a :class:`JointWarning`. Any number of threads may ask.
 
     C++: `condyle::RangeOfMotion` in condyle/range_of_motion.hpp; `condyle rom`.
     """
 
-    __slots__ = ("_native", "_joint", "_motions", "limits", "__weakref__")
+    __slots__ = ("_native", "_joint", "_motions", "limits", "notes", "__weakref__")
 
     def __init__(self, joint: Joint, native: _native.RangeOfMotion, asked: Optional[Sequence[MotionLike]]
                  ) -> None:
         self._native, self._joint = native, joint
         self._motions = Motions(joint._native)
-        self.limits = self._limits(self._motions.known if asked is None else self._motions.asked(asked))
+        motions = self._motions.known if asked is None else self._motions.asked(asked)
+        self.limits = self._limits(motions)
+        self.notes = reported(native.notes([self._motions.tuple_of(each) for each in motions]))
 
     def _limit_of(self, found: dict[str, Any]) -> Limit:
         found["contact"] = witness_of(found["contact"], self._joint.fixed, self._joint.mobile)

@@ -26,7 +26,8 @@ if grep -E '(^|/)(test_|condyle-|example_|condyle_cli)' <<<"$targets"; then fail
 [ -z "$(DESTDIR="$PWD/installed" cmake --install . | grep Installing)" ] || fail "the parent installs Condyle"
 
 [ -n "$cache" ] || { echo "configured, not built: there is no compiler cache"; exit 0; }
-# Not optimised, as the parent wants it: what it links and does is the same.
-configure -DCONDYLE_WERROR=ON -DCMAKE_CXX_COMPILER_LAUNCHER="$cache" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$PWD/programs"
+# Not optimised, as the parent wants it: what it links and does is the same. Precompiled headers halve the time; builds by
+# clang do without.
+configure -DCONDYLE_WERROR=ON -DCONDYLE_PRECOMPILED_HEADERS=ON -DCMAKE_CXX_COMPILER_LAUNCHER="$cache" -DCMAKE_RUNTIME_OUTPUT_DIRECTORY="$PWD/programs"
 cmake --build . --target consumer >build.txt || fail "$(cat build.txt)"
 programs/consumer | tee /dev/stderr | grep -qx "flexion ends at 30.000 degrees"

@@ -40,6 +40,30 @@ def test_caveats_and_scope_are_those_of_the_command(rom, said):
     assert "PMC3589629" in rom["extension"].caveats[0].source
 
 
+def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
+    """The hip bone is 1.3 mm too far forwards: head and socket have different centres."""
+    folder = hip_file.parent
+    text = hip_file.read_text().replace("[fixed]", "[fixed]\npose = [1, 0, 0, 1.3, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")
+    for mesh in ("hip_bone", "femur"):
+        text = text.replace(f'"{mesh}', f'"{folder}/{mesh}')
+    moved = tmp_path / "moved.toml"
+    moved.write_text(text)
+    ran = subprocess.run([command, "rom", moved, "--json", "--strict"], check=True, capture_output=True, text=True)
+    note, = json.loads(ran.stdout)["notes"]
+    assert note["code"] == "centre_moves_limits" and "1.3 mm apart" in note["text"]
+    assert f"note: {note['code']}: {note['text']}" in ran.stderr
+
+    with pytest.warns(condyle.JointWarning, match="centre_moves_limits"):
+        rom = condyle.read_joint(moved).range_of_motion()
+    assert [vars(each) for each in rom.notes] == [note]
+
+    (tmp_path / "hips.csv").write_text("id,joint\nmoved,moved.toml\n")
+    subprocess.run([command, "study", tmp_path / "hips.csv", "--out", tmp_path / "out"], check=True, capture_output=True)
+    with open(tmp_path / "out/hips.csv") as rows:
+        row, = csv.DictReader(line for line in rows if not line.startswith("#"))
+    assert row["notes"] == note["code"]
+
+
 def test_a_map_is_that_of_the_command(hip, rom, command, hip_file, tmp_path):
     subprocess.run([command, "rom", hip_file, "--motion", "flexion", "--map", "flexion=0:120:40", "adduction=-20:20:20",
                     "--out", tmp_path], check=True, capture_output=True)

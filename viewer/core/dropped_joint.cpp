@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "condyle/answer.hpp"
 #include "condyle/clock_face.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/caveats.hpp"
@@ -216,7 +217,8 @@ const char* condyle_description(CondyleJoint* joint) {
       motions.push_back(motion_json(named, limit, range.bearing().surface));
     const Json rom{{"clock_plane", "sagittal"},
                    {"motions", std::move(motions)},
-                   {"notes", io::notes_json(proposal.notes)},
+                   {"notes", io::notes_json(proposal.notes, {},
+                                            range_notes(joint->joint, hip_motions(), {}, range.bearing()))},
                    {"terms", proposal.told},
                    {"normal_range_source", normal_hip_range_source},
                    {"scope", scope_text(named)},

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/answer.hpp"
 #include "condyle/clock_face.hpp"
 #include "condyle/contact_checks.hpp"
 #include "condyle/depth_limit.hpp"
@@ -39,6 +40,8 @@ struct RomResult {
   std::optional<Vec3> held_translation_mm = {};
   /// What looks wrong with the joint.
   std::span<const JointNote> notes = {};
+  /// What limits must be read with, because of the joint's shape.
+  std::span<const RangeNote> range_notes = {};
   /// What looks wrong with the layers and the motion that a report shows beside the limits.
   std::span<const ContactNote> contact_notes = {};
   /// One per limit where a depth was allowed, none where limits are exact.
@@ -55,12 +58,11 @@ struct RomResult {
   VtpEncoding vtp_encoding = VtpEncoding::binary;
 };
 
-/// "contact", "end_of_range", "contact_at_start".
-/// What an answer found with these options must be read with, a sentence each.
-std::vector<std::string> terms_of(const RangeOptions& options, const RangeOfMotion& range);
-/// The same of a free joint that keeps a translation.
-std::string term_of_held(const Vec3& translation_mm);
+/// Shows an answer, with what looks wrong with its joint. All three must outlive the result; `from`, which may be null, gets the
+/// frame of a joint that is held at a translation.
+RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> notes, Provenance* from);
 
+/// "contact", "end_of_range", "contact_at_start".
 std::string_view name_of(LimitReason reason) noexcept;
 /// "unknown", "bearing", "impingement".
 std::string_view name_of(ContactKind kind) noexcept;

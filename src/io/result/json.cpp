@@ -10,11 +10,15 @@ Json numbers(const Vec3& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact) {
+Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact,
+                std::span<const RangeNote> of_range) {
   Json list = Json::array();
-  for (const JointNote& note : notes) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
-  for (const ContactNote& note : of_contact)
-    list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  const auto add = [&](const auto& some) {
+    for (const auto& note : some) list.push_back({{"code", name_of(note.code)}, {"text", note.text}});
+  };
+  add(notes);
+  add(of_range);
+  add(of_contact);
   return list;
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "condyle/answer.hpp"
 #include "condyle/contact_checks.hpp"
 #include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -48,9 +49,10 @@ Json nullable(const std::optional<Value>& value) {
 
 Json numbers(const Vec3& p);
 
-/// What looks wrong with a joint, under `notes` in every answer for one.
-/// And with its materials, loads and motion.
-Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact = {});
+/// Under `notes` in every answer: what looks wrong with a joint, what its limits must be read with, and what looks wrong with its
+/// materials, loads and motion.
+Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact = {},
+                std::span<const RangeNote> of_range = {});
 
 /// What to know of a motion's limit, under `caveats`: code, text, and source or null.
 Json caveats_json(std::span<const MotionCaveat> caveats);

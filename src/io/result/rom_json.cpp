@@ -252,7 +252,7 @@ std::string rom_json(const RomResult& result) {
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
             {"terms", result.terms},
-            {"notes", io::notes_json(result.notes, result.contact_notes)},
+            {"notes", io::notes_json(result.notes, result.contact_notes, result.range_notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));

@@ -62,6 +62,26 @@ std::string guarantee_text(const DepthLimit& depth) {
   return "";
 }
 
+RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> notes, Provenance* from) {
+  if (from && answer.held_translation_mm) from->frame = from->frame.of_held(*answer.held_translation_mm);
+  return {.joint = answer.joint,
+          .limits = answer.limits,
+          .bearing = answer.bearing,
+          .bearing_rule = answer.bearing_rule,
+          .clock = answer.clock,
+          .clock_plane = answer.clock_plane,
+          .terms = answer.caveats,
+          .held_translation_mm = answer.held_translation_mm,
+          .notes = notes,
+          .range_notes = answer.notes,
+          .depths = answer.depths,
+          .zones = answer.zones,
+          .map = answer.map ? &*answer.map : nullptr,
+          .bands = answer.bands,
+          .band_options = answer.band_options,
+          .provenance = from};
+}
+
 AnswerFrame frame_of(const RomResult& result) {
   return result.provenance ? result.provenance->frame : AnswerFrame{};
 }

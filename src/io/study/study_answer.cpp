@@ -6,8 +6,10 @@
 #include <span>
 #include <utility>
 
+#include "condyle/answer.hpp"
 #include "condyle/contact_measures.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/rom_result.hpp"
 #include "condyle/reliable_depth.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
@@ -60,17 +62,17 @@ std::vector<Motion> motions_of(const LoadedJoint& loaded, const StudyOptions& op
   return chosen;
 }
 
-RangeOptions range_options_of(const LoadedJoint& loaded, const StudyOptions& options) {
-  RangeOptions range;
-  range.bearing = options.bearing;
-  range.overlap = {loaded.report.placement.reference_pose.angles, options.reference_contact,
-                   options.leave_out_reference_contacts};
-  return range;
-}
-
-BandOptions band_options_of(const LoadedJoint& loaded, const StudyBands& bands) {
+RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& options) {
+  RangeRequest request{.motions = motions_of(loaded, options)};
+  request.range.bearing = options.bearing;
+  request.range.overlap.reference_contact = options.reference_contact;
+  request.range.overlap.leave_out_reference_contacts = options.leave_out_reference_contacts;
+  request.map = options.map;
   const JointFile& file = loaded.report.file;
-  return {bands.sigma.over(file.uncertainty), bands.samples, bands.seed.value_or(file.band_seed)};
+  if (const auto& bands = options.bands)
+    request.bands = {bands->sigma.over(file.uncertainty), bands->samples,
+                     bands->seed.value_or(file.band_seed)};
+  return request;
 }
 
 /// Those columns of `condyle rom` that a study has, by their places there.
@@ -185,35 +187,20 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     posed.at = pose_of(table, row, joint, posed.at);
     load = load_fields(loaded, posed);
   }
-  const std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
-  const std::vector<Motion> motions = motions_of(loaded, options);
-  const RangeOptions asked = range_options_of(loaded, options);
-  const RangeOfMotion range(joint, asked);
-  const std::vector<MotionLimit> limits = range.limits(motions);
-  RomResult result{.joint = joint, .limits = limits};
-  result.bearing = range.bearing();
-  result.bearing_rule = range.bearing_rule();
-
-  std::vector<LimitBand> bands;
-  if (options.bands) {
-    RangeOptions again = asked;
-    again.bearing.surface = range.bearing().surface;
-    auto found = limit_bands(joint, motions, again, band_options_of(loaded, *options.bands), {{}, stop});
-    if (!found) return std::nullopt;
-    bands = std::move(*found);
-    result.bands = bands;
-  }
+  std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
+  const auto answer =
+      answer_range(joint, loaded.report.placement, range_request_of(loaded, options), {{}, stop});
+  if (!answer) return std::nullopt;
+  for (const RangeNote& note : answer->notes)
+    notes += (notes.empty() ? "" : " ") + std::string(name_of(note.code));
   const Fields of_row = row_fields(table, row);
   const std::string inputs = inputs_sha256(row, loaded);
-  Fields of_hip = hip_fields(loaded, range.bearing(), notes, inputs);
-  if (options.map) {
-    const auto map = motion_map(*options.map, range, {{}, stop});
-    if (!map) return std::nullopt;
-    add_map(of_hip, *map);
-  }
+  Fields of_hip = hip_fields(loaded, answer->bearing, notes, inputs);
+  if (answer->map) add_map(of_hip, *answer->map);
   if (depth_at) add_depth(of_hip, joint, *depth_at);
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
-  return StudyAnswer{limit_lines(of_row, result, options), line_of(of_row, of_hip), {}, inputs};
+  return StudyAnswer{
+      limit_lines(of_row, rom_result_of(*answer, {}, nullptr), options), line_of(of_row, of_hip), {}, inputs};
 }
 
 StudyAnswer failure_of(const StudyTable& table, const StudyRow& row) {

@@ -67,7 +67,11 @@ ContactKind BearingFinding::kind_of(const TriMesh& mobile, const Feature& featur
 }
 
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options) {
-  const auto none = [](std::string why) { return BearingFinding{std::nullopt, std::move(why)}; };
+  BearingFinding found;
+  const auto none = [&](std::string why) {
+    found.why_none = std::move(why);
+    return std::move(found);
+  };
   if (options.margin_mm && !(*options.margin_mm >= 0 && std::isfinite(*options.margin_mm)))
     throw UsageError("bearing margin: must be 0 mm or more");
   if (!joint.is_hip()) return none("bearing contact is not told apart in this joint");
@@ -75,7 +79,8 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   if (options.surface) {
     if (options.surface->triangles.size() != mobile.triangles.size())
       throw UsageError("bearing surface: it is that of another mesh");
-    return {options.surface, {}};
+    found.surface = options.surface;
+    return found;
   }
   BearingSurface surface;
   mark_bearing_parts(joint.mobile, surface);
@@ -102,6 +107,8 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   const double reserve = has_parts ? 0 : rim_reserve_mm;
   surface.margin_mm = options.margin_mm.value_or(std::min(
       usual_bearing_margin_mm, surface.rim_gap_mm.value_or(usual_bearing_margin_mm + reserve) - reserve));
+  if (!options.margin_mm && !has_parts && surface.margin_mm < narrow_bearing_margin_mm)
+    found.narrow_margin = {*surface.rim_gap_mm, surface.margin_mm};
   // Bone under a bearing cartilage is within its sphere, with a margin or without.
   if (has_parts) surface.margin_mm = std::max(surface.margin_mm, 0.0);
   if (!(surface.margin_mm >= 0))
@@ -114,7 +121,8 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
     surface.triangles = within;
   if (surface.count() == surface.triangles.size())
     return none(joint.mobile.name + ": all of it would be bearing surface");
-  return {std::move(surface), {}};
+  found.surface = std::move(surface);
+  return found;
 }
 
 }  // namespace condyle

@@ -154,12 +154,6 @@ class Surface {
   motion::FeatureTree tree_;
 };
 
-/// How one motion of one sample ended.
-struct Outcome {
-  double turned_rad = 0;
-  LimitReason reason = LimitReason::end_of_range;
-};
-
 /// The joint that all samples are displaced from.
 class BandJoint {
  public:
@@ -176,7 +170,7 @@ class BandJoint {
   /// reference pose q0 has them, the mobile body at the angles q is at
   ///
   ///     X_FM = X_FG R(q) A^-1,   A = R(q0)^-1 X_FG R(q0), where G's mobile frame lies in M
-  void limits(const Displacement& d, std::span<Outcome> out) const {
+  void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
     std::optional<motion::FeatureTree> moved_fixed, moved_mobile;
     if (d.fixed_surface != 0) moved_fixed.emplace(fixed_.moved_by(d.fixed_surface));
     if (d.mobile_surface != 0) moved_mobile.emplace(mobile_.moved_by(d.mobile_surface));
@@ -208,7 +202,7 @@ class BandJoint {
       for (const std::size_t i : group.motions) {
         const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
         const bool reaches_end = end.turned >= motions_[i].range;
-        out[i] = {reaches_end ? motions_[i].range.radians() : end.turned.radians(),
+        out[i] = {reaches_end ? motions_[i].range : end.turned,
                   reaches_end ? LimitReason::end_of_range : end.reason};
       }
     }
@@ -240,22 +234,25 @@ void check(const BandOptions& options, std::span<const Motion> motions, JointKin
   for (const Motion& motion : motions) check_motion(motion, kind);
 }
 
+BandJoint band_joint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range) {
+  const auto bearing = find_bearing_surface(joint, range.bearing).surface;
+  return BandJoint(joint, motion::parts_that_count(joint, range.overlap, bearing, range.bearing.rule),
+                   range.overlap.reference_pose, motions);
+}
+
 }  // namespace
 
 std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                                   const RangeOptions& range, const BandOptions& options,
                                                   const BandControl& control) {
   check(options, motions, joint.kind);
-  const auto bearing = find_bearing_surface(joint, range.bearing).surface;
-  const motion::PartsOfJoint parts =
-      motion::parts_that_count(joint, range.overlap, bearing, range.bearing.rule);
-  const BandJoint displaced(joint, parts, range.overlap.reference_pose, motions);
+  const BandJoint displaced = band_joint(joint, motions, range);
   const std::vector<Displacement> samples = displacements(options);
 
   // Outcomes by source, sample and motion.
   const std::vector<Source> sources = sources_of(options.sigma);
   const std::size_t count = samples.size(), width = motions.size(), total = sources.size() * count;
-  std::vector<Outcome> outcomes(total * width);
+  std::vector<DisplacedLimit> outcomes(total * width);
   std::size_t done = 0;
   std::mutex reporting;
   core::parallel_chunks(total, 1, [&](std::size_t first, std::size_t last) {
@@ -274,7 +271,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
     const auto sorted = [&](std::size_t source) {
       std::vector<double> values;
       for (std::size_t i = 0; i < count; ++i)
-        values.push_back(outcomes[(source * count + i) * width + m].turned_rad);
+        values.push_back(outcomes[(source * count + i) * width + m].turned.radians());
       std::sort(values.begin(), values.end());
       return values;
     };
@@ -304,6 +301,18 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
 std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                    const RangeOptions& range, const BandOptions& options) {
   return *limit_bands(joint, motions, range, options, {});
+}
+
+std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
+                                         const RangeOptions& range, std::span<const Vec3> centres) {
+  for (const Motion& motion : motions) check_motion(motion, joint.kind);
+  const BandJoint displaced = band_joint(joint, motions, range);
+  std::vector<DisplacedLimit> limits(centres.size() * motions.size());
+  core::parallel_chunks(centres.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      displaced.limits({.centre = centres[i]}, std::span(limits).subspan(i * motions.size(), motions.size()));
+  });
+  return limits;
 }
 
 }  // namespace condyle

@@ -1,0 +1,149 @@
+#include <algorithm>
+
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "condyle/held_translation.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace {
+
+/// Motions between two looks whether to stop: some ten milliseconds.
+constexpr std::size_t motions_at_once = 16;
+
+/// The limits of all motions; fewer if stopped.
+std::vector<MotionLimit> limits_of(const RangeOfMotion& range, std::span<const Motion> motions,
+                                   const std::stop_token& stop) {
+  std::vector<MotionLimit> limits;
+  while (limits.size() < motions.size() && !stop.stop_requested()) {
+    const auto next =
+        motions.subspan(limits.size(), std::min(motions_at_once, motions.size() - limits.size()));
+    for (MotionLimit& limit : range.limits(next)) limits.push_back(std::move(limit));
+  }
+  return limits;
+}
+
+ClockFace clock_of(const Joint& joint, ClockPlane plane, const BearingFinding& bearing) {
+  if (plane == ClockPlane::sagittal) return sagittal_clock();
+  const auto clock = bearing.surface ? find_rim_clock(joint.fixed.mesh, bearing.surface->head) : std::nullopt;
+  if (!clock)
+    throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
+  return *clock;
+}
+
+/// What map and band report, under the name of what they count.
+auto staged(const AnswerControl& control, std::string_view stage) {
+  return control.progress ? std::function<void(std::size_t, std::size_t)>(
+                                [&control, stage](std::size_t done, std::size_t total) {
+                                  control.progress(stage, done, total);
+                                })
+                          : nullptr;
+}
+
+void add_depth_limits(RangeAnswer& answer, const RangeRequest& request) {
+  const DepthRange range(answer.joint, *request.allowed_depth);
+  answer.depths = range.limits(request.motions);
+  answer.bearing = range.bearing();
+  answer.clock = clock_of(answer.joint, request.clock, answer.bearing);
+  for (const DepthLimit& depth : answer.depths) answer.limits.push_back(depth.limit);
+  answer.caveats.push_back(
+      core::formatted("allowed: a radial depth of %g mm; limits are searched for, not exact",
+                      request.allowed_depth->depth_mm));
+}
+
+/// False if stopped.
+bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const RangeOptions& options,
+                      const AnswerControl& control) {
+  const RangeOfMotion range(answer.joint, options);
+  answer.bearing = range.bearing();
+  answer.bearing_rule = range.bearing_rule();
+  answer.clock = clock_of(answer.joint, request.clock, answer.bearing);
+  answer.caveats = range_caveats(options, range);
+  answer.limits = limits_of(range, request.motions, control.stop);
+  if (answer.limits.size() < request.motions.size()) return false;
+
+  RangeOptions again = options;
+  again.bearing.surface = answer.bearing.surface;
+  answer.notes = range_notes(answer.joint, request.motions, again, answer.bearing);
+  if (request.zones_past) {
+    const ZoneFinder finder(
+        answer.joint, {.bearing = again.bearing, .past = *request.zones_past, .socket_clock = answer.clock});
+    for (const MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
+  }
+  if (request.map) {
+    answer.map = motion_map(*request.map, range, {staged(control, "map points"), control.stop});
+    if (!answer.map) return false;
+  }
+  if (request.bands) {
+    auto bands = limit_bands(answer.joint, request.motions, again, *request.bands,
+                             {staged(control, "joints of the band"), control.stop});
+    if (!bands) return false;
+    answer.bands = std::move(*bands);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& placement,
+                                     const std::optional<Vec3>& requested) {
+  if (joint.kind != JointKind::free) {
+    if (requested) throw UsageError("translation: only a free joint translates");
+    return std::nullopt;
+  }
+  const Vec3 held = requested.value_or(placement.reference_pose.translation_mm);
+  if (joint.translation_frame == TranslationFrame::joint_axes && held != Vec3::Zero())
+    throw UsageError(
+        "translation: held along the joint's axes it would turn with them: motions need zero or "
+        "translation_frame = \"fixed\"");
+  return held;
+}
+
+void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
+  held_translation(joint, placement, request.translation_mm);
+  for (const Motion& motion : request.motions) check_motion(motion, joint.kind);
+  if (request.map) check_grid(*request.map, joint.kind);
+  if (request.allowed_depth && (request.map || request.bands || request.zones_past))
+    throw UsageError("an allowed depth gives limits only: no map, bands or zones");
+}
+
+std::vector<std::string> range_caveats(const RangeOptions& options, const RangeOfMotion& range) {
+  std::vector<std::string> caveats;
+  const OverlapOptions& overlap = options.overlap;
+  if (overlap.leave_out_reference_contacts)
+    caveats.push_back(
+        core::formatted("left out: triangles in contact in the reference pose and %d rings of neighbours, "
+                        "%zu of the fixed body and %zu of the mobile one",
+                        overlap.leave_out_reference_contacts->rings, range.left_out().fixed_triangles,
+                        range.left_out().mobile_triangles));
+  if (overlap.reference_contact == ReferenceContact::accept)
+    caveats.emplace_back("contact in the reference pose is accepted: motions that start in contact say so");
+  return caveats;
+}
+
+std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement& placement,
+                                        const RangeRequest& request, const AnswerControl& control) {
+  check_range_request(joint, placement, request);
+  const std::optional<Vec3> held = held_translation(joint, placement, request.translation_mm);
+  RangeAnswer answer{.joint = held_at(joint, held.value_or(Vec3::Zero())), .held_translation_mm = held};
+  answer.clock_plane = request.clock;
+  if (request.bands) answer.band_options = *request.bands;
+  RangeOptions options = request.range;
+  options.overlap.reference_pose = placement.reference_pose.angles;
+
+  if (request.allowed_depth)
+    add_depth_limits(answer, request);
+  else if (!add_exact_limits(answer, request, options, control))
+    return std::nullopt;
+  if (held)
+    answer.caveats.push_back(
+        core::formatted("translation held at x %g, y %g, z %g mm: the mobile body turns about its own origin",
+                        held->x() + 0.0, held->y() + 0.0, held->z() + 0.0));
+  return answer;
+}
+
+RangeAnswer answer_range(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
+  return *answer_range(joint, placement, request, {});
+}
+
+}  // namespace condyle

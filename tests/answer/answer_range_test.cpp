@@ -1,0 +1,163 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "motion/joint_scenes.hpp"
+#include "support/test_meshes.hpp"
+
+/// One answer for every shell: limits as their own functions give them, with the notes that they must be read with.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+/// The joint as it turns about another point: both meshes moved until it is the origin.
+Joint about(const Joint& joint, const Vec3& centre) {
+  const auto moved = [&](const Body& body) {
+    TriMesh mesh = body.mesh;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] - centre);
+    return Body{body.name, mesh};
+  };
+  Joint other = joint;
+  other.fixed = moved(joint.fixed);
+  other.mobile = moved(joint.mobile);
+  return other;
+}
+
+std::vector<std::string> codes(const std::vector<RangeNote>& notes) {
+  std::vector<std::string> found;
+  for (const RangeNote& note : notes) found.emplace_back(name_of(note.code));
+  return found;
+}
+
+RangeAnswer answered(const Joint& joint, const RangeRequest& request) {
+  return answer_range(joint, JointPlacement{}, request);
+}
+
+TEST(LimitsAbout, AreThoseOfTheJointWithItsCentreThere) {
+  const RangeOptions range{.bearing = {.rule = BearingRule::count}};
+  const std::vector<Motion> motions = hip_motions();
+  const Joint joint = bumpy_joint(Side::right);
+  const std::vector<Vec3> centres = {Vec3::Zero(), {0.8, -0.3, 0.5}, {-1.1, 0.4, 0.2}};
+  const std::vector<DisplacedLimit> limits = limits_about(joint, motions, range, centres);
+  ASSERT_EQ(limits.size(), centres.size() * motions.size());
+  for (std::size_t c = 0; c < centres.size(); ++c) {
+    const RangeOfMotion there(about(joint, centres[c]), range);
+    for (std::size_t m = 0; m < motions.size(); ++m) {
+      const Limit expected = there.limit(motions[m]).end;
+      const DisplacedLimit& limit = limits[c * motions.size() + m];
+      EXPECT_NEAR(limit.turned.radians(), expected.turned.radians(), 1e-9) << motions[m].name;
+      EXPECT_EQ(limit.reason, expected.reason) << motions[m].name;
+    }
+  }
+}
+
+TEST(RangeNotes, SayByHowMuchTheCentreMovesLimits) {
+  // About the head's centre, which is above the socket's, the arm meets the post later.
+  const Vec3 off(0.5, 1.2, 0);
+  const Joint joint = head_and_post_joint(off);
+  const Motion flexion = hip_motions().front();
+  const RangeAnswer answer = answered(joint, {.motions = {flexion}});
+  ASSERT_EQ(codes(answer.notes), std::vector<std::string>{"centre_moves_limits"});
+  const double about_socket = RangeOfMotion(joint).limit(flexion).end.turned.degrees();
+  const double about_head = RangeOfMotion(about(joint, off)).limit(flexion).end.turned.degrees();
+  EXPECT_GT(std::abs(about_head - about_socket), 0.1);
+  char expected[200];
+  std::snprintf(expected, sizeof expected,
+                "centres 1.3 mm apart: limits about the socket's centre instead of the "
+                "head's differ by up to %.1f degrees (flexion: %.1f, not %.1f)",
+                std::abs(about_head - about_socket), about_socket, about_head);
+  EXPECT_NE(answer.notes.front().text.find(expected), std::string::npos)
+      << answer.notes.front().text << "\nexpected: " << expected;
+}
+
+TEST(RangeNotes, AreNoneIfHeadAndSocketAreNearlyConcentric) {
+  EXPECT_TRUE(answered(head_and_post_joint({0.9, 0, 0}), {.motions = hip_motions()}).notes.empty());
+  EXPECT_TRUE(
+      answered(post_joint(JointAngle::flexion, Side::right).joint, {.motions = hip_motions()}).notes.empty())
+      << "a joint without a head";
+}
+
+TEST(RangeNotes, SayThatANarrowGapLeavesLittleMargin) {
+  const auto notes_at = [](double radius, const BearingOptions& bearing = {}) {
+    Joint joint = head_and_post_joint(Vec3::Zero());
+    joint.mobile.mesh = joined(sphere({0, 0, 0}, radius, 4), box({-1, -100, -1}, {1, -50, 1}));
+    RangeRequest request{.motions = {hip_motions().front()}};
+    request.range.bearing = bearing;
+    return codes(answered(joint, request).notes);
+  };
+  const std::vector<std::string> none, narrow = {"narrow_bearing_margin"};
+  EXPECT_EQ(notes_at(21.4), none);    // 1.6 mm, of which 0.5 are reserve
+  EXPECT_EQ(notes_at(21.6), narrow);  // 1.4 mm
+  EXPECT_EQ(notes_at(22.7), narrow);  // no margin at all
+  EXPECT_EQ(notes_at(21.6, {.margin_mm = 1.0}), none) << "the margin is stated";
+  EXPECT_EQ(notes_at(21.6, {.rule = BearingRule::count}), none) << "any contact counts";
+}
+
+TEST(AnswerRange, GivesWhatItsPartsGive) {
+  const Joint joint = bumpy_joint(Side::left);
+  RangeRequest request{.motions = hip_motions(), .zones_past = Angle::degrees(4)};
+  request.map = {.row = {JointAngle::adduction, -10, 10, 10}, .column = {JointAngle::flexion, 0, 20, 20}};
+  request.bands = {.samples = 20, .seed = 5};
+  const RangeAnswer answer = answered(joint, request);
+  const RangeOfMotion range(joint);
+  ASSERT_EQ(answer.limits.size(), request.motions.size());
+  for (std::size_t m = 0; m < request.motions.size(); ++m)
+    EXPECT_EQ(answer.limits[m].end.turned, range.limit(request.motions[m]).end.turned);
+  EXPECT_EQ(answer.zones.size(), request.motions.size());
+  ASSERT_TRUE(answer.map);
+  EXPECT_EQ(answer.map->points.size(), 6u);
+  const auto bands = limit_bands(joint, request.motions, {}, *request.bands);
+  ASSERT_EQ(answer.bands.size(), bands.size());
+  for (std::size_t m = 0; m < bands.size(); ++m) EXPECT_EQ(answer.bands[m].median, bands[m].median);
+}
+
+TEST(AnswerRange, IsEmptyIfStopped) {
+  RangeRequest request{.motions = hip_motions()};
+  request.bands.emplace();
+  std::stop_source stop;
+  const auto at_first = [&](std::string_view stage, std::size_t, std::size_t) {
+    EXPECT_EQ(stage, "joints of the band");
+    stop.request_stop();
+  };
+  EXPECT_FALSE(answer_range(bumpy_joint(Side::right), {}, request, {at_first, stop.get_token()}));
+}
+
+TEST(AnswerRange, RefusesWhatContradictsItself) {
+  const Joint joint = bumpy_joint(Side::right);
+  const RangeRequest limits{.motions = {hip_motions().front()}};
+  RangeRequest request = limits;
+  request.allowed_depth.emplace();
+  request.bands.emplace();
+  EXPECT_THROW(answered(joint, request), UsageError);
+  request = limits;
+  request.translation_mm = Vec3::Zero();
+  EXPECT_THROW(answered(joint, request), UsageError) << "a ball does not translate";
+  request = limits;
+  request.clock = ClockPlane::rim;
+  EXPECT_THROW(answered(post_joint(JointAngle::flexion, Side::right).joint, request), MeshError) << "no rim";
+}
+
+TEST(AnswerRange, HoldsTheTranslationOfAFreeJoint) {
+  Joint joint = bumpy_joint(Side::right);
+  joint.kind = JointKind::free;
+  const Vec3 held(0.4, -0.2, 0.1);
+  JointPlacement placement{};
+  placement.reference_pose.translation_mm = held;
+  RangeRequest request{.motions = {hip_motions().front()}};
+  const RangeAnswer by_reference = answer_range(joint, placement, request);
+  request.translation_mm = held;
+  const RangeAnswer by_request = answer_range(joint, {}, request);
+  EXPECT_EQ(by_reference.held_translation_mm, held);
+  EXPECT_EQ(by_reference.limits[0].end.turned, by_request.limits[0].end.turned);
+  joint.translation_frame = TranslationFrame::joint_axes;
+  EXPECT_THROW(answer_range(joint, {}, request), UsageError) << "it would turn with the axes";
+}
+
+}  // namespace
+}  // namespace condyle
