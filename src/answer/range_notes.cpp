@@ -42,11 +42,9 @@ void note_centres(const Joint& joint, std::span<const Motion> motions, const Ran
   if (apart <= centres_apart_mm) return;
   const std::vector<Change> changes = changes_between(joint, motions, range, head, socket);
   const Change &most = changes.back(), &middle = changes[changes.size() / 2];
-  std::string text = formatted(
-      "head and socket have their centres %.1f mm apart: limits about the socket's centre instead of the "
-      "head's "
-      "differ by up to %.1f degrees (",
-      apart, most.size_deg());
+  std::string text = formatted("head and socket have their centres %.1f mm apart: ", apart);
+  text += formatted("limits about the socket's centre instead of the head's differ by up to %.1f degrees (",
+                    most.size_deg());
   text += motions[most.motion].name + formatted(": %.1f, not %.1f", most.to_deg, most.from_deg);
   text += changes.size() > 1 ? formatted("), by %.1f in the median", middle.size_deg()) : ")";
   notes.push_back({RangeNoteCode::centre_moves_limits, std::move(text)});
