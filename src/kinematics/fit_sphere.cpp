@@ -65,7 +65,13 @@ Vec3 algebraic_centre(PointsView points, std::span<const Index> vertices, const 
   return mean + C.ldlt().solve(b) / (2 * static_cast<double>(vertices.size()));
 }
 
-/// Rays from a centre to the vertices, computed once for all sums over them: a fit has many steps.
+struct Step {
+  Vec3 move;
+  double squares;  ///< sum of squares of the residuals before it
+};
+
+/// Rays from a centre to the vertices, computed once for all sums over them: a fit has many steps. Sums are taken in few
+/// passes: a sum alone waits for each of its additions.
 class Rays {
  public:
   Rays(PointsView points, std::span<const Index> vertices)
@@ -81,29 +87,32 @@ class Rays {
     length_ = (ux_ * ux_ + uy_ * uy_ + uz_ * uz_).sqrt();
     ux_ /= length_, uy_ /= length_, uz_ /= length_;
     double lengths = 0;
-    for (Eigen::Index i = 0; i < length_.size(); ++i) lengths += length_[i];
+    Vec3 units = Vec3::Zero();
+    for (Eigen::Index i = 0; i < length_.size(); ++i) {
+      lengths += length_[i];
+      if (length_[i] > 0) units += unit(i);
+    }
     mean_length_ = lengths / static_cast<double>(length_.size());
+    mean_unit_ = units / static_cast<double>(length_.size());
   }
 
   double mean_length() const noexcept { return mean_length_; }
 
   /// One Gauss-Newton step of the centre. The best radius for a centre is the mean length, so only the centre is unknown:
   /// the residuals d_i - mean(d) change by -(u_i - mean(u)) per unit of centre, u_i the unit rays.
-  Vec3 centre_step() const {
-    Vec3 mean = Vec3::Zero();
-    for (Eigen::Index i = 0; i < length_.size(); ++i)
-      if (length_[i] > 0) mean += unit(i);
-    mean /= static_cast<double>(length_.size());
+  Step centre_step() const {
+    const Vec3 mean = mean_unit_;
     SumOfProducts A;
-    double bx = 0, by = 0, bz = 0;
+    double bx = 0, by = 0, bz = 0, squares = 0;
     for (Eigen::Index i = 0; i < length_.size(); ++i) {
+      const double off = length_[i] - mean_length_;
+      squares += off * off;
       if (!(length_[i] > 0)) continue;
-      const double x = ux_[i] - mean.x(), y = uy_[i] - mean.y(), z = uz_[i] - mean.z(),
-                   off = length_[i] - mean_length_;
+      const double x = ux_[i] - mean.x(), y = uy_[i] - mean.y(), z = uz_[i] - mean.z();
       A.add(x, y, z);
       bx += off * x, by += off * y, bz += off * z;
     }
-    return A.matrix().ldlt().solve(Vec3(bx, by, bz));
+    return {A.matrix().ldlt().solve(Vec3(bx, by, bz)), squares};
   }
 
   double sum_of_squares() const noexcept {
@@ -131,6 +140,7 @@ class Rays {
 
   Eigen::ArrayXd x_, y_, z_, ux_, uy_, uz_, length_;
   double mean_length_ = 0;
+  Vec3 mean_unit_ = Vec3::Zero();
 };
 
 SphereFit with_residuals(const Rays& rays, std::span<const Index> vertices, const Vec3& centre) {
@@ -157,8 +167,7 @@ SphereFit fit_sphere(PointsView points, std::span<const Index> vertices) {
   Rays rays(points, vertices);
   rays.start_at(centre);
   for (int step = 0; step < most_steps; ++step) {
-    Vec3 move = rays.centre_step();
-    const double squares = rays.sum_of_squares();
+    auto [move, squares] = rays.centre_step();
     rays.start_at(centre + move);
     while (move.norm() > local * patch && !(rays.sum_of_squares() < squares)) {
       move /= 2;

@@ -102,29 +102,32 @@ PointNeighbours::PointNeighbours(const TriMesh& mesh, const std::vector<SurfaceP
 
 std::vector<Index> PointNeighbours::largest_connected_part(const std::vector<SurfacePoint>& points,
                                                            const std::vector<Index>& chosen) const {
-  // Union-find; every root is the smallest point of its part, so that no order decides.
-  std::vector<Index> parent(points.size(), no_index);
-  const auto root = [&](Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
+  // Union-find over positions in `chosen`; every root is the smallest of its part, so that no order decides.
+  std::vector<Index> position(points.size(), no_index), parent(chosen.size());
+  const auto root = [&](Index p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
   };
-  for (const Index i : chosen) {
-    Index own = parent[i] = i;
+  for (Index p = 0; p < chosen.size(); ++p) {
+    const Index i = chosen[p];
+    position[i] = p;
+    Index own = parent[p] = p;
     for (Index k = end_[i]; k < end_[i + 1]; ++k) {
-      if (parent[earlier_[k]] == no_index) continue;
-      const Index other = root(earlier_[k]);
+      const Index neighbour = position[earlier_[k]];
+      if (neighbour == no_index) continue;
+      const Index other = root(neighbour);
       if (other == own) continue;
       const auto [low, high] = std::minmax(own, other);
       own = parent[high] = low;
     }
   }
-  std::vector<double> area(points.size(), 0.0);
-  for (const Index i : chosen) area[root(i)] += points[i].area;
+  std::vector<double> area(chosen.size(), 0.0);
+  for (Index p = 0; p < chosen.size(); ++p) area[root(p)] += points[chosen[p]].area;
   const auto largest = static_cast<Index>(std::max_element(area.begin(), area.end()) - area.begin());
   std::vector<Index> part;
   part.reserve(chosen.size());
-  for (const Index i : chosen)
-    if (parent[i] == largest || root(i) == largest) part.push_back(i);
+  for (Index p = 0; p < chosen.size(); ++p)
+    if (parent[p] == largest || root(p) == largest) part.push_back(chosen[p]);
   return part;
 }
 

@@ -1,12 +1,12 @@
 #include "mesh/self_crossings.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "condyle/repair.hpp"
 #include "core/float_bounds.hpp"
 #include "core/lazy.hpp"
 #include "mesh/findings.hpp"
@@ -18,107 +18,112 @@ namespace {
 
 using Node = TriangleTree::Node;
 
-/// Nodes are rounded outwards; the sums here are in double and lose nothing of that.
-bool apart(const Node& a, const Node& b) noexcept {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::abs(double{a.centre[k]} - double{b.centre[k]}) > double{a.half[k]} + double{b.half[k]})
-      return true;
-  return false;
+/// In single precision and no smaller than what it holds. The fourth of each is 0.
+struct Box {
+  Eigen::Array4f low, high;
+};
+
+/// Without branches: whether two boxes of one surface are apart cannot be predicted.
+bool apart(const Box& a, const Box& b) noexcept {
+  return (a.low - b.high).max(b.low - a.high).maxCoeff() > 0;
 }
 
-/// Boxes of all triangles in the order of the tree, in single precision and no smaller than what they hold. Those of a leaf
-/// stand side by side and are compared at once.
-class TriangleBoxes {
- public:
-  static constexpr Index at_once = TriangleTree::leaf_triangles;
-
-  explicit TriangleBoxes(const TriangleTree& tree) {
-    const std::size_t count = tree.triangles().size();
-    for (std::size_t k = 0; k < 3; ++k) {
-      // The last leaf is read as if it were full.
-      low_[k].resize(count + at_once), high_[k].resize(count + at_once);
-      const auto axis = static_cast<int>(k);
-      for (std::size_t t = 0; t < count; ++t) {
-        const TriangleCorners c = tree.corners(static_cast<Index>(t));
-        low_[k][t] = core::float_below(std::min(std::min(c[0][axis], c[1][axis]), c[2][axis]));
-        high_[k][t] = core::float_above(std::max(std::max(c[0][axis], c[1][axis]), c[2][axis]));
-      }
+/// Of all triangles, in the order of the tree.
+std::vector<Box> boxes_of_triangles(const TriangleTree& tree) {
+  std::vector<Box> boxes(tree.triangles().size());
+  for (Index t = 0; t < boxes.size(); ++t) {
+    const TriangleCorners c = tree.corners(t);
+    for (int k = 0; k < 3; ++k) {
+      boxes[t].low[k] = core::float_below(std::min(std::min(c[0][k], c[1][k]), c[2][k]));
+      boxes[t].high[k] = core::float_above(std::max(std::max(c[0][k], c[1][k]), c[2][k]));
     }
+    boxes[t].low[3] = boxes[t].high[3] = 0;
   }
+  return boxes;
+}
 
-  bool apart(Index s, const Node& node) const noexcept {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (double{low_[k][s]} - double{node.centre[k]} > double{node.half[k]} ||
-          double{node.centre[k]} - double{high_[k][s]} > double{node.half[k]})
-        return true;
-    return false;
-  }
-
-  /// By how much triangle s is apart from those from `first` on, above 0. Without branches.
-  std::array<float, at_once> apart(Index s, Index first) const noexcept {
-    std::array<float, at_once> out;
-    const auto along = [&](std::size_t k, std::size_t i) {
-      return std::max(low_[k][first + i] - high_[k][s], low_[k][s] - high_[k][first + i]);
+/// Of all nodes. Children come after their parent.
+std::vector<Box> boxes_of_nodes(const TriangleTree& tree, const std::vector<Box>& triangles) {
+  std::vector<Box> boxes(tree.nodes().size());
+  for (std::size_t i = boxes.size(); i-- > 0;) {
+    const Node& node = tree.nodes()[i];
+    Box box = node.is_leaf() ? triangles[node.first] : boxes[node.child];
+    const auto extend = [&](const Box& other) {
+      box.low = box.low.min(other.low);
+      box.high = box.high.max(other.high);
     };
-    for (std::size_t i = 0; i < at_once; ++i)
-      out[i] = std::max(std::max(along(0, i), along(1, i)), along(2, i));
-    return out;
+    if (node.is_leaf())
+      for (Index t = node.first + 1; t < node.last; ++t) extend(triangles[t]);
+    else
+      extend(boxes[node.child + 1]);
+    boxes[i] = box;
   }
-
- private:
-  std::array<std::vector<float>, 3> low_, high_;
-};
+  return boxes;
+}
 
 class Search {
  public:
-  Search(const TriMesh& mesh, const TriangleTree& tree) : tree_(tree), boxes_(tree) {
-    found_.crosses.resize(mesh.triangles.size());
-    const std::vector<Index> first = first_of_same_coordinates(mesh.vertices);
-    places_.reserve(tree.triangles().size());
-    for (const Index t : tree.mesh_triangles()) {
-      const auto [a, b, c] = mesh.triangles[t];
-      places_.push_back({first[a], first[b], first[c]});
-    }
+  explicit Search(const TriangleTree& tree)
+      : tree_(tree),
+        triangle_boxes_(boxes_of_triangles(tree)),
+        node_boxes_(boxes_of_nodes(tree, triangle_boxes_)) {
+    found_.crosses.resize(tree.triangles().size());
   }
 
   SelfCrossings run() {
     if (tree_.empty()) return std::move(found_);
     std::vector<std::pair<Index, Index>> open{{0, 0}};
+    const auto add = [&](Index i, Index j) {
+      if (i == j || !apart(node_boxes_[i], node_boxes_[j])) open.emplace_back(i, j);
+    };
     while (!open.empty()) {
       const auto [i, j] = open.back();
       open.pop_back();
       const Node &a = tree_.nodes()[i], &b = tree_.nodes()[j];
-      if (i != j && apart(a, b)) continue;
       if (a.is_leaf() && b.is_leaf()) {
-        look_at(a, b);
+        look_at(a, b, node_boxes_[j]);
       } else if (i == j) {
-        open.insert(open.end(), {{a.child, a.child}, {a.child, a.child + 1}, {a.child + 1, a.child + 1}});
+        add(a.child, a.child), add(a.child, a.child + 1), add(a.child + 1, a.child + 1);
       } else if (b.is_leaf() || (!a.is_leaf() && a.size() > b.size())) {
-        open.insert(open.end(), {{a.child, j}, {a.child + 1, j}});
+        add(a.child, j), add(a.child + 1, j);
       } else {
-        open.insert(open.end(), {{i, b.child}, {i, b.child + 1}});
+        add(i, b.child), add(i, b.child + 1);
       }
     }
     return std::move(found_);
   }
 
  private:
-  void look_at(const Node& a, const Node& b) {
+  void look_at(const Node& a, const Node& b, const Box& box_of_b) {
+    std::array<Index, TriangleTree::leaf_triangles> near;
     for (Index s = a.first; s < a.last; ++s) {
-      if (boxes_.apart(s, b)) continue;
-      const auto apart_by = boxes_.apart(s, b.first);
-      for (Index t = &a == &b ? s + 1 : b.first; t < b.last; ++t)
-        if (!(apart_by[t - b.first] > 0) && !share_a_vertex(s, t) &&
-            triangles_intersect(tree_.corners(s), tree_.corners(t)))
-          note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[t]);
+      const Box& box = triangle_boxes_[s];
+      if (apart(box, box_of_b)) continue;
+      std::size_t kept = 0;
+      for (Index t = &a == &b ? s + 1 : b.first; t < b.last; ++t) {
+        near[kept] = t;
+        kept += static_cast<std::size_t>(!apart(box, triangle_boxes_[t]));
+      }
+      for (std::size_t k = 0; k < kept; ++k)
+        if (!share_a_vertex(s, near[k]) && cross(tree_.corners(s), tree_.corners(near[k])))
+          note(tree_.mesh_triangles()[s], tree_.mesh_triangles()[near[k]]);
     }
   }
 
+  /// Without branches, too: most triangles that are near do.
   bool share_a_vertex(Index s, Index t) const noexcept {
-    for (const Index v : places_[s])
-      for (const Index w : places_[t])
-        if (v == w) return true;
-    return false;
+    bool shared = false;
+    for (const Index v : tree_.triangles()[s])
+      for (const Index w : tree_.triangles()[t]) shared |= v == w;
+    return shared;
+  }
+
+  /// Vertices that lie at one place are one.
+  static bool cross(const TriangleCorners& a, const TriangleCorners& b) {
+    for (const Vec3& p : a)
+      for (const Vec3& q : b)
+        if (p == q) return false;
+    return triangles_intersect(a, b);
   }
 
   void note(Index s, Index t) {
@@ -129,8 +134,7 @@ class Search {
   }
 
   const TriangleTree& tree_;
-  TriangleBoxes boxes_;
-  std::vector<Triangle> places_;  ///< of the corners: the first vertex that lies there
+  std::vector<Box> triangle_boxes_, node_boxes_;
   SelfCrossings found_;
 };
 
@@ -142,7 +146,7 @@ struct KeptCrossings {
 
 const SelfCrossings& self_crossings_of(const Mesh& mesh) {
   return findings_of(mesh).get<KeptCrossings>().crossings.get(
-      [&](SelfCrossings& crossings) { crossings = Search(mesh, *tree_of(mesh)).run(); });
+      [&](SelfCrossings& crossings) { crossings = Search(*tree_of(mesh)).run(); });
 }
 
 }  // namespace condyle::mesh
