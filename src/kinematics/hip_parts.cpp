@@ -27,7 +27,7 @@ HeadKey key_of(const Sphere& head) noexcept {
 }
 
 struct KeptParts {
-  core::Lazy<std::optional<SphericalPatch>> head_near_centre, head_anywhere;
+  core::Lazy<std::optional<SphericalPatch>> fitted_head, head_near_centre, head_anywhere;
   core::LatestFew<HeadKey, std::optional<SphericalPatch>, heads_kept> sockets;
   core::LatestFew<HeadKey, std::optional<SocketRim>, heads_kept> rims;
 };
@@ -58,8 +58,14 @@ const std::optional<SphericalPatch>& head_anywhere(const Mesh& mobile) {
 }
 
 void keep_head(const Mesh& mobile, const std::vector<Index>& vertices) {
-  kept_with(mobile).head_near_centre.get(
-      [&](std::optional<SphericalPatch>& head) { head = patch_of(mobile, vertices); });
+  const KeptParts& kept = kept_with(mobile);
+  const auto& fitted =
+      kept.fitted_head.get([&](std::optional<SphericalPatch>& head) { head = patch_of(mobile, vertices); });
+  kept.head_near_centre.get([&](std::optional<SphericalPatch>& head) { head = fitted; });
+}
+
+const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile) {
+  return kept_with(mobile).fitted_head.get([](std::optional<SphericalPatch>&) {});
 }
 
 std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& fixed, const Sphere& head) {

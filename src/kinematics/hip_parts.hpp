@@ -19,6 +19,8 @@ const std::optional<SphericalPatch>& head_anywhere(const Mesh& mobile);
 /// Keeps the head that these vertices are, which a search of the whole surface found before the mesh was placed. Does
 /// nothing where the head near the centre is known.
 void keep_head(const Mesh& mobile, const std::vector<Index>& vertices);
+/// The head that was kept so; empty if none was.
+const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile);
 
 /// sphere_around(), into which the head may not fit, and socket_rim(); for the latest few heads.
 std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& fixed, const Sphere& head);

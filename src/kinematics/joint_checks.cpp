@@ -85,6 +85,9 @@ std::optional<SphericalPatch> head_of(const Mesh& mesh) {
 /// The head that the centre was fitted to, if it was, in M; there its centre is the origin.
 std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& placement) {
   if (!placement.sphere || placement.fitted_body != BodyRole::mobile) return head_of(joint.mobile.mesh);
+  // The placed head differs by rounding: with the very one that bearing surfaces are told by, its socket is found once.
+  const auto& kept = kinematics::fitted_head(joint.mobile.mesh);
+  if (kept && kept->fit.vertices == placement.sphere->fit.vertices) return kept;
   SphericalPatch head = *placement.sphere;
   head.fit.sphere.centre = Vec3::Zero();
   return head;

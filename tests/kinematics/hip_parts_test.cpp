@@ -65,6 +65,8 @@ TEST(HipParts, TheHeadThatTheCentreWasFittedToIsTheOneThatASearchFinds) {
     ASSERT_TRUE(kept) << name;
     EXPECT_EQ(kept->fit.vertices, placement.sphere->fit.vertices) << name;
     expect_same(*kept, find_sphere(joint.mobile.mesh, {.within = Sphere{Vec3::Zero(), 90}}));
+    expect_same(*fitted_head(joint.mobile.mesh), *kept);
+    EXPECT_FALSE(fitted_head(joint.fixed.mesh)) << name;
   }
 }
 
