@@ -97,7 +97,7 @@ py::list parts_of(const Body& body) {
   return parts;
 }
 
-/// The text of the file and the keys that it leaves to fill in.
+/// The text of the file, the keys that it leaves to fill in, and the evidence for side and axes.
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
                    const std::filesystem::path& joint_file, const std::optional<std::string>& side,
                    const std::optional<std::string>& units) {
@@ -108,7 +108,7 @@ py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::pa
     const py::gil_scoped_release released;
     return propose_joint(request);
   }();
-  return py::make_tuple(proposal.toml, proposal.to_fill_in);
+  return py::make_tuple(proposal.toml, proposal.to_fill_in, proposal.evidence);
 }
 
 }  // namespace

@@ -11,10 +11,14 @@ from ._words import Path, path_of, word
 
 @dataclass(frozen=True)
 class JointProposal:
-    """A joint file as text, with the evidence for what it says, and the keys in it that are left to fill in."""
+    """A joint file as text, the keys in it that are left to fill in, and the votes that told side and axes.
+
+    `evidence` has one line for each piece of evidence; the text has them as comments.
+    """
 
     toml: str
     to_fill_in: tuple[str, ...]
+    evidence: tuple[str, ...] = ()
 
 
 def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, side: Optional[str] = None,
@@ -26,8 +30,8 @@ def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, side: Optional
 
     C++: `condyle::propose_joint` in condyle/io/propose_joint.hpp; `condyle init`.
     """
-    toml, to_fill_in = _native.propose_joint(
+    toml, to_fill_in, evidence = _native.propose_joint(
         path_of(fixed, "fixed"), path_of(mobile, "mobile"), path_of(joint_file, "joint_file"),
         None if side is None else word(side, "side", ("right", "left")),
         None if units is None else word(units, "units", ("mm", "m")))
-    return JointProposal(toml, tuple(to_fill_in))
+    return JointProposal(toml, tuple(to_fill_in), tuple(evidence))

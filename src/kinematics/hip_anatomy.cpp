@@ -11,6 +11,9 @@ namespace {
 /// The socket is looked for within this many head radii of the head's centre, with a radius up to the other.
 constexpr double socket_reach = 1.5, largest_socket = 1.4;
 
+/// The neck begins where the head's sphere ends, and is over before the trochanters spread; in head radii.
+constexpr double neck_begins = 1.2, neck_ends = 1.7;
+
 /// A ball that holds all vertices, somewhat larger than it must be.
 Sphere ball_around(const TriMesh& mesh) {
   Vec3 low = mesh.vertices[0], high = low;
@@ -19,6 +22,27 @@ Sphere ball_around(const TriMesh& mesh) {
     high = high.cwiseMax(mesh.vertices[v]);
   }
   return {(low + high) / 2, (high - low).norm() / 2};
+}
+
+/// The mean direction from the head's centre, by area, of the surface at the neck's distance.
+std::optional<Vec3> towards_neck(const TriMesh& femur, const Sphere& head) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t t = 0; t < femur.triangles.size(); ++t) {
+    const Vec3 a = femur.corner(t, 0), b = femur.corner(t, 1), c = femur.corner(t, 2);
+    const Vec3 ray = (a + b + c) / 3 - head.centre;
+    const double distance = ray.norm() / head.radius;
+    if (distance >= neck_begins && distance <= neck_ends)
+      sum += (b - a).cross(c - a).norm() * ray.normalized();
+  }
+  if (!(sum.norm() > 0)) return std::nullopt;
+  return sum.normalized();
+}
+
+Vec3 farthest(const TriMesh& mesh, const Vec3& from) {
+  Vec3 ray = Vec3::Zero();
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (const Vec3 other = mesh.vertices[v] - from; other.squaredNorm() > ray.squaredNorm()) ray = other;
+  return ray;
 }
 
 }  // namespace
@@ -71,6 +95,9 @@ std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& fe
   anatomy.socket = find_socket(hip_bone, head);
   anatomy.towards_femur = (area_centroid(femur) - head.centre).normalized();
   anatomy.towards_pelvis = (area_centroid(hip_bone) - head.centre).normalized();
+  anatomy.towards_neck = towards_neck(femur, head);
+  anatomy.femur_end = farthest(femur, head.centre);
+  anatomy.hip_bone_end = farthest(hip_bone, head.centre);
   if (const auto rim = socket_rim(hip_bone, head)) anatomy.opening = rim->opening;
   return anatomy;
 }

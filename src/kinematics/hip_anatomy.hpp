@@ -12,7 +12,9 @@ struct HipAnatomy {
   std::optional<SphericalPatch> socket;
   Vec3 towards_femur;   ///< from the head's centre to the centroid of the femur's surface: down the shaft
   Vec3 towards_pelvis;  ///< to that of the hip bone's surface: up and to the midline
-  std::optional<Vec3> opening;  ///< of the socket: to the side, down and forwards
+  std::optional<Vec3> towards_neck;  ///< to the femur's surface just beyond the head: down and to the side
+  Vec3 femur_end, hip_bone_end;      ///< their vertices farthest from the centre of the head, from it; mm
+  std::optional<Vec3> opening;       ///< of the socket: to the side, down and forwards
 };
 
 /// Of a surface, by area; the origin where it has none.

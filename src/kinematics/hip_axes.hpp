@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,10 +23,29 @@ struct KnownAxes {
 struct AgreeingAxes {
   const KnownAxes* axes;
   Side side;
+
+  const Vec3& superior() const { return axes->superior(); }
+  Vec3 lateral() const { return side == Side::right ? axes->right() : Vec3(-axes->right()); }
 };
 
-/// Frames and sides that agree with the bones, on the given side only where one is; without a socket's opening front and
-/// back are not told apart.
-std::vector<AgreeingAxes> agreeing_axes(const HipAnatomy& hip, const std::optional<Side>& given);
+/// Axes and side that the bones agree with, and each piece of evidence with its vote.
+struct HipAxes {
+  std::vector<AgreeingAxes> agreeing;  ///< inferred if there is one
+  std::string why_none;                ///< empty if there is one
+  std::vector<std::string> evidence;   ///< one line each
+};
+
+/// Infers axes and side from four directions and from two measures of handedness, which hold for hips within 30 degrees
+/// of their axes:
+///
+///       up                       The femur lies down and outwards of the head's centre, the neck outwards and down, the
+///        |   .-.                 hip bone up and to the midline; the socket opens outwards and down. The cosine to
+///   hip bone(   )                each is its vote for up and outwards. In front is where they need a handedness: a right
+///        . - o - . outwards      hip read in RAS is a left one in LPS.
+///              \ neck
+///               | femur
+///
+/// On the given side only if one is. Without enough evidence several or none agree. Linear in the hip bone.
+HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::optional<Side>& given);
 
 }  // namespace condyle::kinematics

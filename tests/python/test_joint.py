@@ -75,6 +75,7 @@ def test_a_joint_is_proposed_as_the_command_does(command, hip_file):
     subprocess.run([command, "init", fixed, mobile, "--side", "right", "-o", to], check=True, capture_output=True)
     proposal = condyle.propose_joint(fixed, mobile, to, side="right")
     assert proposal.toml == to.read_text() and proposal.to_fill_in == ()
+    assert proposal.evidence and all(f"# {line}\n" in proposal.toml for line in proposal.evidence)
     with pytest.raises(condyle.FileError, match="nowhere.stl"):
         condyle.propose_joint("nowhere.stl", mobile, to)
 

@@ -165,7 +165,8 @@ test("a side that is given counts, and one that the bones speak against is refus
   rmSync(joint, { force: true });
   execFileSync(condyle, ["init", ...sampleFiles, "--side", "left", "--out", joint], { stdio: "ignore" });
   assert.match(told, /^axes: /);
-  assert.ok(readFileSync(joint, "utf8").includes(told.replace("axes: ", "")), told);
+  const proposed = readFileSync(joint, "utf8");
+  for (const said of told.replace("axes: ", "").split("; ")) assert.ok(proposed.includes(said), said);
   await side.selectOption("right");
   await page.locator("#files").setInputFiles(sampleFiles);
   await answered(page);

@@ -50,20 +50,21 @@ TriMesh in_mm(TriMesh mesh, LengthUnit unit) {
   return mesh;
 }
 
-kinematics::AgreeingAxes told_axes(const kinematics::HipAnatomy& hip, const std::optional<Side>& side) {
-  const auto found = kinematics::agreeing_axes(hip, side);
-  if (found.size() == 1) return found[0];
-  throw UsageError(found.empty() ? "axes: the bones agree with none of the axes in use"
-                                 : "axes: the bones agree with more than one of the axes in use");
+/// Refuses with the votes, one line in all.
+kinematics::AgreeingAxes told_axes(const kinematics::HipAxes& axes) {
+  if (axes.agreeing.size() == 1) return axes.agreeing[0];
+  throw UsageError(fmt::format("axes: {}; {}", axes.why_none, fmt::join(axes.evidence, "; ")));
 }
 
 CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile,
                              const std::optional<Side>& side) {
   const LengthUnit unit = told_unit(fixed.mesh, mobile.mesh);
-  const auto hip = kinematics::hip_anatomy(in_mm(fixed.mesh, unit), in_mm(mobile.mesh, unit));
+  const TriMesh hip_bone = in_mm(fixed.mesh, unit);
+  const auto hip = kinematics::hip_anatomy(hip_bone, in_mm(mobile.mesh, unit));
   if (!hip)
     throw UsageError("no head was found on the mobile body near the fixed one: the page proposes hips");
-  const auto [axes, told_side] = told_axes(*hip, side);
+  const auto hip_axes = kinematics::hip_axes(hip_bone, *hip, side);
+  const auto [axes, told_side] = told_axes(hip_axes);
   JointDescription description{.name = "dropped joint", .side = told_side, .units = unit};
   description.frame.centre = CentreFit{};
   description.frame.axes = axes->directions;
@@ -78,6 +79,7 @@ CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile
       fmt::format("axes: {}", axes->name),
       fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"),
   };
+  proposal.told.insert(proposal.told.end(), hip_axes.evidence.begin(), hip_axes.evidence.end());
   proposal.notes = check_joint(placed.joint, placed.placement);
   proposal.fixed = fixed.file, proposal.mobile = mobile.file;
   JointContact bodies(placed.joint);

@@ -22,13 +22,14 @@ struct ProposalRequest {
 struct JointProposal {
   std::string toml;                     ///< commented: what was told and by what
   std::vector<std::string> to_fill_in;  ///< keys that stand in it as comments, with the reason
+  std::vector<std::string> evidence;  ///< for side and axes, one line each with its vote; comments in it too
 };
 
-/// Proposes a joint file for two meshes: kind, centre, axes, side and units, each with the evidence for it. A hip's
-/// frame is told from its bones: the femur hangs down from the head, the hip bone lies above it towards the midline, the
-/// socket opens to the side and forwards; of the frames in use (RAS, LPS, and X anterior, Y superior, Z right) the one that
-/// agrees on the given or on either side. What more than one or none agrees with is left to fill in; nothing is guessed.
-/// Throws FileError where a mesh cannot be read.
+/// Proposes a joint file for two meshes: kind, centre, axes, side and units, each with the evidence for it. A hip's axes are
+/// inferred among the frames in use: RAS, LPS, and X anterior, Y superior, Z right. Where femur, neck, hip bone and the
+/// socket's opening lie about the head votes for up and outwards, and so do the far ends of whole bones; the neck's angle
+/// in the socket and the hip bone's shape vote for the side. What the votes do not settle, or settle against the given
+/// side, is left to fill in; nothing is guessed. Throws FileError where a mesh cannot be read.
 JointProposal propose_joint(const ProposalRequest& request);
 
 }  // namespace condyle

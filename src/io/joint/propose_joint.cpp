@@ -26,6 +26,10 @@ double degrees(double cosine) {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
+double degrees_forwards(double forwards, double outwards) {
+  return std::atan2(forwards, outwards) * 180 / std::numbers::pi;
+}
+
 /// As TOML writes it, whatever it holds.
 std::string toml_text(std::string_view text) {
   std::ostringstream out;
@@ -50,11 +54,16 @@ class Lines {
     to_fill_in_.push_back(fmt::format("{}: {}", key, why));
   }
 
-  JointProposal proposal() && { return {std::move(text_), std::move(to_fill_in_)}; }
+  void evidence(const std::string& line) {
+    add("# " + line);
+    evidence_.push_back(line);
+  }
+
+  JointProposal proposal() && { return {std::move(text_), std::move(to_fill_in_), std::move(evidence_)}; }
 
  private:
   std::string text_;
-  std::vector<std::string> to_fill_in_;
+  std::vector<std::string> to_fill_in_, evidence_;
 };
 
 struct LoadedMesh {
@@ -75,6 +84,34 @@ void add_body(Lines& lines, std::string_view role, const std::filesystem::path& 
   lines.add(fmt::format("\n[{}]", role));
   lines.add("name = " + toml_text(mesh.stem().string()));
   lines.add("mesh = " + toml_text(from_folder.generic_string()));
+}
+
+void add_side(Lines& lines, const std::optional<Side>& given, const kinematics::HipAxes& axes) {
+  if (given)
+    lines.key("side", toml_text(name_of(*given)), "given");
+  else if (axes.agreeing.size() == 1)
+    lines.key("side", toml_text(name_of(axes.agreeing[0].side)), "told by the bones, as the axes below");
+  else
+    lines.missing("side", "\"right\" or \"left\"",
+                  axes.agreeing.empty() ? "no usual axes agree with the bones"
+                                        : "more than one pair of axes and side agrees with the bones");
+}
+
+void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics::AgreeingAxes& told) {
+  const auto& [axes, side] = told;
+  const Vec3 lateral = told.lateral();
+  lines.key("anterior", numbers(axes->anterior()),
+            fmt::format("{}: of the axes in use the ones that agree", axes->name));
+  lines.key("superior", numbers(axes->superior()),
+            fmt::format("the femur hangs {:.0f} degrees from straight down, the hip bone lies {:.0f} degrees "
+                        "from the way to the midline",
+                        degrees(-hip.towards_femur.dot(axes->superior())),
+                        degrees(-hip.towards_pelvis.dot(lateral))));
+  if (hip.opening)
+    lines.add(fmt::format(
+        "# the socket opens {:.0f} degrees from straight to the side, {} forwards of it",
+        degrees(hip.opening->dot(lateral)),
+        core::rounded(degrees_forwards(hip.opening->dot(axes->anterior()), hip.opening->dot(lateral)), 0)));
 }
 
 }  // namespace
@@ -106,17 +143,9 @@ JointProposal propose_joint(const ProposalRequest& request) {
     lines.missing("kind", "\"ball\" or \"hinge\"", "no head was found on the mobile body near the fixed one");
   }
 
-  const auto found =
-      hip ? kinematics::agreeing_axes(*hip, request.side) : std::vector<kinematics::AgreeingAxes>{};
-  if (request.side)
-    lines.key("side", toml_text(name_of(*request.side)), "given");
-  else if (found.size() == 1)
-    lines.key("side", toml_text(name_of(found[0].side)),
-              "told by the axes below and where the hip bone lies");
-  else
-    lines.missing("side", "\"right\" or \"left\"",
-                  found.empty() ? "no usual axes agree with the bones"
-                                : "more than one pair of axes and side agrees with the bones");
+  const auto axes = hip ? kinematics::hip_axes(fixed.mesh, *hip, request.side)
+                        : kinematics::HipAxes{{}, "no head was found to tell them by", {}};
+  add_side(lines, request.side, axes);
   if (request.units)
     lines.key("units", unit_text, "given");
   else if (same_unit)
@@ -139,32 +168,13 @@ JointProposal propose_joint(const ProposalRequest& request) {
   } else {
     lines.missing("centre", "[x, y, z]", "nothing was fitted");
   }
-  if (found.size() == 1) {
-    const auto& [axes, side] = found[0];
-    const Vec3 lateral = side == Side::right ? axes->right() : Vec3(-axes->right());
-    lines.key("anterior", numbers(axes->anterior()),
-              fmt::format("{}: of the axes in use the ones that agree", axes->name));
-    lines.key(
-        "superior", numbers(axes->superior()),
-        fmt::format(
-            "the femur hangs {:.0f} degrees from straight down, the hip bone lies {:.0f} degrees from the "
-            "way to the midline",
-            degrees(-hip->towards_femur.dot(axes->superior())), degrees(-hip->towards_pelvis.dot(lateral))));
-    if (hip->opening)
-      lines.add(fmt::format(
-          "# the socket opens {:.0f} degrees from straight to the side, {} forwards of it",
-          degrees(hip->opening->dot(lateral)),
-          core::rounded(std::atan2(hip->opening->dot(axes->anterior()), hip->opening->dot(lateral)) * 180 /
-                            std::numbers::pi,
-                        0)));
+  if (axes.agreeing.size() == 1) {
+    add_axes(lines, *hip, axes.agreeing[0]);
   } else {
-    std::string why = !hip            ? "no head was found to tell them by"
-                      : found.empty() ? "the bones agree with none of the axes in use"
-                                      : "the bones agree with more than one of the axes in use";
-    for (const auto& [axes, side] : found) why += fmt::format("; {} of a {} hip", axes->name, name_of(side));
-    lines.missing("anterior", "[x, y, z]", why);
+    lines.missing("anterior", "[x, y, z]", axes.why_none);
     lines.missing("superior", "[x, y, z]", "as anterior");
   }
+  for (const std::string& line : axes.evidence) lines.evidence(line);
   return std::move(lines).proposal();
 }
 
