@@ -22,6 +22,10 @@ class JointContact;
 namespace contact {
 class BodyPair;
 const BodyPair& body_pair_of(const JointContact& joint);
+struct ChosenVertices;
+struct ChosenArcs;
+ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
+                   const ChosenVertices& vertices);
 }  // namespace contact
 
 /// A triangle of the fixed and one of the mobile body that share a point.
@@ -101,6 +105,8 @@ class JointContact {
  private:
   struct Parts;
   friend const contact::BodyPair& contact::body_pair_of(const JointContact& joint);
+  friend contact::ChosenArcs contact::arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
+                                              const contact::ChosenVertices& vertices);
 
   std::unique_ptr<Parts> parts_;
 };

@@ -9,6 +9,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "contact/body_pair.hpp"
+#include "contact/chosen_arcs.hpp"
 #include "core/coordinate_range.hpp"
 #include "core/lazy.hpp"
 #include "core/turned.hpp"
@@ -105,6 +106,12 @@ struct JointContact::Parts {
     return *trees.get(
         [&](std::optional<contact::BodyPair>& pair) { pair.emplace(fixed.mesh(), mobile.mesh()); });
   }
+  std::shared_ptr<const RingTable> fixed_rings(const Vec3& axis_F) const {
+    return fixed.ring_table(Vec3::Zero(), axis_F);
+  }
+  std::shared_ptr<const RingTable> mobile_rings(const Pose& X_MF, const Vec3& axis_F) const {
+    return mobile.ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
+  }
 };
 
 JointContact::JointContact(const Joint& joint, RadialOptions options)
@@ -163,18 +170,37 @@ RadialContact JointContact::radial(const Pose& X_FM) const {
 TangentialContact JointContact::tangential(const Pose& X_FM, const Vec3& axis_F, TangentialRule rule) const {
   core::require_in_range(X_FM);
   TangentialContact contact;
-  if (fixed().is_closed()) {
-    const auto table = parts_->fixed.ring_table(Vec3::Zero(), axis_F);
-    contact.mobile_in_fixed = table->query(posed(X_FM, mobile().vertices()), rule);
-  }
+  if (fixed().is_closed())
+    contact.mobile_in_fixed = parts_->fixed_rings(axis_F)->query(posed(X_FM, mobile().vertices()), rule);
   if (mobile().is_closed()) {
     const Pose X_MF = inverted(X_FM);
-    const auto table = parts_->mobile.ring_table(X_MF.translation(), core::turned(X_MF, axis_F));
-    contact.fixed_in_mobile = table->query(posed(X_MF, fixed().vertices()), rule);
+    contact.fixed_in_mobile =
+        parts_->mobile_rings(X_MF, axis_F)->query(posed(X_MF, fixed().vertices()), rule);
   }
   contact.pairs = pairs(X_FM);
   contact.in_contact = any_contact(contact);
   return contact;
+}
+
+contact::ChosenArcs contact::arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
+                                     const ChosenVertices& vertices) {
+  core::require_in_range(X_FM);
+  const auto chosen = [](const Mesh& mesh, const std::vector<Index>& of) {
+    Points points;
+    points.reserve(of.size());
+    for (const Index v : of) points.push_back(mesh.vertices()[v]);
+    return points;
+  };
+  ChosenArcs arcs;
+  if (!vertices.mobile.empty())
+    arcs.mobile =
+        joint.parts_->fixed_rings(axis_F)->query(posed(X_FM, chosen(joint.mobile(), vertices.mobile)));
+  if (!vertices.fixed.empty()) {
+    const Pose X_MF = inverted(X_FM);
+    arcs.fixed =
+        joint.parts_->mobile_rings(X_MF, axis_F)->query(posed(X_MF, chosen(joint.fixed(), vertices.fixed)));
+  }
+  return arcs;
 }
 
 std::vector<TrianglePair> JointContact::pairs(const Pose& X_FM) const {

@@ -1,7 +1,11 @@
 #include "condyle/reliable_depth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
+
+#include "contact/chosen_arcs.hpp"
 
 namespace condyle {
 namespace {
@@ -16,23 +20,46 @@ bool radial_is_depth(const RadialResults& radial, std::span<const double> neares
   return vertex.applies() == DepthKind::radial;
 }
 
-bool needs_rotations(const std::optional<RadialResults>& radial, std::span<const double> nearest) {
-  if (!radial) return false;
-  for (Index v = 0; v < radial->size(); ++v)
-    if (radial->state[v] == PointState::inside && !radial_is_depth(*radial, nearest, v)) return true;
-  return false;
+/// Vertices of one body whose arcs are read: those inside of which the radial depth is none, and of the others the deepest.
+struct RotatedVertices {
+  std::vector<Index> vertices;  ///< ascending
+  bool any_needs_it = false;
+};
+
+RotatedVertices rotated_vertices(const std::optional<RadialResults>& radial,
+                                 std::span<const double> nearest) {
+  RotatedVertices rotated;
+  if (!radial) return rotated;
+  std::optional<Index> deepest;
+  for (Index v = 0; v < radial->size(); ++v) {
+    if (radial->state[v] != PointState::inside) continue;
+    if (!radial_is_depth(*radial, nearest, v))
+      rotated.vertices.push_back(v);
+    else if (!deepest || radial->radial_gap_mm[v] < radial->radial_gap_mm[*deepest])
+      deepest = v;
+  }
+  rotated.any_needs_it = !rotated.vertices.empty();
+  auto& vertices = rotated.vertices;
+  if (deepest) vertices.insert(std::lower_bound(vertices.begin(), vertices.end(), *deepest), *deepest);
+  return rotated;
 }
 
-/// Results of one body about each axis that was asked; null for the others.
-using Rotations = std::array<const TangentialResults*, 3>;
+/// Arcs of some vertices of one body about each axis that was asked; none about the others.
+struct Rotations {
+  std::vector<Index> vertices;
+  std::array<TangentialResults, 3> about;
+};
 
 std::array<std::optional<WayOut>, 3> ways_out(const Rotations& rotations, Index v) {
   std::array<std::optional<WayOut>, 3> ways;
+  const auto at = std::lower_bound(rotations.vertices.begin(), rotations.vertices.end(), v);
+  if (at == rotations.vertices.end() || *at != v) return ways;
+  const auto i = static_cast<std::size_t>(at - rotations.vertices.begin());
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const TangentialResults* about = rotations[axis];
-    if (about == nullptr || about->state[v] != PointState::inside) continue;
-    const Angle angle = -about->angular_gap[v];
-    if (std::isfinite(angle.radians())) ways[axis] = WayOut{angle, -about->arc_gap_mm[v]};
+    const TangentialResults& about = rotations.about[axis];
+    if (about.size() == 0 || about.state[i] != PointState::inside) continue;
+    const Angle angle = -about.angular_gap[i];
+    if (std::isfinite(angle.radians())) ways[axis] = WayOut{angle, -about.arc_gap_mm[i]};
   }
   return ways;
 }
@@ -83,18 +110,19 @@ ReliableContact both(const RadialContact& contact, const NearestDistances& dista
 ReliableContact reliable_depths(const JointContact& joint, JointKind kind, CoordinateSystem system,
                                 const JointAngles& pose, const RadialContact& contact,
                                 const NearestDistances& distances) {
-  const auto &mobile = contact.mobile_in_fixed, &fixed = contact.fixed_in_mobile;
-  std::array<TangentialContact, 3> about;
-  Rotations of_mobile{}, of_fixed{};
-  if (needs_rotations(mobile, distances.mobile) || needs_rotations(fixed, distances.fixed)) {
-    const std::size_t axes = kind == JointKind::hinge ? 1 : 3;
-    for (std::size_t axis = 0; axis < axes; ++axis) {
-      about[axis] = joint.tangential(pose_at(system, pose), axis_of(all_joint_angles[axis], system, pose));
-      if (about[axis].mobile_in_fixed) of_mobile[axis] = &*about[axis].mobile_in_fixed;
-      if (about[axis].fixed_in_mobile) of_fixed[axis] = &*about[axis].fixed_in_mobile;
-    }
+  RotatedVertices of_mobile = rotated_vertices(contact.mobile_in_fixed, distances.mobile),
+                  of_fixed = rotated_vertices(contact.fixed_in_mobile, distances.fixed);
+  if (!of_mobile.any_needs_it && !of_fixed.any_needs_it) return reliable_radial_depths(contact, distances);
+  const contact::ChosenVertices chosen{std::move(of_mobile.vertices), std::move(of_fixed.vertices)};
+  Rotations mobile{chosen.mobile, {}}, fixed{chosen.fixed, {}};
+  const std::size_t axes = kind == JointKind::hinge ? 1 : 3;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    contact::ChosenArcs arcs =
+        contact::arcs_of(joint, pose_at(system, pose), axis_of(all_joint_angles[axis], system, pose), chosen);
+    mobile.about[axis] = std::move(arcs.mobile);
+    fixed.about[axis] = std::move(arcs.fixed);
   }
-  return both(contact, distances, of_mobile, of_fixed);
+  return both(contact, distances, mobile, fixed);
 }
 
 ReliableContact reliable_radial_depths(const RadialContact& contact, const NearestDistances& distances) {

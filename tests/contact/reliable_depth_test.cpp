@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
+#include "contact/chosen_arcs.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle::test {
@@ -89,6 +91,47 @@ TEST(ReliableDepths, WhereTheSurfaceFacesTheRayTheRadialDepthIsIt) {
     EXPECT_LE(radial.ray_to_normal[v].degrees(), 60);
   }
   EXPECT_GT(along_rays, 90u);
+}
+
+/// Every third vertex from `first` on.
+std::vector<Index> some_of(const Mesh& mesh, Index first) {
+  std::vector<Index> some;
+  for (Index v = first; v < mesh.vertices().size(); v += 3) some.push_back(v);
+  return some;
+}
+
+void expect_those_of_all(const TangentialResults& some, const std::vector<Index>& vertices,
+                         const TangentialResults& all) {
+  ASSERT_EQ(some.size(), vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Index v = vertices[i];
+    ASSERT_EQ(some.state[i], all.state[v]) << v;
+    ASSERT_EQ(some.angular_gap[i], all.angular_gap[v]) << v;
+    ASSERT_EQ(some.arc_gap_mm[i], all.arc_gap_mm[v]) << v;
+    ASSERT_EQ(some.triangle[i], all.triangle[v]) << v;
+    ASSERT_EQ(some.rotation_sense[i], all.rotation_sense[v]) << v;
+  }
+}
+
+TEST(ChosenArcs, AreThoseOfAllVerticesBitByBit) {
+  const JointContact joint(socket({0, 0, 0}, 23, 60, 3), sphere({0, 0, 0}, 24, 3));
+  const Pose X_FM = pose_at({.side = Side::right}, {Angle::degrees(25), Angle::degrees(-10), {}});
+  const contact::ChosenVertices chosen{some_of(joint.mobile(), 1), some_of(joint.fixed(), 2)};
+  for (const Vec3& axis : {Vec3(0, 0, 1), Vec3(1, 0.2, -0.3)}) {
+    const contact::ChosenArcs some = contact::arcs_of(joint, X_FM, axis, chosen);
+    const TangentialContact all = joint.tangential(X_FM, axis);
+    expect_those_of_all(some.mobile, chosen.mobile, *all.mobile_in_fixed);
+    expect_those_of_all(some.fixed, chosen.fixed, *all.fixed_in_mobile);
+  }
+}
+
+TEST(ChosenArcs, OfABodyThatIsOpenNoneAreAsked) {
+  TriMesh open = box({40, -120, -50}, {60, -20, 50});
+  open.triangles.pop_back();
+  const JointContact joint(open, box({-1, -100, -2}, {1, -10, 2}));
+  const contact::ChosenArcs arcs = contact::arcs_of(joint, Pose::Identity(), Vec3(0, 0, 1), {{}, {0, 1}});
+  EXPECT_EQ(arcs.mobile.size(), 0u);
+  EXPECT_EQ(arcs.fixed.size(), 2u);
 }
 
 }  // namespace
