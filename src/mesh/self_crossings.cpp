@@ -28,7 +28,7 @@ bool apart(const Box& a, const Box& b) noexcept {
   return (a.low - b.high).max(b.low - a.high).maxCoeff() > 0;
 }
 
-/// Of all triangles, in the order of the tree.
+/// The boxes of all triangles, in the order of the tree.
 std::vector<Box> boxes_of_triangles(const TriangleTree& tree) {
   std::vector<Box> boxes(tree.triangles().size());
   for (Index t = 0; t < boxes.size(); ++t) {
@@ -42,7 +42,7 @@ std::vector<Box> boxes_of_triangles(const TriangleTree& tree) {
   return boxes;
 }
 
-/// Of all nodes. Children come after their parent.
+/// The boxes of all nodes. Children come after their parent.
 std::vector<Box> boxes_of_nodes(const TriangleTree& tree, const std::vector<Box>& triangles) {
   std::vector<Box> boxes(tree.nodes().size());
   for (std::size_t i = boxes.size(); i-- > 0;) {
