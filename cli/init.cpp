@@ -33,7 +33,6 @@ void run(Options options) {
   const JointProposal proposal = propose_joint(options.request);
   for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
   if (options.out.empty()) return print(proposal.toml);
-  for (const std::string& line : proposal.evidence) note("evidence: " + line);
   io::write_output_file(options.out, proposal.toml);
   note("wrote " + options.out);
 }
