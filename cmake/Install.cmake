@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(condyle_cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/condyle)
 
-# One file of targets for each component of find_package, so that a user of the core does not have to have VTK.
+# One file of targets for each component of find_package, so that a user of the core does not have to have HDF5.
 function(install_library name component)
   install(TARGETS ${name} EXPORT condyle_${component}
           ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development

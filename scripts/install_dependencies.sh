@@ -14,11 +14,12 @@ set -euo pipefail
 packages=(
   g++ cmake make ninja-build ccache pkg-config
   libeigen3-dev libtbb-dev libboost-dev libhwy-dev   # the core
-  libvtk9-dev libhdf5-dev libfmt-dev nlohmann-json3-dev   # condyle_io
+  libhdf5-dev zlib1g-dev liblz4-dev libfmt-dev nlohmann-json3-dev   # condyle_io
   libcli11-dev libtomlplusplus-dev                   # the command line and the joint file
 )
 tests=(
   libgtest-dev librapidcheck-dev libcgal-dev         # CGAL is an oracle there, and a peer
+  libvtk9-dev                                        # the reader of what is written, and a peer
   pybind11-dev python3-dev python3-numpy             # the Python module
   python3-pytest python3-hypothesis mypy             # its tests
   python3-matplotlib python3-vtk9                    # its figures, and those of surfaces in .vtp files

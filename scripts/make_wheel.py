@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Packs the Python module that a build folder holds as a wheel: make_wheel.py BUILD OUT. Prints its path.
 
-For the Python that it was built for, on machines with the shared libraries it was linked with (VTK, oneTBB, HDF5): pip
+For the Python that it was built for, on machines with the shared libraries it was linked with (oneTBB, HDF5, zlib, LZ4): pip
 does not bring those. Nothing is compiled; `python3 -m wheel pack` of Debian's python3-wheel writes the archive and its list
 of contents.
 """

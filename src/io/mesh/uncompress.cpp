@@ -1,28 +1,31 @@
 #include "io/mesh/uncompress.hpp"
 
-#include <vtkCallbackCommand.h>
-#include <vtkCommand.h>
-#include <vtkLZ4DataCompressor.h>
-#include <vtkNew.h>
-#include <vtkSmartPointer.h>
-#include <vtkZLibDataCompressor.h>
+#include <lz4.h>
+#include <zlib.h>
+
+#include <limits>
 
 namespace condyle::io {
+namespace {
 
-/// VTK's compressors check their output's size, and they print unless somebody listens.
+bool inflate_into(std::span<char> out, const std::string& block) {
+  uLongf size = out.size();
+  return ::uncompress(reinterpret_cast<Bytef*>(out.data()), &size,
+                      reinterpret_cast<const Bytef*>(block.data()), block.size()) == Z_OK &&
+         size == out.size();
+}
+
+bool decompress_lz4_into(std::span<char> out, const std::string& block) {
+  constexpr std::size_t largest = std::numeric_limits<int>::max();
+  if (block.size() > largest || out.size() > largest) return false;
+  return LZ4_decompress_safe(block.data(), out.data(), static_cast<int>(block.size()),
+                             static_cast<int>(out.size())) == static_cast<int>(out.size());
+}
+
+}  // namespace
+
 bool uncompress(Compressor compressor, const std::string& block, std::span<char> out) {
-  vtkSmartPointer<vtkDataCompressor> codec;
-  if (compressor == Compressor::zlib) {
-    codec = vtkSmartPointer<vtkZLibDataCompressor>::New();
-  } else {
-    codec = vtkSmartPointer<vtkLZ4DataCompressor>::New();
-  }
-  vtkNew<vtkCallbackCommand> silence;
-  silence->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  codec->AddObserver(vtkCommand::ErrorEvent, silence);
-  codec->AddObserver(vtkCommand::WarningEvent, silence);
-  return codec->Uncompress(reinterpret_cast<const unsigned char*>(block.data()), block.size(),
-                           reinterpret_cast<unsigned char*>(out.data()), out.size()) == out.size();
+  return compressor == Compressor::zlib ? inflate_into(out, block) : decompress_lz4_into(out, block);
 }
 
 }  // namespace condyle::io

@@ -1,41 +1,61 @@
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGWriter.h>
-#include <vtkUnsignedCharArray.h>
+#include <zlib.h>
 
-#include <algorithm>
-#include <new>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <variant>
 
 #include "condyle/io/picture.hpp"
+#include "io/file/deflate.hpp"
 #include "io/file/output_file.hpp"
-#include "io/mesh/vtk_silence.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {
 namespace {
 
-std::string png_bytes(const Picture& picture, const Provenance* from) {
-  const io::VtkSilence silence;
-  vtkNew<vtkImageData> image;
-  image->SetDimensions(static_cast<int>(picture.width), static_cast<int>(picture.height), 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-  // VTK's rows begin at the bottom.
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift & 255);
+  return bytes;
+}
+
+/// Length, type, data, and the check sum of the last two.
+std::string chunk(std::string_view type, std::string_view data) {
+  const std::string checked = std::string(type) + std::string(data);
+  const uLong sum = crc32_z(0, reinterpret_cast<const Bytef*>(checked.data()), checked.size());
+  return big_endian(static_cast<std::uint32_t>(data.size())) + checked +
+         big_endian(static_cast<std::uint32_t>(sum));
+}
+
+/// Eight bits of red, green and blue, not interlaced.
+std::string header(const Picture& picture) {
+  constexpr char bits = 8, rgb = 2, deflate = 0, usual_filters = 0, not_interlaced = 0;
+  return big_endian(static_cast<std::uint32_t>(picture.width)) +
+         big_endian(static_cast<std::uint32_t>(picture.height)) +
+         std::string{bits, rgb, deflate, usual_filters, not_interlaced};
+}
+
+/// Rows from the top, each as its differences from the row above: shaded surfaces change little from row to row.
+std::string filtered_rows(const Picture& picture) {
+  constexpr char up = 2;
   const std::size_t row = 3 * picture.width;
-  auto* bytes = static_cast<std::uint8_t*>(image->GetScalarPointer());
-  for (std::size_t y = 0; y < picture.height; ++y)
-    std::copy_n(picture.rgb.data() + (picture.height - 1 - y) * row, row, bytes + y * row);
-  vtkNew<vtkPNGWriter> writer;
+  std::string bytes;
+  bytes.reserve(picture.height * (row + 1));
+  for (std::size_t y = 0; y < picture.height; ++y) {
+    bytes += up;
+    for (std::size_t i = y * row; i < (y + 1) * row; ++i)
+      bytes += static_cast<char>(picture.rgb[i] - (y > 0 ? picture.rgb[i - row] : 0));
+  }
+  return bytes;
+}
+
+/// PNG 1.2, sections 3 to 6.
+std::string png_bytes(const Picture& picture, const Provenance* from) {
+  std::string bytes = "\x89PNG\r\n\x1a\n" + chunk("IHDR", header(picture));
   for (const VtpField& field : io::provenance_fields(from))
     if (const auto* text = std::get_if<std::string>(&field.value))
-      writer->AddText(field.name.c_str(), text->c_str());
-  writer->SetInputData(image);
-  writer->WriteToMemoryOn();
-  writer->Write();
-  if (writer->GetErrorCode() != 0 || writer->GetResult() == nullptr) throw std::bad_alloc();
-  const vtkUnsignedCharArray& result = *writer->GetResult();
-  return {reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray&>(result).GetPointer(0)),
-          static_cast<std::size_t>(result.GetNumberOfValues())};
+      bytes += chunk("tEXt", field.name + std::string(1, '\0') + *text);
+  return bytes + chunk("IDAT", io::deflated(filtered_rows(picture))) + chunk("IEND", "");
 }
 
 }  // namespace

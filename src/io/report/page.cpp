@@ -1,15 +1,12 @@
 #include "io/report/page.hpp"
 
-#include <vtkBase64Utilities.h>
-#include <vtkNew.h>
-#include <vtkZLibDataCompressor.h>
-
-#include <new>
+#include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 #include "condyle/io/report.hpp"
+#include "io/file/deflate.hpp"
 #include "io/file/output_file.hpp"
-#include "io/mesh/vtk_silence.hpp"
 #include "io/report/data_block.hpp"
 #include "io/result/provenance_forms.hpp"
 
@@ -36,25 +33,17 @@ namespace {
 
 constexpr std::string_view place = "<!--condyle-data-->";
 
-const unsigned char* bytes_of(std::string_view text) {
-  return reinterpret_cast<const unsigned char*>(text.data());
-}
-
-std::string compressed(std::string_view bytes) {
-  const VtkSilence silence;
-  vtkNew<vtkZLibDataCompressor> zlib;
-  std::string out(zlib->GetMaximumCompressionSpace(bytes.size()), '\0');
-  const std::size_t size =
-      zlib->Compress(bytes_of(bytes), bytes.size(), reinterpret_cast<unsigned char*>(out.data()), out.size());
-  if (size == 0) throw std::bad_alloc();  // all that zlib can want for, given room enough
-  out.resize(size);
-  return out;
-}
-
 std::string base64(std::string_view bytes) {
-  std::string out((bytes.size() + 2) / 3 * 4, '\0');
-  out.resize(vtkBase64Utilities::Encode(bytes_of(bytes), bytes.size(),
-                                        reinterpret_cast<unsigned char*>(out.data())));
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
+    std::uint32_t three = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      three = three << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0);
+    for (std::size_t i = 0; i < 4; ++i) out += i <= count ? digits[three >> (18 - 6 * i) & 63] : '=';
+  }
   return out;
 }
 
@@ -71,7 +60,7 @@ std::string page_with(std::string_view page_template, std::string_view block) {
     throw std::logic_error("the template of the report does not have exactly one place for its data");
   std::string page(page_template.substr(0, at));
   page += "<script type=\"application/octet-stream\" id=\"condyle-data\">";
-  page += base64(compressed(block));
+  page += base64(deflated(block));
   page += "</script>";
   return page += page_template.substr(at + place.size());
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace condyle::io {
+
+/// The bytes compressed as a zlib stream. The same bytes for the same input and version of zlib. Throws std::bad_alloc.
+std::string deflated(std::string_view bytes);
+
+}  // namespace condyle::io
