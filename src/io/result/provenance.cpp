@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <variant>
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
@@ -187,17 +188,23 @@ Json provenance_json(const Provenance* from) {
 
 std::vector<VtpField> provenance_fields(const Provenance* from) {
   if (from == nullptr) return {};
-  return {{"condyle_version", std::string(condyle::version)},
-          {"condyle_command", command_text(*from)},
-          {"joint_file", file_text(from->joint_path, from->joint_digest)},
-          {"fixed_mesh", files_text(from->fixed)},
-          {"mobile_mesh", files_text(from->mobile)},
-          {"side", std::string(name_of(from->side))},
-          {"frame", std::string(name_of(from->frame.name()))},
-          {"fixed_joint_from_source", row_by_row(from->fixed.joint_from_source)},
-          {"fixed_source_from_joint", row_by_row(from->fixed.source_from_joint)},
-          {"mobile_joint_from_source", row_by_row(from->mobile.joint_from_source)},
-          {"mobile_source_from_joint", row_by_row(from->mobile.source_from_joint)}};
+  // One by one: GCC 12 destroys what an initializer list never built if one of its elements throws.
+  std::vector<VtpField> fields;
+  const auto add = [&](std::string name, std::variant<std::string, std::vector<double>> value) {
+    fields.push_back({std::move(name), std::move(value)});
+  };
+  add("condyle_version", std::string(condyle::version));
+  add("condyle_command", command_text(*from));
+  add("joint_file", file_text(from->joint_path, from->joint_digest));
+  add("fixed_mesh", files_text(from->fixed));
+  add("mobile_mesh", files_text(from->mobile));
+  add("side", std::string(name_of(from->side)));
+  add("frame", std::string(name_of(from->frame.name())));
+  add("fixed_joint_from_source", row_by_row(from->fixed.joint_from_source));
+  add("fixed_source_from_joint", row_by_row(from->fixed.source_from_joint));
+  add("mobile_joint_from_source", row_by_row(from->mobile.joint_from_source));
+  add("mobile_source_from_joint", row_by_row(from->mobile.source_from_joint));
+  return fields;
 }
 
 std::string provenance_comments(const Provenance* from) {
