@@ -1,0 +1,167 @@
+#include "motion/rom/displaced_joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "mesh/vertex_normals.hpp"
+#include "motion/rom/overlap.hpp"
+#include "motion/search/first_contact.hpp"
+
+namespace condyle::motion {
+namespace {
+
+/// Motions that one search about one axis answers: those with the same start that vary the same angle.
+struct Group {
+  JointAngle vary;
+  JointAngles start;
+  RotationRange range{Angle(), Angle()};
+  std::vector<std::size_t> motions;
+
+  /// Whether the axis is the same in the body that rests.
+  bool shares_axis(const Group& other) const noexcept {
+    return vary == other.vary && (vary != JointAngle::adduction || start.flexion == other.start.flexion);
+  }
+};
+
+/// Groups about one axis follow each other.
+std::vector<Group> grouped(std::span<const Motion> motions) {
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const Motion& motion = motions[i];
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) {
+      return g.vary == motion.vary && g.start == motion.start;
+    });
+    if (group == groups.end())
+      group = groups.insert(group, {motion.vary, motion.start, {Angle(), Angle()}, {}});
+    Angle& end = motion.sense == RotationSense::positive ? group->range.positive : group->range.negative;
+    const Angle asked = motion.range * sign_of(motion.sense);
+    if (std::abs(asked.radians()) > std::abs(end.radians())) end = asked;
+    group->motions.push_back(i);
+  }
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
+    return std::pair(a.vary, a.start.flexion) < std::pair(b.vary, b.start.flexion);
+  });
+  return groups;
+}
+
+/// Mean of the triangles around each vertex weighted by area; zero where no triangle uses it.
+Points unit_normals(const TriMesh& mesh) {
+  Points normals = mesh::area_normals(mesh);
+  for (std::size_t v = 0; v < normals.size(); ++v) {
+    const Vec3 normal = normals[v];
+    if (normal.squaredNorm() > 0) normals.set(v, normal.normalized());
+  }
+  return normals;
+}
+
+/// A body as its search reads it, its surface movable along its normals.
+class Surface {
+ public:
+  Surface(const Mesh& whole, const Mesh& part)
+      : vertices_(whole.vertices()), normals_(unit_normals(whole)), tree_(part) {}
+
+  const FeatureTree& tree() const noexcept { return tree_; }
+  FeatureTree moved_by(double mm) const {
+    Points moved(vertices_.size());
+    for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices_[v] + mm * normals_[v]);
+    return tree_.moved_to(moved);
+  }
+
+ private:
+  Points vertices_, normals_;
+  FeatureTree tree_;
+};
+
+}  // namespace
+
+struct DisplacedJoint::Parts {
+  Parts(const Joint& joint, const PartsOfJoint& parts, const JointAngles& reference,
+        std::span<const Motion> motions)
+      : system_(joint.coordinates()),
+        X_ref_(pose_at(joint.coordinates(), reference)),
+        motions_(motions),
+        groups_(grouped(motions)),
+        fixed_(joint.fixed.mesh, parts.fixed.mesh),
+        mobile_(joint.mobile.mesh, parts.mobile.mesh) {}
+
+  /// Writes one outcome per motion. The frame G of the displaced joint lies at X_FG in F; with both bodies where the
+  /// reference pose q0 has them, the mobile body at the angles q is at
+  ///
+  ///     X_FM = X_FG R(q) A^-1,   A = R(q0)^-1 X_FG R(q0), where G's mobile frame lies in M
+  void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
+    std::optional<FeatureTree> moved_fixed, moved_mobile;
+    if (d.fixed_surface != 0) moved_fixed.emplace(fixed_.moved_by(d.fixed_surface));
+    if (d.mobile_surface != 0) moved_mobile.emplace(mobile_.moved_by(d.mobile_surface));
+    const auto &fixed = moved_fixed ? *moved_fixed : fixed_.tree(),
+               &mobile = moved_mobile ? *moved_mobile : mobile_.tree();
+    TurningBody resting_fixed(fixed), resting_mobile(mobile), turning_fixed(fixed), turning_mobile(mobile);
+
+    Pose X_FG = Pose::Identity();
+    X_FG.translation() = d.centre;
+    if (const double angle = d.axes.norm(); angle > 0)
+      X_FG.linear() = Eigen::AngleAxisd(angle, d.axes / angle).toRotationMatrix();
+    const Pose A = inverted(X_ref_) * X_FG * X_ref_;
+
+    const Group* before = nullptr;
+    for (const Group& group : groups_) {
+      const Pose X_FM = X_FG * pose_at(system_, group.start) * inverted(A);
+      const bool turns_fixed = group.vary == JointAngle::internal_rotation;
+      TurningBody& resting = turns_fixed ? resting_mobile : resting_fixed;
+      TurningBody& turning = turns_fixed ? turning_fixed : turning_mobile;
+      const AxisFrame axis =
+          turns_fixed
+              ? AxisFrame(A.translation(), A.linear() * -axis_of(group.vary, system_, {}))
+              : AxisFrame(X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start));
+      if (!before || !before->shares_axis(group)) resting.start_at(axis, Pose::Identity());
+      before = &group;
+      turning.start_at(axis, turns_fixed ? inverted(X_FM) : X_FM);
+      const RotationLimits both = first_contact(resting, turning, group.range);
+      for (const std::size_t i : group.motions) {
+        const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
+        const bool reaches_end = end.turned >= motions_[i].range;
+        out[i] = {reaches_end ? motions_[i].range : end.turned,
+                  reaches_end ? LimitReason::end_of_range : end.reason};
+      }
+    }
+  }
+
+  CoordinateSystem system_;
+  Pose X_ref_;
+  std::span<const Motion> motions_;
+  std::vector<Group> groups_;
+  Surface fixed_, mobile_;
+};
+
+DisplacedJoint::DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range)
+    : parts_(std::make_unique<Parts>(
+          joint,
+          parts_that_count(joint, range.overlap, find_bearing_surface(joint, range.bearing).surface,
+                           range.bearing.rule),
+          range.overlap.reference_pose, motions)) {}
+DisplacedJoint::~DisplacedJoint() = default;
+
+void DisplacedJoint::limits(const Displacement& by, std::span<DisplacedLimit> out) const {
+  parts_->limits(by, out);
+}
+
+}  // namespace condyle::motion
+
+namespace condyle {
+
+std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
+                                         const RangeOptions& range, std::span<const Vec3> centres) {
+  for (const Motion& motion : motions) check_motion(motion, joint.kind);
+  const motion::DisplacedJoint displaced(joint, motions, range);
+  std::vector<DisplacedLimit> limits(centres.size() * motions.size());
+  core::parallel_chunks(centres.size(), 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      displaced.limits({.centre = centres[i]}, std::span(limits).subspan(i * motions.size(), motions.size()));
+  });
+  return limits;
+}
+
+}  // namespace condyle

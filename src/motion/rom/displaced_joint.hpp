@@ -1,0 +1,37 @@
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "condyle/limit_band.hpp"
+#include "condyle/range_of_motion.hpp"
+
+/// Exact limits of a joint whose centre, axes and surfaces are moved a little: one sample of a band.
+
+namespace condyle::motion {
+
+/// How far a joint is from the one given.
+struct Displacement {
+  Vec3 centre = Vec3::Zero();                    ///< mm
+  Vec3 axes = Vec3::Zero();                      ///< rotation vector, rad
+  double fixed_surface = 0, mobile_surface = 0;  ///< along normals, mm
+};
+
+/// The joint that all samples are displaced from, prepared once.
+class DisplacedJoint {
+ public:
+  /// Where a bearing surface is known, that of the joint as given is used in all. The motions must outlive it.
+  DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range);
+  ~DisplacedJoint();
+  DisplacedJoint(const DisplacedJoint&) = delete;
+  DisplacedJoint& operator=(const DisplacedJoint&) = delete;
+
+  /// Writes one limit per motion. From any thread.
+  void limits(const Displacement& by, std::span<DisplacedLimit> out) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace condyle::motion
