@@ -81,8 +81,7 @@ TEST_F(FreeJoint, TheTranslationOfTheReferencePoseIsHeldUnlessToldOtherwise) {
 TEST_F(FreeJoint, AHeldTranslationIsRefusedWhereItMakesNoSense) {
   write_joint("ball.toml", "ball", "joint = \"knee\"\n", "post.ply", "");
   write_joint("axes.toml", "free", "joint = \"knee\"\ntranslation_frame = \"joint_axes\"\n", "post.ply", "");
-  expect_refusal(run("rom ball.toml --translation x=1"), 2, "translation: only a free joint translates",
-                 "");
+  expect_refusal(run("rom ball.toml --translation x=1"), 2, "translation: only a free joint translates", "");
   expect_refusal(run("rom knee.toml --translation flexion=1"), 2, "--translation: takes x, y and z only", "");
   expect_refusal(run("rom axes.toml --translation x=1"), 2, "it would turn with them", "");
 }
