@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -162,12 +161,13 @@ int run(int argc, char** argv) {
                          "         condyle help rom\n") +
              exit_codes);
 
-  std::unique_ptr<tbb::global_control> limit;
+  // Kept to the end of the process: out of memory within itself, oneTBB leaves a lock behind that its destructor waits for.
+  [[maybe_unused]] static tbb::global_control* limit = nullptr;
   app.add_option_function<int>(
          "--threads",
-         [&](int count) {
-           limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                         static_cast<std::size_t>(count));
+         [](int count) {
+           limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                           static_cast<std::size_t>(count));
          },
          "Most threads to use; all cores if not given. Results are the same for any number")
       ->check(CLI::Range(1, 4096));
