@@ -41,11 +41,12 @@ void run(Options options) {
 
 void add_init(CLI::App& app) {
   auto* command =
-      app.add_subcommand("init", "Propose a joint file for two meshes, with what each value was told by");
+      app.add_subcommand("init", "Propose a joint file for two meshes, with the evidence for each value");
   command->footer(
       "Example: condyle sample hip --out bones\n"
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
-      "What could not be told stands in the file as a comment to fill in. Read the file before you use it.");
+      "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
+      "it.");
   auto options = std::make_shared<Options>();
   command->add_option("FIXED", options->request.fixed, "Mesh of the body that stays, such as the hip bone")
       ->required();
@@ -57,7 +58,7 @@ void add_init(CLI::App& app) {
           [options](const std::string& side) {
             options->request.side = side == "right" ? Side::right : Side::left;
           },
-          "Side of the body; told by the bones if not given")
+          "Side of the body; default: inferred from the bones")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left");
   command
@@ -66,7 +67,7 @@ void add_init(CLI::App& app) {
           [options](const std::string& units) {
             options->request.units = units == "m" ? LengthUnit::metres : LengthUnit::millimetres;
           },
-          "Units of both meshes; told by their size if not given")
+          "Units of both meshes; default: inferred from their size")
       ->check(CLI::IsMember({"mm", "m"}))
       ->option_text("mm|m");
   command->add_option("-o,--out", options->out, "Joint file to write; standard output if not given");

@@ -11,7 +11,7 @@ from ._words import Path, path_of, word
 
 @dataclass(frozen=True)
 class JointProposal:
-    """A joint file as text, the keys in it that are left to fill in, and the votes that told side and axes.
+    """A joint file as text, the keys in it that are left to fill in, and the votes from which side and axes were inferred.
 
     `evidence` has one line for each piece of evidence; the text has them as comments.
     """
@@ -26,7 +26,7 @@ def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, side: Optional
     """Proposes a joint file for two mesh files: kind, centre, axes, side and units. Nothing is written.
 
     `joint_file` is where it is to lie, for meshes are named from its folder; `side` "right" or "left" and `units` "mm"
-    or "m" are told by the bones where not given. FileError where a mesh cannot be read.
+    or "m" are inferred from the bones if not given. FileError where a mesh cannot be read.
 
     C++: `condyle::propose_joint` in condyle/io/propose_joint.hpp; `condyle init`.
     """

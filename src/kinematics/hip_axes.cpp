@@ -273,7 +273,7 @@ std::string why_none(const std::vector<AgreeingAxes>& agreeing) {
   return why;
 }
 
-/// Of readings that differ in front and back only, the one that the sides' votes choose; all if they choose none.
+/// The one that the sides' votes choose among readings that differ in front and back only; all if they choose none.
 std::vector<AgreeingAxes> chosen(std::vector<AgreeingAxes> readings, const std::vector<Evidence>& votes) {
   if (readings.size() == 1) {
     if (contradicted(as_for(readings[0].side, votes))) readings.clear();

@@ -14,13 +14,13 @@ namespace condyle {
 struct ProposalRequest {
   std::filesystem::path fixed, mobile;   ///< mesh files
   std::filesystem::path joint_file;      ///< where it is to lie: meshes are named from its folder
-  std::optional<Side> side = {};         ///< told by the bones where not given
-  std::optional<LengthUnit> units = {};  ///< told by their size where not given
+  std::optional<Side> side = {};         ///< default: inferred from the bones
+  std::optional<LengthUnit> units = {};  ///< default: inferred from their size
 };
 
-/// A joint file, complete but for what could not be told.
+/// A joint file, complete but for what could not be inferred.
 struct JointProposal {
-  std::string toml;                     ///< commented: what was told and by what
+  std::string toml;                     ///< each value with a comment on its evidence
   std::vector<std::string> to_fill_in;  ///< keys that stand in it as comments, with the reason
   std::vector<std::string> evidence;  ///< for side and axes, one line each with its vote; comments in it too
 };

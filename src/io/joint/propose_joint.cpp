@@ -42,7 +42,7 @@ std::string numbers(const Vec3& v) {
   return fmt::format("[{:g}, {:g}, {:g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
 }
 
-/// Writes lines of a joint file: keys that are told, and keys that are not as comments.
+/// Writes lines of a joint file: keys that were inferred, and the other keys as comments.
 class Lines {
  public:
   void add(const std::string& line) { text_ += line + "\n"; }
@@ -90,16 +90,17 @@ void add_side(Lines& lines, const std::optional<Side>& given, const kinematics::
   if (given)
     lines.key("side", toml_text(name_of(*given)), "given");
   else if (axes.agreeing.size() == 1)
-    lines.key("side", toml_text(name_of(axes.agreeing[0].side)), "told by the bones, as the axes below");
+    lines.key("side", toml_text(name_of(axes.agreeing[0].side)),
+              "inferred from the bones, as the axes below");
   else
     lines.missing("side", "\"right\" or \"left\"",
                   axes.agreeing.empty() ? "no usual axes agree with the bones"
                                         : "more than one pair of axes and side agrees with the bones");
 }
 
-void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics::AgreeingAxes& told) {
-  const auto& [axes, side] = told;
-  const Vec3 lateral = told.lateral();
+void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics::AgreeingAxes& inferred) {
+  const auto& [axes, side] = inferred;
+  const Vec3 lateral = inferred.lateral();
   lines.key("anterior", numbers(axes->anterior()),
             fmt::format("{}: of the axes in use the ones that agree", axes->name));
   lines.key("superior", numbers(axes->superior()),
@@ -120,9 +121,9 @@ JointProposal propose_joint(const ProposalRequest& request) {
   LoadedMesh fixed = load(request.fixed), mobile = load(request.mobile);
   Lines lines;
   lines.add(fmt::format(
-      "# Proposed by condyle init {} from the two meshes below. Behind each value stands what told it;",
+      "# Proposed by condyle init {} from the two meshes below. Each value has a comment with its evidence;",
       version));
-  lines.add("# lines that begin with # and a key could not be told and are to be filled in.");
+  lines.add("# lines that begin with # and a key could not be inferred and are to be filled in.");
   lines.add(fmt::format("condyle = {}", io::format_version));
   lines.add("name = " + toml_text(request.mobile.stem().string() + " in " + request.fixed.stem().string()));
 
@@ -134,7 +135,7 @@ JointProposal propose_joint(const ProposalRequest& request) {
   const auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
   if (hip) {
     lines.key("kind", "\"ball\"",
-              fmt::format("told by a head of radius {:.2f} mm, {:.0f} % of a sphere{}",
+              fmt::format("inferred from a head of radius {:.2f} mm, {:.0f} % of a sphere{}",
                           hip->head.fit.sphere.radius, 100 * hip->head.coverage,
                           hip->socket ? fmt::format(", in a socket of radius {:.2f} mm",
                                                     hip->socket->fit.sphere.radius)
@@ -144,12 +145,12 @@ JointProposal propose_joint(const ProposalRequest& request) {
   }
 
   const auto axes = hip ? kinematics::hip_axes(fixed.mesh, *hip, request.side)
-                        : kinematics::HipAxes{{}, "no head was found to tell them by", {}};
+                        : kinematics::HipAxes{{}, "no head was found to infer them from", {}};
   add_side(lines, request.side, axes);
   if (request.units)
     lines.key("units", unit_text, "given");
   else if (same_unit)
-    lines.key("units", unit_text, "told by the size of the meshes: " + mobile.unit.reason);
+    lines.key("units", unit_text, "inferred from the size of the meshes: " + mobile.unit.reason);
   else
     lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
 

@@ -12,6 +12,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/deflate.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/file/xml_escaped.hpp"
 #include "io/mesh/float_valued.hpp"
 
 static_assert(std::endian::native == std::endian::little,
@@ -39,24 +40,6 @@ template <>
 constexpr std::string_view type_name<std::int32_t> = "Int32";
 template <>
 constexpr std::string_view type_name<std::int64_t> = "Int64";
-
-/// Text between tags or in quotes, whatever a name holds. XML 1.0 has no control characters.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return out;
-}
 
 /// One block is read and uncompressed at a time, and each begins anew to compress: larger ones compress little better.
 constexpr std::size_t block_size = 1 << 20;
@@ -119,7 +102,7 @@ class VtpText {
 
 template <class T>
 std::string data_array(std::string_view name, std::string_view more = "") {
-  return fmt::format("DataArray type=\"{}\" Name=\"{}\"{}", type_name<T>, escaped(name), more);
+  return fmt::format("DataArray type=\"{}\" Name=\"{}\"{}", type_name<T>, io::xml_escaped(name), more);
 }
 
 template <class Coordinate>
@@ -150,8 +133,9 @@ void add_triangles(VtpText& out, const std::vector<Triangle>& triangles) {
 /// The first array is the one to colour by.
 void add_attributes(VtpText& out, std::string_view element, std::span<const MeshArray> arrays,
                     [[maybe_unused]] std::size_t elements) {
-  out.add(arrays.empty() ? fmt::format("<{}>\n", element)
-                         : fmt::format("<{} Scalars=\"{}\">\n", element, escaped(arrays.front().name)));
+  out.add(arrays.empty()
+              ? fmt::format("<{}>\n", element)
+              : fmt::format("<{} Scalars=\"{}\">\n", element, io::xml_escaped(arrays.front().name)));
   for (const MeshArray& array : arrays)
     std::visit(
         [&]<class T>(const std::vector<T>& values) {
@@ -170,8 +154,9 @@ void add_fields(VtpText& out, const std::vector<VtpField>& fields) {
     if (const auto* text = std::get_if<std::string>(&value)) {
       const std::span<const std::uint8_t> characters(reinterpret_cast<const std::uint8_t*>(text->c_str()),
                                                      std::strlen(text->c_str()) + 1);
-      out.add_array(fmt::format("Array type=\"String\" Name=\"{}\" NumberOfTuples=\"1\"", escaped(name)),
-                    characters);
+      out.add_array(
+          fmt::format("Array type=\"String\" Name=\"{}\" NumberOfTuples=\"1\"", io::xml_escaped(name)),
+          characters);
     } else {
       const auto& numbers = std::get<std::vector<double>>(value);
       out.add_array<double>(data_array<double>(name, fmt::format(" NumberOfTuples=\"{}\"", numbers.size())),

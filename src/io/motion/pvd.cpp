@@ -6,28 +6,9 @@
 
 #include "condyle/io/curve_files.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/file/xml_escaped.hpp"
 
 namespace condyle {
-namespace {
-
-/// As the value of an XML attribute in double quotes.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
-}  // namespace
-
 /// ParaView's format: https://www.paraview.org/Wiki/ParaView/Data_formats#PVD_File_Format. Files of one time are blocks, told
 /// apart by a number each.
 void write_pvd(const std::filesystem::path& path, std::span<const SeriesFile> files) {
@@ -39,7 +20,7 @@ void write_pvd(const std::filesystem::path& path, std::span<const SeriesFile> fi
     auto part = std::find(parts.begin(), parts.end(), entry.part);
     if (part == parts.end()) part = parts.insert(parts.end(), entry.part);
     text += fmt::format("    <DataSet timestep=\"{}\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n", entry.time_s,
-                        part - parts.begin(), escaped(entry.part), escaped(entry.file));
+                        part - parts.begin(), io::xml_escaped(entry.part), io::xml_escaped(entry.file));
   }
   io::write_whole_file(path, text + "  </Collection>\n</VTKFile>\n");
 }

@@ -62,7 +62,7 @@ Columns hip_columns() {
       {"side", "", text, "right or left"},
       {"bearing_radius_mm", "mm", number, "radius of the sphere of the bearing surface; empty: none known"},
       {"bearing_margin_mm", "mm", number, "how far outside it contact is bearing contact"},
-      {"notes", "", text, "codes of what looks wrong with the joint, with blanks between"},
+      {"notes", "", text, "codes of the notes on the joint, its load and its limits, with blanks between"},
       {"inputs_sha256", "", text, "of the row and of the contents of the files it names"}};
 }
 
