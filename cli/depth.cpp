@@ -12,13 +12,12 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "condyle/contact.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/depth_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/normal_contact.hpp"
 #include "contact_options.hpp"
 #include "io/file/whole_file.hpp"
 #include "mesh/require_solid.hpp"
@@ -27,12 +26,11 @@
 namespace condyle::cli {
 namespace {
 
-enum class Method { reliable, radial, tangential, normal };
 enum class Scope { vertices_and_pairs, pairs_only };
 
 struct Options {
   std::string joint, pose, matrix, out;
-  Method method = Method::reliable;
+  DepthMethod method = DepthMethod::reliable;
   std::optional<std::string> about;
   std::shared_ptr<ContactChanges> rays = std::make_shared<ContactChanges>();
   VertexTables vertices = VertexTables::leave_out;
@@ -42,49 +40,14 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-/// Which vertices an answer says the nearest distance of: files have it of all.
-DistancesOf distances_of(const Options& options) {
-  return options.out.empty() ? DistancesOf::vertices_inside : DistancesOf::all_vertices;
-}
-
-DepthResult by_radial(const DepthQuestion& question, const JointContact& joint, DepthMethod method,
-                      DistancesOf distances) {
-  const Pose& X_FM = question.X_FM;
-  const PoseDepth depth = depth_at(joint, question.joint, question.pose.angles(), X_FM, method, distances);
-  return depth_result(question, method, depth, summarise(joint, X_FM, depth.contact));
-}
-
-DepthResult by_tangential(const DepthQuestion& question, const JointContact& joint, JointAngle about,
-                          DistancesOf distances) {
-  require_at_centre(question.X_FM, "--method tangential", "--method radial");
-  const RotationAxis axis{about, axis_of(about, question.joint.coordinates(), question.pose.angles())};
-  const TangentialContact contact = joint.tangential(question.X_FM, axis.direction_F);
-  return depth_result(question, measure_contact(joint, question.X_FM, MeasuredContact(contact), distances),
-                      axis, contact);
-}
-
-DepthResult by_normal(const DepthQuestion& question, const JointContact& joint, const ContactEntry& entry,
-                      DistancesOf distances) {
-  return depth_result(question, entry, measure_contact(joint, question.X_FM, MeasuredContact(), distances),
-                      normal_contact(joint, question.X_FM, entry.casting, entry.rays));
-}
-
-DepthResult answer_of(const Options& options, const DepthQuestion& question, const ContactEntry& entry) {
-  const JointContact joint(question.joint);
-  const DistancesOf distances = distances_of(options);
-  switch (options.method) {
-    case Method::reliable:
-      return by_radial(question, joint, DepthMethod::reliable, distances);
-    case Method::radial:
-      return by_radial(question, joint, DepthMethod::radial, distances);
-    case Method::normal:
-      return by_normal(question, joint, entry, distances);
-    case Method::tangential:
-      break;
-  }
-  const JointAngle about =
-      options.about ? joint_angle_named(*options.about, question.joint.anatomy) : JointAngle::flexion;
-  return by_tangential(question, joint, about, distances);
+DepthRequest request_of(const Options& options, const GivenPose& given, const ContactEntry& entry,
+                        Anatomy joint) {
+  DepthRequest request{.pose = given.pose.angles(), .X_FM = given.X_FM, .method = options.method};
+  if (options.about) request.about = joint_angle_named(*options.about, joint);
+  if (options.method == DepthMethod::normal) request.casting = entry.casting, request.rays = entry.rays;
+  // Files have the nearest distance of every vertex.
+  if (!options.out.empty()) request.distances = DistancesOf::all_vertices;
+  return request;
 }
 
 /// By its coordinates, as a matrix, or as a matrix in a file.
@@ -99,21 +62,6 @@ GivenPose pose_of(const Options& options, const Joint& joint) {
   }
 }
 
-/// What an answer must be read with, for a pose that translates or along normals.
-std::vector<std::string> terms_of(const Pose& X_FM, Method method) {
-  if (method == Method::normal)
-    return {
-        "depths along normals compare with those of the same casting surface and rule only, not with radial "
-        "or "
-        "tangential ones"};
-  const double moved = X_FM.translation().norm();
-  if (moved == 0) return {};
-  return {fmt::format(
-      "the mobile body's centre is {:.3f} mm from the fixed body's: rays of mobile vertices start at the "
-      "fixed body's, those of fixed vertices at the mobile body's{}",
-      moved, method == Method::reliable ? "; no depth along arcs is told" : "")};
-}
-
 std::string files_of(const std::vector<BodyMeshReport>& meshes) {
   std::string files;
   for (const BodyMeshReport& mesh : meshes) files += (files.empty() ? "" : " + ") + mesh.mesh.string();
@@ -123,7 +71,7 @@ std::string files_of(const std::vector<BodyMeshReport>& meshes) {
 /// Whether the meshes allow the question: solids for vertices inside, outer sides for normals, nothing for pairs.
 void require_meshes(const LoadedJoint& loaded, const Options& options) {
   const auto require = [&](const Mesh& mesh, const std::vector<BodyMeshReport>& reports) {
-    if (options.method == Method::normal) return mesh::require_oriented(mesh, files_of(reports));
+    if (options.method == DepthMethod::normal) return mesh::require_oriented(mesh, files_of(reports));
     if (options.scope == Scope::pairs_only) return;
     try {
       mesh::require_solid(mesh, files_of(reports));
@@ -147,15 +95,15 @@ Joint joint_of_surfaces(const ContactEntry& entry, Joint joint) {
 }
 
 void run(const Options& options, const CLI::App& command) {
-  if (options.about && options.method != Method::tangential)
-    throw UsageError("--about: is for --method tangential");
-  const bool by_normals = options.method == Method::normal;
+  const bool by_normals = options.method == DepthMethod::normal;
   if (options.rays->any_of_rays() && !by_normals)
     throw UsageError("--casting, --rule, --reach: are for --method normal");
   const LoadedJoint loaded = read_joint(options.joint);
   const ContactEntry entry = contact_of(*options.rays, loaded.report.file, false);
   const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
   const GivenPose given = pose_of(options, joint);
+  const DepthRequest request = request_of(options, given, entry, joint.anatomy);
+  check_depth_request(request);
   for (const std::string& remark : given.notes) note("pose: " + remark);
   require_meshes(loaded, options);
   Provenance from = provenance_of(loaded, words_of(command), options.where->frame);
@@ -165,9 +113,8 @@ void run(const Options& options, const CLI::App& command) {
                                .pose = given.pose,
                                .X_FM = given.X_FM,
                                .notes = noted(loaded, options.strictness),
-                               .terms = terms_of(given.X_FM, options.method),
                                .provenance = &from};
-  const DepthResult result = answer_of(options, question, entry);
+  const DepthResult result = depth_result(question, answer_depth(joint, request));
   if (!options.out.empty())
     say_written(write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
   print(options.form == AnswerForm::json ? result.json : result.text);
@@ -194,10 +141,10 @@ void add_depth(CLI::App& app) {
       ->add_option_function<std::string>(
           "--method",
           [options](const std::string& name) {
-            options->method = name == "reliable"     ? Method::reliable
-                              : name == "radial"     ? Method::radial
-                              : name == "tangential" ? Method::tangential
-                                                     : Method::normal;
+            options->method = name == "reliable"     ? DepthMethod::reliable
+                              : name == "radial"     ? DepthMethod::radial
+                              : name == "tangential" ? DepthMethod::tangential
+                                                     : DepthMethod::normal;
           },
           "reliable: along rays from the centre where that is a depth, else along the arc about the joint "
           "axis that frees a vertex soonest; radial: along rays; tangential: along arcs about one axis; "

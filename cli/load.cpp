@@ -9,6 +9,7 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/load_result.hpp"
@@ -27,22 +28,6 @@ struct Options {
   AnswerForm form = AnswerForm::text;
 };
 
-LoadAnswer answer_of(const ElasticContact& surfaces, const LoadQuestion& question,
-                     const BalanceGiven& given) {
-  LoadAnswer answer{question.X_FM, {}};
-  if (question.load) {
-    answer.balanced = balance(surfaces, question.X_FM, *question.load, balance_options_of(given));
-    if (!answer.balanced->carries_load()) throw UsageError("--force: " + reason_of(*answer.balanced));
-    answer.X_FM = answer.balanced->X_FM;
-    answer.contact = answer.balanced->contact;
-  } else {
-    answer.contact = surfaces.at(question.X_FM);
-  }
-  answer.cut_off_by_reach = surfaces.cut_off_by_reach(answer.X_FM);
-  answer.refined_force_n = surfaces.refined_force_n(answer.X_FM);
-  return answer;
-}
-
 void run(const Options& options, const CLI::App& command) {
   const LoadedJoint loaded = read_joint(options.joint);
   const Joint& joint = loaded.joint;
@@ -52,18 +37,16 @@ void run(const Options& options, const CLI::App& command) {
   if (!options.out.empty()) check_load_folder(options.out, &from);
   const ContactEntry contact = contact_of(*options.contact, loaded.report.file, true);
   const ContactSurfaces surfaces = surfaces_of(contact, joint);
-  LoadQuestion question{
-      joint, given.pose, given.X_FM, surfaces, contact, {}, noted(loaded, options.strictness), &from};
-  if (options.balance->any()) question.load = load_of(*options.balance);
-  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
-                              elastic_options(contact, surfaces, loaded));
-  const BodyNames names{surfaces.fixed.name, surfaces.mobile.name};
-  std::vector<ContactNote> notes;
-  note_contact(notes, check_layers(layers, names), loaded, options.strictness);
-  if (question.load) note_contact(notes, check_load(*question.load), loaded, options.strictness);
-  LoadAnswer answer = answer_of(layers, question, *options.balance);
-  note_contact(notes, check_contact(answer.contact, names), loaded, options.strictness);
-  answer.notes = std::move(notes);
+  LoadRequest request{.X_FM = given.X_FM, .names = {surfaces.fixed.name, surfaces.mobile.name}};
+  if (options.balance->any()) request.load = load_of(*options.balance);
+  if (request.load) request.balance = balance_options_of(*options.balance);
+  const LoadQuestion question{
+      joint, given.pose, given.X_FM, surfaces, contact, request.load, noted(loaded, options.strictness),
+      &from};
+  const LoadAnswer answer = answer_load(
+      {surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(contact, surfaces, loaded)}, request);
+  note_contact(answer.notes, loaded, options.strictness);
+  if (!answer.carries_load()) throw UsageError("--force: " + reason_of(*answer.balanced));
   if (!options.out.empty())
     say_written(write_load(options.out, question, answer, options.where->vtp_encoding));
   print(options.form == AnswerForm::json ? load_json(question, answer) : load_text(question, answer));

@@ -6,7 +6,6 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <string>
-#include <utility>
 
 #include "answer.hpp"
 #include "condyle/error.hpp"
@@ -41,13 +40,8 @@ std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness) {
   return notes;
 }
 
-void note_contact(std::vector<ContactNote>& notes, std::vector<ContactNote> more, const LoadedJoint& joint,
-                  Strictness strictness) {
-  std::vector<ContactNote> all = notes;
-  add_new(all, std::move(more));
-  say(std::vector<ContactNote>(all.begin() + static_cast<std::ptrdiff_t>(notes.size()), all.end()), joint,
-      strictness);
-  notes = std::move(all);
+void note_contact(const std::vector<ContactNote>& notes, const LoadedJoint& joint, Strictness strictness) {
+  say(notes, joint, strictness);
 }
 
 }  // namespace condyle::cli

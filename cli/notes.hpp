@@ -22,8 +22,7 @@ void add_strict(CLI::App& command, Strictness& strictness);
 /// may fail for that. Where notes are errors, throws MeshError with all of them.
 std::vector<JointNote> noted(const LoadedJoint& joint, Strictness strictness);
 
-/// The same of notes on layers, loads and motions: says those whose code is not among `notes` yet, and adds them.
-void note_contact(std::vector<ContactNote>& notes, std::vector<ContactNote> more, const LoadedJoint& joint,
-                  Strictness strictness);
+/// The same of notes on layers, loads and motions, once there is an answer.
+void note_contact(const std::vector<ContactNote>& notes, const LoadedJoint& joint, Strictness strictness);
 
 }  // namespace condyle::cli

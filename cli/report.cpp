@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "answer.hpp"
+#include "answered_motion.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
@@ -18,7 +19,6 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/report.hpp"
-#include "motion_surfaces.hpp"
 #include "notes.hpp"
 #include "range.hpp"
 #include "range_options.hpp"
@@ -94,13 +94,10 @@ void run(const Options& options, const CLI::App& command) {
   check_report_file(options.out, &from);
 
   std::vector<ContactNote> contact_notes;
-  const auto also_note = [&](std::vector<ContactNote> more) {
-    note_contact(contact_notes, std::move(more), loaded, options.strictness);
-  };
   if (recorded) {
-    recorded->answer.frames = MotionSurfaces(recorded->question).frames(recorded->motion.X_FM);
-    also_note(recorded->motion.notes);
-    also_note(check_motion(recorded->answer.frames, {loaded.joint.fixed.name, loaded.joint.mobile.name}));
+    recorded->answer =
+        answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never});
+    contact_notes = recorded->answer.notes;
   }
   ContactEntry contact;
   std::optional<ReportedLayers> layers;
@@ -108,9 +105,10 @@ void run(const Options& options, const CLI::App& command) {
     contact = contact_of({}, loaded.report.file, true);
     const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
     layers.emplace(ReportedLayers{contact, elastic_options(contact, surfaces, loaded)});
-    also_note(check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
-                           {surfaces.fixed.name, surfaces.mobile.name}));
+    add_new(contact_notes, check_layers(surfaces.fixed.mesh, surfaces.mobile.mesh, layers->options,
+                                        {surfaces.fixed.name, surfaces.mobile.name}));
   }
+  note_contact(contact_notes, loaded, options.strictness);
   const auto [answer, error] = range_of(loaded, request);
   std::optional<RomResult> rom;
   if (answer) {

@@ -8,10 +8,10 @@ int main() {
   const condyle::JointContact contact(hip);  // tables and trees, built once and asked at any pose
   const condyle::JointAngles flexed{condyle::Angle::degrees(140), {}, {}};
   const auto X_FM = condyle::pose_at(hip.coordinates(), flexed);  // p_fixed = X_FM * p_mobile
-  const auto at = condyle::depth_at(contact, hip, flexed, X_FM, condyle::DepthMethod::reliable,
-                                    condyle::DistancesOf::vertices_inside);
-  const auto deepest = condyle::deepest_of(at.reliable);
+  const auto answer = condyle::answer_depth(contact, hip, {.pose = flexed, .X_FM = X_FM});
+  const auto& rays = std::get<condyle::RayDepths>(answer.depths);
+  const auto deepest = condyle::deepest_of(rays.reliable);
   std::printf("depth %.2f mm, volume %.1f mm3; %zu triangle pairs\n",
-              deepest ? deepest->vertex.depth_mm : 0.0, at.measures.volume_mm3.value_or(0),
-              at.contact.pairs.size());
+              deepest ? deepest->vertex.depth_mm : 0.0, answer.measures.volume_mm3.value_or(0),
+              rays.contact.pairs.size());
 }

@@ -14,7 +14,7 @@ set(radial_uses core simd mesh)
 set(tangential_uses core simd mesh)
 set(contact_uses core mesh kinematics radial tangential)
 set(motion_uses core mesh kinematics radial tangential contact)
-set(answer_uses core kinematics motion)
+set(answer_uses core kinematics contact motion)
 set(sample_uses core mesh)
 set(io_uses core mesh kinematics contact motion answer sample)
 

@@ -7,23 +7,31 @@
 #include <stop_token>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "condyle/bearing.hpp"
 #include "condyle/clock_face.hpp"
+#include "condyle/contact_checks.hpp"
 #include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/motion_map.hpp"
+#include "condyle/normal_contact.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "condyle/recorded_contact.hpp"
+#include "condyle/reliable_depth.hpp"
 
-/// One function per question: a request in, an owning result out. The command, the Python module, studies and reports all ask
-/// here, so that they say the same bits, notes included.
+/// One function per question: a request in, an owning result out. The command, the Python module, studies, reports and the page
+/// all ask here, so that they say the same bits, notes included.
 ///
-///     RangeRequest request{.motions = hip_motions()};
-///     const auto answer = answer_range(joint, placement, request);
+///     const auto depth = answer_depth(joint, {.pose = flexed, .X_FM = X_FM});
+///     const auto range = answer_range(joint, placement, {.motions = hip_motions()});
+///     const auto load  = answer_load(cartilages, {.X_FM = X_FM, .load = stance});
+///     const auto gait  = answer_motion(bodies, &cartilages, {.X_FM = frames, .time_s = times});
 
 namespace condyle {
 
@@ -33,6 +41,162 @@ struct AnswerControl {
   std::function<void(std::string_view stage, std::size_t done, std::size_t total)> progress = {};
   std::stop_token stop = {};
 };
+
+// ---- one pose ------------------------------------------------------------------------------------------------------------
+
+enum class DepthMethod : std::uint8_t {
+  reliable,  ///< Along rays from the centre if that is a depth, else along the arc that frees a vertex soonest.
+  radial,    ///< Along rays only.
+  tangential,  ///< Along arcs about one axis of the joint.
+  normal,      ///< Along normals of triangles, open meshes too.
+};
+
+/// Which measures an answer has beside its depths.
+enum class MeasuresOf : std::uint8_t {
+  contact,         ///< Areas, volume, centroids and nearest points too: most of the time of a deep pose.
+  distances_only,  ///< Nearest distances of vertices; the other measures stay as they are made.
+};
+
+/// What may be asked about one pose, with its defaults.
+struct DepthRequest {
+  JointAngles pose = {};  ///< the angles of X_FM: arcs are about the joint's axes there
+  Pose X_FM = Pose::Identity();
+  DepthMethod method = DepthMethod::reliable;
+  /// With DepthMethod::tangential the angle about whose axis arcs go; default: flexion.
+  std::optional<JointAngle> about = {};
+  /// With DepthMethod::normal the body whose triangles cast, and how; defaults: both, NormalDepthOptions{}.
+  std::optional<Casting> casting = {};
+  std::optional<NormalDepthOptions> rays = {};
+  DistancesOf distances = DistancesOf::vertices_inside;
+  MeasuresOf measures = MeasuresOf::contact;
+};
+
+/// DepthMethod::reliable and radial: every vertex along its ray, and the depth to read of each. With `radial` that is its radial
+/// depth, or its nearest distance if that is none.
+struct RayDepths {
+  RadialContact contact;
+  ReliableContact reliable;
+};
+
+/// A rotation axis, by its joint angle and as a direction in F.
+struct RotationAxis {
+  JointAngle about;
+  Vec3 direction_F;
+};
+
+/// DepthMethod::tangential: every vertex along its circle.
+struct ArcDepths {
+  RotationAxis axis;
+  TangentialContact contact;
+};
+
+struct DepthAnswer {
+  DepthRequest request;
+  ContactMeasures measures;  ///< with DepthMethod::normal nearest distances and points only
+  std::variant<RayDepths, ArcDepths, NormalContact> depths;
+  std::vector<std::string> caveats = {};  ///< what the depths must be read with, a sentence each
+
+  bool in_contact() const noexcept;
+};
+
+/// Throws UsageError for options of another method, for arcs at a pose that translates, and for a reach that is not above 0.
+void check_depth_request(const DepthRequest& request);
+
+/// Depths at one pose. `bodies` are those of `joint`, and keep their tables for the next pose: the first call builds them, later
+/// ones take some milliseconds in contact, arcs more.
+///
+/// Throws UsageError as check_depth_request(), MeshError as JointContact::radial() does. Open meshes have no inside: what lacks
+/// an answer for that is empty.
+DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const DepthRequest& request);
+DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
+
+// ---- a load in one pose --------------------------------------------------------------------------------------------------
+
+/// What may be asked about the pressure of layers, with its defaults.
+struct LoadRequest {
+  Pose X_FM = Pose::Identity();
+  /// The mobile body is moved from X_FM to where the contact carries this; default: it stays.
+  std::optional<Load> load = {};
+  BalanceOptions balance = {};
+  BodyNames names = {};  ///< as notes call the bodies
+};
+
+/// The pose requested, or the balanced one.
+struct LoadAnswer {
+  Pose X_FM = Pose::Identity();
+  ElasticContactResults contact = {};
+  std::optional<BalancedPose> balanced = {};  ///< if a load was requested
+  std::size_t cut_off_by_reach = 0;           ///< rays
+  std::optional<Vec3> refined_force_n = {};   ///< ElasticContact::refined_force_n() at X_FM
+  std::vector<ContactNote> notes = {};        ///< what looks wrong with layers, load and contact
+
+  /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are where the
+  /// search ended, and the numbers mean nothing.
+  bool carries_load() const noexcept { return !balanced || balanced->carries_load(); }
+};
+
+/// Throws UsageError for a moment without free rotations, which nothing would balance.
+void check_load_request(const LoadRequest& request);
+
+/// Pressure at a pose, or at the pose that balances a load. Throws UsageError as check_load_request() and balance(), MeshError
+/// as ElasticContact::at(). Costs two evaluations of the contact and sixteen rays for each triangle, and a balance ten more.
+LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& request);
+
+// ---- a recorded motion ---------------------------------------------------------------------------------------------------
+
+/// Which contact between the samples of a motion is searched for.
+enum class BetweenFrames : std::uint8_t {
+  never,
+  if_exact,  ///< If the mobile body's origin stays in one place, times are known and poses are as recorded: exact and cheap.
+  always,    ///< Also where the origin moves: bounded. Needs times, and poses as recorded.
+};
+
+/// What may be asked about a recorded motion, with its defaults.
+struct MotionRequest {
+  std::vector<std::optional<Pose>> X_FM = {};  ///< one per frame, empty for gaps
+  std::vector<double> time_s = {};             ///< one per frame, or none if times are not known
+  /// The mobile body is moved to where the contact carries this, the same in all frames; default: poses are as recorded.
+  std::optional<Load> load = {};
+  /// The same with a load for each frame; an empty one makes its frame a gap, and a frame whose load is zero has no answer.
+  std::vector<std::optional<Load>> loads = {};
+  BalanceOptions balance = {};
+  BetweenFrames between = BetweenFrames::if_exact;
+  BodyRole casting = BodyRole::mobile;  ///< of a NormalDepth, which does not know
+  BodyNames names = {};                 ///< as notes call the bodies
+
+  bool has_load() const noexcept { return load || !loads.empty(); }
+};
+
+/// Contact in every frame, and how a load was balanced.
+struct MotionAnswer {
+  std::vector<std::optional<FrameContact>> frames = {};
+  std::vector<std::optional<BalancedPose>> balanced = {};  ///< none if no load was requested
+  /// Frames whose own load is zero along what is free, ascending: no pose was searched for, and they have no answer.
+  std::vector<std::size_t> without_load = {};
+  /// Contact between the samples too; samples are numbered as the frames.
+  std::optional<RecordedContact> between = {};
+  /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
+  /// ElasticContact::refined_force_n(). Empty without pressure.
+  std::optional<double> refined_largest_force_n = {};
+  std::vector<ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
+};
+
+/// Throws UsageError for times or loads that are not as many as frames, loads of both kinds, a moment without free rotations, or
+/// BetweenFrames::always without times or with a load.
+void check_motion_request(const MotionRequest& request);
+
+/// Contact along a motion; empty if it was stopped. Stages: "balanced frames", "ways between samples", "frames".
+///
+/// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
+std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+                                          const MotionRequest& request, const AnswerControl& control);
+MotionAnswer answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+                           const MotionRequest& request);
+
+/// The frame with the largest force on the mobile body; empty if none is above 0.
+std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
+
+// ---- the range of motion -------------------------------------------------------------------------------------------------
 
 /// What may be asked about the range of motion, with its defaults.
 struct RangeRequest {

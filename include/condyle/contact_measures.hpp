@@ -74,4 +74,11 @@ enum class DistancesOf { vertices_inside, all_vertices };
 ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& contact,
                                 DistancesOf distances);
 
+/// The distances of measure_contact() only.
+NearestDistances nearest_distances(const JointContact& joint, const Pose& X_FM,
+                                   const MeasuredContact& contact, DistancesOf distances);
+
+/// summarise() with nearest distances that are known already; those of vertices inside are enough.
+RadialSummary summarise(const RadialContact& contact, const NearestDistances& distances);
+
 }  // namespace condyle

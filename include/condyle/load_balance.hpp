@@ -38,6 +38,9 @@ struct BalanceOptions {
   double most_left_at_jump = 0.02;
 };
 
+/// Whether nothing of a load acts along what the balance leaves free: no pose is the one that carries it.
+bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options);
+
 enum class BalanceOutcome {
   balanced,
   at_jump,  ///< all but a little of the load is carried, and the force jumps just beyond, or no step was found that leaves less

@@ -77,23 +77,4 @@ std::optional<DeepestOfBoth> deepest_of(const ReliableContact& contact);
 /// Vertices inside of either body of which neither ray nor arc is a depth.
 std::size_t without_depth(const ReliableContact& contact) noexcept;
 
-/// Which depths an answer leads with.
-enum class DepthMethod {
-  reliable,  ///< of each vertex the one that means a depth there
-  radial,    ///< radial depths where they are depths
-};
-
-/// What a pose shows of both bodies.
-struct PoseDepth {
-  RadialContact contact;
-  ContactMeasures measures;
-  ReliableContact reliable;
-};
-
-/// The answer of `condyle depth`, of Python, studies, pictures and the page: all call this. `bodies` are those of `joint`, `pose` are
-/// the angles of X_FM. Depths along arcs only if X_FM does not translate: about which axis another one would turn depends on how it
-/// got there. Raises as JointContact::radial() does.
-PoseDepth depth_at(const JointContact& bodies, const Joint& joint, const JointAngles& pose, const Pose& X_FM,
-                   DepthMethod method, DistancesOf distances);
-
 }  // namespace condyle

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/held_translation.hpp"
@@ -29,15 +30,6 @@ ClockFace clock_of(const Joint& joint, ClockPlane plane, const BearingFinding& b
   if (!clock)
     throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
   return *clock;
-}
-
-/// What map and band report, under the name of what they count.
-auto staged(const AnswerControl& control, std::string_view stage) {
-  return control.progress ? std::function<void(std::size_t, std::size_t)>(
-                                [&control, stage](std::size_t done, std::size_t total) {
-                                  control.progress(stage, done, total);
-                                })
-                          : nullptr;
 }
 
 void add_depth_limits(RangeAnswer& answer, const RangeRequest& request) {
@@ -71,12 +63,12 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
     for (const MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
   }
   if (request.map) {
-    answer.map = motion_map(*request.map, range, {staged(control, "map points"), control.stop});
+    answer.map = motion_map(*request.map, range, {answer::staged(control, "map points"), control.stop});
     if (!answer.map) return false;
   }
   if (request.bands) {
     auto bands = limit_bands(answer.joint, request.motions, again, *request.bands,
-                             {staged(control, "joints of the band"), control.stop});
+                             {answer::staged(control, "joints of the band"), control.stop});
     if (!bands) return false;
     answer.bands = std::move(*bands);
   }

@@ -54,7 +54,23 @@ ContactPatch patch_from(const Sums& sums) {
   return patch;
 }
 
+NearestDistances distances_at(const contact::BodyPair& bodies, const JointContact& joint, const Pose& X_FM,
+                              const Points& mobile_in_F, const MeasuredContact& meeting, DistancesOf which) {
+  const auto to_fixed = [&](const Vec3& p_F) { return mesh::distance_to_surface(bodies.fixed_tree(), p_F); };
+  const auto to_mobile = [&](const Vec3& p_M) {
+    return mesh::distance_to_surface(bodies.mobile_tree(), p_M);
+  };
+  return {distances_of(mobile_in_F, meeting.mobile, which, to_fixed),
+          distances_of(posed(inverted(X_FM), joint.fixed().vertices()), meeting.fixed, which, to_mobile)};
+}
+
 }  // namespace
+
+NearestDistances nearest_distances(const JointContact& joint, const Pose& X_FM,
+                                   const MeasuredContact& meeting, DistancesOf which) {
+  return distances_at(contact::body_pair_of(joint), joint, X_FM, posed(X_FM, joint.mobile().vertices()),
+                      meeting, which);
+}
 
 ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, const MeasuredContact& meeting,
                                 DistancesOf which) {
@@ -66,8 +82,7 @@ ContactMeasures measure_contact(const JointContact& joint, const Pose& X_FM, con
   };
   const TriMesh mobile_in_F = posed(X_FM, joint.mobile());
   ContactMeasures out;
-  out.distances = {distances_of(mobile_in_F.vertices, meeting.mobile, which, to_fixed),
-                   distances_of(posed(X_MF, joint.fixed().vertices()), meeting.fixed, which, to_mobile)};
+  out.distances = distances_at(bodies, joint, X_FM, mobile_in_F.vertices, meeting, which);
   const mesh::ClosestPoints closest = *mesh::closest_points(bodies.fixed_tree(), bodies.mobile_tree(), X_FM);
   out.nearest = {closest.distance_mm, closest.a_point, closest.b_point};
   if (!meeting.mobile && !meeting.fixed) return out;

@@ -424,4 +424,13 @@ std::string reason_of(const BalancedPose& pose) {
   return "";
 }
 
+bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options) {
+  Vec3 force = load.on_mobile.force_n;
+  if (load.frame == BodyRole::mobile) force = X_FM.linear() * force;
+  if (options.free_rotations && !load.on_mobile.moment_nmm.isZero(0)) return false;
+  if (options.free_directions.empty()) return force.isZero(0);
+  return std::all_of(options.free_directions.begin(), options.free_directions.end(),
+                     [&](const Vec3& direction) { return direction.dot(force) == 0; });
+}
+
 }  // namespace condyle

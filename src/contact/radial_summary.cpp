@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "condyle/contact_measures.hpp"
 #include "contact/body_pair.hpp"
 #include "mesh/surface_distance.hpp"
 
@@ -64,6 +65,15 @@ RadialSummary summarise(const JointContact& joint, const Pose& X_FM, const Radia
       return mesh::distance_to_surface(bodies.mobile_tree(), posed(X_MF, joint.fixed().vertices()[v]));
     });
   }
+  return summary;
+}
+
+RadialSummary summarise(const RadialContact& contact, const NearestDistances& distances) {
+  RadialSummary summary;
+  if (contact.mobile_in_fixed)
+    summary.mobile = summary_of(*contact.mobile_in_fixed, [&](Index v) { return distances.mobile[v]; });
+  if (contact.fixed_in_mobile)
+    summary.fixed = summary_of(*contact.fixed_in_mobile, [&](Index v) { return distances.fixed[v]; });
   return summary;
 }
 

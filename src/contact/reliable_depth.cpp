@@ -145,16 +145,4 @@ std::size_t without_depth(const ReliableContact& contact) noexcept {
   return (contact.mobile ? contact.mobile->without : 0) + (contact.fixed ? contact.fixed->without : 0);
 }
 
-PoseDepth depth_at(const JointContact& bodies, const Joint& joint, const JointAngles& pose, const Pose& X_FM,
-                   DepthMethod method, DistancesOf distances) {
-  PoseDepth out;
-  out.contact = bodies.radial(X_FM);
-  out.measures = measure_contact(bodies, X_FM, MeasuredContact(out.contact), distances);
-  out.reliable = method == DepthMethod::reliable && X_FM.translation() == Vec3::Zero()
-                     ? reliable_depths(bodies, joint.kind, joint.coordinates(), pose, out.contact,
-                                       out.measures.distances)
-                     : reliable_radial_depths(out.contact, out.measures.distances);
-  return out;
-}
-
 }  // namespace condyle

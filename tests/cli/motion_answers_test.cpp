@@ -139,7 +139,7 @@ TEST_F(Motion, BetweenIsRefusedWhereItIsNotLookedFor) {
   };
   refused("motion cup.toml --motion good.csv --between --force 0 -1000 0", "--between");
   refused("motion cup.toml --motion good.csv --between --loads loads.csv", "--between");
-  refused("motion cup.toml --motion frames.csv --between", "--between: needs times in seconds");
+  refused("motion cup.toml --motion frames.csv --between", "between: needs times in seconds");
   EXPECT_EQ(run("motion cup.toml --motion good.csv --between").exit_code, 0);
 }
 

@@ -120,7 +120,7 @@ TEST_F(NormalMethod, ItsOptionsAreRefusedElsewhereAndWhereTheyMakeNoSense) {
   for (const char* option : {"--casting fixed", "--rule cut_faces", "--reach 5"})
     expect_refusal(run(std::string("depth joint.toml --pairs-only ") + option), 2, "are for --method normal",
                    option);
-  expect_refusal(by_normals("--about flexion"), 2, "--about: is for --method tangential", "");
+  expect_refusal(by_normals("--about flexion"), 2, "about: is for method tangential", "");
   expect_refusal(by_normals("--reach 0"), 2, "the reach of rays must be above 0 mm", "");
   expect_refusal(by_normals("--casting ball"), 2, "--casting", "");
 }

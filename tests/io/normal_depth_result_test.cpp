@@ -73,10 +73,11 @@ Pose at_height(double y) {
 
 DepthResult result_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
   const DepthQuestion question{.joint = joint, .pose = {.translation_mm = X_FM.translation()}, .X_FM = X_FM};
-  const JointContact bodies(joint);
-  return depth_result(question, entry,
-                      measure_contact(bodies, X_FM, MeasuredContact(), DistancesOf::all_vertices),
-                      normal_contact(bodies, X_FM, entry.casting, entry.rays));
+  return depth_result(question, answer_depth(joint, {.X_FM = X_FM,
+                                                     .method = DepthMethod::normal,
+                                                     .casting = entry.casting,
+                                                     .rays = entry.rays,
+                                                     .distances = DistancesOf::all_vertices}));
 }
 Json json_of(const Joint& joint, const Pose& X_FM, const ContactEntry& entry = {}) {
   return Json::parse(result_of(joint, X_FM, entry).json);

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "condyle/answer.hpp"
 #include "condyle/held_translation.hpp"
-#include "condyle/reliable_depth.hpp"
 #include "page_joint.hpp"
 
 using namespace condyle;
@@ -198,11 +198,12 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
   return guarded(-1, [&] {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Pose X_FM = pose_of(pose);
-    const auto [contact, measures, reliable] =
-        depth_at(joint->bodies, joint->joint, angles_of(angles_deg), X_FM, DepthMethod::reliable,
-                 DistancesOf::vertices_inside);
+    const DepthAnswer depth =
+        answer_depth(joint->bodies, joint->joint, {.pose = angles_of(angles_deg), .X_FM = X_FM});
+    const ContactMeasures& measures = depth.measures;
+    const ReliableContact& reliable = std::get<RayDepths>(depth.depths).reliable;
     std::fill_n(answer, 16, none);
-    answer[0] = contact.in_contact ? 1 : 0;
+    answer[0] = depth.in_contact() ? 1 : 0;
     answer[1] = 0;
     if (const auto deepest = deepest_of(reliable)) {
       const DeepestReliable& vertex = deepest->vertex;

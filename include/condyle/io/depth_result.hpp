@@ -4,16 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "condyle/contact.hpp"
-#include "condyle/contact_measures.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
-#include "condyle/normal_contact.hpp"
-#include "condyle/reliable_depth.hpp"
 
 /// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
 
@@ -24,18 +21,11 @@ struct DepthQuestion {
   const Joint& joint;
   PoseDegrees pose;  ///< as it was given
   Pose X_FM;
-  std::vector<JointNote> notes = {};    ///< what looks wrong with the joint
-  std::vector<std::string> terms = {};  ///< what the answer must be read with, one line each
+  std::vector<JointNote> notes = {};  ///< what looks wrong with the joint
   /// Where the answer comes from and in which frame it is given; null: not known, and the joint frame.
   const Provenance* provenance = nullptr;
 
   AnswerFrame frame() const { return provenance ? provenance->frame : AnswerFrame{}; }
-};
-
-/// A rotation axis, by its joint angle and as a direction in F.
-struct RotationAxis {
-  JointAngle about;
-  Vec3 direction_F;
 };
 
 /// Arrays of one body, the first of each to colour by: finite everywhere, 0 for what is not inside. On points, where the
@@ -53,17 +43,8 @@ struct DepthResult {
   DepthArrays fixed, mobile;
 };
 
-/// The depths to read, and the radial ones. `depth` is what depth_at() gave by this method.
-DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
-                         const RadialSummary& summary);
-
-/// The tangential depths about one axis.
-DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
-                         const RotationAxis& axis, const TangentialContact& contact);
-
-/// Depths along normals, of the bodies that `rays` has cast. Of the measures nearest distances only.
-DepthResult depth_result(const DepthQuestion& question, const ContactEntry& rays,
-                         const ContactMeasures& measures, const NormalContact& contact);
+/// `answer` is that of answer_depth() to the question's pose.
+DepthResult depth_result(const DepthQuestion& question, const DepthAnswer& answer);
 
 /// Whether tables of vertices are written too.
 enum class VertexTables { leave_out, write };

@@ -5,14 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "condyle/contact_checks.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
-#include "condyle/load_balance.hpp"
 
 /// What `condyle load` found, for files. Every key and array is in docs/formats.md.
 
@@ -27,18 +26,6 @@ struct LoadQuestion {
   std::optional<Load> load = {};  ///< that was balanced
   std::vector<JointNote> notes = {};
   const Provenance* provenance = nullptr;
-};
-
-/// The pose that was asked, or the balanced one.
-struct LoadAnswer {
-  Pose X_FM;
-  ElasticContactResults contact;
-  std::optional<BalancedPose> balanced = {};
-  std::size_t cut_off_by_reach = 0;  ///< rays
-  /// ElasticContact::refined_force_n() at that pose.
-  std::optional<Vec3> refined_force_n = {};
-  /// What looks wrong with layers, load and contact.
-  std::vector<ContactNote> notes = {};
 };
 
 std::string load_text(const LoadQuestion& question, const LoadAnswer& answer);

@@ -7,15 +7,13 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/contact_checks.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/curve_files.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"
-#include "condyle/motion_contact.hpp"
-#include "condyle/recorded_contact.hpp"
 
 /// What `condyle motion` found, for files. Every column, key and array is in docs/motion-files.md.
 
@@ -31,33 +29,10 @@ struct MotionQuestion {
   const Provenance* provenance = nullptr;
 };
 
-/// Contact of all frames, and where a load was balanced, how.
-struct MotionAnswer {
-  std::vector<std::optional<FrameContact>> frames;
-  std::vector<std::optional<BalancedPose>> balanced = {};  ///< none where no load was given
-  /// Frames whose load is zero along what is free, ascending: no pose was looked for, and they have no answer.
-  std::vector<std::size_t> without_load = {};
-  /// Contact between the samples too, where that was asked for; samples are numbered as the frames.
-  std::optional<RecordedContact> between = {};
-  /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
-  /// ElasticContact::refined_force_n(). Empty without pressure.
-  std::optional<double> refined_largest_force_n = {};
-  /// What looks wrong with layers, loads and the motion.
-  std::vector<ContactNote> notes = {};
-};
-
-/// The frame with the largest force on the mobile body; empty where there is none above 0.
-std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
-
 /// How one end of a contact is known: "exact", "bounded", "recording_begins" of an entry or "recording_ends" of an exit: the bodies
 /// were in contact before the first, or are after the last sample.
 enum class ContactEndRole { entry, exit };
 std::string_view name_of(ContactEndKind kind, ContactEndRole role) noexcept;
-
-/// contact_between() over frames with gaps: each run of frames without one is a recording of its own. Empty where it was
-/// stopped. UsageError where times are not in seconds.
-std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const JointMotion& motion,
-                                                      const RecordedContactControl& control = {});
 
 /// One curve for each number of a frame; nothing for gaps, and for centres of frames without contact.
 Curves curves_of(const MotionQuestion& question, const MotionAnswer& answer);

@@ -16,7 +16,4 @@ namespace condyle::io {
 std::vector<std::optional<Load>> loads_of(const MotionTable& table, const FrameTimes& times, BodyRole frame,
                                           bool free_rotations);
 
-/// Whether nothing of a load acts along what the balance leaves free: no pose is the one that carries it.
-bool is_zero_along(const Load& load, const Pose& X_FM, const BalanceOptions& options);
-
 }  // namespace condyle::io

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "condyle/contact_measures.hpp"
-#include "condyle/reliable_depth.hpp"
+#include "condyle/answer.hpp"
 #include "mesh/require_solid.hpp"
 
 namespace condyle::io {
@@ -41,9 +40,16 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
         .mobile = {.mm = std::move(contact.mobile_in_fixed->radial_gap_mm), .outside = {}, .is_bound = {}}};
   }
   const DepthMethod method = colour == PictureColour::nearest ? DepthMethod::radial : DepthMethod::reliable;
-  auto [contact, measures, reliable] = depth_at(bodies, joint, at, X_FM, method, DistancesOf::all_vertices);
-  auto of_fixed = signed_distances(std::move(measures.distances.fixed), contact.fixed_in_mobile);
-  auto of_mobile = signed_distances(std::move(measures.distances.mobile), contact.mobile_in_fixed);
+  DepthAnswer answer = answer_depth(bodies, joint,
+                                    {.pose = at,
+                                     .X_FM = X_FM,
+                                     .method = method,
+                                     .distances = DistancesOf::all_vertices,
+                                     .measures = MeasuresOf::distances_only});
+  auto& [contact, reliable] = std::get<RayDepths>(answer.depths);
+  NearestDistances& distances = answer.measures.distances;
+  auto of_fixed = signed_distances(std::move(distances.fixed), contact.fixed_in_mobile);
+  auto of_mobile = signed_distances(std::move(distances.mobile), contact.mobile_in_fixed);
   if (colour == PictureColour::nearest)
     return {.fixed = {.mm = std::move(of_fixed), .outside = {}, .is_bound = {}},
             .mobile = {.mm = std::move(of_mobile), .outside = {}, .is_bound = {}}};

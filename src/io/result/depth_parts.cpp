@@ -19,8 +19,8 @@ Json matrix_json(const Pose& X) {
 
 }  // namespace
 
-Json depth_header(const DepthQuestion& question, const char* method) {
-  const auto& [joint, pose, X_FM, notes, terms, provenance] = question;
+Json depth_header(const DepthQuestion& question, const DepthAnswer& answer, const char* method) {
+  const auto& [joint, pose, X_FM, notes, provenance] = question;
   Json json{{"condyle", format_version},
             {"joint", joint.name},
             {"fixed", joint.fixed.name},
@@ -30,7 +30,7 @@ Json depth_header(const DepthQuestion& question, const char* method) {
             {"method", method},
             {"pose_deg", pose_json(pose, joint.anatomy)},
             {"X_FM", matrix_json(X_FM)},
-            {"terms", terms},
+            {"terms", answer.caveats},
             {"notes", notes_json(notes)}};
   if (joint.kind == JointKind::free) {
     json["translation_mm"] = numbers(pose.translation_mm);
@@ -39,8 +39,8 @@ Json depth_header(const DepthQuestion& question, const char* method) {
   return json;
 }
 
-std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs) {
-  const auto& [joint, pose, X_FM, notes, terms, provenance] = question;
+std::string depth_headline(const DepthQuestion& question, const DepthAnswer& answer, std::size_t pairs) {
+  const auto& [joint, pose, X_FM, notes, provenance] = question;
   std::string text = fmt::format("{}: {} in {}", joint.name, joint.mobile.name, joint.fixed.name);
   for (const JointAngle angle : all_joint_angles)
     text += fmt::format(", {} {}", spaced(name_of(angle, joint.anatomy)), pose[angle]);
@@ -49,9 +49,9 @@ std::string depth_headline(const DepthQuestion& question, bool in_contact, std::
     text += fmt::format(", x {}, y {}, z {} mm", pose.translation_mm.x(), pose.translation_mm.y(),
                         pose.translation_mm.z());
   text += "\n";
-  for (const std::string& term : terms) text += fmt::format("  {}\n", term);
-  return text +
-         fmt::format("  {}; {} intersecting triangle pairs\n", in_contact ? "in contact" : "free", pairs);
+  for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
+  return text + fmt::format("  {}; {} intersecting triangle pairs\n",
+                            answer.in_contact() ? "in contact" : "free", pairs);
 }
 
 std::string inside_line(const Body& body, std::size_t inside, std::size_t on_surface) {
@@ -194,3 +194,15 @@ std::optional<JointAngle> angle_of(DepthWay way) noexcept {
 }
 
 }  // namespace condyle::io
+
+namespace condyle {
+
+DepthResult depth_result(const DepthQuestion& question, const DepthAnswer& answer) {
+  if (const auto* rays = std::get_if<RayDepths>(&answer.depths))
+    return io::ray_result(question, answer, *rays);
+  if (const auto* arcs = std::get_if<ArcDepths>(&answer.depths))
+    return io::arc_result(question, answer, *arcs);
+  return io::normal_result(question, answer, std::get<NormalContact>(answer.depths));
+}
+
+}  // namespace condyle

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "condyle/io/depth_result.hpp"
-#include "condyle/reliable_depth.hpp"
 #include "io/result/json.hpp"
 
 /// What the results of all methods have in common.
@@ -13,10 +12,10 @@
 namespace condyle::io {
 
 /// The question and the answers that do not depend on the method.
-Json depth_header(const DepthQuestion& question, const char* method);
+Json depth_header(const DepthQuestion& question, const DepthAnswer& answer, const char* method);
 
 /// "right hip: femur in hip bone, flexion 90, ...", and whether they touch; two lines.
-std::string depth_headline(const DepthQuestion& question, bool in_contact, std::size_t pairs);
+std::string depth_headline(const DepthQuestion& question, const DepthAnswer& answer, std::size_t pairs);
 
 /// The part of the body that a vertex is of and its number there, under this key; nothing where the body is one mesh.
 void add_part(Json& json, const char* key, const Body& body, Index vertex);
@@ -127,5 +126,11 @@ std::string open_line(const Body& body);
 
 /// The angle whose axis a way turns about; nothing for those that turn about none.
 std::optional<JointAngle> angle_of(DepthWay way) noexcept;
+
+/// depth_result() of each method.
+DepthResult ray_result(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths);
+DepthResult arc_result(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths);
+DepthResult normal_result(const DepthQuestion& question, const DepthAnswer& answer,
+                          const NormalContact& contact);
 
 }  // namespace condyle::io

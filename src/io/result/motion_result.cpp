@@ -151,42 +151,6 @@ std::string_view name_of(ContactEndKind kind, ContactEndRole role) noexcept {
                                            : "recording_ends";
 }
 
-std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer) {
-  std::optional<std::size_t> largest;
-  double force = 0;
-  for (std::size_t i = 0; i < answer.frames.size(); ++i) {
-    if (!answer.frames[i] || !(answer.frames[i]->on_mobile.force_n.norm() > force)) continue;
-    force = answer.frames[i]->on_mobile.force_n.norm();
-    largest = i;
-  }
-  return largest;
-}
-
-std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const JointMotion& motion,
-                                                      const RecordedContactControl& control) {
-  if (!motion.times.in_seconds) throw UsageError("contact between frames needs their times in seconds");
-  RecordedContact all;
-  const auto& X_FM = motion.X_FM;
-  for (std::size_t first = 0; first < X_FM.size();) {
-    std::size_t last = first;
-    std::vector<Pose> run;
-    while (last < X_FM.size() && X_FM[last]) run.push_back(*X_FM[last++]);
-    if (run.size() > 1) {
-      const auto times = std::span(motion.times.values).subspan(first, run.size());
-      auto found = contact_between(bodies, times, run, {}, control);
-      if (!found) return std::nullopt;
-      for (ContactInterval& contact : found->contacts) {
-        contact.entry.sample += first, contact.exit.sample += first;
-        all.contacts.push_back(std::move(contact));
-      }
-      all.searched.insert(all.searched.end(), found->searched.begin(), found->searched.end());
-      all.poses += found->poses;
-    }
-    first = last + 1;
-  }
-  return all;
-}
-
 std::string motion_text(const MotionQuestion& question, const MotionAnswer& answer) {
   const Summary summary = summary_of(question, answer);
   const Joint& joint = question.joint.joint;

@@ -51,14 +51,19 @@ io::Json body_json(const Views& bodies, const View& view) {
   return json;
 }
 
-std::string json_of(const DepthQuestion& question, const ContactEntry& rays, const ContactMeasures& measures,
-                    const NormalContact& contact) {
+/// What rays the answer rests on.
+ContactEntry rays_of(const DepthAnswer& answer) {
+  return {.casting = answer.request.casting.value_or(Casting::both),
+          .rays = answer.request.rays.value_or(NormalDepthOptions{})};
+}
+
+std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, const NormalContact& contact) {
   const Views bodies = views(question, contact);
-  io::Json json = io::depth_header(question, "normal");
+  io::Json json = io::depth_header(question, answer, "normal");
   json["in_contact"] = contact.in_contact;
   json["triangle_pairs"] = contact.pairs.size();
-  json["rays"] = io::contact_terms(rays, false);
-  io::add_nearest(json, question, measures);
+  json["rays"] = io::contact_terms(rays_of(answer), false);
+  io::add_nearest(json, question, answer.measures);
   for (const auto* view : bodies.both()) json["bodies"][view->key] = body_json(bodies, *view);
   json["scope"] = scope_text(question.joint);
   json["provenance"] = io::provenance_json(question.provenance);
@@ -92,10 +97,10 @@ std::string body_text(const Views& bodies, const View& view, const NormalDepthOp
   return text;
 }
 
-std::string text_of(const DepthQuestion& question, const ContactEntry& rays, const ContactMeasures& measures,
-                    const NormalContact& contact) {
+std::string text_of(const DepthQuestion& question, const DepthAnswer& answer, const NormalContact& contact) {
   const Views bodies = views(question, contact);
-  std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  const ContactEntry rays = rays_of(answer);
+  std::string text = io::depth_headline(question, answer, contact.pairs.size());
   text += io::contact_terms_text(rays, {question.joint.fixed, question.joint.mobile}, false);
   bool any_depth = false;
   for (const auto* view : bodies.both()) {
@@ -105,7 +110,7 @@ std::string text_of(const DepthQuestion& question, const ContactEntry& rays, con
   }
   if (any_depth && !contact.in_contact)
     text += "  the surfaces do not meet: what open ones overlap by may be none\n";
-  return text + io::nearest_text(measures);
+  return text + io::nearest_text(answer.measures);
 }
 
 std::vector<MeshArray> arrays_of(const std::optional<NormalCast>& cast, const Body& body) {
@@ -115,15 +120,16 @@ std::vector<MeshArray> arrays_of(const std::optional<NormalCast>& cast, const Bo
 
 }  // namespace
 
-DepthResult depth_result(const DepthQuestion& question, const ContactEntry& rays,
-                         const ContactMeasures& measures, const NormalContact& contact) {
+DepthResult io::normal_result(const DepthQuestion& question, const DepthAnswer& answer,
+                              const NormalContact& contact) {
   const Body &fixed = question.joint.fixed, &mobile = question.joint.mobile;
-  return {text_of(question, rays, measures, contact), json_of(question, rays, measures, contact),
-          io::pairs_csv(question.joint, contact.pairs),
-          io::arrays_of(fixed, {io::nearest_array(measures.distances.fixed)}, contact.pairs,
-                        &TrianglePair::fixed, arrays_of(contact.fixed, fixed)),
-          io::arrays_of(mobile, {io::nearest_array(measures.distances.mobile)}, contact.pairs,
-                        &TrianglePair::mobile, arrays_of(contact.mobile, mobile))};
+  const NearestDistances& nearest = answer.measures.distances;
+  return {text_of(question, answer, contact), json_of(question, answer, contact),
+          pairs_csv(question.joint, contact.pairs),
+          io::arrays_of(fixed, {nearest_array(nearest.fixed)}, contact.pairs, &TrianglePair::fixed,
+                        condyle::arrays_of(contact.fixed, fixed)),
+          io::arrays_of(mobile, {nearest_array(nearest.mobile)}, contact.pairs, &TrianglePair::mobile,
+                        condyle::arrays_of(contact.mobile, mobile))};
 }
 
 }  // namespace condyle

@@ -84,17 +84,18 @@ io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   return json;
 }
 
-std::string json_of(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
+std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
                     const RadialSummary& summary) {
-  const auto& [contact, measures, reliable] = depth;
+  const auto& [contact, reliable] = depths;
   const Views bodies = views(question, summary);
   const auto deepest = deepest_of(bodies);
   const auto facing = deepest_facing_of(bodies);
-  io::Json json = io::depth_header(question, method == DepthMethod::reliable ? "reliable" : "radial");
+  io::Json json = io::depth_header(question, answer,
+                                   answer.request.method == DepthMethod::reliable ? "reliable" : "radial");
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
   json["reliable_depth"] = reliable_json(deepest_of(bodies, reliable), question.joint.anatomy);
   json["vertices_without_depth"] = without_depth(reliable);
-  io::add_measures(json, question, measures);
+  io::add_measures(json, question, answer.measures);
   json["max_radial_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
   json["max_facing_radial_depth_mm"] = facing ? facing->vertex.depth_mm : 0.0;
   io::add_deepest(json, deepest);
@@ -121,19 +122,19 @@ std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
                      io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);
 }
 
-std::string text_of(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
+std::string text_of(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
                     const RadialSummary& summary) {
-  const auto& [contact, measures, reliable] = depth;
+  const auto& [contact, reliable] = depths;
   const Views bodies = views(question, summary);
-  std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  std::string text = io::depth_headline(question, answer, contact.pairs.size());
   if (const auto deepest = deepest_of(bodies, reliable))
     text += reliable_text(*deepest, question.joint.anatomy);
   if (const std::size_t count = without_depth(reliable); count > 0)
     text += fmt::format("  {} vertices inside have no {}, only a nearest distance\n", count,
-                        method == DepthMethod::reliable
+                        answer.request.method == DepthMethod::reliable
                             ? "depth along their ray or an arc"
                             : "depth along their ray (--method reliable finds one along an arc)");
-  text += io::measures_text(question, measures);
+  text += io::measures_text(question, answer.measures);
   for (const auto* view : bodies.both()) {
     text += view->summary ? io::inside_line(view->body, view->summary->vertices_inside,
                                             view->summary->vertices_on_surface)
@@ -175,16 +176,18 @@ std::vector<MeshArray> arrays_of(const std::optional<RadialResults>& results,
 
 }  // namespace
 
-DepthResult depth_result(const DepthQuestion& question, DepthMethod method, const PoseDepth& depth,
-                         const RadialSummary& summary) {
-  const auto& [contact, measures, reliable] = depth;
-  return {text_of(question, method, depth, summary), json_of(question, method, depth, summary),
-          io::pairs_csv(question.joint, contact.pairs),
+DepthResult io::ray_result(const DepthQuestion& question, const DepthAnswer& answer,
+                           const RayDepths& depths) {
+  const auto& [contact, reliable] = depths;
+  const NearestDistances& nearest = answer.measures.distances;
+  const RadialSummary summary = summarise(contact, nearest);
+  return {text_of(question, answer, depths, summary), json_of(question, answer, depths, summary),
+          pairs_csv(question.joint, contact.pairs),
           io::arrays_of(question.joint.fixed,
-                        arrays_of(contact.fixed_in_mobile, measures.distances.fixed, reliable.fixed),
+                        condyle::arrays_of(contact.fixed_in_mobile, nearest.fixed, reliable.fixed),
                         contact.pairs, &TrianglePair::fixed),
           io::arrays_of(question.joint.mobile,
-                        arrays_of(contact.mobile_in_fixed, measures.distances.mobile, reliable.mobile),
+                        condyle::arrays_of(contact.mobile_in_fixed, nearest.mobile, reliable.mobile),
                         contact.pairs, &TrianglePair::mobile)};
 }
 

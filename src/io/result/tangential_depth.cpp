@@ -53,15 +53,15 @@ std::string deepest_line(const char* what, std::string_view about, const Deepest
                      deepest.view->body.name, io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
 }
 
-std::string json_of(const DepthQuestion& question, const ContactMeasures& measures, const RotationAxis& axis,
-                    const TangentialContact& contact) {
+std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
+  const auto& [axis, contact] = depths;
   const Views bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
-  io::Json json = io::depth_header(question, "tangential");
+  io::Json json = io::depth_header(question, answer, "tangential");
   json["about"] = name_of(axis.about, question.joint.anatomy);
   json["axis"] = io::numbers(question.frame().fixed_direction(axis.direction_F));
   bodies.add_counts(json, contact.in_contact, contact.pairs.size());
-  io::add_measures(json, question, measures);
+  io::add_measures(json, question, answer.measures);
   json["max_tangential_depth_deg"] = furthest ? furthest->vertex.depth.degrees() : 0.0;
   json["max_tangential_depth_mm"] = deepest ? deepest->vertex.depth_mm : 0.0;
   io::add_deepest(json, deepest);
@@ -73,17 +73,17 @@ std::string json_of(const DepthQuestion& question, const ContactMeasures& measur
   return io::document(json);
 }
 
-std::string text_of(const DepthQuestion& question, const ContactMeasures& measures, const RotationAxis& axis,
-                    const TangentialContact& contact) {
+std::string text_of(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
+  const auto& [axis, contact] = depths;
   const Views bodies = views(question, contact);
   const std::string_view about = name_of(axis.about, question.joint.anatomy);
-  std::string text = io::depth_headline(question, contact.in_contact, contact.pairs.size());
+  std::string text = io::depth_headline(question, answer, contact.pairs.size());
   const auto deepest = longest(bodies), furthest = largest(bodies);
   if (deepest) text += deepest_line("deepest", about, *deepest);
   if (furthest && (furthest->view != deepest->view || furthest->vertex.vertex != deepest->vertex.vertex)) {
     text += deepest_line("largest angle", about, *furthest);
   }
-  text += io::measures_text(question, measures);
+  text += io::measures_text(question, answer.measures);
   for (const auto* view : bodies.both()) {
     if (!view->summary) {
       text += io::open_line(view->body);
@@ -136,13 +136,15 @@ std::vector<MeshArray> arrays_of(const std::optional<TangentialResults>& results
 
 }  // namespace
 
-DepthResult depth_result(const DepthQuestion& question, const ContactMeasures& measures,
-                         const RotationAxis& axis, const TangentialContact& contact) {
-  return {text_of(question, measures, axis, contact), json_of(question, measures, axis, contact),
-          io::pairs_csv(question.joint, contact.pairs),
-          io::arrays_of(question.joint.fixed, arrays_of(contact.fixed_in_mobile, measures.distances.fixed),
+DepthResult io::arc_result(const DepthQuestion& question, const DepthAnswer& answer,
+                           const ArcDepths& depths) {
+  const TangentialContact& contact = depths.contact;
+  const NearestDistances& nearest = answer.measures.distances;
+  return {text_of(question, answer, depths), json_of(question, answer, depths),
+          pairs_csv(question.joint, contact.pairs),
+          io::arrays_of(question.joint.fixed, condyle::arrays_of(contact.fixed_in_mobile, nearest.fixed),
                         contact.pairs, &TrianglePair::fixed),
-          io::arrays_of(question.joint.mobile, arrays_of(contact.mobile_in_fixed, measures.distances.mobile),
+          io::arrays_of(question.joint.mobile, condyle::arrays_of(contact.mobile_in_fixed, nearest.mobile),
                         contact.pairs, &TrianglePair::mobile)};
 }
 

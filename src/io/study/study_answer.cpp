@@ -7,10 +7,8 @@
 #include <utility>
 
 #include "condyle/answer.hpp"
-#include "condyle/contact_measures.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/rom_result.hpp"
-#include "condyle/reliable_depth.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/result/csv_field.hpp"
@@ -129,13 +127,11 @@ PoseDegrees pose_of(const StudyTable& table, const StudyRow& row, const Joint& j
 }
 
 void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {
-  const JointContact bodies(joint);
-  const Pose X_FM = pose_at(joint.coordinates(), at.angles());
-  const PoseDepth depth =
-      depth_at(bodies, joint, at.angles(), X_FM, DepthMethod::reliable, DistancesOf::vertices_inside);
-  const auto& [contact, measures, depths] = depth;
-  const auto deepest = deepest_of(depths);
-  fields.push_back(contact.in_contact ? "1" : "0");
+  const DepthAnswer answer =
+      answer_depth(joint, {.pose = at.angles(), .X_FM = pose_at(joint.coordinates(), at.angles())});
+  const ContactMeasures& measures = answer.measures;
+  const auto deepest = deepest_of(std::get<RayDepths>(answer.depths).reliable);
+  fields.push_back(answer.in_contact() ? "1" : "0");
   fields.push_back(deepest ? fmt::format("{}", deepest->vertex.depth_mm) : "");
   fields.push_back(deepest ? name_of_way(deepest->vertex.way, joint.anatomy) : "");
   fields.push_back(text_of(measures.volume_mm3));

@@ -4,8 +4,8 @@
 
 #include <utility>
 
+#include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/load_balance.hpp"
 
 namespace condyle::io {
 namespace {
@@ -56,12 +56,12 @@ Vec3 in_joint_frame(const Joint& joint, const Vec3& anterior_superior_lateral) {
   return {v.x(), v.y(), joint.side == Side::left ? -v.z() : v.z()};
 }
 
-BalancedPose balanced(const Joint& joint, const ElasticContact& layers, const Pose& start,
-                      const StudyLoad& load) {
-  BalanceOptions options;
+LoadRequest request_of(const Joint& joint, const StudyLoad& load, const BodyNames& names) {
+  LoadRequest request{.X_FM = pose_at(joint.coordinates(), load.at.angles()), .names = names};
+  if (load.force_n) request.load = Load{.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}};
   for (const Vec3& direction : load.free_directions)
-    options.free_directions.push_back(in_joint_frame(joint, direction));
-  return balance(layers, start, {.on_mobile = {.force_n = in_joint_frame(joint, *load.force_n)}}, options);
+    request.balance.free_directions.push_back(in_joint_frame(joint, direction));
+  return request;
 }
 
 }  // namespace
@@ -109,35 +109,26 @@ LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
   const ContactSurfaces surfaces = surfaces_of(contact, joint);
   const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
                               elastic_options(contact, surfaces, loaded));
-  Pose X_FM = pose_at(joint.coordinates(), load.at.angles());
-  ElasticContactResults found;
+  const LoadRequest request = request_of(joint, load, {surfaces.fixed.name, surfaces.mobile.name});
+  LoadAnswer answer = answer_load(layers, request);
   Fields fields;
-  const BodyNames names{surfaces.fixed.name, surfaces.mobile.name};
-  std::vector<ContactNote> notes = check_layers(layers, names);
-  if (load.force_n) {
-    add_new(notes, check_load({.on_mobile = {.force_n = *load.force_n}}));
-    const BalancedPose end = balanced(joint, layers, X_FM, load);
-    fields.emplace_back(name_of(end.outcome));
-    if (!end.carries_load()) {
+  if (answer.balanced) {
+    fields.emplace_back(name_of(answer.balanced->outcome));
+    if (!answer.carries_load()) {
       fields.resize(load_columns().size());
-      return {std::move(fields), std::move(notes)};
+      return {std::move(fields), std::move(answer.notes)};
     }
-    add(fields, end.residual.force_n.norm());
-    add(fields, end.X_FM.translation() - X_FM.translation());
-    X_FM = end.X_FM;
-    found = end.contact;
+    add(fields, answer.balanced->residual.force_n.norm());
+    add(fields, answer.X_FM.translation() - request.X_FM.translation());
   } else {
     fields.resize(of_balance);
-    found = layers.at(X_FM);
   }
-  add_surface(fields, found.fixed);
-  add_surface(fields, found.mobile);
-  add(fields, found.on_mobile.force_n);
-  const auto refined = layers.refined_force_n(X_FM);
-  fields.push_back(refined ? fmt::format("{}", refined->norm()) : "");
-  fields.push_back(fmt::format("{}", layers.cut_off_by_reach(X_FM)));
-  add_new(notes, check_contact(found, names));
-  return {std::move(fields), std::move(notes)};
+  add_surface(fields, answer.contact.fixed);
+  add_surface(fields, answer.contact.mobile);
+  add(fields, answer.contact.on_mobile.force_n);
+  fields.push_back(answer.refined_force_n ? fmt::format("{}", answer.refined_force_n->norm()) : "");
+  fields.push_back(fmt::format("{}", answer.cut_off_by_reach));
+  return {std::move(fields), std::move(answer.notes)};
 }
 
 }  // namespace condyle::io

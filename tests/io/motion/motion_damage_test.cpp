@@ -272,13 +272,13 @@ TEST(RecordedLoads, AreZeroWhereNothingActsAlongWhatIsFree) {
   const Load fixed{.on_mobile = {{3, 0, 0}, {}}},
       mobile{.on_mobile = {{3, 0, 0}, {}}, .frame = BodyRole::mobile};
   const Load moment{.on_mobile = {{0, 0, 0}, {0, 1, 0}}};
-  EXPECT_TRUE(io::is_zero_along({}, X_FM, {}));
-  EXPECT_FALSE(io::is_zero_along(fixed, X_FM, {}));
+  EXPECT_TRUE(is_zero_along({}, X_FM, {}));
+  EXPECT_FALSE(is_zero_along(fixed, X_FM, {}));
   const BalanceOptions along_y{.free_directions = {Vec3(0, 2, 0)}};
-  EXPECT_TRUE(io::is_zero_along(fixed, X_FM, along_y));
-  EXPECT_FALSE(io::is_zero_along(mobile, X_FM, along_y));
-  EXPECT_TRUE(io::is_zero_along(moment, X_FM, {}));
-  EXPECT_FALSE(io::is_zero_along(moment, X_FM, {.free_rotations = true}));
+  EXPECT_TRUE(is_zero_along(fixed, X_FM, along_y));
+  EXPECT_FALSE(is_zero_along(mobile, X_FM, along_y));
+  EXPECT_TRUE(is_zero_along(moment, X_FM, {}));
+  EXPECT_FALSE(is_zero_along(moment, X_FM, {.free_rotations = true}));
 }
 
 /// The same mutations every time: bytes exchanged, pieces left out and repeated, ends cut off.

@@ -1,0 +1,108 @@
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace {
+
+bool translates(const DepthRequest& request) {
+  return request.X_FM.translation() != Vec3::Zero();
+}
+
+/// As all depths along rays and arcs need them.
+void add_measures(DepthAnswer& answer, const JointContact& bodies, const MeasuredContact& contact) {
+  const DepthRequest& request = answer.request;
+  if (request.measures == MeasuresOf::distances_only)
+    answer.measures.distances = nearest_distances(bodies, request.X_FM, contact, request.distances);
+  else
+    answer.measures = measure_contact(bodies, request.X_FM, contact, request.distances);
+}
+
+void add_ray_depths(DepthAnswer& answer, const JointContact& bodies, const Joint& joint) {
+  const DepthRequest& request = answer.request;
+  RayDepths depths{bodies.radial(request.X_FM), {}};
+  add_measures(answer, bodies, MeasuredContact(depths.contact));
+  // About which axis a body that is translated would turn depends on how it got there.
+  depths.reliable = request.method == DepthMethod::reliable && !translates(request)
+                        ? reliable_depths(bodies, joint.kind, joint.coordinates(), request.pose,
+                                          depths.contact, answer.measures.distances)
+                        : reliable_radial_depths(depths.contact, answer.measures.distances);
+  answer.depths = std::move(depths);
+}
+
+void add_arc_depths(DepthAnswer& answer, const JointContact& bodies, const Joint& joint) {
+  const DepthRequest& request = answer.request;
+  const JointAngle about = request.about.value_or(JointAngle::flexion);
+  ArcDepths depths{{about, axis_of(about, joint.coordinates(), request.pose)}, {}};
+  depths.contact = bodies.tangential(request.X_FM, depths.axis.direction_F);
+  add_measures(answer, bodies, MeasuredContact(depths.contact));
+  answer.depths = std::move(depths);
+}
+
+void add_normal_depths(DepthAnswer& answer, const JointContact& bodies) {
+  const DepthRequest& request = answer.request;
+  answer.depths = normal_contact(bodies, request.X_FM, request.casting.value_or(Casting::both),
+                                 request.rays.value_or(NormalDepthOptions{}));
+  add_measures(answer, bodies, MeasuredContact());
+}
+
+std::vector<std::string> caveats_of(const DepthRequest& request) {
+  if (request.method == DepthMethod::normal)
+    return {
+        "depths along normals compare with those of the same casting surface and rule only, not with radial "
+        "or "
+        "tangential ones"};
+  if (!translates(request)) return {};
+  return {core::formatted(
+      "the mobile body's centre is %.3f mm from the fixed body's: rays of mobile vertices start at the fixed "
+      "body's, those of fixed vertices at the mobile body's%s",
+      request.X_FM.translation().norm(),
+      request.method == DepthMethod::reliable ? "; no depths along arcs are computed" : "")};
+}
+
+}  // namespace
+
+bool DepthAnswer::in_contact() const noexcept {
+  struct {
+    bool operator()(const RayDepths& of) const noexcept { return of.contact.in_contact; }
+    bool operator()(const ArcDepths& of) const noexcept { return of.contact.in_contact; }
+    bool operator()(const NormalContact& of) const noexcept { return of.in_contact; }
+  } read;
+  return std::visit(read, depths);
+}
+
+void check_depth_request(const DepthRequest& request) {
+  if (request.about && request.method != DepthMethod::tangential)
+    throw UsageError("about: is for method tangential");
+  if ((request.casting || request.rays) && request.method != DepthMethod::normal)
+    throw UsageError("casting, rule, reach: are for method normal");
+  if (request.method == DepthMethod::tangential && translates(request))
+    throw UsageError(core::formatted(
+        "method tangential: turns about the joint centre, and the pose is translated from it by %.3f mm; "
+        "method radial answers there",
+        request.X_FM.translation().norm()));
+}
+
+DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const DepthRequest& request) {
+  check_depth_request(request);
+  DepthAnswer answer{.request = request, .measures = {}, .depths = {}, .caveats = caveats_of(request)};
+  switch (request.method) {
+    case DepthMethod::reliable:
+    case DepthMethod::radial:
+      add_ray_depths(answer, bodies, joint);
+      break;
+    case DepthMethod::tangential:
+      add_arc_depths(answer, bodies, joint);
+      break;
+    case DepthMethod::normal:
+      add_normal_depths(answer, bodies);
+      break;
+  }
+  return answer;
+}
+
+DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request) {
+  return answer_depth(JointContact(joint), joint, request);
+}
+
+}  // namespace condyle

@@ -1,0 +1,29 @@
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+
+namespace condyle {
+
+void check_load_request(const LoadRequest& request) {
+  if (request.load && !request.load->on_mobile.moment_nmm.isZero(0) && !request.balance.free_rotations)
+    throw UsageError("moment: needs free rotations, or nothing balances it");
+}
+
+LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& request) {
+  check_load_request(request);
+  LoadAnswer answer{.X_FM = request.X_FM, .notes = check_layers(surfaces, request.names)};
+  if (request.load) {
+    add_new(answer.notes, check_load(*request.load));
+    answer.balanced = balance(surfaces, request.X_FM, *request.load, request.balance);
+    answer.X_FM = answer.balanced->X_FM;
+    answer.contact = answer.balanced->contact;
+    if (!answer.carries_load()) return answer;
+  } else {
+    answer.contact = surfaces.at(request.X_FM);
+  }
+  answer.cut_off_by_reach = surfaces.cut_off_by_reach(answer.X_FM);
+  answer.refined_force_n = surfaces.refined_force_n(answer.X_FM);
+  add_new(answer.notes, check_contact(answer.contact, request.names));
+  return answer;
+}
+
+}  // namespace condyle

@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "answer/staged.hpp"
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace {
+
+using Frames = std::vector<std::optional<Pose>>;
+
+const ElasticContact* elastic_of(const SurfaceQuestion& surfaces) {
+  const auto* elastic = std::get_if<const ElasticContact*>(&surfaces);
+  return elastic ? *elastic : nullptr;
+}
+
+/// Whether the mobile body's origin is in one place in all frames.
+bool holds_centre(const Frames& X_FM) {
+  std::optional<Vec3> centre;
+  return std::all_of(X_FM.begin(), X_FM.end(), [&](const std::optional<Pose>& X) {
+    if (X && !centre) centre = X->translation();
+    return !X || X->translation() == *centre;
+  });
+}
+
+/// The load of each frame that has a pose to search for, and one for all if they share it. As in the swing of a gait, a frame
+/// whose own load is zero has none: it is left out, and only it.
+std::vector<Load> loads_of(const MotionRequest& request, Frames& X_FM,
+                           std::vector<std::size_t>& without_load) {
+  if (request.load) return {*request.load};
+  std::vector<Load> loads(X_FM.size());
+  for (std::size_t i = 0; i < X_FM.size(); ++i) {
+    if (!request.loads[i]) X_FM[i].reset();
+    if (!X_FM[i]) continue;
+    loads[i] = *request.loads[i];
+    if (!is_zero_along(loads[i], *X_FM[i], request.balance)) continue;
+    without_load.push_back(i);
+    X_FM[i].reset();
+  }
+  return loads;
+}
+
+/// Moves each frame to where the contact carries its load; frames that carry none become gaps. False if stopped.
+bool balance_frames(const ElasticContact& elastic, const MotionRequest& request, Frames& X_FM,
+                    MotionAnswer& answer, const AnswerControl& control) {
+  const std::vector<Load> loads = loads_of(request, X_FM, answer.without_load);
+  auto balanced =
+      balance_along(elastic, X_FM, loads, request.balance,
+                    {.progress = answer::staged(control, "balanced frames"), .stop = control.stop});
+  if (!balanced) return false;
+  answer.balanced = std::move(*balanced);
+  for (std::size_t i = 0; i < X_FM.size(); ++i) {
+    if (!X_FM[i]) continue;
+    if (answer.balanced[i]->carries_load())
+      X_FM[i] = answer.balanced[i]->X_FM;
+    else
+      X_FM[i].reset();
+  }
+  return true;
+}
+
+/// contact_between() of each run of frames without a gap, a recording of its own. Empty if it was stopped.
+std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const Frames& X_FM,
+                                                      std::span<const double> time_s,
+                                                      const RecordedContactControl& control) {
+  RecordedContact all;
+  for (std::size_t first = 0; first < X_FM.size();) {
+    std::size_t last = first;
+    std::vector<Pose> run;
+    while (last < X_FM.size() && X_FM[last]) run.push_back(*X_FM[last++]);
+    if (run.size() > 1) {
+      auto found = contact_between(bodies, time_s.subspan(first, run.size()), run, {}, control);
+      if (!found) return std::nullopt;
+      for (ContactInterval& contact : found->contacts) {
+        contact.entry.sample += first, contact.exit.sample += first;
+        all.contacts.push_back(std::move(contact));
+      }
+      all.searched.insert(all.searched.end(), found->searched.begin(), found->searched.end());
+      all.poses += found->poses;
+    }
+    first = last + 1;
+  }
+  return all;
+}
+
+bool is_between_searched(const MotionRequest& request, const Frames& X_FM) {
+  switch (request.between) {
+    case BetweenFrames::never:
+      return false;
+    case BetweenFrames::if_exact:
+      return !request.has_load() && !request.time_s.empty() && holds_centre(X_FM);
+    case BetweenFrames::always:
+      return true;
+  }
+  return false;
+}
+
+/// Of loads the one with the largest force, which is the first to be unlikely.
+std::optional<Load> largest_load(const MotionRequest& request) {
+  if (request.load) return request.load;
+  std::optional<Load> largest;
+  for (const std::optional<Load>& load : request.loads)
+    if (load && (!largest || load->on_mobile.force_n.norm() > largest->on_mobile.force_n.norm()))
+      largest = load;
+  return largest;
+}
+
+void require_count(const char* what, std::size_t count, std::size_t frames) {
+  if (count > 0 && count != frames)
+    throw UsageError(core::formatted("%s: %zu for %zu frames", what, count, frames));
+}
+
+}  // namespace
+
+void check_motion_request(const MotionRequest& request) {
+  require_count("times", request.time_s.size(), request.X_FM.size());
+  require_count("loads", request.loads.size(), request.X_FM.size());
+  if (request.load && !request.loads.empty())
+    throw UsageError("loads: one for all frames, or one for each, not both");
+  for (const std::optional<Load>& load : request.loads)
+    check_load_request({.load = load, .balance = request.balance});
+  check_load_request({.load = request.load, .balance = request.balance});
+  if (request.between != BetweenFrames::always) return;
+  if (request.time_s.empty())
+    throw UsageError("between: needs times in seconds, and this motion has frame numbers only");
+  if (request.has_load()) throw UsageError("between: is for poses as recorded, not for balanced ones");
+}
+
+std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+                                          const MotionRequest& request, const AnswerControl& control) {
+  check_motion_request(request);
+  const ElasticContact* elastic = elastic_of(surfaces);
+  MotionAnswer answer;
+  if (elastic) answer.notes = check_layers(*elastic, request.names);
+  if (const auto load = largest_load(request)) add_new(answer.notes, check_load(*load));
+
+  Frames X_FM = request.X_FM;
+  if (request.has_load()) {
+    if (!elastic) throw UsageError("load: needs layers that carry it");
+    if (!balance_frames(*elastic, request, X_FM, answer, control)) return std::nullopt;
+  }
+  if (is_between_searched(request, X_FM)) {
+    answer.between = contact_between_frames(bodies, X_FM, request.time_s,
+                                            {answer::staged(control, "ways between samples"), control.stop});
+    if (!answer.between) return std::nullopt;
+  }
+  auto frames = contact_along(
+      bodies, surfaces, X_FM,
+      {.casting = request.casting, .progress = answer::staged(control, "frames"), .stop = control.stop});
+  if (!frames) return std::nullopt;
+  answer.frames = std::move(*frames);
+  add_new(answer.notes, check_motion(answer.frames, request.names));
+  if (elastic)
+    if (const auto largest = frame_of_largest_force(answer))
+      if (const auto refined = elastic->refined_force_n(answer.frames[*largest]->X_FM))
+        answer.refined_largest_force_n = refined->norm();
+  return answer;
+}
+
+MotionAnswer answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+                           const MotionRequest& request) {
+  return *answer_motion(bodies, surfaces, request, {});
+}
+
+std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer) {
+  std::optional<std::size_t> largest;
+  double force = 0;
+  for (std::size_t i = 0; i < answer.frames.size(); ++i) {
+    if (!answer.frames[i] || !(answer.frames[i]->on_mobile.force_n.norm() > force)) continue;
+    force = answer.frames[i]->on_mobile.force_n.norm();
+    largest = i;
+  }
+  return largest;
+}
+
+}  // namespace condyle

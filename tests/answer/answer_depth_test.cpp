@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "condyle/answer.hpp"
+#include "condyle/error.hpp"
+#include "support/test_meshes.hpp"
+
+/// One answer for every shell: depths as their own functions give them, with the caveats that they must be read with.
+
+namespace condyle::test {
+namespace {
+
+/// A wall in front of the joint, x = 40, and an arm that hangs from the centre along -y and is flexed into it.
+class DepthAnswers : public ::testing::Test {
+ protected:
+  const Joint joint{.name = "arm",
+                    .kind = JointKind::ball,
+                    .side = Side::right,
+                    .fixed = {"wall", box({40, -120, -50}, {60, -20, 50})},
+                    .mobile = {"arm", box({-1, -100, -2}, {1, -10, 2})}};
+  const JointContact bodies{joint};
+  const JointAngles pose{Angle::degrees(25), {}, {}};
+  const Pose X_FM = pose_at(joint.coordinates(), pose);
+};
+
+TEST_F(DepthAnswers, AreThoseOfTheirOwnFunctions) {
+  const RadialContact contact = bodies.radial(X_FM);
+  const ContactMeasures measures =
+      measure_contact(bodies, X_FM, MeasuredContact(contact), DistancesOf::vertices_inside);
+  const ReliableContact expected =
+      reliable_depths(bodies, joint.kind, joint.coordinates(), pose, contact, measures.distances);
+
+  const DepthAnswer answer = answer_depth(bodies, joint, {.pose = pose, .X_FM = X_FM});
+  const auto& rays = std::get<RayDepths>(answer.depths);
+  EXPECT_TRUE(answer.in_contact());
+  EXPECT_EQ(rays.reliable.mobile->depth_mm, expected.mobile->depth_mm);
+  EXPECT_EQ(rays.reliable.mobile->way, expected.mobile->way);
+  EXPECT_EQ(answer.measures.volume_mm3, measures.volume_mm3);
+  EXPECT_TRUE(answer.caveats.empty());
+
+  const DepthAnswer by_joint = answer_depth(joint, {.pose = pose, .X_FM = X_FM});
+  EXPECT_EQ(std::get<RayDepths>(by_joint.depths).reliable.mobile->depth_mm, expected.mobile->depth_mm);
+}
+
+TEST_F(DepthAnswers, WithoutMeasuresHaveTheSameDepths) {
+  const DepthAnswer whole = answer_depth(bodies, joint, {.pose = pose, .X_FM = X_FM});
+  const DepthAnswer quick =
+      answer_depth(bodies, joint, {.pose = pose, .X_FM = X_FM, .measures = MeasuresOf::distances_only});
+  EXPECT_EQ(std::get<RayDepths>(quick.depths).reliable.mobile->depth_mm,
+            std::get<RayDepths>(whole.depths).reliable.mobile->depth_mm);
+  EXPECT_EQ(std::get<RayDepths>(quick.depths).reliable.fixed->depth_mm,
+            std::get<RayDepths>(whole.depths).reliable.fixed->depth_mm);
+  EXPECT_TRUE(whole.measures.volume_mm3);
+  EXPECT_FALSE(quick.measures.volume_mm3);
+}
+
+TEST_F(DepthAnswers, SummariesWithKnownDistancesAreTheSame) {
+  const RadialContact contact = bodies.radial(X_FM);
+  const RadialSummary searched = summarise(bodies, X_FM, contact);
+  const RadialSummary known = summarise(
+      contact, nearest_distances(bodies, X_FM, MeasuredContact(contact), DistancesOf::vertices_inside));
+  ASSERT_TRUE(searched.mobile->deepest && known.mobile->deepest);
+  EXPECT_EQ(known.mobile->deepest->shortest_exit_mm, searched.mobile->deepest->shortest_exit_mm);
+  EXPECT_EQ(known.mobile->oblique_inside, searched.mobile->oblique_inside);
+  EXPECT_EQ(known.fixed->vertices_inside, searched.fixed->vertices_inside);
+  EXPECT_EQ(known.mobile->min_gap_mm, searched.mobile->min_gap_mm);
+}
+
+TEST_F(DepthAnswers, AlongArcsAreAboutTheAxisRequested) {
+  const auto about = [&](std::optional<JointAngle> angle) {
+    const DepthAnswer answer = answer_depth(
+        bodies, joint, {.pose = pose, .X_FM = X_FM, .method = DepthMethod::tangential, .about = angle});
+    return std::get<ArcDepths>(answer.depths);
+  };
+  EXPECT_EQ(about({}).axis.about, JointAngle::flexion);
+  for (const JointAngle angle : all_joint_angles) {
+    const ArcDepths arcs = about(angle);
+    const Vec3 axis = axis_of(angle, joint.coordinates(), pose);
+    EXPECT_EQ(arcs.axis.direction_F, axis);
+    EXPECT_EQ(arcs.contact.mobile_in_fixed->arc_gap_mm,
+              bodies.tangential(X_FM, axis).mobile_in_fixed->arc_gap_mm);
+  }
+}
+
+TEST_F(DepthAnswers, AlongNormalsAreOfTheBodyThatCasts) {
+  const DepthAnswer answer = answer_depth(bodies, joint,
+                                          {.X_FM = X_FM,
+                                           .method = DepthMethod::normal,
+                                           .casting = Casting::mobile,
+                                           .rays = {{FaceRule::face_centre, 30}}});
+  const auto& found = std::get<NormalContact>(answer.depths);
+  EXPECT_TRUE(answer.in_contact());
+  EXPECT_FALSE(found.fixed);
+  const NormalContact expected = normal_contact(bodies, X_FM, Casting::mobile, {FaceRule::face_centre, 30});
+  EXPECT_EQ(found.mobile->surface.totals.area_mm2, expected.mobile->surface.totals.area_mm2);
+  ASSERT_EQ(answer.caveats.size(), 1u);
+  EXPECT_NE(answer.caveats.front().find("same casting surface and rule"), std::string::npos);
+}
+
+TEST_F(DepthAnswers, SayThatABodyWasTranslated) {
+  Pose moved = X_FM;
+  moved.translation() = Vec3(0, 0.3, -0.4);
+  const auto caveats = [&](DepthMethod method) {
+    return answer_depth(bodies, joint, {.pose = pose, .X_FM = moved, .method = method}).caveats;
+  };
+  ASSERT_EQ(caveats(DepthMethod::reliable).size(), 1u);
+  EXPECT_NE(caveats(DepthMethod::reliable).front().find("centre is 0.500 mm from"), std::string::npos);
+  EXPECT_NE(caveats(DepthMethod::reliable).front().find("no depths along arcs"), std::string::npos);
+  EXPECT_EQ(caveats(DepthMethod::radial).front().find("no depths along arcs"), std::string::npos);
+  EXPECT_THROW(caveats(DepthMethod::tangential), UsageError);
+}
+
+TEST_F(DepthAnswers, RefuseOptionsOfAnotherMethod) {
+  EXPECT_THROW(check_depth_request({.about = JointAngle::flexion}), UsageError);
+  EXPECT_THROW(check_depth_request({.casting = Casting::both}), UsageError);
+  EXPECT_THROW(check_depth_request({.method = DepthMethod::tangential, .rays = NormalDepthOptions{}}),
+               UsageError);
+  check_depth_request({.method = DepthMethod::tangential, .about = JointAngle::adduction});
+}
+
+TEST(DepthAnswer, OfAnOpenBodyHasNothingInsideIt) {
+  const Joint joint{.name = "sheet",
+                    .kind = JointKind::ball,
+                    .side = Side::right,
+                    .fixed = {"sheet", plane(20, 8)},
+                    .mobile = {"ball", sphere({0, 1, 0}, 5, 3)}};
+  const DepthAnswer answer = answer_depth(joint, {});
+  const auto& rays = std::get<RayDepths>(answer.depths);
+  EXPECT_TRUE(answer.in_contact());
+  EXPECT_FALSE(rays.reliable.mobile);
+  EXPECT_TRUE(rays.reliable.fixed);
+  EXPECT_FALSE(answer.measures.volume_mm3);
+}
+
+}  // namespace
+}  // namespace condyle::test
