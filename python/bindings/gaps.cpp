@@ -1,12 +1,14 @@
+#include <pybind11/stl.h>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/contact_measures.hpp"
+#include "condyle/answer.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/reliable_depth.hpp"
+#include "interrupts.hpp"
 #include "joint.hpp"
 #include "vertex_gaps.hpp"
 
-/// Every vertex, at one pose.
+/// Every vertex, at one pose or many.
 
 namespace condyle::python {
 
@@ -57,20 +59,10 @@ py::object patch_dict(const std::optional<ContactPatch>& patch) {
   return dict;
 }
 
-py::dict measures(const JointHandle& handle, const py::object& pose) {
-  const Pose X_FM = one_pose(pose, "pose");
-  bool in_contact = false;
-  std::size_t pair_count = 0;
-  ContactMeasures found = [&] {
-    const py::gil_scoped_release released;
-    const RadialContact contact = handle.contact.radial(X_FM);
-    in_contact = contact.in_contact;
-    pair_count = contact.pairs.size();
-    return measure_contact(handle.contact, X_FM, MeasuredContact(contact), DistancesOf::all_vertices);
-  }();
+py::dict dict_of(ContactMeasures&& found, const RadialContact& contact) {
   py::dict dict;
-  dict["in_contact"] = in_contact;
-  dict["intersecting_pairs"] = pair_count;
+  dict["in_contact"] = contact.in_contact;
+  dict["intersecting_pairs"] = contact.pairs.size();
   dict["mobile_distance_mm"] = array_of(std::move(found.distances.mobile));
   dict["fixed_distance_mm"] = array_of(std::move(found.distances.fixed));
   dict["smallest_gap_mm"] = found.nearest.distance_mm;
@@ -86,17 +78,43 @@ py::dict measures(const JointHandle& handle, const py::object& pose) {
   return dict;
 }
 
-/// As `condyle depth` answers by default.
-py::tuple reliable(const JointHandle& handle, const py::object& pose) {
-  const Pose X_FM = one_pose(pose, "pose");
-  const Joint& joint = handle.joint();
-  ReliableContact found = [&] {
-    const py::gil_scoped_release released;
-    return depth_at(handle.contact, joint, angles_at(joint.coordinates(), X_FM), X_FM, DepthMethod::reliable,
-                    DistancesOf::vertices_inside)
-        .reliable;
-  }();
-  return py::make_tuple(optional_dict(found.mobile), optional_dict(found.fixed));
+/// answer_depth() at each of the poses, whose angles they have, as `wrap` gives it to Python: whether it was one pose, and a list.
+template <class Wrap>
+py::tuple answers(const JointHandle& handle, const py::object& given, const py::object& progress,
+                  const DepthRequest& request, const Wrap& wrap) {
+  const PosesIn in = poses_in(given, "pose");
+  const CoordinateSystem system = handle.joint().coordinates();
+  Follower follower(progress, in.poses.size());
+  py::list list;
+  for (std::size_t n = 0; n < in.poses.size(); ++n) {
+    DepthAnswer answer = [&] {
+      const py::gil_scoped_release released;
+      DepthRequest here = request;
+      here.X_FM = in.poses[n];
+      here.pose = angles_at(system, here.X_FM);
+      DepthAnswer found = answer_depth(handle.contact, handle.joint(), here);
+      follower.look(n + 1);
+      return found;
+    }();
+    list.append(wrap(std::move(answer)));
+  }
+  return py::make_tuple(in.is_one, list);
+}
+
+py::tuple measures(const JointHandle& handle, const py::object& poses, const py::object& progress) {
+  return answers(handle, poses, progress,
+                 {.method = DepthMethod::radial, .distances = DistancesOf::all_vertices},
+                 [](DepthAnswer&& answer) {
+                   return dict_of(std::move(answer.measures), std::get<RayDepths>(answer.depths).contact);
+                 });
+}
+
+/// As `condyle depth` answers by default: of each pose both bodies, and the caveats.
+py::tuple reliable(const JointHandle& handle, const py::object& poses, const py::object& progress) {
+  return answers(handle, poses, progress, {.measures = MeasuresOf::distances_only}, [](DepthAnswer&& answer) {
+    ReliableContact& found = std::get<RayDepths>(answer.depths).reliable;
+    return py::make_tuple(optional_dict(found.mobile), optional_dict(found.fixed), py::cast(answer.caveats));
+  });
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
-#include "condyle/motion_contact.hpp"
-
 #include <pybind11/stl.h>
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "condyle/answer.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
 #include "mesh/require_solid.hpp"
@@ -86,6 +85,9 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const Elasti
   const Mesh &fixed = handle.contact.fixed(), &mobile = handle.contact.mobile();
   const bool fixed_casts = casting_in(casting) == Casting::fixed;
   const NormalDepthOptions rays = elastic ? elastic->options().rays : rays_in(rule, reach_mm);
+  const MotionRequest request{.X_FM = X_FM,
+                              .between = BetweenFrames::never,
+                              .casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile};
   const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     std::optional<NormalDepth> depths;
     if (!elastic) {
@@ -94,15 +96,14 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const Elasti
       depths.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, rays);
     }
     const SurfaceQuestion question = elastic ? SurfaceQuestion(elastic) : SurfaceQuestion(&*depths);
-    return contact_along(
-        handle.contact, question, X_FM,
-        {.casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile, .progress = report, .stop = stop});
+    const auto follow = [&](std::string_view, std::size_t done, std::size_t total) { report(done, total); };
+    return answer_motion(handle.contact, question, request, {follow, stop});
   });
   const bool casts_fixed = elastic ? elastic->options().casting == Casting::fixed : fixed_casts;
   const Mesh& caster =
       elastic ? (casts_fixed ? elastic->fixed() : elastic->mobile()) : (casts_fixed ? fixed : mobile);
   py::list answers;
-  for (const std::optional<FrameContact>& frame : *found) {
+  for (const std::optional<FrameContact>& frame : found->frames) {
     if (!frame) {
       answers.append(py::none());
       continue;
@@ -118,10 +119,7 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const Elasti
     dict["cut_off_by_reach"] = frame->cut_off_by_reach;
     answers.append(dict);
   }
-  std::vector<ContactNote> notes;
-  if (elastic) notes = check_layers(*elastic);
-  add_new(notes, check_motion(*found));
-  return py::make_tuple(answers, list_of(notes));
+  return py::make_tuple(answers, list_of(found->notes));
 }
 
 }  // namespace

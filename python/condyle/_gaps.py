@@ -116,11 +116,16 @@ class Gaps(BothBodies):
     fixed: Optional[VertexGaps]
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Depths(BothBodies):
-    """The depths to read of every vertex: `mobile` and `fixed` are :class:`VertexDepths`."""
+    """The depths to read of every vertex: `mobile` and `fixed` are :class:`VertexDepths`.
+
+    `caveats` are sentences that they must be read with, as for a pose that translates.
+    """
 
     mobile: Optional[VertexDepths]
     fixed: Optional[VertexDepths]
+    caveats: tuple[str, ...] = ()
 
     @property
     def max_depth_mm(self) -> float:

@@ -273,26 +273,40 @@ class Joint(DescribedJoint):
                                                     0 if about is None else self._angle(about))
         return Gaps(of_vertices(VertexGaps, mobile, self._mobile), of_vertices(VertexGaps, fixed, self._fixed))
 
-    def depths(self, pose: PoseLike) -> Depths:
-        """The depth to read of every vertex at one pose: see :class:`VertexDepths`. As `condyle depth` answers.
+    def depths(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+        """The depth to read of every vertex: :class:`Depths` of X_FM (4, 4); of (N, 4, 4) a list of N.
 
-        C++: `condyle::depth_at` in condyle/reliable_depth.hpp.
+        As `condyle depth` answers. Tables are built at the first call and kept; Ctrl-C ends the call between two poses.
+
+        C++: `condyle::answer_depth` in condyle/answer.hpp.
 
         >>> import condyle
         >>> bones = condyle.sample_hip()
         >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
         >>> f"{joint.depths(joint.pose(flexion_deg=140)).max_depth_mm:.2f} mm"
         '10.98 mm'
+        >>> [f"{depths.max_depth_mm:.2f}" for depths in joint.depths(joint.pose(flexion_deg=[130, 140]))]
+        ['0.00', '10.98']
         """
-        mobile, fixed = _native.reliable_depths(*self._asked_at(pose))
-        return Depths(of_vertices(VertexDepths, mobile, self._mobile), of_vertices(VertexDepths, fixed, self._fixed))
+        joint, poses = self._asked_at(pose)
+        is_one, found = _native.reliable_depths(joint, poses, progress_of(progress))
+        answers = [Depths(of_vertices(VertexDepths, mobile, self._mobile),
+                          of_vertices(VertexDepths, fixed, self._fixed), tuple(caveats))
+                   for mobile, fixed, caveats in found]
+        return answers[0] if is_one else answers
 
-    def contact_measures(self, pose: PoseLike) -> ContactMeasures:
-        """Areas, volume, nearest points and distances at one pose: see :class:`ContactMeasures`.
+    def contact_measures(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+        """Areas, volume, nearest points and distances: :class:`ContactMeasures` of X_FM (4, 4); of (N, 4, 4) a list of N.
+
+        Every vertex has its nearest distance, which takes most of the time: :meth:`contact_along` computes areas, depths and
+        gaps of many poses far more quickly. Ctrl-C ends the call between two poses.
 
         C++: `condyle::measure_contact` in condyle/contact_measures.hpp.
         """
-        return measures_of(_native.contact_measures(*self._asked_at(pose)), self._fixed, self._mobile)
+        joint, poses = self._asked_at(pose)
+        is_one, found = _native.contact_measures(joint, poses, progress_of(progress))
+        answers = [measures_of(each, self._fixed, self._mobile) for each in found]
+        return answers[0] if is_one else answers
 
     def normal_contact(self, pose: PoseLike, *, casting: str = "both", rule: str = "cut_faces", reach_mm: float = 20,
                        progress: Progress = None) -> Any:

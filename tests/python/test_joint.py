@@ -99,6 +99,31 @@ def test_frames_of_a_motion_show_what_their_poses_show(hip):
         hip.contact_along([np.eye(4), 2 * np.eye(4) - np.diag([0, 0, 0, 1])])
 
 
+def test_depths_and_measures_of_many_poses_are_those_of_each(hip):
+    poses = hip.pose(flexion_deg=[0, 140, 150])
+    seen = []
+    depths = hip.depths(poses, progress=lambda *now: seen.append(now))
+    measures = hip.contact_measures(poses)
+    assert len(depths) == len(measures) == 3 and seen[-1] == (3, 3)
+    for n in range(3):
+        alone = hip.depths(poses[n])
+        np.testing.assert_array_equal(depths[n].mobile.depth_mm, alone.mobile.depth_mm)
+        np.testing.assert_array_equal(depths[n].fixed.way, alone.fixed.way)
+        assert measures[n].volume_mm3 == hip.contact_measures(poses[n]).volume_mm3
+    assert depths[0].max_depth_mm == 0 < depths[1].max_depth_mm
+    assert hip.depths(np.empty((0, 4, 4))) == []
+    with pytest.raises(condyle.UsageError, match="pose 1: the rotation is not orthonormal"):
+        hip.depths([np.eye(4), 2 * np.eye(4) - np.diag([0, 0, 0, 1])])
+
+
+def test_depths_say_what_they_must_be_read_with(hip):
+    moved = np.eye(4)
+    moved[:3, 3] = 0, 0.3, -0.4
+    assert hip.depths(np.eye(4)).caveats == ()
+    (caveat,) = hip.depths(moved).caveats
+    assert "0.500 mm" in caveat and "no depths along arcs" in caveat
+
+
 def test_faces_within_a_region_and_outside_of_it_are_all(hip):
     faces = hip.normal_contact({"flexion_deg": 145}, casting="fixed").fixed
     centres = hip.fixed.vertices[hip.fixed.triangles[faces.face]].mean(axis=1)
