@@ -50,8 +50,16 @@ if(CONDYLE_PYTHON)
 endif()
 foreach(part ${condyle_parts})
   string(REGEX MATCH "^(.*):(.*)$" matched ${part})
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
-          DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CMAKE_MATCH_2} COMPONENT ${CMAKE_MATCH_1})
+  set(licences ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CMAKE_MATCH_2})
+  set(component ${CMAKE_MATCH_1})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE DESTINATION ${licences} COMPONENT ${component})
+  # And those of what lies inside.
+  if(CONDYLE_HDF5_INSIDE AND component MATCHES "command|python")
+    foreach(inside libhdf5-dev libaec-dev)
+      install(FILES /usr/share/doc/${inside}/copyright RENAME ${inside}.copyright DESTINATION ${licences} COMPONENT ${component}
+              OPTIONAL)
+    endforeach()
+  endif()
 endforeach()
 install(DIRECTORY ${condyle_api_folder} DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/condyle-doc OPTIONAL
         COMPONENT documentation)

@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcondyle-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev, libhwy-dev, libfmt-dev, libtomlplusplus-dev")
 # condyle::io only.
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libhdf5-dev, zlib1g-dev, liblz4-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libhdf5-dev, libaec-dev, zlib1g-dev, liblz4-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Static libraries and headers, for find_package(condyle) and pkg-config.")
 
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_NAME condyle-doc)

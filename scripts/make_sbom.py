@@ -2,9 +2,9 @@
 """Writes what Condyle is made of as SPDX 2.3: make_sbom.py BUILD_FOLDER SBOM.
 
 Three kinds, none listed by hand: libraries that the command and the Python module load (ldd), packages whose headers were
-compiled in (what ninja noted of each object), and web packages bundled into the page of a report (what its sources import, with
-their dependencies in package-lock.json). Debian's packages are asked for version and licence; a licence without an SPDX name is
-NOASSERTION and its own text is named.
+compiled in or whose static libraries were linked in (what ninja noted of each), and web packages bundled into the page of a report
+(what its sources import, with their dependencies in package-lock.json). Debian's packages are asked for version and licence; a
+licence without an SPDX name is NOASSERTION and its own text is named.
 """
 
 import json
@@ -51,6 +51,12 @@ def headers_of(build: Path) -> list[str]:
         elif ours and line.startswith("    /usr/"):
             headers.add(line.strip())
     return sorted(headers)
+
+
+def archives_of(build: Path, programs: list[Path]) -> list[str]:
+    """Static libraries of the system that programs or modules were linked with."""
+    inputs = output_of("ninja", "-C", str(build), "-t", "inputs", *(str(program.relative_to(build)) for program in programs))
+    return sorted({line for line in inputs.splitlines() if line.startswith("/usr/") and line.endswith(".a")})
 
 
 def debian_packages(paths: list[str]) -> dict[str, str]:
@@ -127,7 +133,7 @@ def sbom_of(build: Path) -> dict:
     programs = [build / "condyle", *(build / "python/condyle").glob("_native*.so")]
     programs = [program for program in programs if program.exists()]
     linked = debian_packages([path for program in programs for path in libraries_of(program)])
-    compiled_in = debian_packages(headers_of(build))
+    compiled_in = debian_packages(headers_of(build) + archives_of(build, programs))
     unknown = {path for program in programs for path in libraries_of(program)} - set(linked)
     if unknown:
         sys.exit(f"make_sbom.py: of no Debian package: {', '.join(sorted(unknown))}")

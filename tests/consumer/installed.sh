@@ -18,12 +18,17 @@ done
 # Nothing of a build folder or of the sources is needed, or known.
 if grep -rlF "$(cd "$here/../.." && pwd)" prefix/lib*/cmake prefix/lib*/pkgconfig; then fail "these name the source folder"; fi
 prefix/bin/condyle --version
+# What lies inside is there with its licence.
+if ! ldd prefix/bin/condyle | grep -q libhdf5; then
+  grep -q "The HDF Group" prefix/share/doc/condyle/libhdf5-dev.copyright || fail "the licence of HDF5 is not installed"
+fi
 
 cmake -S "$here" -B installed -G Ninja -DCMAKE_PREFIX_PATH="$PWD/prefix" -DCMAKE_CXX_COMPILER="$compiler" \
   -DCMAKE_BUILD_TYPE="$build_type" -DCMAKE_CXX_FLAGS="${CONSUMER_FLAGS:-}" >configure.txt || fail "$(cat configure.txt)"
 cmake --build installed >build.txt || fail "$(cat build.txt)"
 says installed/consumer "flexion ends at 30.000 degrees"
 says installed/consumer_of_files "773 vertices"
+says installed/consumer_by_library "a file of OpenSim-JAM"
 
 # A version that is not this one is refused.
 sed 's/condyle 0\.1/condyle 0.99/' "$here/CMakeLists.txt" >CMakeLists.txt
