@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo command test build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test page-core page page-template sanitize-thread sanitize-some release
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -123,13 +123,19 @@ package: build docs
 	@cpack --config build/release/CPackConfig.cmake >out/package.log || { cat out/package.log; exit 1; }
 	@ls out/packages/*.deb
 
+# A wheel of the Python module in out/wheel, which brings the libraries that it needs; tried in an empty virtual environment.
+wheel: build
+	@scripts/install_dependencies.sh wheel
+	@rm -rf out/wheel
+	@scripts/wheel.sh build/release out/wheel
+
 # A release in out/release from a clean tree: sources, packages, wheel, template, list of materials; each is run.
 release: dependencies docs_dependencies
-	@scripts/install_dependencies.sh release
+	@scripts/install_dependencies.sh wheel
 	@scripts/release.sh
 
-# The packages on a bare Debian.
-package-test: package
+# The packages on a bare Debian, and the wheel on another.
+package-test: package wheel
 	@scripts/install_dependencies.sh package-test
 	@scripts/package_test.sh
 

@@ -7,7 +7,7 @@
 #   install_dependencies.sh docs      and for make docs and make package
 #   install_dependencies.sh page      and for make page-core, make page and make page-template
 #   install_dependencies.sh package-test   and for make package-test
-#   install_dependencies.sh release   with docs, for make release
+#   install_dependencies.sh wheel     for make wheel; with docs, for make release
 #   install_dependencies.sh workflow  and for the test of workflow/
 set -euo pipefail
 
@@ -43,10 +43,10 @@ for group in "$@"; do
       command -v npm >/dev/null || packages+=(npm)
       ;;
     package-test) packages+=(debootstrap) ;;
-    release) packages+=(python3-pip python3-wheel) ;;
+    wheel) packages+=(patchelf python3-pip python3-venv python3-wheel) ;;
     workflow) packages+=(snakemake slurmctld slurmd slurm-client munge) ;;
     *)
-      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, page, package-test, release, workflow" >&2
+      echo "install_dependencies.sh: no group '$group'; there are command, clang, bench, docs, page, package-test, wheel, workflow" >&2
       exit 2
       ;;
   esac

@@ -38,16 +38,19 @@ def version() -> str:
 
 def libraries_of(program: Path) -> list[str]:
     """Paths of the shared libraries that a program or module loads, those of its libraries too."""
-    return sorted(set(re.findall(r"(/\S+) \(0x", output_of("ldd", str(program)))))
+    paths = set(re.findall(r"(/\S+) \(0x", output_of("ldd", str(program))))
+    # No file says so: oneTBB loads its memory pool from its own folder, where that is there.
+    pools = [Path(path).with_name("libtbbmalloc.so.2") for path in paths if Path(path).name.startswith("libtbb.")]
+    return sorted(paths | {str(pool) for pool in pools if pool.exists()})
 
 
-def headers_of(build: Path) -> list[str]:
+def headers_of(build: Path, folders: tuple[str, ...] = ("src/", "cli/", "python/")) -> list[str]:
     """Headers of the system that the objects of the libraries, the command and the module were compiled with."""
     headers: set[str] = set()
     ours = False
     for line in output_of("ninja", "-C", str(build), "-t", "deps").splitlines():
         if line and not line.startswith(" "):
-            ours = line.startswith(("src/", "cli/", "python/"))
+            ours = line.startswith(folders)
         elif ours and line.startswith("    /usr/"):
             headers.add(line.strip())
     return sorted(headers)
