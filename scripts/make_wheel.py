@@ -71,7 +71,7 @@ def bring_libraries(module: Path, folder: Path) -> list[str]:
         copy.chmod(0o755)
         patchelf("--set-soname", copy.name, copy)
     for program in (module, *copies):
-        for name in set(needed_by(program)) & set(own_names):
+        for name in filter(own_names.__contains__, needed_by(program)):
             patchelf("--replace-needed", name, own_names[name], program)
         patchelf("--set-rpath", "$ORIGIN" if program in copies else f"$ORIGIN/../{folder.name}", program)
     return list(copies.values())

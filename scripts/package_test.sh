@@ -49,4 +49,5 @@ cp out/wheel/*.whl tests/release/wheel_answers.py README.md "$root/packages/"
 install python3-venv python3-numpy
 inside python3 -m venv --system-site-packages /tmp/environment
 inside /tmp/environment/bin/pip install --quiet --no-index "/$(cd "$root" && ls ./packages/*.whl)"
-inside /tmp/environment/bin/python /packages/wheel_answers.py /packages/README.md /tmp/limits.pdf
+inside /tmp/environment/bin/python /packages/wheel_answers.py /packages/README.md /tmp/limits.pdf \
+  2> >(grep -v '^loaded ' >&2)
