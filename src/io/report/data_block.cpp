@@ -21,6 +21,7 @@
 #include "io/report/block_arrays.hpp"
 #include "io/report/surfaces_json.hpp"
 #include "io/result/json.hpp"
+#include "io/result/rom_parts.hpp"
 
 static_assert(std::endian::native == std::endian::little,
               "arrays are written as the machine has the numbers");
@@ -241,7 +242,7 @@ void append(std::string& bytes, std::uint32_t number) {
 /// As rom.json has it, but for the intervals of a map, which the page has of their own.
 Json rom_of(const Report& report) {
   if (!report.rom) return nullptr;
-  Json rom = Json::parse(rom_json(*report.rom));
+  Json rom = rom_object(*report.rom);
   if (report.rom->map) rom["map"].erase("intervals");
   return rom;
 }

@@ -6,6 +6,7 @@
 
 #include "condyle/io/normal_range.hpp"
 #include "condyle/io/rom_result.hpp"
+#include "io/result/json.hpp"
 
 /// What the JSON and the lines of a range of motion share.
 
@@ -33,5 +34,8 @@ inline bool is_as_defined_here(const Motion& motion) noexcept {
 inline std::optional<Angle> normal_range(const RomResult& result, const MotionLimit& limit) noexcept {
   return result.joint.is_hip() ? normal_hip_range(limit.motion.name) : std::nullopt;
 }
+
+/// rom_json() before it is text.
+Json rom_object(const RomResult& result);
 
 }  // namespace condyle::io

@@ -13,7 +13,7 @@
 #include "core/parallel_tasks.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/json.hpp"
-#include "io/result/rom_columns.hpp"
+#include "io/result/limit_fields.hpp"
 
 namespace condyle {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -14,7 +13,6 @@
 #include "io/result/csv_field.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
-#include "io/result/rom_columns.hpp"
 #include "io/study/study_columns.hpp"
 #include "io/study/study_joint.hpp"
 #include "io/study/study_load.hpp"
@@ -73,24 +71,13 @@ RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& opt
   return request;
 }
 
-/// Those columns of `condyle rom` that a study has, by their places there.
-std::vector<std::size_t> places_in_rom(const StudyOptions& options, Anatomy joint) {
-  const Fields of_rom = rom_columns(joint);
-  std::vector<std::size_t> places;
-  for (const StudyColumn& column : limit_columns(options))
-    places.push_back(
-        static_cast<std::size_t>(std::find(of_rom.begin(), of_rom.end(), column.name) - of_rom.begin()));
-  return places;
-}
-
 std::string limit_lines(const Fields& row, const RomResult& result, const StudyOptions& options) {
-  const std::vector<std::size_t> places = places_in_rom(options, result.joint.anatomy);
+  const std::vector<const LimitField*> limit_fields = limit_fields_of(options);
   std::string lines;
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
-    const Fields all = rom_fields(result, i);
-    Fields chosen;
-    for (const std::size_t place : places) chosen.push_back(all.at(place));
-    lines += line_of(row, chosen);
+    Fields fields = row;
+    for (const LimitField* field : limit_fields) append_texts(fields, *field, {result, i});
+    lines += csv_line(fields);
   }
   return lines;
 }

@@ -7,7 +7,6 @@
 #include "condyle/sample/hip_measures.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/result/csv_field.hpp"
-#include "io/result/rom_columns.hpp"
 #include "io/study/study_load.hpp"
 #include "io/study/study_table.hpp"
 
@@ -15,18 +14,11 @@ namespace condyle::io {
 namespace {
 
 constexpr ColumnKind text = ColumnKind::text, number = ColumnKind::number;
-using Columns = std::vector<StudyColumn>;
+using Columns = std::vector<ResultColumn>;
 
 Columns id_columns() {
   return {{"id", "", text, "of the row of the table"},
           {"table_row", "", number, "number of the row, 1 for the first one"}};
-}
-
-Columns band_columns() {
-  return {{"band_median_deg", "deg", number, "median of the limits of the displaced joints"},
-          {"band_p5_deg", "deg", number, "5 % of them are below"},
-          {"band_p95_deg", "deg", number, "5 % of them are above"},
-          {"band_share_without_contact", "", number, "share that reaches the end of the range, 0 to 1"}};
 }
 
 Columns map_columns() {
@@ -70,6 +62,13 @@ void append(Columns& columns, const Columns& more) {
   columns.insert(columns.end(), more.begin(), more.end());
 }
 
+Columns limit_columns(const StudyOptions& options) {
+  Columns columns;
+  for (const LimitField* field : limit_fields_of(options))
+    append(columns, columns_of(*field, options.anatomy));
+  return columns;
+}
+
 /// Name, unit and meaning of what is carried.
 Columns carried_columns(const StudyTable& table) {
   Columns columns;
@@ -89,23 +88,14 @@ Columns failure_columns() {
 
 }  // namespace
 
-std::vector<StudyColumn> limit_columns(const StudyOptions& options) {
-  Columns columns = {
-      {"motion", "", text, "by its name"},
-      {"limit_deg", "deg", number, "how far the joint turns from the motion's start"},
-      {"reason", "", text, "contact, end_of_range or contact_at_start"},
-      {"contact_kind", "", text, "impingement, bearing or unknown; empty without contact"},
-      {"bearing_contact_deg", "deg", number, "first bearing contact on the way; empty: none"},
-      {"centre_distance_mm", "mm", number, "between head and socket at the limit"},
-      {"joint_space_mm", "mm", number, "smallest distance of the bearing surface there"},
-      {"error_bound_deg", "deg", number, "by which the limit may be short of the exact one"},
-      {"contact_x_mm", "mm", number, "contact on the fixed body, joint frame, anterior"},
-      {"contact_y_mm", "mm", number, "superior"},
-      {"contact_z_mm", "mm", number, "to the subject's right"},
-      {"clock_hour", "h", number, "of the contact on the socket, 12 superior, 3 anterior, sagittal plane"},
-      {"caveats", "", text, "codes of what usually ends such a motion, with blanks between"}};
-  if (options.bands) append(columns, band_columns());
-  return columns;
+std::vector<const LimitField*> limit_fields_of(const StudyOptions& options) {
+  std::vector<const LimitField*> fields;
+  for (const LimitField& field : limit_fields())
+    if (field.columns != LimitColumns::none &&
+        (field.tables == LimitTables::studies ||
+         (field.tables == LimitTables::studies_with_bands && options.bands)))
+      fields.push_back(&field);
+  return fields;
 }
 
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options) {
@@ -131,9 +121,9 @@ bool is_result_column(std::string_view name) {
   return false;
 }
 
-std::string header_of(const std::vector<StudyColumn>& columns) {
+std::string header_of(const std::vector<ResultColumn>& columns) {
   std::vector<std::string> names;
-  for (const StudyColumn& column : columns) names.push_back(csv_field(column.name));
+  for (const ResultColumn& column : columns) names.push_back(csv_field(column.name));
   return csv_line(names);
 }
 

@@ -5,37 +5,28 @@
 #include <vector>
 
 #include "condyle/io/study.hpp"
+#include "io/result/limit_fields.hpp"
 
 namespace condyle::io {
 
 struct StudyTable;
 
-enum class ColumnKind { text, number };
-
-/// A column of a study's results, as columns.csv has it.
-struct StudyColumn {
-  std::string name;
-  std::string unit;  ///< empty where it has none
-  ColumnKind kind;
-  std::string meaning;
-};
-
 /// The columns of the three tables of results.
 struct StudyColumns {
-  std::vector<StudyColumn> limits, hips, failures;
+  std::vector<ResultColumn> limits, hips, failures;
 };
 
 /// Of this table with what these options ask for.
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options);
 
-/// The columns of limits.csv that `condyle rom` has too, by these options.
-std::vector<StudyColumn> limit_columns(const StudyOptions& options);
+/// The values of limits.csv that `condyle rom` has too, by these options.
+std::vector<const LimitField*> limit_fields_of(const StudyOptions& options);
 
 /// Whether some study has a column of this name.
 bool is_result_column(std::string_view name);
 
 /// The names as a header line.
-std::string header_of(const std::vector<StudyColumn>& columns);
+std::string header_of(const std::vector<ResultColumn>& columns);
 
 /// The data dictionary: columns.csv, and as that file is read back.
 std::string columns_csv(const StudyColumns& columns);

@@ -32,7 +32,7 @@ std::vector<double> numbers_of(const std::vector<std::string>& fields) {
   return numbers;
 }
 
-void add_table(H5Image& file, const std::string& group, const std::vector<StudyColumn>& columns,
+void add_table(H5Image& file, const std::string& group, const std::vector<ResultColumn>& columns,
                const std::string& text) {
   file.group(group);
   const auto fields = fields_of(text, columns.size());

@@ -66,8 +66,8 @@ LoadRequest request_of(const Joint& joint, const StudyLoad& load, const BodyName
 
 }  // namespace
 
-std::vector<StudyColumn> load_columns() {
-  std::vector<StudyColumn> columns = {
+std::vector<ResultColumn> load_columns() {
+  std::vector<ResultColumn> columns = {
       {"load_outcome", "", text,
        "balanced, at_jump or unstable; pulled_apart, over_the_rim, too_large or free_direction, where the "
        "other "

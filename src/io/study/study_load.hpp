@@ -10,7 +10,7 @@
 
 namespace condyle::io {
 
-std::vector<StudyColumn> load_columns();
+std::vector<ResultColumn> load_columns();
 
 /// Those columns of this joint. FileError where it has no layers.
 struct LoadFields {

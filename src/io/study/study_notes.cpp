@@ -14,9 +14,9 @@ namespace condyle {
 namespace io {
 namespace {
 
-std::size_t place_of(const std::vector<StudyColumn>& columns, std::string_view name) {
+std::size_t place_of(const std::vector<ResultColumn>& columns, std::string_view name) {
   const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const StudyColumn& each) { return each.name == name; });
+                                  [&](const ResultColumn& each) { return each.name == name; });
   return static_cast<std::size_t>(found - columns.begin());
 }
 

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "condyle/io/rom_result.hpp"
+#include "io/result/json.hpp"
+#include "io/result/result_column.hpp"
+
+/// What is said of a limit, described once: an element of `motions` in rom.json, a line of limits.csv and one of a study's are made
+/// from this table, and docs/formats-rom.md is held against it. Whoever adds a value adds an entry.
+
+namespace condyle::io {
+
+/// One limit of a result.
+struct LimitOf {
+  const RomResult& result;
+  std::size_t index;
+
+  const MotionLimit& limit() const { return result.limits[index]; }
+  const Joint& joint() const { return result.joint; }
+};
+
+/// How a value stands in tables.
+enum class LimitColumns : std::uint8_t {
+  none,    ///< It is in rom.json only.
+  one,     ///< a number or a text
+  point,   ///< NAME_x_mm, NAME_y_mm, NAME_z_mm
+  angles,  ///< NAME_ANGLE_deg for each angle of the joint
+};
+
+/// Whose tables have the columns.
+enum class LimitTables : std::uint8_t { rom, studies, studies_with_bands };
+
+/// Whether `condyle rom` has the columns for joints other than hips.
+enum class LimitOfHips : std::uint8_t { too, only };
+
+struct LimitField {
+  const char* key;      ///< in rom.json; empty: in tables only
+  const char* meaning;  ///< of the key, as docs/formats-rom.md has it
+  /// Null if there is no value, left_out() if this answer does not have the key.
+  Json (*json)(const LimitOf&);
+  LimitColumns columns = LimitColumns::none;
+  const char* column = "";  ///< name, or what the names begin with
+  const char* unit = "";    ///< "": a text or a share
+  ColumnKind kind = ColumnKind::text;
+  const char* column_meaning = "";
+  LimitTables tables = LimitTables::rom;
+  LimitOfHips hips = LimitOfHips::too;
+};
+
+/// In the order of the files.
+std::span<const LimitField> limit_fields() noexcept;
+
+/// What stands for a key that an answer does not have.
+Json left_out();
+
+/// The columns of a field, by the names of the joint's angles.
+std::vector<ResultColumn> columns_of(const LimitField& field, Anatomy joint);
+
+/// The texts of a field's columns, as CSV has them: numbers to the last bit, empty if there is no value.
+void append_texts(std::vector<std::string>& texts, const LimitField& field, const LimitOf& of);
+
+/// As one line of a table, with its end.
+std::string csv_line(const std::vector<std::string>& fields);
+
+}  // namespace condyle::io
