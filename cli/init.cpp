@@ -25,7 +25,8 @@ void run(Options options) {
   namespace fs = std::filesystem;
   options.request.joint_file = options.out.empty() ? fs::path("joint.toml") : fs::path(options.out);
   if (!options.out.empty()) {
-    if (fs::exists(fs::symlink_status(options.out)))
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(options.out, ignored)))
       throw FileError(options.out +
                       ": is there already; a joint file may have been edited and is not replaced");
     io::check_output_file(options.out);

@@ -15,6 +15,7 @@
 #include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/output_file.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {
@@ -59,7 +60,9 @@ void run(const Options& options, const CLI::App& command) {
   noted(loaded, options.strictness);
   const Provenance from = provenance_of(loaded, words_of(command));
   io::check_output_file(options.out, from.read);
-  write_png(options.out, draw_joint(joint, given.pose.angles(), given.X_FM, picture), &from);
+  const Picture drawn = io::name_joint_file(
+      options.joint, [&] { return draw_joint(joint, given.pose.angles(), given.X_FM, picture); });
+  write_png(options.out, drawn, &from);
   say_written({options.out});
 }
 

@@ -18,6 +18,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/rom_files.hpp"
 #include "condyle/io/rom_result.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "notes.hpp"
 #include "range.hpp"
 #include "range_options.hpp"
@@ -79,13 +80,15 @@ RangeRequest request_of(const Options& options, const LoadedJoint& loaded, std::
 
 /// Where the bodies are in contact in the reference pose, the error names the options there are.
 RangeAnswer answer_of(const LoadedJoint& loaded, const RangeRequest& request) {
-  try {
-    return answered_range(loaded, request);
-  } catch (const ReferenceContactError& error) {
-    throw ReferenceContactError(std::string(error.what()) +
-                                " (--allow-depth, --exclude-reference-contacts, "
-                                "[reference_pose] in the joint file, --accept-reference-contact)");
-  }
+  return io::name_joint_file(loaded.report.file.path.string(), [&] {
+    try {
+      return answered_range(loaded, request);
+    } catch (const ReferenceContactError& error) {
+      throw ReferenceContactError(std::string(error.what()) +
+                                  " (--allow-depth, --exclude-reference-contacts, "
+                                  "[reference_pose] in the joint file, --accept-reference-contact)");
+    }
+  });
 }
 
 void run(const Options& options, const CLI::App& command) {

@@ -22,6 +22,11 @@ fs::path folder_of(const fs::path& path) {
 
 /// Throws where no file can have this name.
 NameTaken checked(const fs::path& path) {
+  if (path.empty()) throw FileError("output file: no name given");
+  // Links in a circle, or a name that is too long: later the name of a temporary file would be what fails.
+  std::error_code error;
+  if (fs::status(path, error).type() == fs::file_type::none)
+    throw FileError(fmt::format("{}: cannot be written: {}", path.string(), error.message()));
   const NameTaken taken = what_has_the_name(path);
   if (!path.has_filename() || taken == NameTaken::folder)
     throw FileError(path.string() + ": is a folder, not a file");

@@ -85,7 +85,8 @@ std::vector<fs::path> OutputFolder::commit() {
   for (const fs::path& name : names_) {
     from.push_back(aside_->path() / name);
     to.push_back(folder_ / name);
-    if (fs::is_directory(to.back())) throw FileError(to.back().string() + ": is a folder");
+    std::error_code ignored;
+    if (fs::is_directory(to.back(), ignored)) throw FileError(to.back().string() + ": is a folder");
     check_is_replaceable(to.back());
   }
   const std::vector<fs::path> left = left_by_earlier_runs();

@@ -10,6 +10,7 @@
 #include "condyle/io/rom_result.hpp"
 #include "io/file/failure.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/map_summary.hpp"
@@ -162,17 +163,19 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   const LoadedJoint loaded = load_joint(table, row);
   check_anatomy(loaded, options);
   const Joint& joint = loaded.joint;
+  const std::string place = place_of(table, row);
   std::optional<PoseDegrees> depth_at;
   if (options.depth_at) depth_at = pose_of(table, row, joint, *options.depth_at);
   LoadFields load;
   if (options.load) {
     StudyLoad posed = *options.load;
     posed.at = pose_of(table, row, joint, posed.at);
-    load = load_fields(loaded, posed);
+    load = name_joint_file(place, [&] { return load_fields(loaded, posed); });
   }
   std::string notes = notes_on(table, row, loaded, load.notes, study.bad_joint);
-  const auto answer =
-      answer_range(joint, loaded.report.placement, range_request_of(loaded, options), {{}, stop});
+  const auto answer = name_joint_file(place, [&] {
+    return answer_range(joint, loaded.report.placement, range_request_of(loaded, options), {{}, stop});
+  });
   if (!answer) return std::nullopt;
   for (const RangeNote& note : answer->notes)
     notes += (notes.empty() ? "" : " ") + std::string(name_of(note.code));
@@ -180,7 +183,7 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   const std::string inputs = inputs_sha256(row, loaded);
   Fields of_hip = hip_fields(loaded, answer->bearing, notes, inputs);
   if (answer->map) add_map(of_hip, *answer->map);
-  if (depth_at) add_depth(of_hip, joint, *depth_at);
+  if (depth_at) name_joint_file(place, [&] { add_depth(of_hip, joint, *depth_at); });
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
   return StudyAnswer{
       limit_lines(of_row, rom_result_of(*answer, {}, nullptr), options), line_of(of_row, of_hip), {}, inputs};

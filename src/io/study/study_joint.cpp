@@ -6,6 +6,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
 #include "condyle/sample/hip_measures.hpp"
+#include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/load_joint.hpp"
@@ -31,6 +32,16 @@ JointSource source_of(const StudyTable& table, const StudyRow& row) {
 
 std::filesystem::path path_in(const StudyTable& table, const StudyRow& row, std::string_view column) {
   return table.path.parent_path() / std::filesystem::path(table.field(row, column));
+}
+
+/// Line and column are named if the file is not there: the table may be what is wrong.
+std::filesystem::path file_in(const StudyTable& table, const StudyRow& row, std::string_view column) {
+  std::filesystem::path path = path_in(table, row, column);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored))
+    throw FileError(
+        fmt::format("{}: {}: no such file", table.place(row, column), core::one_line(path.string(), 300)));
+  return path;
 }
 
 /// The value that goes with a word, spelt as in a joint file; the first one where the field is empty.
@@ -133,13 +144,21 @@ void add_files(const JointFile& file, std::vector<std::string>& files) {
 LoadedJoint load_joint(const StudyTable& table, const StudyRow& row) {
   switch (source_of(table, row)) {
     case JointSource::joint_file:
-      return read_joint(path_in(table, row, "joint"));
-    case JointSource::meshes:
-      return load_joint(described(table, row));
+      return read_joint(file_in(table, row, "joint"));
+    case JointSource::meshes: {
+      JointFile file = described(table, row);
+      for (const char* body : {"fixed", "mobile"}) file_in(table, row, body);
+      return load_joint(std::move(file));
+    }
     case JointSource::sample:
       break;
   }
   return made(table, row);
+}
+
+std::string place_of(const StudyTable& table, const StudyRow& row) {
+  if (source_of(table, row) == JointSource::joint_file) return path_in(table, row, "joint").string();
+  return fmt::format("{}: line {}", table.path.string(), row.line);
 }
 
 bool is_sample(const StudyTable& table, const StudyRow& row) {

@@ -13,6 +13,9 @@ namespace condyle::io {
 /// FileError where the row does not say which, or a field is not what it must be.
 LoadedJoint load_joint(const StudyTable& table, const StudyRow& row);
 
+/// What messages about the joint begin with: its joint file, else the row's line, "table.csv: line 7".
+std::string place_of(const StudyTable& table, const StudyRow& row);
+
 /// Whether the row's joint is made, not read.
 bool is_sample(const StudyTable& table, const StudyRow& row);
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "condyle/error.hpp"
+#include "condyle/overlap_options.hpp"
+
+namespace condyle::io {
+
+/// What `answer` gives for a joint that was read. The library's errors name bodies, which many files may have: a MeshError of
+/// `answer` leaves with `place` before it, the joint file or the line of a table.
+template <class Answer>
+auto name_joint_file(const std::string& place, const Answer& answer) {
+  try {
+    return answer();
+  } catch (const ReferenceContactError& error) {
+    throw ReferenceContactError(place + ": " + error.what());
+  } catch (const MeshError& error) {
+    throw MeshError(place + ": " + error.what());
+  }
+}
+
+}  // namespace condyle::io
