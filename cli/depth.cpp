@@ -20,6 +20,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "contact_options.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
 
@@ -114,7 +115,8 @@ void run(const Options& options, const CLI::App& command) {
                                .X_FM = given.X_FM,
                                .notes = noted(loaded, options.strictness),
                                .provenance = &from};
-  const DepthResult result = depth_result(question, answer_depth(joint, request));
+  const DepthAnswer answer = io::name_joint_file(options.joint, [&] { return answer_depth(joint, request); });
+  const DepthResult result = depth_result(question, answer);
   if (!options.out.empty())
     say_written(write_depth(options.out, question, result, {options.where->vtp_encoding, options.vertices}));
   print(options.form == AnswerForm::json ? result.json : result.text);

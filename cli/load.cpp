@@ -14,6 +14,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/load_result.hpp"
 #include "contact_options.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {
@@ -43,8 +44,9 @@ void run(const Options& options, const CLI::App& command) {
   const LoadQuestion question{
       joint, given.pose, given.X_FM, surfaces, contact, request.load, noted(loaded, options.strictness),
       &from};
-  const LoadAnswer answer = answer_load(
-      {surfaces.fixed.mesh, surfaces.mobile.mesh, elastic_options(contact, surfaces, loaded)}, request);
+  const ElasticContact layers(surfaces.fixed.mesh, surfaces.mobile.mesh,
+                              elastic_options(contact, surfaces, loaded));
+  const LoadAnswer answer = io::name_joint_file(options.joint, [&] { return answer_load(layers, request); });
   note_contact(answer.notes, loaded, options.strictness);
   if (!answer.carries_load()) throw UsageError("--force: " + reason_of(*answer.balanced));
   if (!options.out.empty())

@@ -18,6 +18,7 @@
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/motion_result.hpp"
 #include "contact_options.hpp"
+#include "io/joint/name_joint_file.hpp"
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
 #include "notes.hpp"
@@ -76,7 +77,8 @@ void run(const Options& options, const CLI::App& command) {
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
   const MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
-  const MotionAnswer answer = answered_motion(question, std::move(request));
+  const MotionAnswer answer =
+      io::name_joint_file(options.joint, [&] { return answered_motion(question, std::move(request)); });
   note_contact(answer.notes, loaded, options.strictness);
   if (!options.out.empty()) {
     MotionFiles files = options.files;
