@@ -72,14 +72,14 @@ fuzz: clang_dependencies
 	@cmake --build --preset fuzz --target fuzz_programs
 	@scripts/fuzz.sh $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
-# Condyle beside other libraries; the pages get the figures of this run, and ratios worse than the stored ones are told.
+# Condyle beside other libraries; bench/tables gets the figures of this run, and ratios worse than the stored ones are told.
 bench: bench_dependencies
 	@$(configure_all)
 	@cmake --build --preset release --target condyle_bench condyle_python
 	@mkdir -p out/bench docs/images/bench
 	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
 	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/experiment.csv docs/images/bench
-	@bench/update_page.py out/bench/run.json docs/performance.md docs/experiment.md
+	@bench/update_page.py out/bench/run.json bench/tables/performance.md bench/tables/experiment.md
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.
 verify: bench_dependencies

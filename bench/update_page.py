@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the tables of a run of condyle-bench into pages: update_page.py RUN.json PAGE.md...
+"""Writes the tables of a run of condyle-bench into pages of bench/tables: update_page.py RUN.json PAGE.md...
 
 A page has places for tables of the run, and for what the run must be read with:
 

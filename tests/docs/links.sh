@@ -9,7 +9,7 @@ while IFS=: read -r file target; do
   [ -n "$path" ] || continue
   checked=$((checked + 1))
   [ -e "$(dirname "$file")/$path" ] || { echo "$file: broken link to $target" >&2; broken=1; }
-done < <(grep -oE '\]\([^)]+\)' README.md CONTRIBUTING.md docs/*.md docs/decisions/*.md --with-filename |
+done < <(grep -oE '\]\([^)]+\)' README.md CONTRIBUTING.md docs/*.md docs/*/*.md bench/tables/*.md --with-filename |
          sed -E 's/\]\(([^)]*)\)/\1/' | grep -vE ':(https?|mailto):')
 [ "$checked" -gt 0 ]
 exit "$broken"

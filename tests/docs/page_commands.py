@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs every command line of README.md and docs/*.md, page by page, and holds the answers to what pages say of them.
+"""Runs every command line of README.md and docs/, but its decisions, page by page, and holds the answers to what pages say of them.
 
 Usage: page_commands.py SOURCE_FOLDER CONDYLE_BINARY [PAGE...]
 
@@ -283,7 +283,8 @@ def help_reader(condyle: Path, has_module: bool):
 
 def main() -> int:
     source, condyle = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
-    pages = [source / page for page in sys.argv[3:]] or [source / "README.md", *sorted((source / "docs").glob("*.md"))]
+    pages = [source / page for page in sys.argv[3:]] or [source / "README.md", *(
+        page for page in sorted((source / "docs").rglob("*.md")) if page.parent.name != "decisions")]
     if os.environ.get("PYTHONPATH"):
         # Commands run in folders of their own.
         folders = os.environ["PYTHONPATH"].split(os.pathsep)
