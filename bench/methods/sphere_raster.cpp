@@ -41,7 +41,7 @@ struct SeenTriangle {
   }
 
   /// The ray crosses where it lies on one side of all three edges, the side that the volume's sign tells;
-  /// docs/mathematics.md, section 2.
+  /// docs/mathematics/02-direction-table.md.
   void cross(const Vec3& direction, Index cell, LayeredImage& out) const {
     const bool leaves = volume > 0;
     double sum = 0;

@@ -10,7 +10,7 @@
 #include "condyle/joint.hpp"
 
 /// Bearing surfaces and impingement: which contacts stop a ball joint, and which only say that its centre is off.
-/// docs/mathematics.md, section 6.
+/// docs/mathematics/06-range-of-motion.md.
 
 namespace condyle {
 

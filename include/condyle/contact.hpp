@@ -117,7 +117,7 @@ enum class DepthKind { radial, tangential };
 /// A radial depth is a depth where the surface faces the ray: then the exit along the ray is about the
 /// shortest exit. Through a flat wall at 60 degrees from the ray it is twice as long; beyond that, or where the
 /// ray leaves through the far end of a neck, the radial depth is a length along the bone and the tangential
-/// depth is the one to read. docs/mathematics.md, section 2, has the angle; the ratio of lengths says the same
+/// depth is the one to read. docs/mathematics/02-radial-method.md, has the angle; the ratio of lengths says the same
 /// of curved walls too.
 inline constexpr double longest_meaningful_ratio = 2;
 

@@ -6,7 +6,7 @@
 
 #include "condyle/contact.hpp"
 
-/// How much of two bodies is in contact at one pose: areas, volume, distances. docs/mathematics.md, section 3.
+/// How much of two bodies is in contact at one pose: areas, volume, distances. docs/mathematics/03-both-directions.md.
 
 namespace condyle {
 

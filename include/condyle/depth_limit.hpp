@@ -34,7 +34,7 @@ struct DepthLimit {
   bool depth_grows = true;
 };
 
-/// Depth is the radial depth (docs/mathematics.md, section 2) of the deepest vertex of either body in the
+/// Depth is the radial depth (docs/mathematics/02-radial-method.md) of the deepest vertex of either body in the
 /// other, whatever the angle between its ray and the surface. Where surfaces slide, that is the depth. Where
 /// a neck runs into a rim the ray grazes the wall and the radial depth reads many times the true one, so
 /// there a motion ends almost as soon as a vertex is inside: what is allowed is allowed to sliding surfaces.

@@ -11,7 +11,7 @@
 #include "condyle/pose.hpp"
 
 /// How far one mesh rotates about an axis before it meets another: in closed form, complete, without a step
-/// size (docs/mathematics.md, section 5).
+/// size (docs/mathematics/05-contact-under-rotation.md).
 
 namespace condyle {
 

@@ -6,7 +6,7 @@
 #include "condyle/angle.hpp"
 #include "condyle/pose.hpp"
 
-/// The clinical coordinates of a joint and the poses they name: docs/mathematics.md, section 1.
+/// The clinical coordinates of a joint and the poses they name: docs/mathematics/01-setting.md.
 ///
 /// The joint frame F has X anterior, Y superior, Z to the subject's right, on both sides of the body. A pose of the
 /// mobile body M is three rotations, each about the axis as the earlier ones left it. On a right joint

@@ -10,7 +10,7 @@
 #include "condyle/range_of_motion.hpp"
 
 /// How far limits move when what is not known exactly is moved within what is known: a limit with its band can be
-/// quoted. docs/mathematics.md, section 6.
+/// quoted. docs/mathematics/06-range-of-motion.md.
 
 namespace condyle {
 

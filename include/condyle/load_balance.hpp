@@ -7,7 +7,7 @@
 #include "condyle/make_joint.hpp"
 #include "condyle/pressure.hpp"
 
-/// The position in which the contact carries a load: docs/mathematics.md, section 7.
+/// The position in which the contact carries a load: docs/mathematics/07-contact-pressure.md.
 ///
 ///     const Load stance{.on_mobile = {.force_n = {-150, 1900, 300}}};
 ///     const BalancedPose hip = balance(cartilages, X_FM, stance);

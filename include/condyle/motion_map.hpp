@@ -9,7 +9,7 @@
 #include "condyle/range_of_motion.hpp"
 
 /// The combined range of motion: the free angles of one joint angle over a grid of the other two.
-/// docs/mathematics.md, section 6.
+/// docs/mathematics/06-range-of-motion.md.
 
 namespace condyle {
 

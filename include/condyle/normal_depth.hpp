@@ -9,7 +9,7 @@
 #include "condyle/pose.hpp"
 
 /// Depth along the normals of one surface: for sheets that bound nothing, as segmented cartilage does, and for closed bodies
-/// beside the radial and the tangential depth. docs/mathematics.md, section 7.
+/// beside the radial and the tangential depth. docs/mathematics/07-contact-pressure.md.
 ///
 /// From a point of the casting surface C a ray runs along the negative normal, into the casting body; the nearest triangle
 /// of the target surface T that it meets within the reach is at the overlap depth:

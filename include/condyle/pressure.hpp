@@ -8,7 +8,7 @@
 #include "condyle/normal_depth.hpp"
 
 /// Contact pressure of thin layers on rigid bones: the elastic foundation (Blankevoort et al., J Biomech 24, 1991).
-/// docs/mathematics.md, section 7. A layer of thickness h, modulus E and Poisson's ratio nu that cannot spread sideways
+/// docs/mathematics/07-contact-pressure.md. A layer of thickness h, modulus E and Poisson's ratio nu that cannot spread sideways
 /// answers an overlap d by the pressure
 ///
 ///     linear        p = M d / h                  M = (1 - nu) E / ((1 + nu)(1 - 2 nu))

@@ -13,7 +13,7 @@
 #include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 
-/// The radial method: rays from one centre. docs/mathematics.md, section 2; Arbabi et al. 2009.
+/// The radial method: rays from one centre. docs/mathematics/02-radial-method.md; Arbabi et al. 2009.
 
 namespace condyle {
 
@@ -36,7 +36,7 @@ struct RadialOptions {
 };
 
 /// Above this angle between ray and surface normal the radial depth is no longer a depth: the ray grazes the
-/// wall, and the tangential depth is the one to read. docs/mathematics.md, section 2.
+/// wall, and the tangential depth is the one to read. docs/mathematics/02-radial-method.md.
 inline constexpr Angle oblique_ray = Angle::degrees(60);
 
 /// Which way along its ray a vertex reaches the surface that its gap or depth is measured to.

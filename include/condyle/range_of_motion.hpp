@@ -13,7 +13,7 @@
 #include "condyle/overlap_options.hpp"
 
 /// Range of motion: how far a joint turns in each clinical direction before bone meets bone, where, and why.
-/// docs/mathematics.md, section 6.
+/// docs/mathematics/06-range-of-motion.md.
 
 namespace condyle {
 

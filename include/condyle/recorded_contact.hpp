@@ -10,7 +10,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/first_contact.hpp"
 
-/// Contact in a recorded motion, between its samples too. docs/mathematics.md, section 6.
+/// Contact in a recorded motion, between its samples too. docs/mathematics/06-range-of-motion.md.
 
 namespace condyle {
 

@@ -8,8 +8,7 @@
 #include "condyle/contact.hpp"
 #include "condyle/contact_measures.hpp"
 
-/// The depth to read of each vertex: of several ways out the one that means a depth there. docs/concepts.md, "What is
-/// asked of a vertex".
+/// The depth to read of each vertex: of several ways out the one that means a depth there. docs/depths.md.
 
 namespace condyle {
 

@@ -12,7 +12,7 @@
 #include "condyle/point_state.hpp"
 #include "condyle/points.hpp"
 
-/// The tangential method: circles about one axis. docs/mathematics.md, section 4; Arbabi et al. 2009.
+/// The tangential method: circles about one axis. docs/mathematics/04-tangential-method.md; Arbabi et al. 2009.
 
 namespace condyle {
 namespace tangential {

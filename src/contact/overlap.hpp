@@ -5,7 +5,7 @@
 
 #include "condyle/contact.hpp"
 
-/// What is inside two bodies at once, by signed prisms. docs/mathematics.md, section 3.
+/// What is inside two bodies at once, by signed prisms. docs/mathematics/03-both-directions.md.
 
 namespace condyle::contact {
 

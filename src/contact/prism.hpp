@@ -11,7 +11,7 @@
 #include "condyle/points.hpp"
 #include "core/ordered_sums.hpp"
 
-/// The space below a triangle and what two such have in common, seen along z. docs/mathematics.md, section 3.
+/// The space below a triangle and what two such have in common, seen along z. docs/mathematics/03-both-directions.md.
 
 namespace condyle::contact::prisms {
 

@@ -5,8 +5,8 @@
 
 #include "condyle/pose.hpp"
 
-/// Which coordinates are computed with: docs/mathematics.md, "What a coordinate is". Signs are exact for any double, but the
-/// tables find their candidates by single precision and by squares, which hold no more than this.
+/// Which coordinates are computed with: docs/mathematics/01-setting.md, "What a coordinate is". Signs are exact for any
+/// double, but the tables find their candidates by single precision and by squares, which hold no more than this.
 
 namespace condyle::core {
 

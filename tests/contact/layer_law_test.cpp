@@ -16,7 +16,7 @@ TEST(LayerLaw, ConfinedModulusOfCartilage) {
 }
 
 TEST(LayerLaw, LogarithmicPressuresOfSixMillimetres) {
-  // -M ln(1 - d / h); printed to six decimals in docs/mathematics.md.
+  // -M ln(1 - d / h); printed to six decimals in docs/mathematics/08-known-answers.md.
   const double known[][2] = {{0.2, 1.285921}, {0.5, 3.300432}, {1, 6.915645}, {2, 15.379711}};
   for (const auto& [d, p] : known) {
     const double pressure = answer_of(PressureLaw::logarithmic, {modulus, 6}, nothing, d).pressure;

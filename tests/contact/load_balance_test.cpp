@@ -63,7 +63,7 @@ TEST_P(BalancedCup, CarriesTwoThousandNewtonsWhereTheClosedFormDoes) {
   EXPECT_NEAR(found[1] + (found[1] - found[0]) / 3, known.d, 1e-4);
 }
 
-// d as printed in docs/mathematics.md.
+// d as printed in docs/mathematics/08-known-answers.md.
 INSTANTIATE_TEST_SUITE_P(Cases, BalancedCup,
                          testing::Values(std::pair{test::BallInCup{25.85, 25.65, 0, 9.282971}, 0.434453},
                                          std::pair{test::BallInCup{25.85, 25.75, 0, 9.282971}, 0.299392},

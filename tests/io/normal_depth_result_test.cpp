@@ -102,8 +102,8 @@ TEST(NormalDepthResult, ABallInASheetIsAsDeepAsItsCap) {
   for (const Json* body : {&from_sheet, &from_ball})
     EXPECT_NEAR((*body)["max_normal_depth_mm"].get<double>(), R - h, 1e-12);
 
-  // The ball's mesh sags by up to edge^2 / 4 R (mathematics.md, section 8), upwards by R / y of that at the height y, and a
-  // depth taken as linear along edges e of the sheet falls short by up to e^2 / 8 times its curvature, R^2 / y^3. Both are
+  // The ball's mesh sags by up to edge^2 / 4 R (docs/mathematics/08-known-answers.md), upwards by R / y of that at the
+  // height y, and a depth taken as linear along edges e of the sheet falls short by up to e^2 / 8 times its curvature, R^2 / y^3. Both are
   // largest an edge beyond the border. What is found is then between the cap's figures and those of a sheet so much higher.
   const double e = std::numbers::sqrt2 * spacing, edge = longest_edge(ball());
   const double y = std::sqrt(R * R - std::pow(std::sqrt(R * R - h * h) + e, 2));

@@ -222,7 +222,7 @@ std::vector<std::string> codes_of(const Joint& joint, const Motion& motion) {
   return codes;
 }
 
-/// By the table of docs/formats-rom.md.
+/// By the table of docs/caveats.md.
 TEST(MotionCaveats, SayOfEachMotionOfAHipWhetherBoneUsuallyEndsIt) {
   using Codes = std::vector<std::string>;
   const std::map<std::string, Codes> expected{

@@ -51,7 +51,7 @@ Pose pose_of(double flexion_deg, double rotation_deg) {
                  JointAngles{Angle::degrees(flexion_deg), Angle(), Angle::degrees(rotation_deg)});
 }
 
-/// docs/mathematics.md lowers distances by this, as more than all rounding on the way.
+/// docs/mathematics/06-range-of-motion.md lowers distances by this, as more than all rounding on the way.
 constexpr double more_than_rounding_mm = 1e-9;
 
 class VertexOrder : public ::testing::Test {

@@ -8,7 +8,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/pressure.hpp"
 
-/// What a joint file says of its surfaces in contact: the table [contact], whose keys are docs/joint-file.md.
+/// What a joint file says of its surfaces in contact: the table [contact], whose keys are in docs/joint-contact.md.
 
 namespace condyle {
 

@@ -12,7 +12,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats.md.
+/// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats-depth.md.
 
 namespace condyle {
 

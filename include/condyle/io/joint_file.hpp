@@ -76,7 +76,7 @@ struct LoadedJoint {
   JointReport report;
 };
 
-/// Reads a joint file and its meshes, and makes the joint: docs/joint-file.md, "Placement", and make_joint().
+/// Reads a joint file and its meshes, and makes the joint: docs/joint-frame.md, "Placement", and make_joint().
 /// Throws FileError, and MeshError where a fit finds nothing or a repair cannot be made.
 LoadedJoint read_joint(const std::filesystem::path& path);
 

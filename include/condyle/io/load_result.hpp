@@ -13,7 +13,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// What `condyle load` found, for files. Every key and array is in docs/formats.md.
+/// What `condyle load` found, for files. Every key and array is in docs/formats-load.md.
 
 namespace condyle {
 

@@ -20,7 +20,7 @@
 #include "condyle/range_of_motion.hpp"
 
 /// What `condyle rom` found, as text for people and for programs. Every key, column, unit and sign is in
-/// docs/formats.md.
+/// docs/formats-rom.md.
 
 namespace condyle {
 

@@ -6,7 +6,7 @@
 #include "condyle/impingement_zone.hpp"
 #include "condyle/io/mesh_file.hpp"
 
-/// Impingement zones for files. Every array, unit and sign is in docs/formats.md.
+/// Impingement zones for files. Every array, unit and sign is in docs/formats-rom.md.
 
 namespace condyle {
 

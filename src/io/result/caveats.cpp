@@ -80,7 +80,7 @@ std::string scope_of(const Tissues& tissues) {
   return fmt::format("contact of the {} given; other tissue is not modelled; {}", list, end);
 }
 
-// In full: docs/formats-rom.md.
+// In full: docs/caveats.md.
 constexpr std::string_view turley = "Turley 2013, PMC3589629", han = "Han 2020, J Orthop Res 38:1779",
                            van_arkel = "van Arkel 2015, PMC4655836", labrum_study = "PMC7754612";
 

@@ -8,7 +8,7 @@
 #include "motion/events/rotation_function.hpp"
 
 /// Contact events: the angles at which features of a turning body meet features of a resting one
-/// (docs/mathematics.md, section 5).
+/// (docs/mathematics/05-contact-under-rotation.md).
 ///
 /// Everything here is in the axis frame: the axis is z, the rotation is R(t) about it, coordinates at t = 0.
 /// The given doubles are taken as exact. Whether two features meet at a root is decided exactly, always: first

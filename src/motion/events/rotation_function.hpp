@@ -59,7 +59,7 @@ RotationFunction<Number> height_over_plane(const Triple<Number>& n, const Triple
 /// Six times the volume spanned by the turning edge from a along u and the resting edge from c along w; zero
 /// where their lines meet or are parallel:
 ///
-///     T(t) = R m . w + R u . m',      m = a x u,  m' = c x w      (docs/mathematics.md, section 5)
+///     T(t) = R m . w + R u . m',      m = a x u,  m' = c x w      (docs/mathematics/05-contact-under-rotation.md)
 ///
 /// Both moments are taken about the axis point at a's height: turning about z commutes with shifting along z,
 /// and the coefficients then carry no product with the distance along the axis.

@@ -7,8 +7,8 @@
 namespace condyle::motion {
 
 /// Contact on the way of a body whose origin is held: in closed form, none missed, however short
-/// (docs/mathematics.md, section 5). The axis goes through M's origin, so the fixed body is placed as seen from there,
-/// shifted by -t.
+/// (docs/mathematics/05-contact-under-rotation.md). The axis goes through M's origin, so the fixed body is placed as seen
+/// from there, shifted by -t.
 ///
 /// An end errs by at most the difference to the nearest proven contact, below 4e-12 rad of rotation. Free stretches
 /// below 1e-9 rad between contacts count as contact. The motion must hold its origin and turn by less than half a turn.

@@ -12,7 +12,7 @@ namespace condyle::motion {
 ///     --------(=====================)--------(=====)-------   at events only; the union over all pairs
 ///
 /// Both bodies are placed in one frame; the turning one is at angle 0 there. Ends are events of
-/// docs/mathematics.md, section 5, widened by their error bound (below 1e-12 rad): the set holds every angle
+/// docs/mathematics/05-contact-under-rotation.md, widened by their error bound (below 1e-12 rad): the set holds every angle
 /// of contact. Between two events of a pair one exact test of the turned and rounded triangles decides. Gaps
 /// between events of a pair below 1e-9 rad count as contact.
 ///

@@ -13,7 +13,7 @@
 /// only shifts the direction, so both trees of features carry boxes in those coordinates, and "what can be
 /// met, and after which angle at the earliest" is a comparison of boxes.
 ///
-/// The table differs from the ring table of the tangential method (docs/mathematics.md, section 4), which
+/// The table differs from the ring table of the tangential method (docs/mathematics/04-tangential-method.md), which
 /// lists triangles by cells of the profile: there one vertex needs its whole circle; here whole regions of
 /// both bodies are compared first, and most of the circle is never looked at.
 

@@ -3,7 +3,7 @@
 #include "core/predicates.hpp"
 #include "mesh/triangle_intersection.hpp"
 
-/// One ray from the origin through one point, against one triangle. docs/mathematics.md, section 2.
+/// One ray from the origin through one point, against one triangle. docs/mathematics/02-radial-method.md.
 
 namespace condyle::radial {
 

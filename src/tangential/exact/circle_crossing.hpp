@@ -9,7 +9,7 @@
 #include "condyle/tangential.hpp"
 #include "core/predicates.hpp"
 
-/// Where the circle of a rotating point meets a triangle: docs/mathematics.md, section 4. Everything here is
+/// Where the circle of a rotating point meets a triangle: docs/mathematics/04-tangential-method.md. Everything here is
 /// in the axis frame.
 
 namespace condyle::tangential {
