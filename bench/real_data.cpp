@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "condyle/io/curve_files.hpp"
 #include "condyle/io/recorded_motion.hpp"
+#include "io/motion/curve_files.hpp"
 
 namespace bench {
 

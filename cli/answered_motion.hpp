@@ -1,8 +1,8 @@
 #pragma once
 
 #include "condyle/answer.hpp"
-#include "condyle/io/motion_result.hpp"
 #include "contact_options.hpp"
+#include "io/result/motion_result.hpp"
 
 /// A recorded motion as the commands ask about it.
 

@@ -15,12 +15,12 @@
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/inspect.hpp"
-#include "condyle/io/depth_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "contact_options.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/result/depth_result.hpp"
 #include "mesh/require_solid.hpp"
 #include "notes.hpp"
 

@@ -8,7 +8,7 @@
 #include "answer.hpp"
 #include "command_line.hpp"
 #include "commands.hpp"
-#include "condyle/io/frame_result.hpp"
+#include "io/result/frame_result.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {

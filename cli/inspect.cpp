@@ -12,10 +12,10 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/inspection_result.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/output_folder.hpp"
-#include "condyle/io/repair_text.hpp"
+#include "io/file/output_folder.hpp"
+#include "io/result/inspection_result.hpp"
+#include "io/result/repair_text.hpp"
 
 namespace condyle::cli {
 namespace {

@@ -12,9 +12,9 @@
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/load_result.hpp"
 #include "contact_options.hpp"
 #include "io/joint/name_joint_file.hpp"
+#include "io/result/load_result.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {

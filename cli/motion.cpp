@@ -16,11 +16,11 @@
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
-#include "condyle/io/motion_result.hpp"
 #include "contact_options.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
+#include "io/result/motion_result.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {

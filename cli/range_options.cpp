@@ -5,8 +5,8 @@
 #include <CLI/Formatter.hpp>
 
 #include "condyle/error.hpp"
-#include "condyle/io/grid_text.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "io/joint/grid_text.hpp"
 
 namespace condyle::cli {
 namespace {

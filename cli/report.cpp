@@ -18,7 +18,7 @@
 #include "condyle/held_translation.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
-#include "condyle/io/report.hpp"
+#include "io/report/report.hpp"
 #include "notes.hpp"
 #include "range.hpp"
 #include "range_options.hpp"

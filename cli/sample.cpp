@@ -9,8 +9,8 @@
 
 #include "answer.hpp"
 #include "commands.hpp"
-#include "condyle/io/sample_files.hpp"
 #include "followed.hpp"
+#include "io/result/sample_files.hpp"
 
 namespace condyle::cli {
 namespace {

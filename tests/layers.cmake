@@ -19,7 +19,7 @@ set(sample_uses core mesh)
 set(io_uses core mesh kinematics contact motion answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
-set(core_headers angle axis_frame error points pose version)
+set(core_headers angle axis_frame control error points pose version)
 set(simd_headers)
 set(mesh_headers inspect length_unit mesh point_state repair)
 set(kinematics_headers fit held_translation joint joint_checks joint_coordinates joint_frame make_joint)

@@ -35,7 +35,7 @@
 
 namespace condyle {
 
-/// How an answer's work is followed and ended.
+/// How an answer's work, which may have several stages, is followed and ended: a Control that says which stage it is.
 struct AnswerControl {
   /// `stage` names what is counted, such as "map points": one call at a time, growing counts.
   std::function<void(std::string_view stage, std::size_t done, std::size_t total)> progress = {};

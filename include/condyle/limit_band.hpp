@@ -1,12 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
+#include "condyle/control.hpp"
 #include "condyle/range_of_motion.hpp"
 
 /// How far limits move when what is not known exactly is moved within what is known: a limit with its band can be
@@ -42,13 +41,6 @@ struct LimitBand {
   double share_in_contact_at_start = 0;
 };
 
-/// How a band's computation is followed and ended, as a map's.
-struct BandControl {
-  std::function<void(std::size_t done, std::size_t total)> progress =
-      {};  ///< one call at a time, growing counts
-  std::stop_token stop = {};
-};
-
 /// Bands of these motions, in their order: each of `samples` joints has its centre displaced, its axes rotated and both
 /// surfaces moved, by a Latin hypercube of the seed; its limits are exact. Where a bearing surface is known, that of the
 /// joint as given is used in all. The same bits whatever the threads.
@@ -61,7 +53,7 @@ std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> m
 /// The same; empty where it was stopped before all samples were done.
 std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                                   const RangeOptions& range, const BandOptions& options,
-                                                  const BandControl& control);
+                                                  const Control& control);
 
 /// One motion's limit in a joint that is displaced.
 struct DisplacedLimit {

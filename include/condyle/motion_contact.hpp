@@ -1,13 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <variant>
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/control.hpp"
 #include "condyle/load_balance.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
@@ -39,19 +38,14 @@ struct FrameContact {
   std::size_t cut_off_by_reach = 0;
 };
 
-struct AlongMotionOptions {
-  /// The body that casts in a NormalDepth, which does not know.
-  BodyRole casting = BodyRole::mobile;
-  std::function<void(std::size_t done, std::size_t total)> progress = {};
-  std::stop_token stop = {};
-};
-
+/// `casting` is the body that casts in a NormalDepth, which does not know; it means nothing to an ElasticContact.
+///
 /// One entry per pose, empty for gaps; frames in parallel, with the same answers on any number of threads. The outer
 /// optional is empty where it was stopped before the end. Raises what ElasticContact::at() raises, the message begun with
 /// the frame's number.
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
-    const AlongMotionOptions& options = {});
+    BodyRole casting = BodyRole::mobile, const Control& control = {});
 
 /// The poses that balance a load, frame after frame: rotations are the recorded ones, and each frame starts from its
 /// translation as the last frame that carries its load has moved its own, and on as that changed between two balanced frames
@@ -59,6 +53,6 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
 /// nothing on; gaps stay gaps. Not parallel.
 std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
     const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
-    const BalanceOptions& balance = {}, const AlongMotionOptions& options = {});
+    const BalanceOptions& balance = {}, const Control& control = {});
 
 }  // namespace condyle

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
+#include "condyle/control.hpp"
 #include "condyle/range_of_motion.hpp"
 
 /// The combined range of motion: the free angles of one joint angle over a grid of the other two.
@@ -63,20 +62,11 @@ struct MotionMap {
   SearchWork work() const noexcept;
 };
 
-/// How a map's computation is followed and ended.
-struct MapControl {
-  /// Called after every point from whichever thread computed it, one call at a time, with growing counts.
-  std::function<void(std::size_t done, std::size_t total)> progress = {};
-  /// Points begun are finished, no others are begun.
-  std::stop_token stop = {};
-};
-
 /// Computes all points, on all threads. Each point's answer is that of RangeOfMotion: the same bits whatever
 /// the threads. Throws as check_grid().
 MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint);
 /// The same; empty where it was stopped before all points were done.
-std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
-                                    const MapControl& control);
+std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint, const Control& control);
 
 /// How much of the space of joint angles is free, all intervals of every point together, by the trapezoidal rule over the grid: the error of the
 /// volume goes with the square of the step where limits change smoothly.

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
-#include <stop_token>
 #include <vector>
 
 #include "condyle/contact.hpp"
+#include "condyle/control.hpp"
 #include "condyle/first_contact.hpp"
 
 /// Contact in a recorded motion, between its samples too. docs/mathematics/06-range-of-motion.md.
@@ -66,13 +65,6 @@ struct RecordedContactOptions {
   double resolution_s = 1e-5;
 };
 
-/// How the computation is followed and ended, as a map's.
-struct RecordedContactControl {
-  /// One call at a time, growing counts of ways between samples.
-  std::function<void(std::size_t done, std::size_t total)> progress = {};
-  std::stop_token stop = {};
-};
-
 /// When the bodies are in contact in a motion recorded as poses X_FM at times, s.
 ///
 ///     sample 11              12              13              14       contact of 2 ms between two samples 33 ms apart
@@ -98,7 +90,6 @@ RecordedContact contact_between(const JointContact& bodies, std::span<const doub
 /// The same; empty where it was stopped before all ways were done.
 std::optional<RecordedContact> contact_between(const JointContact& bodies, std::span<const double> time_s,
                                                std::span<const Pose> X_FM,
-                                               const RecordedContactOptions& options,
-                                               const RecordedContactControl& control);
+                                               const RecordedContactOptions& options, const Control& control);
 
 }  // namespace condyle

@@ -6,10 +6,10 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/propose_joint.hpp"
 #include "condyle/joint_checks.hpp"
+#include "io/result/caveats.hpp"
 #include "joint_description.hpp"
 #include "joint_state.hpp"
 

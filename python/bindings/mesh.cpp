@@ -7,8 +7,8 @@
 #include "bindings.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/repair_text.hpp"
 #include "condyle/repair.hpp"
+#include "io/result/repair_text.hpp"
 
 namespace condyle::python {
 namespace {

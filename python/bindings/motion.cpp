@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "arrays.hpp"
-#include "condyle/io/rom_result.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle::python {
 namespace {

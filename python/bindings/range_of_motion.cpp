@@ -6,10 +6,10 @@
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "condyle/path_limit.hpp"
 #include "interrupts.hpp"
+#include "io/result/caveats.hpp"
+#include "io/result/rom_result.hpp"
 #include "motion.hpp"
 
 namespace condyle::python {

@@ -7,9 +7,9 @@
 #include "bindings.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/motion_file.hpp"
-#include "condyle/io/motion_result.hpp"
 #include "condyle/recorded_contact.hpp"
 #include "interrupts.hpp"
+#include "io/result/motion_result.hpp"
 #include "motion.hpp"
 #include "surface_contact.hpp"
 

@@ -1,4 +1,4 @@
-#include "condyle/io/report.hpp"
+#include "io/report/report.hpp"
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>

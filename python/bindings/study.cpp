@@ -5,9 +5,9 @@
 #include <array>
 
 #include "bindings.hpp"
-#include "condyle/io/grid_text.hpp"
-#include "condyle/io/sample_files.hpp"
 #include "interrupts.hpp"
+#include "io/joint/grid_text.hpp"
+#include "io/result/sample_files.hpp"
 #include "surface_contact.hpp"
 
 namespace condyle::python {

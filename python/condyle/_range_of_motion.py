@@ -189,7 +189,7 @@ class RangeOfMotion:
         `band_samples` above 0: with the bands of the limits, as :meth:`bands`; `past_deg`: with the impingement zones, as
         :meth:`zones`. Whole or not at all; FileError where it cannot be written.
 
-        C++: `condyle::write_report` in condyle/io/report.hpp; `condyle report`.
+        C++: `condyle::answer_range` in condyle/answer.hpp; `condyle report`.
 
         >>> import condyle, os, tempfile
         >>> bones = condyle.sample_hip()

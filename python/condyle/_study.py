@@ -356,7 +356,7 @@ def sample_cohort(folder: Path, n: int, *, seed: int = 1, scenario: int = 1, mes
     With `meshes` each hip's meshes and joint file too, a second or more each; without, the study makes each hip of its
     measures. Hip k of a seed is the same whatever `n`. Distributions: docs/cohort.md.
 
-    C++: `condyle::write_sample_cohort` in condyle/io/sample_files.hpp; `condyle sample cohort`.
+    C++: `condyle::write_sample_cohort` in io/result/sample_files.hpp; `condyle sample cohort`.
     """
     _native.sample_cohort(path_of(folder, "folder"), count(n, "n", 1, MOST_HIPS),
                           count(seed, "seed", high=2**64 - 1), count(scenario, "scenario", 1, 4), bool(meshes),

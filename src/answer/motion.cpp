@@ -48,8 +48,7 @@ bool balance_frames(const ElasticContact& elastic, const MotionRequest& request,
                     MotionAnswer& answer, const AnswerControl& control) {
   const std::vector<Load> loads = loads_of(request, X_FM, answer.without_load);
   auto balanced =
-      balance_along(elastic, X_FM, loads, request.balance,
-                    {.progress = answer::staged(control, "balanced frames"), .stop = control.stop});
+      balance_along(elastic, X_FM, loads, request.balance, answer::staged(control, "balanced frames"));
   if (!balanced) return false;
   answer.balanced = std::move(*balanced);
   for (std::size_t i = 0; i < X_FM.size(); ++i) {
@@ -65,7 +64,7 @@ bool balance_frames(const ElasticContact& elastic, const MotionRequest& request,
 /// contact_between() of each run of frames without a gap, a recording of its own. Empty if it was stopped.
 std::optional<RecordedContact> contact_between_frames(const JointContact& bodies, const Frames& X_FM,
                                                       std::span<const double> time_s,
-                                                      const RecordedContactControl& control) {
+                                                      const Control& control) {
   RecordedContact all;
   for (std::size_t first = 0; first < X_FM.size();) {
     std::size_t last = first;
@@ -143,13 +142,11 @@ std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const Surf
     if (!balance_frames(*elastic, request, X_FM, answer, control)) return std::nullopt;
   }
   if (is_between_searched(request, X_FM)) {
-    answer.between = contact_between_frames(bodies, X_FM, request.time_s,
-                                            {answer::staged(control, "ways between samples"), control.stop});
+    answer.between =
+        contact_between_frames(bodies, X_FM, request.time_s, answer::staged(control, "ways between samples"));
     if (!answer.between) return std::nullopt;
   }
-  auto frames = contact_along(
-      bodies, surfaces, X_FM,
-      {.casting = request.casting, .progress = answer::staged(control, "frames"), .stop = control.stop});
+  auto frames = contact_along(bodies, surfaces, X_FM, request.casting, answer::staged(control, "frames"));
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
   add_new(answer.notes, check_motion(answer.frames, request.names));

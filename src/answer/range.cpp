@@ -63,12 +63,12 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
     for (const MotionLimit& limit : answer.limits) answer.zones.push_back(finder.zone(limit));
   }
   if (request.map) {
-    answer.map = motion_map(*request.map, range, {answer::staged(control, "map points"), control.stop});
+    answer.map = motion_map(*request.map, range, answer::staged(control, "map points"));
     if (!answer.map) return false;
   }
   if (request.bands) {
     auto bands = limit_bands(answer.joint, request.motions, again, *request.bands,
-                             {answer::staged(control, "joints of the band"), control.stop});
+                             answer::staged(control, "joints of the band"));
     if (!bands) return false;
     answer.bands = std::move(*bands);
   }

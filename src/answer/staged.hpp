@@ -1,18 +1,17 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string_view>
 
 #include "condyle/answer.hpp"
 
 namespace condyle::answer {
 
-/// The progress that one stage reports, under the name of what it counts; null if nobody follows.
-inline std::function<void(std::size_t done, std::size_t total)> staged(const AnswerControl& control,
-                                                                       std::string_view stage) {
-  if (!control.progress) return nullptr;
-  return [&control, stage](std::size_t done, std::size_t total) { control.progress(stage, done, total); };
+/// The control of one stage, which reports its progress under the name of what it counts.
+inline Control staged(const AnswerControl& control, std::string_view stage) {
+  if (!control.progress) return {.stop = control.stop};
+  return {[&control, stage](std::size_t done, std::size_t total) { control.progress(stage, done, total); },
+          control.stop};
 }
 
 }  // namespace condyle::answer

@@ -3,13 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "condyle/error.hpp"
-#include "condyle/io/curve_files.hpp"
-#include "condyle/io/inspection_result.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/motion_file.hpp"
 #include "fuzz/fuzz_input.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"
+#include "io/motion/curve_files.hpp"
+#include "io/result/inspection_result.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle::test {

@@ -2,12 +2,12 @@
 #include <string>
 
 #include "condyle/error.hpp"
-#include "condyle/io/grid_text.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/repair_text.hpp"
 #include "condyle/joint.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"
+#include "io/joint/grid_text.hpp"
+#include "io/result/repair_text.hpp"
 #include "support/test_meshes.hpp"
 
 namespace condyle::test {

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "condyle/error.hpp"
-#include "condyle/io/frame_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "core/predicates.hpp"
+#include "io/result/frame_result.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

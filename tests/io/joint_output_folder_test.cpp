@@ -2,7 +2,7 @@
 #include <unistd.h>
 
 #include "condyle/error.hpp"
-#include "condyle/io/output_folder.hpp"
+#include "io/file/output_folder.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle {

@@ -2,10 +2,10 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/frame_result.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
+#include "io/result/frame_result.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

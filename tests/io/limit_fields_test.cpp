@@ -16,7 +16,7 @@ namespace condyle::test {
 namespace {
 
 std::string page() {
-  return io::read_whole_file(std::filesystem::path(CONDYLE_SOURCE_DIR) / "docs/formats-rom.md");
+  return io::read_whole_file(std::filesystem::path(CONDYLE_SOURCE_DIR) / "docs/formats-limits.md");
 }
 
 TEST(LimitFields, AreNamedOnce) {
@@ -42,8 +42,9 @@ TEST(LimitFields, AreInThePageAsTheyAreInTheFiles) {
     for (const io::ResultColumn& column : io::columns_of(field, Anatomy::hip))
       columns += "| `" + column.name + "` | " + column.unit + " | " + column.meaning + " |\n";
   }
-  EXPECT_NE(page().find(keys), std::string::npos) << "docs/formats-rom.md, an element of motions:\n" << keys;
-  EXPECT_NE(page().find(columns), std::string::npos) << "docs/formats-rom.md, limits.csv:\n" << columns;
+  EXPECT_NE(page().find(keys), std::string::npos) << "docs/formats-limits.md, an element of motions:\n"
+                                                  << keys;
+  EXPECT_NE(page().find(columns), std::string::npos) << "docs/formats-limits.md, limits.csv:\n" << columns;
 }
 
 TEST(LimitFields, HaveAsManyTextsAsColumnsForAnyLimit) {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "condyle/io/depth_result.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/depth_result.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 

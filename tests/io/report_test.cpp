@@ -1,4 +1,4 @@
-#include "condyle/io/report.hpp"
+#include "io/report/report.hpp"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

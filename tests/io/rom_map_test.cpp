@@ -4,10 +4,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "condyle/io/map_result.hpp"
-#include "condyle/io/rom_files.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/map_result.hpp"
+#include "io/result/rom_files.hpp"
+#include "io/result/rom_result.hpp"
 #include "rom_scene.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "condyle/io/rom_result.hpp"
+#include "io/result/rom_result.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/normal_range.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
+#include "io/result/normal_range.hpp"
 #include "rom_scene.hpp"
 
 namespace condyle::test {

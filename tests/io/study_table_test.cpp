@@ -6,8 +6,8 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/sample_files.hpp"
 #include "condyle/io/study.hpp"
+#include "io/result/sample_files.hpp"
 #include "study_of_arms.hpp"
 
 /// What a study's table may say, and what is refused of it.

@@ -13,9 +13,9 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/sample_files.hpp"
 #include "condyle/version.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/sample_files.hpp"
 #include "study_of_arms.hpp"
 
 namespace condyle::test {
@@ -204,7 +204,7 @@ TEST_F(StudyOfArms, EndsWhereItsOptionsDoNotFit) {
 
 TEST_F(StudyOfArms, WritesNothingWhereItIsStopped) {
   std::stop_source stop;
-  StudyControl control;
+  Control control;
   control.stop = stop.get_token();
   control.progress = [&](std::size_t, std::size_t) { stop.request_stop(); };
   EXPECT_FALSE(run_study(study("out"), control));

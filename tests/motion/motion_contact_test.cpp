@@ -36,7 +36,7 @@ TEST(MotionContact, FramesCountTheRaysThatTheReachCutsOff) {
     EXPECT_EQ((*frames)[1]->cut_off_by_reach, 0u) << "0.05 mm deep at most";
   }
   const NormalDepth depths(cup, ball, {.reach_mm = 0.2});
-  const auto frames = contact_along(joint, &depths, X_FM, {.casting = BodyRole::fixed});
+  const auto frames = contact_along(joint, &depths, X_FM, BodyRole::fixed);
   for (std::size_t i = 0; i < X_FM.size(); ++i)
     EXPECT_EQ((*frames)[i]->cut_off_by_reach, depths.cut_off_by_reach(*X_FM[i])) << i;
 }

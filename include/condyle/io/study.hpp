@@ -3,13 +3,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "condyle/control.hpp"
 #include "condyle/io/contact_changes.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/limit_band.hpp"
@@ -88,13 +87,6 @@ struct Study {
   BadJoint bad_joint = BadJoint::is_a_row;
 };
 
-/// How a study is followed and ended, as a map's computation.
-struct StudyControl {
-  std::function<void(std::size_t done, std::size_t total)> progress =
-      {};  ///< one call at a time, growing counts
-  std::stop_token stop = {};
-};
-
 /// A joint that looks wrong: docs/checks.md.
 struct NotedJoint {
   std::string id, codes;  ///< codes with blanks between
@@ -122,7 +114,7 @@ struct StudyDone {
 ///
 /// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
 /// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty where it was stopped: nothing is written.
-std::optional<StudyDone> run_study(const Study& study, const StudyControl& control = {});
+std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
 
 /// Throws where no joint was answered, which is no result: the error of the first failure, naming `table`.
 void require_answered(const StudyDone& done, const std::filesystem::path& table);

@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "condyle/error.hpp"
-#include "condyle/io/output_folder.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/file/replaced_files.hpp"
 #include "io/file/whole_file.hpp"
 

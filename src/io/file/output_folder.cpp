@@ -1,4 +1,4 @@
-#include "condyle/io/output_folder.hpp"
+#include "io/file/output_folder.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

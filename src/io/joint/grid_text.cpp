@@ -1,4 +1,4 @@
-#include "condyle/io/grid_text.hpp"
+#include "io/joint/grid_text.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,6 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/repair_text.hpp"
 #include "core/one_line.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
@@ -19,6 +18,7 @@
 #include "io/joint/recorded_motion_table.hpp"
 #include "io/joint/toml_nesting.hpp"
 #include "io/joint/toml_table.hpp"
+#include "io/result/repair_text.hpp"
 
 namespace condyle {
 namespace {

@@ -5,10 +5,10 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/repair_text.hpp"
 #include "core/one_line.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/load_joint.hpp"
+#include "io/result/repair_text.hpp"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "condyle/io/repair_text.hpp"
+#include "io/result/repair_text.hpp"
 
 #include <fmt/format.h>
 

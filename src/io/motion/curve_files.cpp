@@ -1,4 +1,4 @@
-#include "condyle/io/curve_files.hpp"
+#include "io/motion/curve_files.hpp"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "condyle/io/curve_files.hpp"
+#include "io/motion/curve_files.hpp"
 
 namespace condyle {
 namespace {

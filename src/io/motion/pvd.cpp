@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/curve_files.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/file/xml_escaped.hpp"
+#include "io/motion/curve_files.hpp"
 
 namespace condyle {
 /// ParaView's format: https://www.paraview.org/Wiki/ParaView/Data_formats#PVD_File_Format. Files of one time are blocks, told

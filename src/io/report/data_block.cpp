@@ -13,14 +13,14 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
 #include "io/joint/given_degrees.hpp"
 #include "io/report/block_arrays.hpp"
 #include "io/report/surfaces_json.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
+#include "io/result/map_result.hpp"
 #include "io/result/rom_parts.hpp"
 
 static_assert(std::endian::native == std::endian::little,

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "condyle/io/report.hpp"
+#include "io/report/report.hpp"
 
 namespace condyle::io {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "condyle/io/report.hpp"
 #include "io/file/deflate.hpp"
 #include "io/file/output_file.hpp"
 #include "io/report/data_block.hpp"
+#include "io/report/report.hpp"
 #include "io/result/provenance_forms.hpp"
 
 // The assembler reads the file into the program, so that an installed one needs none.

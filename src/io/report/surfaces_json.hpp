@@ -1,7 +1,7 @@
 #pragma once
 
-#include "condyle/io/report.hpp"
 #include "io/report/block_arrays.hpp"
+#include "io/report/report.hpp"
 
 namespace condyle::io {
 

@@ -1,4 +1,4 @@
-#include "condyle/io/caveats.hpp"
+#include "io/result/caveats.hpp"
 
 #include <fmt/format.h>
 

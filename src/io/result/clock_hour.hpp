@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "condyle/io/rom_result.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle::io {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "condyle/io/depth_result.hpp"
-#include "condyle/io/output_folder.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/depth_result.hpp"
 #include "io/result/provenance_forms.hpp"
 
 namespace condyle {

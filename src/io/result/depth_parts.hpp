@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "condyle/io/depth_result.hpp"
+#include "io/result/depth_result.hpp"
 #include "io/result/json.hpp"
 
 /// What the results of all methods have in common.

@@ -1,4 +1,4 @@
-#include "condyle/io/frame_result.hpp"
+#include "io/result/frame_result.hpp"
 
 #include <fmt/format.h>
 
@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/repair_text.hpp"
 #include "core/rounded.hpp"
 #include "io/result/json.hpp"
 #include "io/result/movement_words.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/repair_text.hpp"
 
 namespace condyle {
 namespace {

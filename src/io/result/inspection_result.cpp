@@ -1,4 +1,4 @@
-#include "condyle/io/inspection_result.hpp"
+#include "io/result/inspection_result.hpp"
 
 #include <fmt/format.h>
 
@@ -6,12 +6,12 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/repair_text.hpp"
 #include "condyle/version.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/json.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/repair_text.hpp"
 
 namespace condyle {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "condyle/io/jam_file.hpp"
-#include "condyle/io/motion_result.hpp"
+#include "io/result/motion_result.hpp"
 
 namespace condyle::io {
 

@@ -12,11 +12,11 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/contact_checks.hpp"
-#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/points.hpp"
+#include "io/result/caveats.hpp"
 
 /// What all JSON answers have in common.
 

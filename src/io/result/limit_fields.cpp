@@ -5,9 +5,9 @@
 
 #include <array>
 
-#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/given_degrees.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/result/rom_parts.hpp"
@@ -292,7 +292,7 @@ constexpr LimitField fields[] = {
      "value, and for other joints",
      &normal_range_deg, one, "normal_range_deg", "deg", number, "how far a healthy hip is said to turn", rom},
     {"caveats",
-     "list of `code`, `text` and `source` each: [what usually ends such a motion](#caveats); "
+     "list of `code`, `text` and `source` each: [what usually ends such a motion](caveats.md#caveats); "
      "empty for joints other than hips",
      &caveats},
     {"", "", &caveat_codes, one, "caveats", "", text,

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/rom_result.hpp"
 #include "io/result/json.hpp"
 #include "io/result/result_column.hpp"
+#include "io/result/rom_result.hpp"
 
 /// What is said of a limit, described once: an element of `motions` in rom.json, a line of limits.csv and one of a study's are made
-/// from this table, and docs/formats-rom.md is held against it. Whoever adds a value adds an entry.
+/// from this table, and docs/formats-limits.md is held against it. Whoever adds a value adds an entry.
 
 namespace condyle::io {
 
@@ -39,7 +39,7 @@ enum class LimitOfHips : std::uint8_t { too, only };
 
 struct LimitField {
   const char* key;      ///< in rom.json; empty: in tables only
-  const char* meaning;  ///< of the key, as docs/formats-rom.md has it
+  const char* meaning;  ///< of the key, as docs/formats-limits.md has it
   /// Null if there is no value, left_out() if this answer does not have the key.
   Json (*json)(const LimitOf&);
   LimitColumns columns = LimitColumns::none;

@@ -1,4 +1,4 @@
-#include "condyle/io/rom_result.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle {
 

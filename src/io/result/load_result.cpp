@@ -1,15 +1,15 @@
-#include "condyle/io/load_result.hpp"
+#include "io/result/load_result.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iterator>
 
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/output_folder.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 #include "io/result/pressure_map.hpp"

@@ -1,12 +1,12 @@
-#include "condyle/io/map_result.hpp"
+#include "io/result/map_result.hpp"
 
 #include <fmt/format.h>
 
-#include "condyle/io/grid_text.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/rom_result.hpp"
+#include "io/joint/grid_text.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/movement_words.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle {
 namespace {

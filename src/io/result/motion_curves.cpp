@@ -1,10 +1,10 @@
 #include <array>
 #include <limits>
 
-#include "condyle/io/motion_result.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/joint/recorded_motion_table.hpp"
 #include "io/result/coordinate_at.hpp"
+#include "io/result/motion_result.hpp"
 
 namespace condyle {
 namespace {

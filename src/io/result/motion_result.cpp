@@ -1,4 +1,4 @@
-#include "condyle/io/motion_result.hpp"
+#include "io/result/motion_result.hpp"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 #include "io/result/provenance_forms.hpp"

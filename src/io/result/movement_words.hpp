@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "condyle/io/map_result.hpp"
+#include "io/result/map_result.hpp"
 
 namespace condyle::io {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "condyle/io/caveats.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/pressure_map.hpp"

@@ -1,4 +1,4 @@
-#include "condyle/io/normal_range.hpp"
+#include "io/result/normal_range.hpp"
 
 #include <array>
 

@@ -1,6 +1,6 @@
-#include "condyle/io/rom_result.hpp"
 #include "io/result/limit_fields.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle {
 

@@ -1,4 +1,4 @@
-#include "condyle/io/rom_files.hpp"
+#include "io/result/rom_files.hpp"
 
 #include <fmt/format.h>
 
@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/io/map_result.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/output_folder.hpp"
-#include "condyle/io/zone_result.hpp"
 #include "io/file/figure_ending.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/map_result.hpp"
 #include "io/result/map_summary.hpp"
 #include "io/result/provenance_forms.hpp"
+#include "io/result/zone_result.hpp"
 
 namespace condyle {
 namespace {

@@ -1,16 +1,16 @@
 #include <utility>
 
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/map_result.hpp"
-#include "condyle/io/normal_range.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "io/file/format_version.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 #include "io/result/limit_fields.hpp"
+#include "io/result/map_result.hpp"
 #include "io/result/map_summary.hpp"
+#include "io/result/normal_range.hpp"
 #include "io/result/provenance_forms.hpp"
 #include "io/result/rom_parts.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "condyle/io/normal_range.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "io/result/json.hpp"
+#include "io/result/normal_range.hpp"
+#include "io/result/rom_result.hpp"
 
 /// What the JSON and the lines of a range of motion share.
 

@@ -8,16 +8,16 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/map_result.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/clock_hour.hpp"
 #include "io/result/json.hpp"
+#include "io/result/map_result.hpp"
 #include "io/result/quoted_limit.hpp"
 #include "io/result/rom_parts.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle {
 namespace {

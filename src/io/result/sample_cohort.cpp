@@ -7,13 +7,13 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/sample_files.hpp"
 #include "condyle/sample/hip_measures.hpp"
 #include "condyle/version.hpp"
 #include "core/parallel_tasks.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/result/json.hpp"
 #include "io/result/limit_fields.hpp"
+#include "io/result/sample_files.hpp"
 
 namespace condyle {
 namespace {
@@ -89,7 +89,7 @@ void write_hip(const fs::path& folder, const SampleCohort& cohort, std::size_t k
 }
 
 /// False where it was stopped.
-bool write_hips(const fs::path& folder, const SampleCohort& cohort, const CohortControl& control) {
+bool write_hips(const fs::path& folder, const SampleCohort& cohort, const Control& control) {
   std::mutex mutex;
   std::size_t done = 0;
   std::exception_ptr error;
@@ -116,7 +116,7 @@ bool write_hips(const fs::path& folder, const SampleCohort& cohort, const Cohort
 }  // namespace
 
 std::optional<std::vector<fs::path>> write_sample_cohort(const fs::path& folder, const SampleCohort& cohort,
-                                                         const CohortControl& control) {
+                                                         const Control& control) {
   if (cohort.n < 1 || cohort.n > most_hips)
     throw UsageError(fmt::format("sample cohort: 1 to {} hips can be drawn, not {}", most_hips, cohort.n));
   OutputFolder out(folder);

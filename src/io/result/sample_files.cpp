@@ -1,4 +1,4 @@
-#include "condyle/io/sample_files.hpp"
+#include "io/result/sample_files.hpp"
 
 #include <fmt/format.h>
 

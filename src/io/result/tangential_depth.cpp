@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "condyle/io/caveats.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/depth_parts.hpp"
 #include "io/result/provenance_forms.hpp"
 

@@ -1,4 +1,4 @@
-#include "condyle/io/zone_result.hpp"
+#include "io/result/zone_result.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -64,7 +64,7 @@ std::vector<std::string> inputs_of(const StudyTable& table, Rows rows) {
 /// The answers of all rows, as they come about.
 class Answers {
  public:
-  Answers(const Study& study, const StudyTable& table, Rows rows, const StudyControl& control)
+  Answers(const Study& study, const StudyTable& table, Rows rows, const Control& control)
       : study_(study),
         table_(table),
         rows_(rows),
@@ -128,7 +128,7 @@ class Answers {
   const Study& study_;
   const StudyTable& table_;
   Rows rows_;
-  const StudyControl& control_;
+  const Control& control_;
   std::vector<StudyAnswer> answers_;
   std::vector<std::exception_ptr> errors_;
   std::atomic<bool> was_stopped_ = false;
@@ -201,7 +201,7 @@ Shard Shard::parse(std::string_view text) {
   return shard;
 }
 
-std::optional<StudyDone> run_study(const Study& study, const StudyControl& control) {
+std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   const StudyTable table = io::read_study_table(study.table);
   const Rows rows = rows_of(table, study.shard.value_or(Shard{}));
   const auto folder = study.shard ? io::shard_folder(study.folder, *study.shard) : study.folder;

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "condyle/error.hpp"
-#include "condyle/io/caveats.hpp"
-#include "condyle/io/output_folder.hpp"
 #include "io/file/format_version.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/result/caveats.hpp"
 #include "io/result/json.hpp"
 
 namespace condyle::io {

@@ -1,6 +1,6 @@
 #include "io/study/study_options.hpp"
 
-#include "condyle/io/grid_text.hpp"
+#include "io/joint/grid_text.hpp"
 #include "io/result/contact_terms.hpp"
 #include "io/result/json.hpp"
 

@@ -16,17 +16,17 @@ namespace {
 /// Counts frames done and reports them, one thread at a time.
 class Followed {
  public:
-  Followed(const AlongMotionOptions& options, std::size_t total) : options_(options), total_(total) {}
+  Followed(const Control& control, std::size_t total) : control_(control), total_(total) {}
 
-  bool stopped() const { return options_.stop.stop_requested(); }
+  bool stopped() const { return control_.stop.stop_requested(); }
   void one_done() {
-    if (!options_.progress) return;
+    if (!control_.progress) return;
     const std::lock_guard lock(mutex_);
-    options_.progress(++done_, total_);
+    control_.progress(++done_, total_);
   }
 
  private:
-  const AlongMotionOptions& options_;
+  const Control& control_;
   std::size_t total_, done_ = 0;
   std::mutex mutex_;
 };
@@ -50,7 +50,7 @@ bool may_cut_off(const FrameContact& frame, double max_depth_mm, double reach_mm
   return max_depth_mm > 0 ? max_depth_mm > reach_mm / 2 : frame.in_contact || !both_closed;
 }
 
-void ask(const ElasticContact& surfaces, const AlongMotionOptions&, FrameContact& frame) {
+void ask(const ElasticContact& surfaces, BodyRole, FrameContact& frame) {
   ElasticContactResults results = surfaces.at(frame.X_FM);
   double max_depth_mm = 0;
   for (const auto* surface : {&results.fixed, &results.mobile})
@@ -61,8 +61,8 @@ void ask(const ElasticContact& surfaces, const AlongMotionOptions&, FrameContact
   frame.surface = std::move(results.mobile ? *results.mobile : *results.fixed);
   frame.on_mobile = results.on_mobile;
 }
-void ask(const NormalDepth& surfaces, const AlongMotionOptions& options, FrameContact& frame) {
-  const Pose X_CT = options.casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM);
+void ask(const NormalDepth& surfaces, BodyRole casting, FrameContact& frame) {
+  const Pose X_CT = casting == BodyRole::fixed ? frame.X_FM : inverted(frame.X_FM);
   surfaces.at(X_CT, frame.surface);
   const bool closed = surfaces.casting().is_closed() && surfaces.target().is_closed();
   if (may_cut_off(frame, frame.surface.totals.max_depth_mm, surfaces.options().reach_mm, closed))
@@ -100,10 +100,10 @@ class SmallestGap {
 
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
-    const AlongMotionOptions& options) {
+    BodyRole casting, const Control& control) {
   const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
   std::vector<std::optional<FrameContact>> frames(X_FM.size());
-  Followed followed(options, frames.size());
+  Followed followed(control, frames.size());
   core::PerThread<SmallestGap> gaps([&] { return SmallestGap(fixed, mobile); });
   core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
     SmallestGap& gap = gaps.local();
@@ -114,7 +114,7 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
         frame.in_contact = frame.intersecting_pairs > 0 || joint.in_contact(frame.X_FM);
         if (frame.intersecting_pairs == 0)
           if (const auto smallest = gap.at(frame.X_FM)) frame.smallest_gap_mm = *smallest;
-        named(i, [&] { std::visit([&](const auto* of) { ask(*of, options, frame); }, surfaces); });
+        named(i, [&] { std::visit([&](const auto* of) { ask(*of, casting, frame); }, surfaces); });
       }
       followed.one_done();
     }
@@ -125,11 +125,11 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
 
 std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
     const ElasticContact& surfaces, std::span<const std::optional<Pose>> X_FM, std::span<const Load> loads,
-    const BalanceOptions& how, const AlongMotionOptions& options) {
+    const BalanceOptions& how, const Control& control) {
   if (loads.size() != 1 && loads.size() != X_FM.size())
     throw UsageError(std::to_string(loads.size()) + " loads for " + std::to_string(X_FM.size()) + " frames");
   std::vector<std::optional<BalancedPose>> frames(X_FM.size());
-  Followed followed(options, frames.size());
+  Followed followed(control, frames.size());
   // How the load moved the body at the last frame, and how that changes from frame to frame where it does so smoothly.
   Vec3 moved = Vec3::Zero(), change = Vec3::Zero();
   bool was_balanced = false;

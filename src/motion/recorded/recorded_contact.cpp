@@ -185,7 +185,7 @@ RecordedContact contact_between(const JointContact& bodies, std::span<const doub
 std::optional<RecordedContact> contact_between(const JointContact& bodies, std::span<const double> time_s,
                                                std::span<const Pose> X_FM,
                                                const RecordedContactOptions& options,
-                                               const RecordedContactControl& control) {
+                                               const Control& control) {
   check_samples(time_s, X_FM, options);
   WaySearch search(bodies);
   std::vector<ScrewMotion> motions;

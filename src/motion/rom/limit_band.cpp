@@ -108,7 +108,7 @@ void check(const BandOptions& options, std::span<const Motion> motions, JointKin
 
 std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                                   const RangeOptions& range, const BandOptions& options,
-                                                  const BandControl& control) {
+                                                  const Control& control) {
   check(options, motions, joint.kind);
   const motion::DisplacedJoint displaced(joint, motions, range);
   const std::vector<Displacement> samples = displacements(options);

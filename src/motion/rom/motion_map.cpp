@@ -118,8 +118,7 @@ MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint) {
   return *motion_map(grid, joint, {});
 }
 
-std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint,
-                                    const MapControl& control) {
+std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint, const Control& control) {
   check_grid(grid, joint.kind());
   MotionMap map{grid, std::vector<FreeAngles>(grid.size()), joint.coordinates().anatomy};
   const Order order(grid);

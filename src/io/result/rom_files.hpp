@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "condyle/io/rom_result.hpp"
+#include "io/result/rom_result.hpp"
 
 namespace condyle {
 

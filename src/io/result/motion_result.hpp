@@ -9,11 +9,11 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/io/contact_entry.hpp"
-#include "condyle/io/curve_files.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"
+#include "io/motion/curve_files.hpp"
 
 /// What `condyle motion` found, for files. Every column, key and array is in docs/motion-files.md.
 

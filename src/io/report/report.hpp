@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "condyle/io/motion_result.hpp"
-#include "condyle/io/rom_result.hpp"
 #include "condyle/joint.hpp"
+#include "io/result/motion_result.hpp"
+#include "io/result/rom_result.hpp"
 
 /// What `condyle report` writes: one HTML file that shows a joint in any browser and computes with it there. It
 /// loads nothing and sends nothing. What it holds, key by key, is in docs/report.md.

@@ -3,16 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
-#include "condyle/io/output_folder.hpp"
+#include "condyle/control.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/cohort.hpp"
 #include "condyle/sample/hip.hpp"
+#include "io/file/output_folder.hpp"
 
 namespace condyle {
 
@@ -38,19 +37,12 @@ struct SampleCohort {
   CohortMeshes meshes = CohortMeshes::of_measures;
 };
 
-/// How the making of meshes is followed and ended, as a map's computation.
-struct CohortControl {
-  std::function<void(std::size_t done, std::size_t total)> progress =
-      {};  ///< one call at a time, growing counts
-  std::stop_token stop = {};
-};
-
 /// Writes cohort.csv, a table for a study, and cohort.json, what it was drawn from; with meshes hips/000001/ and so on before,
 /// on all threads. A hip whose measures cannot be made has no folder then, and is a failure of the study. Some microseconds a
 /// hip, with meshes a second or more. Throws UsageError for no hip or more than 10 million, FileError. Empty where it was
 /// stopped: then there is no table.
 std::optional<std::vector<std::filesystem::path>> write_sample_cohort(const std::filesystem::path& folder,
                                                                       const SampleCohort& cohort,
-                                                                      const CohortControl& control = {});
+                                                                      const Control& control = {});
 
 }  // namespace condyle
