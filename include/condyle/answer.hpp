@@ -129,6 +129,7 @@ struct LoadAnswer {
   std::size_t cut_off_by_reach = 0;           ///< rays
   std::optional<Vec3> refined_force_n = {};   ///< ElasticContact::refined_force_n() at X_FM
   std::vector<ContactNote> notes = {};        ///< what looks wrong with layers, load and contact
+  std::vector<std::string> caveats = {};      ///< what an elastic foundation leaves out
 
   /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are where the
   /// search ended, and the numbers mean nothing.
@@ -178,7 +179,8 @@ struct MotionAnswer {
   /// The force of the frame with the largest one, computed from the depth at 16 places of each face:
   /// ElasticContact::refined_force_n(). Empty without pressure.
   std::optional<double> refined_largest_force_n = {};
-  std::vector<ContactNote> notes = {};  ///< what looks wrong with layers, loads and the motion
+  std::vector<ContactNote> notes = {};    ///< what looks wrong with layers, loads and the motion
+  std::vector<std::string> caveats = {};  ///< with pressure: what an elastic foundation leaves out
 };
 
 /// Throws UsageError for times or loads that are not as many as frames, loads of both kinds, a moment without free rotations, or

@@ -1,3 +1,4 @@
+#include "answer/foundation_caveat.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 
@@ -11,6 +12,7 @@ void check_load_request(const LoadRequest& request) {
 LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& request) {
   check_load_request(request);
   LoadAnswer answer{.X_FM = request.X_FM, .notes = check_layers(surfaces, request.names)};
+  answer.caveats.emplace_back(answer::foundation_caveat);
   if (request.load) {
     add_new(answer.notes, check_load(*request.load));
     answer.balanced = balance(surfaces, request.X_FM, *request.load, request.balance);

@@ -2,6 +2,7 @@
 #include <span>
 #include <utility>
 
+#include "answer/foundation_caveat.hpp"
 #include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -133,7 +134,10 @@ std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const Surf
   check_motion_request(request);
   const ElasticContact* elastic = elastic_of(surfaces);
   MotionAnswer answer;
-  if (elastic) answer.notes = check_layers(*elastic, request.names);
+  if (elastic) {
+    answer.notes = check_layers(*elastic, request.names);
+    answer.caveats.emplace_back(answer::foundation_caveat);
+  }
   if (const auto load = largest_load(request)) add_new(answer.notes, check_load(*load));
 
   Frames X_FM = request.X_FM;

@@ -93,7 +93,7 @@ TEST_F(FreeJoint, DepthAtATranslatedPoseIsThatOfTheMeshMovedThere) {
   EXPECT_EQ(translated["pose_deg"]["flexion"], 30.0);
   EXPECT_EQ(translated["translation_mm"], Json({3.0, 4.0, 0.0}));
   EXPECT_EQ(translated["X_FM"][0][3], 3.0);
-  EXPECT_EQ(translated["terms"].size(), 1u);
+  EXPECT_EQ(translated["caveats"].size(), 1u);
 
   // X_FM is R_z(-30) with (3, 4, 0): the posed shank as a mesh of its own meets the same triangles.
   Pose X_FM(Eigen::AngleAxisd(-Angle::degrees(30).radians(), Vec3::UnitZ()));
@@ -146,7 +146,7 @@ TEST_F(FreeJoint, ArcsAreNotToldWhereThePoseTranslates) {
   expect_refusal(run("depth knee.toml --method tangential --pose \"flexion=30 x=-3 y=4\""), 2,
                  "the pose is translated from it by 5.000 mm", "");
   const Json rotated = answer("depth knee.toml --pose \"flexion=30\"");
-  EXPECT_TRUE(rotated["terms"].empty());
+  EXPECT_TRUE(rotated["caveats"].empty());
 }
 
 TEST_F(FreeJoint, MotionsOfAKneeAreListedByItsNames) {

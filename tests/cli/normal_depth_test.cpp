@@ -73,7 +73,7 @@ TEST_F(NormalMethod, AnswersForAnOpenSheet) {
   const Json json = answer();
   EXPECT_EQ(json["method"], "normal");
   EXPECT_TRUE(json["in_contact"]);
-  EXPECT_EQ(json["terms"].size(), 1u);
+  EXPECT_EQ(json["caveats"].size(), 1u);
   EXPECT_TRUE(json["bodies"]["fixed"].is_null()) << "the joint file has the mobile body cast";
   const Json& ball = json["bodies"]["mobile"];
   EXPECT_EQ(ball["target"], "sheet");

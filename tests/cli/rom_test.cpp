@@ -202,7 +202,7 @@ TEST_F(RomCommand, AllowsADepthOnRequestAndSaysThatTheLimitIsSearchedFor) {
   const Ran ran = run("rom joint.toml --motion flexion --allow-depth 0.5 --json");
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   const Json answer = Json::parse(ran.out);
-  EXPECT_FALSE(answer["terms"].empty());
+  EXPECT_FALSE(answer["caveats"].empty());
   EXPECT_LE(answer["motions"][0]["depth"]["at_limit_mm"].get<double>(), 0.5);
   const Json exact = Json::parse(run("rom joint.toml --motion flexion --json").out)["motions"][0];
   EXPECT_GE(answer["motions"][0]["limit_deg"].get<double>(), exact["limit_deg"].get<double>());
@@ -299,7 +299,7 @@ TEST_F(RomCommand, BodiesInContactInTheReferencePoseAreExitCodeSixWithoutAnOptio
   const Json answer = Json::parse(ran.out);
   EXPECT_EQ(answer["motions"][0]["reason"], "contact_at_start");
   EXPECT_EQ(answer["motions"][0]["limit_deg"], 0.0);
-  EXPECT_FALSE(answer["terms"].empty());
+  EXPECT_FALSE(answer["caveats"].empty());
 }
 
 /// Runs the command on one thread and ends it by SIGTERM once it says how far its map is; SIGINT is ignored in the background of

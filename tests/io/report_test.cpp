@@ -90,7 +90,7 @@ struct Answered {
                         .vary = JointAngle::flexion},
                        range)) {}
   RomResult rom() const {
-    return {.joint = joint, .limits = limits, .bearing = range.bearing(), .terms = {"a term"}, .map = &map};
+    return {.joint = joint, .limits = limits, .bearing = range.bearing(), .caveats = {"a term"}, .map = &map};
   }
 
   Joint joint;

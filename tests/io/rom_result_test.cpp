@@ -70,13 +70,13 @@ TEST(RomJson, HasEveryKeyAndEveryBitOfTheNumbers) {
                                           .limits = limits,
                                           .bearing = {some_bearing(), {}},
                                           .bearing_rule = BearingRule::leave_out,
-                                          .terms = {"a term"}}));
+                                          .caveats = {"a term"}}));
   EXPECT_EQ(json["condyle"], 1);
   EXPECT_EQ(json["joint"], "arm and post");
   EXPECT_EQ(json["fixed"], "post");
   EXPECT_EQ(json["mobile"], "arm");
   EXPECT_EQ(json["side"], "right");
-  EXPECT_EQ(json["terms"], Json({"a term"}));
+  EXPECT_EQ(json["caveats"], Json({"a term"}));
   EXPECT_EQ(json["bearing"]["rule"], "leave_out");
   EXPECT_EQ(json["bearing"]["head"]["centre_mm"], (Json{0.1, 0.2, 0.3}));
   EXPECT_EQ(json["bearing"]["head"]["radius_mm"], 24.5);
@@ -171,7 +171,7 @@ TEST(RomText, AlignsItsColumnsAndSaysReasonsInWords) {
                                         .limits = limits,
                                         .bearing = {some_bearing(), {}},
                                         .bearing_rule = BearingRule::leave_out,
-                                        .terms = {"left out: nothing"}}));
+                                        .caveats = {"left out: nothing"}}));
   ASSERT_EQ(lines.size(), 13u);
   EXPECT_EQ(lines[0], "arm and post: arm in post, right side");
   EXPECT_NE(lines[1].find("bearing surface: 2 of 3 triangles of arm"), std::string::npos) << lines[1];

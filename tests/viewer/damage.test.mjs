@@ -61,7 +61,7 @@ test("a megabyte of text leaves the page as long as it was", async () => {
     text.title = text.joint.fixed = text.joint.mobile = long;
     text.rom.motions[1].name = long;
     text.rom.notes.push({ code: "long", text: long });
-    text.rom.terms.push(long);
+    text.rom.caveats.push(long);
     text.rom.provenance.command.push(long);
     text.rom.provenance.joint_file.path = long;
   });

@@ -221,7 +221,7 @@ const char* condyle_description(CondyleJoint* joint) {
                    {"motions", std::move(motions)},
                    {"notes", io::notes_json(proposal.notes, {},
                                             range_notes(joint->joint, hip_motions(), {}, range.bearing()))},
-                   {"terms", proposal.told},
+                   {"caveats", proposal.told},
                    {"normal_range_source", normal_hip_range_source},
                    {"scope", scope_text(named)},
                    {"bearing", bearing_json(range.bearing())},

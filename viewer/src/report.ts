@@ -67,7 +67,7 @@ export interface RomAnswer {
   held_translation_mm?: [number, number, number] | null;
   motions: MotionAnswer[];
   notes: { code: string; text: string }[];
-  terms: string[];
+  caveats: string[];
   normal_range_source?: string | null;
   scope: string;
   provenance?: {

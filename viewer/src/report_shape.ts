@@ -49,7 +49,7 @@ const motion = object({
 const sphere = object({ radius_mm: number });
 const rom = object({
   clock_plane: ifThere(orNull(oneOf("sagittal", "rim"))),
-  held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), terms: list(text),
+  held_translation_mm: ifThere(orNull(three)), motions: list(motion), notes: list(object({ code: text, text })), caveats: list(text),
   normal_range_source: ifThere(orNull(text)), scope: text, bearing: ifThere(object({
     rule: oneOf("count", "leave_out"), why_none: ifThere(text), head: ifThere(orNull(sphere)), socket: ifThere(orNull(sphere)),
     margin_mm: ifThere(orNull(number)),

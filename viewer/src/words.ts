@@ -187,7 +187,7 @@ export const words = {
   triangles: "triangles",
   notes: "Notes of the checks",
   noNotes: "The checks found nothing unusual.",
-  terms: "Read with",
+  readWith: "Read with",
   caveats: "What usually ends these motions",
   caveat: (motions: string, text: string, source: string | null) => `${motions}: ${text}${source === null ? "" : ` (${source})`}`,
   file: "file",

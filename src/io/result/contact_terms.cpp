@@ -65,9 +65,8 @@ std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces&
       entry.rays.rule == FaceRule::face_centre ? "one per face" : "faces cut where the depth is 0",
       entry.rays.reach_mm);
   if (with_pressure)
-    text +=
-        fmt::format("  {} law; {}: {}; {}: {}\n  {}\n", name_of(entry.law), surfaces.fixed.name,
-                    layer_text(entry.fixed), surfaces.mobile.name, layer_text(entry.mobile), foundation_note);
+    text += fmt::format("  {} law; {}: {}; {}: {}\n", name_of(entry.law), surfaces.fixed.name,
+                        layer_text(entry.fixed), surfaces.mobile.name, layer_text(entry.mobile));
   return text;
 }
 

@@ -9,11 +9,6 @@
 
 namespace condyle::io {
 
-/// What an elastic foundation leaves out.
-inline constexpr const char* foundation_note =
-    "elastic foundation: thin layers without shear or lateral spread, so peaks run above those of finite "
-    "elements";
-
 std::string_view name_of(Casting casting) noexcept;
 std::string_view name_of(FaceRule rule) noexcept;
 std::string_view name_of(PressureLaw law) noexcept;

@@ -30,7 +30,7 @@ Json depth_header(const DepthQuestion& question, const DepthAnswer& answer, cons
             {"method", method},
             {"pose_deg", pose_json(pose, joint.anatomy)},
             {"X_FM", matrix_json(X_FM)},
-            {"terms", answer.caveats},
+            {"caveats", answer.caveats},
             {"notes", notes_json(notes)}};
   if (joint.kind == JointKind::free) {
     json["translation_mm"] = numbers(pose.translation_mm);

@@ -104,6 +104,7 @@ std::string load_text(const LoadQuestion& question, const LoadAnswer& answer) {
   std::string text = fmt::format("{}: {} in {}, {}\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  to_text(question.pose, joint.anatomy));
   text += io::contact_terms_text(question.contact, question.surfaces, true);
+  for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   if (answer.balanced) {
     const Vec3 moved = answer.X_FM.translation() - question.X_FM.translation();
     if (answer.balanced->outcome == BalanceOutcome::balanced)
@@ -163,7 +164,7 @@ std::string load_json(const LoadQuestion& question, const LoadAnswer& answer) {
   json["refined_force_n"] = answer.refined_force_n ? io::numbers(*answer.refined_force_n) : Json(nullptr);
   json["energy_nmm"] = answer.contact.energy_nmm;
   json["cut_off_by_reach"] = answer.cut_off_by_reach;
-  json["terms"] = io::foundation_note;
+  json["caveats"] = answer.caveats;
   json["notes"] = io::notes_json(question.notes, answer.notes);
   json["scope"] = scope_text(question.contact, question.surfaces);
   json["provenance"] = io::provenance_json(question.provenance);

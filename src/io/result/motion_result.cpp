@@ -161,6 +161,7 @@ std::string motion_text(const MotionQuestion& question, const MotionAnswer& answ
                   times.in_seconds ? "" : "numbers ", times.values.front(), times.values.back(), unit);
   if (summary.gaps > 0) text += fmt::format("  {} frames are gaps: no answer there\n", summary.gaps);
   text += io::contact_terms_text(question.contact, question.surfaces, question.with_pressure);
+  for (const std::string& caveat : answer.caveats) text += fmt::format("  {}\n", caveat);
   text += fmt::format("  {} frames in contact\n", summary.in_contact);
   const auto line = [&](const char* what, const Summary::Largest& largest, const char* of,
                         const std::string& where = "") {
@@ -249,8 +250,8 @@ std::string motion_json(const MotionQuestion& question, const MotionAnswer& answ
     json["largest_pressure_mpa"] = largest(summary.pressure);
     json["largest_force_n"] = largest(summary.force);
     json["largest_force_n"]["refined"] = io::nullable(answer.refined_largest_force_n);
-    json["terms"] = io::foundation_note;
   }
+  json["caveats"] = answer.caveats;
   if (!answer.balanced.empty()) {
     json["frames_balanced"] = summary.balanced;
     json["frames_carrying_load"] = summary.carried;

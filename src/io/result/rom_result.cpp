@@ -70,7 +70,7 @@ RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> no
           .bearing_rule = answer.bearing_rule,
           .clock = answer.clock,
           .clock_plane = answer.clock_plane,
-          .terms = answer.caveats,
+          .caveats = answer.caveats,
           .held_translation_mm = answer.held_translation_mm,
           .notes = notes,
           .range_notes = answer.notes,

@@ -24,7 +24,7 @@
 
 namespace condyle {
 
-/// The limits of a joint and on which terms they were found.
+/// The limits of a joint and what they must be read with.
 struct RomResult {
   const Joint& joint;
   std::span<const MotionLimit> limits;
@@ -35,7 +35,7 @@ struct RomResult {
   ClockFace clock = sagittal_clock();
   ClockPlane clock_plane = ClockPlane::sagittal;
   /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
-  std::vector<std::string> terms = {};
+  std::vector<std::string> caveats = {};
   /// Of a free joint, the translation at which `joint` is held (held_at()), along the fixed body's axes.
   std::optional<Vec3> held_translation_mm = {};
   /// What looks wrong with the joint.

@@ -220,7 +220,7 @@ std::string rom_text(const RomResult& result) {
   std::string text = fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name, joint.fixed.name,
                                  name_of(joint.side));
   text += bearing_text(result);
-  for (const std::string& term : result.terms) text += fmt::format("  {}\n", term);
+  for (const std::string& caveat : result.caveats) text += fmt::format("  {}\n", caveat);
   text += result.bearing.surface
               ? table_text(std::array{name, turned, reason, clock, point, bearing, centres, space})
           : joint.is_hip() ? table_text(std::array{name, turned, reason, clock, point})

@@ -163,7 +163,7 @@ export type GivenSide = "told" | "right" | "left";
 /// The joint that was proposed for two files.
 export interface Proposal {
   joint: JointArrays;
-  /// What a report would have of its limits; `terms` are what told the joint.
+  /// What a report would have of its limits; `caveats` are what the joint was inferred from.
   rom: RomAnswer;
 }
 

@@ -31,7 +31,7 @@ export function numbersPanel(report: ReportText, counts: { fixed: [number, numbe
     parts.push(rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
     const caveats = caveatsOf(rom);
     if (caveats.length) parts.push(html("h3", {}, words.caveats), lines(caveats));
-    if (rom.terms.length) parts.push(html("h3", {}, words.terms), lines(rom.terms));
+    if (rom.caveats.length) parts.push(html("h3", {}, words.readWith), lines(rom.caveats));
     if (rom.provenance) {
       const { provenance } = rom;
       const { version, command, joint_file } = provenance;
