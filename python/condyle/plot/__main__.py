@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 from . import style
 from .files import ReadError
 from .folder import drawings
+from .pressure_surface import PROJECTIONS
 
 EXAMPLES = """\
 examples:
@@ -44,7 +45,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--out", metavar="DIR", type=Path, help="where figures go; the folder itself if not said")
     parser.add_argument("--frames", metavar="N", type=int, nargs="+",
                         help="frames of pressure_map, from 0; first, middle and last if not said")
-    parser.add_argument("--projection", choices=("plane", "sphere"), default="plane",
+    parser.add_argument("--projection", choices=PROJECTIONS, default="plane",
                         help="of pressure_map: along the mean normal, or azimuthal equidistant about the joint centre")
     return parser
 

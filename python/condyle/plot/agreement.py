@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
+from .._errors import UsageError
 from . import style
 from .rim_clock import spread_apart
 
@@ -17,10 +18,10 @@ Array = NDArray[np.float64]
 def _pairs(ours: ArrayLike, theirs: ArrayLike) -> "tuple[Array, Array]":
     a, b = np.asarray(ours, dtype=np.float64).ravel(), np.asarray(theirs, dtype=np.float64).ravel()
     if a.shape != b.shape:
-        raise ValueError(f"{len(a)} values of one method and {len(b)} of the other")
+        raise UsageError(f"{len(a)} values of one method and {len(b)} of the other")
     known = np.isfinite(a) & np.isfinite(b)
     if known.sum() < 2:
-        raise ValueError(f"{int(known.sum())} pairs of values: agreement needs two or more")
+        raise UsageError(f"{int(known.sum())} pairs of values: agreement needs two or more")
     return a[known], b[known]
 
 
@@ -96,14 +97,14 @@ def many_methods(series: Sequence[Series], *, x_label: str, y_label: str, ax: Op
     The axes; lines have the gid `series:LABEL`.
     """
     if not series:
-        raise ValueError("no methods to draw")
+        raise UsageError("no methods to draw")
     families: Dict[str, str] = {}
     for one in series:
         families.setdefault(one.family, style.CYCLE[len(families) % len(style.CYCLE)])
     marks = {family: MARKERS[i % len(MARKERS)] for i, family in enumerate(families)}
     positive = [y for one in series for y in one.y if y > 0]
     if not positive:
-        raise ValueError("no value above 0: nothing to draw on a logarithmic axis")
+        raise UsageError("no value above 0: nothing to draw on a logarithmic axis")
     low = 10.0 ** np.floor(np.log10(min(positive)))
     zero = low / 10 ** 0.5
     is_ours = ax is None

@@ -1,16 +1,19 @@
 """Figures over a cohort: how limits are spread, by group and against a measure."""
 from __future__ import annotations
 
-from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from .._errors import UsageError
+from .._study import Study
 from . import style
 from .words import in_two_lines, motion_name
 
+StudyLike = Union[Study, Mapping[str, ArrayLike]]
 MOST_GROUPS = len(style.CYCLE)
 MARKERS = "osD^vPX"
 """Of groups, in the order of the colours: the figure reads without colour."""
@@ -31,7 +34,7 @@ def _column(table: Mapping[str, Any], name: str) -> NDArray[Any]:
     try:
         return np.asarray(table[name])
     except KeyError:
-        raise ValueError(f"the table has no column '{name}'") from None
+        raise UsageError(f"the table has no column '{name}'") from None
 
 
 def _groups(table: Mapping[str, Any], by: Optional[str], rows: NDArray[np.bool_]) -> List[Tuple[str, NDArray[np.bool_]]]:
@@ -41,14 +44,16 @@ def _groups(table: Mapping[str, Any], by: Optional[str], rows: NDArray[np.bool_]
     values = _column(table, by)
     found = [value for value in np.unique(values[rows]) if value == value]
     if len(found) > MOST_GROUPS:
-        raise ValueError(f"column '{by}' has {len(found)} values: at most {MOST_GROUPS} groups are drawn")
+        raise UsageError(f"column '{by}' has {len(found)} values: at most {MOST_GROUPS} groups are drawn")
     return [(f"{value:g}" if isinstance(value, (float, np.floating)) else str(value), rows & (values == value))
             for value in found]
 
 
-def _limits_of(table: Mapping[str, Any]) -> Any:
+def _limits_of(study: StudyLike) -> Mapping[str, ArrayLike]:
     """`limits` of a `condyle.Study`, else the table itself."""
-    return getattr(table, "limits", table)
+    table: Any = study
+    limits: Mapping[str, ArrayLike] = getattr(table, "limits", table)
+    return limits
 
 
 def spread_of(limits_deg: NDArray[np.float64], reasons: NDArray[Any]) -> Spread:
@@ -57,7 +62,7 @@ def spread_of(limits_deg: NDArray[np.float64], reasons: NDArray[Any]) -> Spread:
     return Spread(p5, quartile, median, third_quartile, p95, float(np.mean(reasons == "end_of_range")))
 
 
-def limit_distributions(study: Any, *, by: Optional[str] = None, motions: Optional[Sequence[str]] = None,
+def limit_distributions(study: StudyLike, *, by: Optional[str] = None, motions: Optional[Sequence[str]] = None,
                         ax: Optional[Axes] = None, legend: bool = True) -> Axes:
     """Draws how the limits of each motion are spread over a cohort, in degrees.
 
@@ -83,7 +88,7 @@ def limit_distributions(study: Any, *, by: Optional[str] = None, motions: Option
     shown = list(dict.fromkeys(names.tolist())) if motions is None else list(motions)
     for name in shown:
         if not (names == name).any():
-            raise ValueError(f"the table has no motion '{name}'")
+            raise UsageError(f"the table has no motion '{name}'")
     groups = _groups(table, by, np.ones(len(names), bool))
     is_ours, between = ax is None, 0.8 / len(groups)
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 20 + (4 + 2.5 * len(groups)) * len(shown)) as ax:
@@ -126,7 +131,7 @@ def running_band(x: NDArray[np.float64], y: NDArray[np.float64], parts: int) -> 
     return np.array([[x[part].mean(), *np.percentile(y[part], [5, 50, 95])] for part in np.array_split(order, parts)])
 
 
-def limit_against(study: Any, measure: str, motion: str, *, by: Optional[str] = None, ax: Optional[Axes] = None,
+def limit_against(study: StudyLike, measure: str, motion: str, *, by: Optional[str] = None, ax: Optional[Axes] = None,
                   label: Optional[str] = None, legend: bool = True) -> Axes:
     """Draws the limit of one motion against a measure, a point per joint, in degrees.
 
@@ -153,10 +158,10 @@ def limit_against(study: Any, measure: str, motion: str, *, by: Optional[str] = 
     names, limits, reasons = (_column(table, name) for name in ("motion", "limit_deg", "reason"))
     values = _column(table, measure)
     if values.dtype.kind not in "fiu":
-        raise ValueError(f"column '{measure}' has no numbers")
+        raise UsageError(f"column '{measure}' has no numbers")
     rows = (names == motion) & np.isfinite(values.astype(float))
     if not rows.any():
-        raise ValueError(f"the table has no motion '{motion}' with a {measure}")
+        raise UsageError(f"the table has no motion '{motion}' with a {measure}")
     groups = _groups(table, by, rows)
     is_ours = ax is None
     with style.drawing(ax, style.SINGLE_COLUMN_MM, 62) as ax:

@@ -13,6 +13,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from .._errors import FileError
 from .motion_grid import MotionGrid
 
 Array = NDArray[np.float64]
@@ -23,7 +24,7 @@ PathLike = Union[str, Path]
 MOST_POINTS = 10_000_000
 
 
-class ReadError(ValueError):
+class ReadError(FileError, ValueError):
     """A file that cannot be read, or does not say what a figure needs; the message is one line."""
 
 

@@ -6,6 +6,8 @@ from typing import NamedTuple, Optional, Tuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .._errors import UsageError
+
 Array = NDArray[np.float64]
 
 
@@ -30,7 +32,7 @@ def area_normals(vertices: Array, triangles: NDArray[np.int64]) -> Array:
 def _unit(vector: Array) -> Array:
     length = float(np.linalg.norm(vector))
     if not length > 0:
-        raise ValueError("the surface has no mean direction: it is closed, or has no area")
+        raise UsageError("the surface has no mean direction: it is closed, or has no area")
     return vector / length
 
 
@@ -71,7 +73,7 @@ def about_centre(vertices: Array, triangles: NDArray[np.int64], weights: Array, 
     middles = from_centre[triangles].mean(axis=1)
     distances = np.linalg.norm(middles, axis=1)
     if not (np.linalg.norm(from_centre, axis=1) > 0).all():
-        raise ValueError("a vertex is at the centre: it has no direction")
+        raise UsageError("a vertex is at the centre: it has no direction")
     shares = weights * np.linalg.norm(normals, axis=1)
     pole = _unit((shares[:, None] * middles / distances[:, None]).sum(axis=0))
     radius = float((shares * distances).sum() / shares.sum())

@@ -11,16 +11,16 @@ from matplotlib.figure import Figure
 
 from . import files, style
 from .limit_bars import limits
-from .map_contours import VIEWS, motion_map
-from .motion_curves import curve, has, panels
-from .pressure_surface import add_scale, laid_flat, pressure_map, quantity_label
+from .map_contours import VIEWS, View, motion_map
+from .motion_curves import QUANTITIES, curve, has, panels
+from .pressure_surface import Projection, add_scale, laid_flat, pressure_map, quantity_label
 from .rim_clock import clock_face
 
 Drawing = Tuple[str, Callable[[], Figure]]
 """Name of a figure without its ending, and what draws it."""
 
 
-def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: str = "plane") -> List[Drawing]:
+def drawings(folder: Path, frames: Optional[Sequence[int]] = None, projection: Projection = "plane") -> List[Drawing]:
     """What can be drawn of a folder; files are read here, so that a bad one is told before anything is written.
 
     Raises ReadError where there is nothing, or a file is bad.
@@ -51,14 +51,14 @@ def _of_rom(result: Dict[str, Any]) -> List[Drawing]:
     return found
 
 
-def _map(result: Dict[str, Any], view: str) -> Figure:
+def _map(result: Dict[str, Any], view: View) -> Figure:
     return motion_map(result, view).figure
 
 
-def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: str) -> List[Drawing]:
+def _of_motion(folder: Path, frames: Optional[Sequence[int]], projection: Projection) -> List[Drawing]:
     table = files.read_curves(folder / "curves.csv")
     found: List[Drawing] = []
-    if any(has(table, quantity) for quantity in ("area", "depth", "pressure", "force")):
+    if any(has(table, quantity) for quantity in QUANTITIES if quantity != "gap"):
         found.append(("curves", lambda: panels(table)))
     elif has(table, "gap"):
         found.append(("curves", lambda: curve(table, "gap").figure))
@@ -95,7 +95,7 @@ def _chosen(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]]
     return list(frames)
 
 
-def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: str
+def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int]], projection: Projection
               ) -> Callable[[], Figure]:
     chosen = _chosen(folder, maps, frames)
     surfaces = [files.read_surface(maps[frame]) for frame in chosen]
@@ -111,7 +111,7 @@ def _surfaces(folder: Path, maps: Dict[int, Path], frames: Optional[Sequence[int
 
 
 def _side_by_side(surfaces: Sequence[files.Surface], first: files.Surface, name: str, side: Optional[str],
-                  projection: str) -> Figure:
+                  projection: Projection) -> Figure:
     """All frames laid out as the first of the motion, so that places compare, on one scale."""
     anywhere = np.max([surface.values[name] for surface in surfaces], axis=0) > 0
     weights = np.where(anywhere, 1.0, 0.0) if anywhere.any() else np.ones(len(anywhere))

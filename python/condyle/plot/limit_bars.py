@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MultipleLocator
 
 from . import style
-from .motion_ends import Band, MotionEnd, motion_ends
+from .motion_ends import Band, Bands, MotionEnd, RomLike, motion_ends
 from .words import AS_DEFINED_HERE, SOFT_TISSUE_ENDS, SOFT_TISSUE_MARK, in_two_lines, is_as_defined_here
 from .words import motion_name, of, scope_clause, step_of_ticks
 
@@ -97,7 +97,7 @@ def _handles(ends: Sequence[MotionEnd], source: Optional[str]) -> List[Any]:
     return handles
 
 
-def limits(result: Any, *, ax: Optional[Axes] = None, bands: Union[bool, Sequence[Any]] = True,
+def limits(result: RomLike, *, ax: Optional[Axes] = None, bands: Bands = True,
            normal_ranges: Union[bool, Mapping[str, float]] = True, values: bool = True, legend: bool = True) -> Axes:
     """Draws how far each motion turns from its start, as horizontal bars in degrees.
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Iterator, List, Optional, Sequence, Tuple
+from typing import Any, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union, get_args
 
 import matplotlib
 import matplotlib.patheffects as effects
@@ -15,12 +15,16 @@ from matplotlib.ticker import FuncFormatter, MultipleLocator
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
+from .._errors import UsageError
+from .._motion_map import MotionMap
 from . import style
 from .motion_grid import MotionGrid
 from .words import OPPOSITE, angle_axis, in_two_lines, number, of, scope_clause, spaced, step_of_ticks
 
 Array = NDArray[np.float64]
-VIEWS = ("positive", "negative", "free_range")
+MapLike = Union[MotionMap, MotionGrid, Mapping[str, object]]
+View = Literal["positive", "negative", "free_range"]
+VIEWS: Tuple[View, ...] = get_args(View)
 """What of a map can be drawn: how far it turns in the positive sense, in the negative sense, and both together."""
 
 #           gid              hatch   colour            words
@@ -33,7 +37,7 @@ HATCHES = {
 MOST_LEVELS = 12
 
 
-def grid_of(result: Any) -> MotionGrid:
+def grid_of(result: MapLike) -> MotionGrid:
     """The map of a result: itself, its `grid`, or a `condyle.MotionMap` as a grid."""
     if isinstance(result, MotionGrid):
         return result
@@ -42,7 +46,7 @@ def grid_of(result: Any) -> MotionGrid:
         return grid
     if all(hasattr(result, name) for name in ("column_deg", "row_deg", "free_at_start", "positive")):
         return _of_motion_map(result)
-    raise ValueError("no map of combined motion in this result")
+    raise UsageError("no map of combined motion in this result")
 
 
 def _of_motion_map(result: Any) -> MotionGrid:
@@ -68,7 +72,7 @@ def values_of(grid: MotionGrid, view: str) -> Array:
         return grid.start_deg - grid.lower_deg
     if view == "free_range":
         return grid.upper_deg - grid.lower_deg
-    raise ValueError(f"view '{view}': there are positive, negative and free_range")
+    raise UsageError(f"view '{view}': there are positive, negative and free_range")
 
 
 def quantity_of(grid: MotionGrid, view: str) -> str:
@@ -164,7 +168,7 @@ def _angle_ticks(axis: Any, values: Array) -> None:
     axis.set_major_formatter(FuncFormatter(lambda value, _: number(round(value, 6))))
 
 
-def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None,
+def motion_map(result: MapLike, view: View = "positive", *, ax: Optional[Axes] = None,
                levels: Optional[Sequence[float]] = None, colour_bar: bool = True, legend: bool = True) -> Axes:
     """Draws how far one angle turns over two held ones, as filled contours with labels.
 
@@ -193,7 +197,7 @@ def motion_map(result: Any, view: str = "positive", *, ax: Optional[Axes] = None
     grid = grid_of(result)
     values = values_of(grid, view)
     if np.isnan(values).all():
-        raise ValueError("nothing to draw: no point of the map is free")
+        raise UsageError("nothing to draw: no point of the map is free")
     if min(values.shape) < 2:
         return _curve(grid, values, view, ax)
     chosen = _levels(values) if levels is None else np.asarray(levels, dtype=np.float64)

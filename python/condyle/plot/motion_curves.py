@@ -1,12 +1,15 @@
 """Contact along a recorded motion or over a cycle, as curves."""
 from __future__ import annotations
 
-from typing import Any, Dict, Mapping, NamedTuple, Optional, Sequence, Tuple
+from typing import Dict, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from .._errors import UsageError
+from .._pressure import ElasticContactResults
 from . import style
 from .words import spaced
 
@@ -21,7 +24,8 @@ class Quantity(NamedTuple):
     columns: Tuple[Tuple[str, str], ...]
 
 
-QUANTITIES = {
+QuantityName = Literal["area", "depth", "pressure", "force", "gap"]
+QUANTITIES: Dict[QuantityName, Quantity] = {
     "area": Quantity("contact area (mm²)", (("area_mm2", ""),)),
     "depth": Quantity("depth (mm)", (("max_depth_mm", "largest"), ("mean_depth_mm", "mean"))),
     "pressure": Quantity("pressure (MPa)", (("max_pressure_mpa", "largest"), ("mean_pressure_mpa", "mean"))),
@@ -40,21 +44,22 @@ def column(table: Table, name: str) -> Array:
     return np.asarray(table[name], dtype=np.float64)
 
 
-def has(table: Table, quantity: str) -> bool:
+def has(table: Table, quantity: QuantityName) -> bool:
     """Whether a table has the columns of a quantity."""
     return all(name in table or (name == "force_n" and "force_x_n" in table)
                for name, _ in QUANTITIES[quantity].columns)
 
 
-def table_of(time_s: ArrayLike, answers: Sequence[Any]) -> Dict[str, Array]:
+def table_of(time_s: ArrayLike, answers: Sequence[Optional[ElasticContactResults]]) -> Dict[str, Array]:
     """Curves of what `condyle.ElasticContact.at` answers of the poses of a motion, by the names of `curves.csv`.
 
     `time_s` (N,), and N answers; of bodies that both cast the mobile one's surface. None is a gap.
     """
-    found = [None if answer is None else (answer.mobile or answer.fixed).totals for answer in answers]
+    surfaces = [None if answer is None else answer.mobile or answer.fixed for answer in answers]
+    found = [None if surface is None else surface.totals for surface in surfaces]
     table = {"time_s": np.asarray(time_s, dtype=np.float64)}
     if len(table["time_s"]) != len(found):
-        raise ValueError(f"{len(table['time_s'])} times for {len(found)} answers")
+        raise UsageError(f"{len(table['time_s'])} times for {len(found)} answers")
     for name in ("area_mm2", "mean_depth_mm", "max_depth_mm", "mean_pressure_mpa", "max_pressure_mpa"):
         table[name] = np.array([np.nan if totals is None else getattr(totals, name) for totals in found])
     for k, axis in enumerate("xyz"):
@@ -68,11 +73,11 @@ def axis_label(name: str) -> str:
     return f"{spaced(words)} ({UNITS[unit]})" if words and unit in UNITS else spaced(name)
 
 
-def _quantity(tables: Sequence[Table], quantity: str) -> Quantity:
+def _quantity(tables: Sequence[Table], quantity: QuantityName) -> Quantity:
     if quantity not in QUANTITIES:
-        raise ValueError(f"quantity '{quantity}': there are {', '.join(QUANTITIES)}")
+        raise UsageError(f"quantity '{quantity}': there are {', '.join(QUANTITIES)}")
     if not all(has(table, quantity) for table in tables):
-        raise ValueError(f"no {quantity} in this table: it has {', '.join(tables[0])}")
+        raise UsageError(f"no {quantity} in this table: it has {', '.join(tables[0])}")
     return QUANTITIES[quantity]
 
 
@@ -90,7 +95,7 @@ def _finish(ax: Axes, along: str, quantity: Quantity) -> None:
         ax.legend(fontsize=style.smaller(1.5))
 
 
-def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Optional[str] = None,
+def curve(table: Table, quantity: QuantityName, *, ax: Optional[Axes] = None, along: Optional[str] = None,
           label: Optional[str] = None, reference: Optional[Table] = None, reference_label: str = "reference",
           colour: str = style.BLUE) -> Axes:
     """Draws one quantity along a motion.
@@ -135,7 +140,7 @@ def curve(table: Table, quantity: str, *, ax: Optional[Axes] = None, along: Opti
     return ax
 
 
-def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None, label: Optional[str] = None,
+def cycles(tables: Sequence[Table], quantity: QuantityName, *, ax: Optional[Axes] = None, label: Optional[str] = None,
            colour: str = style.BLUE) -> Axes:
     """Draws the mean of a quantity over several cycles, and one standard deviation to either side.
 
@@ -152,11 +157,11 @@ def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None,
     The axes; the mean has the gid `mean`, the band `deviation` (of a sample: divided by n - 1).
     """
     if len(tables) < 2:
-        raise ValueError(f"{len(tables)} cycle: a mean needs two or more")
+        raise UsageError(f"{len(tables)} cycle: a mean needs two or more")
     drawn = _quantity(tables, quantity)
     percent = column(tables[0], "cycle_percent")
     if any(not np.array_equal(column(table, "cycle_percent"), percent) for table in tables[1:]):
-        raise ValueError("the cycles are not sampled at the same cycle_percent")
+        raise UsageError("the cycles are not sampled at the same cycle_percent")
     name, words = drawn.columns[0]
     values = np.array([column(table, name) for table in tables])
     known = np.isfinite(values)
@@ -174,16 +179,16 @@ def cycles(tables: Sequence[Table], quantity: str, *, ax: Optional[Axes] = None,
 
 
 def panels(table: Table, *, along: Optional[str] = None, label: Optional[str] = None, reference: Optional[Table] = None,
-           reference_label: str = "reference") -> Any:
+           reference_label: str = "reference") -> Figure:
     """Area, depth, pressure and force of one motion, as far as there are: a figure as wide as a page, which it returns.
 
     Arguments are those of `curve`.
     """
     import matplotlib.pyplot as plt
 
-    shown = [name for name in ("area", "depth", "pressure", "force") if has(table, name)]
+    shown = [name for name in QUANTITIES if name != "gap" and has(table, name)]
     if not shown:
-        raise ValueError(f"no contact in this table: it has {', '.join(table)}")
+        raise UsageError(f"no contact in this table: it has {', '.join(table)}")
     rows = -(-len(shown) // 2)
     with style.print_style():
         figure, all_axes = plt.subplots(rows, 2, figsize=style.size_mm(style.DOUBLE_COLUMN_MM, 50 * rows),

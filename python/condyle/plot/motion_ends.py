@@ -1,9 +1,23 @@
 """What figures need of a range of motion, whether it comes from rom.json or from `Joint.range_of_motion`."""
 from __future__ import annotations
 
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, List, Mapping, NamedTuple, Optional, Protocol, Sequence, Tuple, Union
 
+from .._errors import UsageError
+from .._limit_band import LimitBand
+from .._range_of_motion import RangeOfMotion
 from .words import of
+
+
+class WithMotions(Protocol):
+    """An object with what `rom.json` has."""
+
+    @property
+    def motions(self) -> Sequence[object]: ...
+
+
+RomLike = Union[RangeOfMotion, Mapping[str, object], WithMotions]
+Bands = Union[bool, Sequence[Union[LimitBand, Mapping[str, float]]]]
 
 
 class Band(NamedTuple):
@@ -56,19 +70,19 @@ def _of_limit(limit: Any) -> MotionEnd:
                      of(limit, "normal_range_deg"), of(limit, "clock_hour"), _caveats(limit))
 
 
-def motion_ends(result: Any, bands: Union[bool, Sequence[Any]] = True) -> List[MotionEnd]:
+def motion_ends(result: RomLike, bands: Bands = True) -> List[MotionEnd]:
     """Of each motion of a result. `bands` are those of the result (True), none (False), or one per motion.
 
-    Raises ValueError where there are no motions, or not as many bands.
+    Raises UsageError where there are no motions, or not as many bands.
     """
     limits = of(result, "limits")
     ends = list(map(_of_file, of(result, "motions") or [])) if limits is None else list(map(_of_limit, limits))
     if not ends:
-        raise ValueError("no motions to draw")
+        raise UsageError("no motions to draw")
     if bands is True:
         return ends
     if bands is False:
         return [end._replace(band=None) for end in ends]
     if len(bands) != len(ends):
-        raise ValueError(f"{len(bands)} bands for {len(ends)} motions")
+        raise UsageError(f"{len(bands)} bands for {len(ends)} motions")
     return [end._replace(band=_band(band)) for end, band in zip(ends, bands)]

@@ -1,7 +1,7 @@
 """Pressure on a bearing surface laid flat."""
 from __future__ import annotations
 
-from typing import Any, Optional
+from typing import Any, Literal, Optional, Tuple, get_args
 
 import matplotlib
 import numpy as np
@@ -9,11 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from numpy.typing import ArrayLike, NDArray
 
+from .._errors import UsageError
 from . import flatten, style
 from .words import spaced
 
 Array = NDArray[np.float64]
-PROJECTIONS = ("plane", "sphere")
+Projection = Literal["plane", "sphere"]
+PROJECTIONS: Tuple[Projection, ...] = get_args(Projection)
 UNITS = {"mpa": "MPa", "mm": "mm", "mm2": "mm²", "deg": "°"}
 TOWARDS = (("anterior", "posterior"), ("superior", "inferior"), ("right", "left"))
 
@@ -33,18 +35,18 @@ def quantity_label(name: str) -> str:
     return f"{spaced(words)} ({UNITS[unit]})" if unit in UNITS else spaced(name)
 
 
-def laid_flat(projection: str, vertices: Array, triangles: NDArray[np.int64], weights: Array,
+def laid_flat(projection: Projection, vertices: Array, triangles: NDArray[np.int64], weights: Array,
               centre: ArrayLike = (0, 0, 0), up: Optional[ArrayLike] = None) -> flatten.Flattened:
     """A surface by the name of its projection, `"plane"` or `"sphere"`."""
     if projection == "plane":
         return flatten.on_plane(vertices, triangles, weights, up)
     if projection == "sphere":
         return flatten.about_centre(vertices, triangles, weights, centre, up)
-    raise ValueError(f"projection '{projection}': there are {' and '.join(PROJECTIONS)}")
+    raise UsageError(f"projection '{projection}': there are {' and '.join(PROJECTIONS)}")
 
 
 def pressure_map(vertices: ArrayLike, triangles: ArrayLike, values: ArrayLike, *, ax: Optional[Axes] = None,
-                 projection: str = "plane", centre: ArrayLike = (0, 0, 0), up: Optional[ArrayLike] = None,
+                 projection: Projection = "plane", centre: ArrayLike = (0, 0, 0), up: Optional[ArrayLike] = None,
                  highest: Optional[float] = None, label: str = "pressure (MPa)", side: Optional[str] = None,
                  colour_bar: bool = True, flattened: Optional[flatten.Flattened] = None) -> Axes:
     """Draws a value per triangle of a curved surface on paper, as its partner sees it; grey where the value is 0.
@@ -82,7 +84,7 @@ def pressure_map(vertices: ArrayLike, triangles: ArrayLike, values: ArrayLike, *
     corners = np.asarray(triangles, dtype=np.int64)
     numbers = np.asarray(values, dtype=np.float64)
     if numbers.shape != (len(corners),):
-        raise ValueError(f"values: {numbers.shape} numbers for {len(corners)} triangles")
+        raise UsageError(f"values: {numbers.shape} numbers for {len(corners)} triangles")
     in_contact = numbers > 0
     weights = np.where(in_contact, 1.0, 0.0) if in_contact.any() else np.ones(len(corners))
     flat = flattened or laid_flat(projection, points, corners, weights, centre, up)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from typing import Any, List, NamedTuple, Optional, Sequence
+from typing import List, NamedTuple, Optional, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -11,7 +11,7 @@ from matplotlib.patches import Circle
 
 from . import style
 from .limit_bars import ENDS
-from .motion_ends import motion_ends
+from .motion_ends import RomLike, motion_ends
 from .words import in_two_lines, motion_name, of, scope_clause
 
 
@@ -102,7 +102,7 @@ def _labels(ax: Axes, half: List[Place], side: int) -> None:
                 linespacing=1.05, gid="place")
 
 
-def clock_face(result: Any, *, ax: Optional[Axes] = None, legend: bool = True) -> Axes:
+def clock_face(result: RomLike, *, ax: Optional[Axes] = None, legend: bool = True) -> Axes:
     """Draws where on the rim of a hip's socket its motions end.
 
     12 is superior and on top, 3 anterior and to the right, for right and left hips alike, so that sides compare. In the

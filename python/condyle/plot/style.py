@@ -12,6 +12,8 @@ import matplotlib.pyplot as plt
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from .._errors import UsageError
+
 SINGLE_COLUMN_MM = 85.0
 """Width of one column of most journals, mm."""
 DOUBLE_COLUMN_MM = 174.0
@@ -145,12 +147,12 @@ def rendered(figure: Figure, format: str, dpi: float = 300) -> bytes:
 def save(drawn: Union[Axes, Figure], path: Union[str, Path], dpi: float = 300) -> None:
     """Writes the figure of these axes; the ending of the name is the format: .pdf, .svg or .png (`dpi` dots per inch).
 
-    Raises ValueError for another ending. The file appears whole or not at all.
+    Raises UsageError for another ending. The file appears whole or not at all.
     """
     path = Path(path)
     format = path.suffix[1:].lower()
     if format not in FORMATS:
-        raise ValueError(f"{path}: figures are written as .pdf, .svg or .png")
+        raise UsageError(f"{path}: figures are written as .pdf, .svg or .png")
     figure = drawn if isinstance(drawn, Figure) else drawn.figure
     write_whole(path, rendered(figure, format, dpi))
 
