@@ -1,16 +1,18 @@
 """Where the bones of a joint run into each other: exact contact, depth and range of motion.
 
 Arrays are numpy's, lengths are millimetres, angles degrees; names say so where they have a unit. Frames: F is that of
-the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_F = X_FM p_M. Errors are
-:class:`FileError`, :class:`MeshError` and :class:`UsageError`, each with one line; what looks wrong with a joint is a
-:class:`JointWarning` at its first answer.
+the fixed body, M that of the mobile one; a pose X_FM is a (4, 4) matrix with p_F = X_FM p_M. Every
+error that the module raises on purpose is a :class:`CondyleError` of one line: :class:`FileError` (an OSError),
+:class:`MeshError` and :class:`UsageError` (ValueErrors), and of the last one :class:`UnknownNameError` (a KeyError) and
+:class:`OutOfRangeError` (an IndexError). What looks wrong with a joint is a :class:`JointWarning` at its first answer.
 """
 
 from ._clock_face import ClockFace, clock_face, find_neck_axis, find_rim_clock, neck_clock, sagittal_clock
 from ._contact_checks import ContactNote
 from ._depth_range import DeepestPlace, DepthLimit, DepthRange
 from ._described_joint import BodyPart, JointNote
-from ._errors import FileError, JointWarning, MeshError, ReferenceContactError, UsageError
+from ._errors import CondyleError, FileError, JointWarning, MeshError, OutOfRangeError, ReferenceContactError
+from ._errors import UnknownNameError, UsageError
 from ._first_contact import FirstContact, RotationLimits
 from ._fit import CylinderFit, SphereFit, find_cylinder, find_sphere, fit_cylinder, fit_sphere
 from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDepths, VertexGaps
@@ -25,9 +27,10 @@ from ._motion_contact import ContactFrames, FrameContact
 from ._motion_map import MapEnds, MotionMap
 from ._native import version as __version__
 from ._penetration import INSIDE, NO_INDEX, ON_SURFACE, OUTSIDE, Penetration, Penetrations, VerticesInside
+from ._poses import Pose, Poses
 from ._pressure import BalancedPose, BalanceOptions, ElasticContact, ElasticContactResults, ElasticLayer
 from ._propose_joint import JointProposal, propose_joint
-from ._range_of_motion import RangeOfMotion
+from ._range_of_motion import Bearing, RangeOfMotion
 from ._recorded_motion import ContactEnd, ContactInterval, JointMotion, MotionTable, RecordedContact
 from ._recorded_motion import read_motion_table
 from ._sample import HIP_PARAMETERS, SampleCartilages, SampleHip, sample_cartilages, sample_hip
@@ -36,18 +39,19 @@ from ._surface_contact import ContactTotals, NormalContact, SurfaceContact, thic
 from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
-    "BalanceOptions", "BalancedPose", "BodyPart", "BodyZone", "Caveat", "ClockFace", "ContactEnd", "ContactFrames",
-    "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactTotals", "ContactWitness", "CylinderFit",
-    "DeepestPlace",
-    "DepthLimit", "DepthRange", "Depths", "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError",
-    "Finding", "FirstContact", "FrameContact", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone",
-    "Joint", "JointMotion", "JointNote", "JointProposal", "JointWarning", "KINDS", "Limit", "LimitBand", "MapEnds",
-    "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX",
-    "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs", "PathLimit", "Penetration", "Penetrations", "REASONS",
+    "BalanceOptions", "BalancedPose", "Bearing", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
+    "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactTotals",
+    "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "ElasticContact",
+    "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact", "FreeAngles",
+    "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote", "JointProposal",
+    "JointWarning", "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport",
+    "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE",
+    "OccupiedArcs", "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS",
     "RadialTable", "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits",
     "SampleCartilages", "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "TriMesh",
-    "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__", "clock_face", "find_cylinder",
-    "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere", "inspect", "merge_study",
-    "neck_clock", "propose_joint", "read_joint", "read_mesh", "read_motion_table", "read_study", "run_study",
-    "sagittal_clock", "sample_cartilages", "sample_cohort", "sample_hip", "thickness_to", "write_mesh",
+    "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
+    "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
+    "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_mesh", "read_motion_table",
+    "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort", "sample_hip", "thickness_to",
+    "write_mesh",
 ]

@@ -4,14 +4,27 @@ from __future__ import annotations
 
 import html
 from dataclasses import fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import unknown
+
 if TYPE_CHECKING:
     import pandas
     import xarray
+
+Value = TypeVar("Value")
+
+
+class ByName(dict[str, Value]):
+    """A mapping that says which names there are where one is asked for that there is not."""
+
+    _what = "name"
+
+    def __missing__(self, name: str) -> Value:
+        raise unknown(self._what, name, self)
 
 
 class Columns:

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Callable, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._mesh import MeshLike, TriMesh
-from ._words import array, ball, number
+from ._words import Ball, array, ball, number
+
+OneDirection = Union[np.ndarray[tuple[int], np.dtype[np.generic]], Sequence[float]]
+ManyDirections = Union[np.ndarray[tuple[int, int], np.dtype[np.generic]], Sequence[Sequence[float]]]
+HoursOf = Callable[[NDArray[np.float64], NDArray[np.float64], ArrayLike], NDArray[np.float64]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,18 +34,30 @@ class ClockFace:
     twelve: NDArray[np.float64]
     three: NDArray[np.float64]
 
-    def hour_of(self, direction: ArrayLike) -> Any:
+    @overload
+    def hour_of(self, direction: OneDirection) -> float: ...
+
+    @overload
+    def hour_of(self, direction: ManyDirections) -> NDArray[np.float64]: ...
+
+    def hour_of(self, direction: ArrayLike) -> Union[float, NDArray[np.float64]]:
         """The hour of a direction (3,) from the centre, in [0, 12), 1.5 being half past one; of (N, 3) an array (N,).
 
         Along the face's normal there is no hour: 0.
         """
         return self._each(_native.clock_hours, direction)
 
-    def angle_deg_of(self, direction: ArrayLike) -> Any:
+    @overload
+    def angle_deg_of(self, direction: OneDirection) -> float: ...
+
+    @overload
+    def angle_deg_of(self, direction: ManyDirections) -> NDArray[np.float64]: ...
+
+    def angle_deg_of(self, direction: ArrayLike) -> Union[float, NDArray[np.float64]]:
         """The same as an angle from 12 towards 3, in [0, 360)."""
         return self._each(_native.clock_angles_deg, direction)
 
-    def _each(self, ask: Any, direction: ArrayLike) -> Any:
+    def _each(self, ask: HoursOf, direction: ArrayLike) -> Union[float, NDArray[np.float64]]:
         given = array(direction, "direction", "an array of shape (3,) or (N, 3)")
         found = ask(self.twelve, self.three, given[None] if given.ndim == 1 else given)
         return float(found[0]) if given.ndim == 1 else found
@@ -66,7 +82,7 @@ def sagittal_clock() -> ClockFace:
     return ClockFace(*_native.sagittal_clock())
 
 
-def find_rim_clock(fixed: MeshLike, head: tuple[ArrayLike, float]) -> Optional[ClockFace]:
+def find_rim_clock(fixed: MeshLike, head: Ball) -> Optional[ClockFace]:
     """The acetabular clock in the plane of the rim, 6 o'clock at the acetabular notch; head (centre, radius_mm) in F.
 
     None where no rim or no notch is found, or the plane leaves no 3 o'clock.

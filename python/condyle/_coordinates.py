@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any, Mapping
+from typing import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ._errors import UsageError
+from ._errors import UsageError, unknown
 from ._words import refuse_masked
 
+AngleNames = Sequence[tuple[str, str]]
 
-def position_in(given: Mapping[str, Any], names: Any, what: str, *, is_free: bool
+
+def position_in(given: Mapping[str, ArrayLike], names: AngleNames, what: str, *, is_free: bool
                 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(3,) degrees and (3,) translation of one number for each of the angle names, of a free joint x, y and z too."""
     angles, translations = _table(given, names, what, "", "", is_free, "a number", 0)
     return angles[0], translations[0]
 
 
-def positions_in(given: Mapping[str, Any], names: Any, what: str, *, is_free: bool
+def positions_in(given: Mapping[str, ArrayLike], names: AngleNames, what: str, *, is_free: bool
                  ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(N, 3) degrees and (N, 3) mm of coordinates by their names with `_deg` and `_mm`; scalars stand for all N."""
     return _table(given, names, what, "_deg", "_mm", is_free, "a number or an array of shape (N,)", 1)
 
 
-def _table(given: Mapping[str, Any], names: Any, what: str, of_angles: str, of_lengths: str, is_free: bool,
+def _table(given: Mapping[str, ArrayLike], names: AngleNames, what: str, of_angles: str, of_lengths: str, is_free: bool,
            wanted: str, most_dimensions: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     known = {word + of_angles: (i, sign) for i, pair in enumerate(names) for word, sign in zip(pair, (1.0, -1.0))}
     if is_free:
@@ -34,7 +36,7 @@ def _table(given: Mapping[str, Any], names: Any, what: str, of_angles: str, of_l
     columns: dict[int, NDArray[np.float64]] = {}
     for name, value in given.items():
         if name not in known:
-            raise UsageError(f"{what}: unknown {str(name)[:60]!r}; there are {', '.join(known)}")
+            raise unknown(what, name, known)
         column, sign = known[name]
         refuse_masked(value, f"{what}: {name}")
         try:

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
+from typing import Any, Mapping, Optional, Sequence
 
 from . import _native
+from ._joint import Joint
 from ._limits import ContactWitness, MotionLimit, motion_limit_of, witness_of
 from ._motion import MotionLike, Motions
 from ._words import Progress, number, progress_of
-
-if TYPE_CHECKING:
-    from ._joint import Joint
 
 
 @dataclass(frozen=True, eq=False)

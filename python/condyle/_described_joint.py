@@ -1,18 +1,20 @@
-"""What a joint is: its bodies, frame and names."""
+"""What a joint is: its bodies, frame and names, and its poses."""
 
 from __future__ import annotations
 
 import threading
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, ContextManager, Mapping, Optional, Union, overload
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from ._errors import warn
+from ._coordinates import positions_in
+from ._errors import UsageError, unknown, warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
-from ._words import text_of, word
+from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
+from ._words import Anatomy, Body, JointKind, Side, TranslationFrame, text_of, word
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,7 @@ class DescribedJoint:
     _mobile: TriMesh
     _notes: Optional[tuple[JointNote, ...]]
     _has_warned: bool
-    _lock: Any
+    _lock: ContextManager[bool]
 
     def _hold(self, native: NativeJoint, fixed: TriMesh, mobile: TriMesh) -> None:
         self._native, self._fixed, self._mobile = native, fixed, mobile
@@ -58,17 +60,17 @@ class DescribedJoint:
         return self._native.name
 
     @property
-    def kind(self) -> str:
+    def kind(self) -> JointKind:
         """"ball", "hinge" or "free"."""
         return self._native.kind
 
     @property
-    def joint(self) -> str:
+    def joint(self) -> Anatomy:
         """"hip", "knee", "ankle", "elbow" or "shoulder": order, signs and names of the angles."""
         return self._native.anatomy
 
     @property
-    def side(self) -> str:
+    def side(self) -> Side:
         """"right" or "left"."""
         return self._native.side
 
@@ -100,16 +102,19 @@ class DescribedJoint:
         """Those of the mobile body."""
         return tuple(BodyPart(*part) for part in self._native.mobile_parts)
 
-    def part(self, name: str, body: str = "mobile") -> TriMesh:
-        """The mesh of one part of a body, in that body's frame. UsageError with the names there are.
+    def part(self, name: str, body: Body = "mobile") -> TriMesh:
+        """The mesh of one part of a body, in that body's frame. UnknownNameError with the names there are.
 
         C++: `condyle::mesh_of_part` in condyle/joint.hpp.
         """
-        is_fixed = word(body, "body", ("mobile", "fixed")) == "fixed"
-        return TriMesh._of_native(self._native.part(is_fixed, text_of(name, "name")))
+        is_fixed = word(body, "body", Body) == "fixed"
+        parts = [each.name for each in (self.fixed_parts if is_fixed else self.mobile_parts)]
+        if text_of(name, "name") not in parts:
+            raise unknown(f"{body} part", name, parts)
+        return TriMesh._of_native(self._native.part(is_fixed, name))
 
     @property
-    def translation_frame(self) -> str:
+    def translation_frame(self) -> TranslationFrame:
         """Along which axes a free joint's x, y and z are: "fixed" or "joint_axes"."""
         return self._native.translation_frame
 
@@ -124,10 +129,10 @@ class DescribedJoint:
         return tuple(self._native.angle_names)
 
     @property
-    def reference_pose(self) -> NDArray[np.float64]:
+    def reference_pose(self) -> Pose:
         """(4, 4) X_FM in which the mobile mesh was given."""
         six = self._native.reference_pose
-        pose: NDArray[np.float64] = self._native.poses_at(np.array([six[:3]]), np.array([six[3:]]))[0]
+        pose: Pose = self._native.poses_at(np.array([six[:3]]), np.array([six[3:]]))[0]
         return pose
 
     @property
@@ -159,6 +164,82 @@ class DescribedJoint:
                 if self._notes is None:
                     self._notes = tuple(JointNote(code, text) for code, text in self._native.checks())
         return self._notes
+
+    # Where it is.
+
+    @overload
+    def pose(self, **coordinates: float) -> Pose: ...  # type: ignore[misc]
+
+    @overload
+    def pose(self, **coordinates: Union[float, ManyNumbers]) -> Poses: ...
+
+    def pose(self, **coordinates: ArrayLike) -> Union[Pose, Poses]:
+        """X_FM at these angles, (4, 4); of arrays of N values (N, 4, 4): p_F = X_FM p_M, mm.
+
+        Angles in degrees by their names at this joint and `_deg`: of a hip `flexion_deg`, `adduction_deg`,
+        `internal_rotation_deg`, and with the opposite sign `extension_deg`, `abduction_deg`, `external_rotation_deg`;
+        of a free joint `x_mm`, `y_mm`, `z_mm` too. What is left out is 0. UsageError for other names, for one given
+        under both of its names, and for numbers that are not finite.
+
+        C++: `condyle::pose_at` in condyle/joint_coordinates.hpp.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(scenario=1)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.pose(flexion_deg=90)[:3, :3].tolist()
+        [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+        >>> joint.pose(flexion_deg=[0, 30, 60], abduction_deg=10).shape
+        (3, 4, 4)
+        """
+        angles, translations = positions_in(coordinates, self._native.angle_names, "pose", is_free=self.kind == "free")
+        if self.kind == "hinge" and (angles[:, 1:] != 0).any():
+            raise UsageError(f"pose: a hinge rotates in {self.angle_names[0][0]} only")
+        poses = self._native.poses_at(angles, translations)
+        if any(np.ndim(value) for value in coordinates.values()):
+            return poses
+        one: Pose = poses[0]
+        return one
+
+    @overload
+    def coordinates(self, pose: OnePoseLike) -> dict[str, float]: ...
+
+    @overload
+    def coordinates(self, pose: ManyPosesLike) -> dict[str, NDArray[np.float64]]: ...
+
+    def coordinates(self, pose: PoseLike) -> Union[dict[str, float], dict[str, NDArray[np.float64]]]:
+        """The angles in degrees and the translation in mm of a pose or of N, by the names that :meth:`pose` takes.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip(scenario=1)
+        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
+        >>> joint.coordinates(joint.pose(flexion_deg=90))
+        {'flexion_deg': 90.0, 'adduction_deg': 0.0, 'internal_rotation_deg': 0.0}
+        """
+        matrices = self._matrices(pose)
+        angles, mm = self._native.coordinates_of(matrices)
+        named = {f"{positive}_deg": angles[:, i] for i, (positive, _) in enumerate(self._native.angle_names)}
+        if self.kind == "free":
+            named.update({f"{axis}_mm": mm[:, i] for i, axis in enumerate("xyz")})
+        return {name: float(values[0]) for name, values in named.items()} if np.ndim(matrices) == 2 else named
+
+    def _matrices(self, pose: PoseLike) -> ArrayLike:
+        """Matrices, or a mapping of coordinates as `pose()` takes them."""
+        if not isinstance(pose, Mapping):
+            return pose
+        coordinates: Mapping[str, Any] = pose
+        matrices: ArrayLike = self.pose(**coordinates)
+        return matrices
+
+    def _asked_at(self, pose: PoseLike) -> tuple[NativeJoint, ArrayLike]:
+        """The joint and where it is asked: what is no pose is refused before a warning is given."""
+        matrices = self._matrices(pose)
+        return self._asked, matrices
+
+    def _angle(self, about: str) -> int:
+        positive = [names[0] for names in self._native.angle_names]
+        if about not in positive:
+            raise unknown("about", about, positive)
+        return positive.index(about)
 
     @property
     def _asked(self) -> NativeJoint:

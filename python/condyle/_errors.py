@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import difflib
 import sys
 import warnings
+from typing import Iterable
 
 
+class CondyleError(Exception):
+    """What the module raises on purpose: one line. Each is one of Python's own errors too, as its bases say."""
 
-class FileError(OSError):
+
+class FileError(CondyleError, OSError):
     """A file that cannot be read or written, or does not say what its format asks for.
 
     The message is one line: file, element, what is wrong.
     """
 
 
-class MeshError(ValueError):
+class MeshError(CondyleError, ValueError):
     """A mesh that was read well but does not allow the question asked of it.
 
     Open where a closed surface is needed, of inverted orientation, the joint centre on its surface. One line.
@@ -25,8 +30,18 @@ class ReferenceContactError(MeshError):
     """Bodies in contact in the reference pose where nothing was said about it."""
 
 
-class UsageError(ValueError):
+class UsageError(CondyleError, ValueError):
     """A value outside its domain: a pose, a range, an unknown name, an array of another shape. One line."""
+
+
+class UnknownNameError(UsageError, KeyError):
+    """A name that there is not: of a motion, an angle, a column, a finding. The line says which there are."""
+
+    __str__ = Exception.__str__  # KeyError would put the line in quotes
+
+
+class OutOfRangeError(UsageError, IndexError):
+    """A number of a pose or of a point beyond the last one. The line says how many there are."""
 
 
 class JointWarning(UserWarning):
@@ -37,8 +52,19 @@ class JointWarning(UserWarning):
     """
 
 
-for _error in (FileError, MeshError, ReferenceContactError, UsageError, JointWarning):
+for _error in (CondyleError, FileError, MeshError, ReferenceContactError, UsageError, UnknownNameError, OutOfRangeError,
+               JointWarning):
     _error.__module__ = "condyle"
+
+
+def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
+    """The error of a name that there is not: "motion: no 'flexoin': did you mean 'flexion'? there are flexion, ..."."""
+    names = list(known)
+    said = repr(name)[:60] if isinstance(name, str) else type(name).__name__
+    near = difflib.get_close_matches(name, names, 1) if isinstance(name, str) else []
+    guess = f" did you mean {near[0]!r}?" if near else ""
+    return UnknownNameError(f"{what}: no {said}{':' if guess else ';'}{guess} "
+                            + (f"there are {', '.join(names)}" if names else "there are none"))
 
 
 def warn(text: str) -> None:

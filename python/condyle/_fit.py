@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._mesh import MeshLike, TriMesh
-from ._words import ball, count, number, word
+from ._words import Ball, SpherePart, ball, count, number, word
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class SphereFit:
                 f"{len(self.vertices)} points{covered})")
 
 
-def fit_sphere(points: Any) -> SphereFit:
+def fit_sphere(points: ArrayLike) -> SphereFit:
     """The sphere with the smallest sum of squared distances to (N, 3) points. MeshError where they leave it open.
 
     C++: `condyle::fit_sphere` in condyle/fit.hpp.
@@ -58,8 +58,8 @@ def fit_sphere(points: Any) -> SphereFit:
     return SphereFit(**_native.fit_sphere(points))
 
 
-def find_sphere(mesh: MeshLike, *, part: str = "head", smallest_radius_mm: float = 10, largest_radius_mm: float = 45,
-                within: Optional[tuple[Any, float]] = None, resamples: int = 0) -> SphereFit:
+def find_sphere(mesh: MeshLike, *, part: SpherePart = "head", smallest_radius_mm: float = 10,
+                largest_radius_mm: float = 45, within: Optional[Ball] = None, resamples: int = 0) -> SphereFit:
     """The spherical part of a surface that covers most of its sphere: found without a hint, fitted only to that part.
 
     `part` is "head" (solid inside) or "socket" (outside). `within` is (centre, radius_mm): only vertices in that ball
@@ -71,7 +71,7 @@ def find_sphere(mesh: MeshLike, *, part: str = "head", smallest_radius_mm: float
     smallest = number(smallest_radius_mm, "smallest_radius_mm", low=0)
     largest = number(largest_radius_mm, "largest_radius_mm", low=smallest)
     centre, radius = (None, 0.0) if within is None else ball(within, "within")
-    found = _native.find_sphere(mesh._native, word(part, "part", ("head", "socket")) == "head", smallest, largest,
+    found = _native.find_sphere(mesh._native, word(part, "part", SpherePart) == "head", smallest, largest,
                                 centre, radius, count(resamples, "resamples", high=100_000))
     if mesh._first is not None:
         found["vertices"] = mesh._first[found["vertices"]]
@@ -116,7 +116,7 @@ class CylinderFit:
                 f"rms residual {self.rms_residual:.3g}, {len(self.vertices)} points)")
 
 
-def fit_cylinder(points: Any, point: Any, direction: Any, radius: float) -> CylinderFit:
+def fit_cylinder(points: ArrayLike, point: ArrayLike, direction: ArrayLike, radius: float) -> CylinderFit:
     """The cylinder near a first one that has the smallest sum of squared distances to (N, 3) points.
 
     `point` (3,) on the first one's axis, `direction` (3,) of any length but zero, `radius` above 0. MeshError where the
@@ -133,7 +133,7 @@ def fit_cylinder(points: Any, point: Any, direction: Any, radius: float) -> Cyli
 
 
 def find_cylinder(mesh: MeshLike, *, smallest_radius_mm: float = 5, largest_radius_mm: float = 45,
-                  within: Optional[tuple[Any, float]] = None) -> CylinderFit:
+                  within: Optional[Ball] = None) -> CylinderFit:
     """The cylindrical part of a surface with most area for its radius squared, fitted only to that part.
 
     On a whole long bone that is its shaft: limit the search to the ball `within`, (centre, radius_mm), to get condyles.

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Callable, Generic, Optional, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._answer import Columns, html_of
 from ._mesh import TriMesh
+from ._words import Way
 
 #: Values of `VertexDepths.way`, by number.
-WAYS = ("none", "radial", "flexion", "adduction", "internal_rotation", "nearest")
+WAYS: tuple[Way, ...] = get_args(Way)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -95,12 +96,15 @@ class VertexDepths(Columns):
     _dimension = "vertex"
 
 
+Of = TypeVar("Of", VertexGaps, VertexDepths)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class BothBodies:
+class BothBodies(Generic[Of]):
     """One answer for each body; None where the other mesh is open and has no inside."""
 
-    mobile: Any
-    fixed: Any
+    mobile: Optional[Of]
+    fixed: Optional[Of]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}(mobile={self.mobile!r}, fixed={self.fixed!r})"
@@ -109,22 +113,17 @@ class BothBodies:
         return html_of(type(self).__name__, [("mobile", repr(self.mobile)), ("fixed", repr(self.fixed))])
 
 
-class Gaps(BothBodies):
+class Gaps(BothBodies[VertexGaps]):
     """Gaps of every vertex: `mobile` and `fixed` are :class:`VertexGaps`."""
-
-    mobile: Optional[VertexGaps]
-    fixed: Optional[VertexGaps]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Depths(BothBodies):
+class Depths(BothBodies[VertexDepths]):
     """The depths to read of every vertex: `mobile` and `fixed` are :class:`VertexDepths`.
 
     `caveats` are sentences that they must be read with, as for a pose that translates.
     """
 
-    mobile: Optional[VertexDepths]
-    fixed: Optional[VertexDepths]
     caveats: tuple[str, ...] = ()
 
     @property
@@ -219,7 +218,7 @@ class ContactMeasures:
         return html_of("contact", self._rows())
 
 
-def of_vertices(kind: Any, found: Optional[dict[str, Any]], of: TriMesh) -> Any:
+def of_vertices(kind: Callable[..., Of], found: Optional[dict[str, Any]], of: TriMesh) -> Optional[Of]:
     """The compiled part's answer with one value for each vertex of the mesh as it was given."""
     if found is None:
         return None

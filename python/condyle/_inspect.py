@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Mapping, Optional
+from typing import Mapping, Optional, TypedDict, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
+from ._answer import ByName
 from ._mesh import MeshLike, TriMesh
+from ._words import LengthUnit
+
+
+class BoundaryLoop(TypedDict):
+    """Edges that go round a hole: how many, the first one, and their centre (3,)."""
+
+    edges: int
+    first: tuple[int, int]
+    centre: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -17,10 +27,14 @@ class Finding:
     """How many elements have a defect, and the first of them: a number, two numbers of an edge, or a mapping."""
 
     count: int
-    first: Any
+    first: Union[int, tuple[int, int], BoundaryLoop, None]
 
     def __bool__(self) -> bool:
         return self.count > 0
+
+
+class Findings(ByName[Finding]):
+    _what = "finding"
 
 
 @dataclass(frozen=True)
@@ -53,7 +67,7 @@ class MeshReport:
     area: float
     signed_volume: Optional[float]
     edge_lengths: tuple[float, float, float]
-    likely_unit: Optional[str]
+    likely_unit: Optional[LengthUnit]
     likely_unit_reason: str
 
     @property
@@ -86,6 +100,6 @@ def inspect(mesh: MeshLike) -> MeshReport:
     if given.vertex_map is not None:
         given = TriMesh(given.vertices, given.triangles, merge=False)
     found = _native.inspect(given._native)
-    found["findings"] = {name: Finding(*finding) for name, finding in found["findings"].items()}
+    found["findings"] = Findings((name, Finding(*finding)) for name, finding in found["findings"].items())
     found["components"] = tuple(MeshComponent(**part) for part in found["components"])
     return MeshReport(**found)

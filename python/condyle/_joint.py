@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, Mapping, Optional, Sequence, Union
+from typing import Any, Literal, Mapping, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._answer import html_of
 from ._contact_checks import reported
-from ._coordinates import positions_in
 from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
@@ -21,13 +20,14 @@ from ._motion import MotionLike
 from ._motion_contact import ContactFrames, contact_along
 from ._native import Joint as NativeJoint
 from ._penetration import Penetration, Penetrations, vertices_inside
+from ._poses import ManyPosesLike, OnePoseLike, PoseLike
 from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
-from ._surface_contact import normal_contact
-from ._words import Path, Progress, count, number, path_of, progress_of, text_of, word
-
-PoseLike = Union[ArrayLike, Mapping[str, float]]
+from ._surface_contact import NormalContact, normal_contact
+from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Colour, DepthMethod, FaceRule, GapMethod, JointKind
+from ._words import LengthUnit, Look, Path, Progress, Side, TranslationFrame, count, number, path_of, progress_of
+from ._words import text_of, word
 
 
 class Joint(DescribedJoint):
@@ -80,10 +80,11 @@ class Joint(DescribedJoint):
 
     __slots__ = ("__weakref__",)
 
-    def __init__(self, fixed: MeshLike, mobile: MeshLike, *, name: str = "joint", kind: str = "ball",
-                 joint: str = "hip", side: str = "right", units: str = "mm", translation_frame: str = "fixed",
-                 centre: Union[ArrayLike, Literal["fit"], None] = None, fit_body: str = "mobile",
-                 fit_within: Optional[tuple[ArrayLike, float]] = None, axes: Optional[str] = None,
+    def __init__(self, fixed: MeshLike, mobile: MeshLike, *, name: str = "joint", kind: JointKind = "ball",
+                 joint: Anatomy = "hip", side: Side = "right", units: LengthUnit = "mm",
+                 translation_frame: TranslationFrame = "fixed",
+                 centre: Union[ArrayLike, Literal["fit"], None] = None, fit_body: Body = "mobile",
+                 fit_within: Optional[Ball] = None, axes: Optional[Axes] = None,
                  anterior: Optional[ArrayLike] = None, superior: Optional[ArrayLike] = None,
                  landmarks: Optional[Mapping[str, ArrayLike]] = None,
                  reference_pose: Optional[Mapping[str, float]] = None, fixed_in_W: Optional[ArrayLike] = None,
@@ -125,68 +126,27 @@ class Joint(DescribedJoint):
         joint._hold(native, TriMesh._numbered(native.fixed, *fixed), TriMesh._numbered(native.mobile, *mobile))
         return joint
 
-    # Where it is.
-
-    def pose(self, **coordinates: ArrayLike) -> NDArray[np.float64]:
-        """X_FM at these angles, (4, 4); of arrays of N values (N, 4, 4): p_F = X_FM p_M, mm.
-
-        Angles in degrees by their names at this joint and `_deg`: of a hip `flexion_deg`, `adduction_deg`,
-        `internal_rotation_deg`, and with the opposite sign `extension_deg`, `abduction_deg`, `external_rotation_deg`;
-        of a free joint `x_mm`, `y_mm`, `z_mm` too. What is left out is 0. UsageError for other names, for one given
-        under both of its names, and for numbers that are not finite.
-
-        C++: `condyle::pose_at` in condyle/joint_coordinates.hpp.
-
-        >>> import condyle
-        >>> bones = condyle.sample_hip(scenario=1)
-        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
-        >>> joint.pose(flexion_deg=90)[:3, :3].tolist()
-        [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
-        >>> joint.pose(flexion_deg=[0, 30, 60], abduction_deg=10).shape
-        (3, 4, 4)
-        """
-        angles, translations = positions_in(coordinates, self._native.angle_names, "pose", is_free=self.kind == "free")
-        if self.kind == "hinge" and (angles[:, 1:] != 0).any():
-            raise UsageError(f"pose: a hinge rotates in {self.angle_names[0][0]} only")
-        poses = self._native.poses_at(angles, translations)
-        if any(np.ndim(value) for value in coordinates.values()):
-            return poses
-        one: NDArray[np.float64] = poses[0]
-        return one
-
-    def coordinates(self, pose: PoseLike) -> dict[str, Any]:
-        """The angles in degrees and the translation in mm of a pose or of N, by the names that :meth:`pose` takes.
-
-        >>> import condyle
-        >>> bones = condyle.sample_hip(scenario=1)
-        >>> joint = condyle.Joint(bones.hip_bone, bones.femur)
-        >>> joint.coordinates(joint.pose(flexion_deg=90))
-        {'flexion_deg': 90.0, 'adduction_deg': 0.0, 'internal_rotation_deg': 0.0}
-        """
-        matrices = self._matrices(pose)
-        angles, mm = self._native.coordinates_of(matrices)
-        named = {f"{positive}_deg": angles[:, i] for i, (positive, _) in enumerate(self._native.angle_names)}
-        if self.kind == "free":
-            named.update({f"{axis}_mm": mm[:, i] for i, axis in enumerate("xyz")})
-        return {name: float(values[0]) for name, values in named.items()} if np.ndim(matrices) == 2 else named
-
-    def _matrices(self, pose: PoseLike) -> Any:
-        """Matrices, or a mapping of coordinates as `pose()` takes them."""
-        return self.pose(**pose) if isinstance(pose, Mapping) else pose
-
-    def _asked_at(self, pose: PoseLike) -> tuple[NativeJoint, Any]:
-        """The joint and where it is asked: what is no pose is refused before a warning is given."""
-        matrices = self._matrices(pose)
-        return self._asked, matrices
-
-    def _angle(self, about: str) -> int:
-        positive = tuple(names[0] for names in self._native.angle_names)
-        return positive.index(word(about, "about", positive))
-
     # What is asked of it.
 
-    def penetration(self, pose: PoseLike, method: str = "radial", *, about: Optional[str] = None,
-                    bodies: str = "both", progress: Progress = None) -> Any:
+    @overload
+    def penetration(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[str] = None,
+                    bodies: Bodies = "both", progress: Progress = None) -> Penetration: ...
+
+    @overload
+    def penetration(self, pose: ManyPosesLike, method: GapMethod = "radial", *, about: Optional[str] = None,
+                    bodies: Bodies = "both", progress: Progress = None) -> Penetrations: ...
+
+    @overload
+    def penetration(self, pose: OnePoseLike, method: Literal["normal"], *, about: None = None,
+                    bodies: Bodies = "both", progress: Progress = None) -> NormalContact: ...
+
+    @overload
+    def penetration(self, pose: ManyPosesLike, method: Literal["normal"], *, about: None = None,
+                    bodies: Bodies = "both", progress: Progress = None) -> list[NormalContact]: ...
+
+    def penetration(self, pose: PoseLike, method: DepthMethod = "radial", *, about: Optional[str] = None,
+                    bodies: Bodies = "both", progress: Progress = None
+                    ) -> Union[Penetration, NormalContact, list[NormalContact]]:
         """Which vertices of each body are inside the other one, and how deep, at one pose or many.
 
         Parameters
@@ -221,13 +181,12 @@ class Joint(DescribedJoint):
         >>> [len(each.mobile) for each in many]
         [0, 0, 41]
         """
-        word(method, "method", ("radial", "tangential", "normal"))
+        word(method, "method", DepthMethod)
         if about is not None and method != "tangential":
             raise UsageError("about: is for method tangential")
         if method == "normal":
-            return self.normal_contact(pose, progress=progress)
-        if bodies not in ("both", "mobile", "fixed"):
-            word(bodies, "bodies", ("both", "mobile", "fixed"))
+            return normal_contact(self, pose, "both", "cut_faces", 20, progress)
+        word(bodies, "bodies", Bodies)
         matrices = self._matrices(pose)
         if method == "radial":
             is_one, mobile, fixed = _native.penetration_radial(
@@ -238,9 +197,17 @@ class Joint(DescribedJoint):
         inside = vertices_inside(mobile, self._mobile, is_one), vertices_inside(fixed, self._fixed, is_one)
         if is_one:
             return Penetration(*inside, method)
-        return Penetrations(*inside, method, count=len(matrices))
+        poses: Any = matrices
+        return Penetrations(*inside, method, count=len(poses))
 
-    def pairs(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+    @overload
+    def pairs(self, pose: OnePoseLike, *, progress: Progress = None) -> NDArray[np.uint32]: ...
+
+    @overload
+    def pairs(self, pose: ManyPosesLike, *, progress: Progress = None) -> list[NDArray[np.uint32]]: ...
+
+    def pairs(self, pose: PoseLike, *, progress: Progress = None
+              ) -> Union[NDArray[np.uint32], list[NDArray[np.uint32]]]:
         """The exact set of triangle pairs that meet, ascending; touching counts. Open meshes too.
 
         (K, 2) uint32, fixed and mobile triangle; of N poses a list of N such arrays, views of one.
@@ -250,7 +217,13 @@ class Joint(DescribedJoint):
         is_one, found, offset = _native.pairs(*self._asked_at(pose), progress_of(progress))
         return found if is_one else [found[first:last] for first, last in zip(offset[:-1], offset[1:])]
 
-    def in_contact(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+    @overload
+    def in_contact(self, pose: OnePoseLike, *, progress: Progress = None) -> bool: ...
+
+    @overload
+    def in_contact(self, pose: ManyPosesLike, *, progress: Progress = None) -> NDArray[np.bool_]: ...
+
+    def in_contact(self, pose: PoseLike, *, progress: Progress = None) -> Union[bool, NDArray[np.bool_]]:
         """Whether the bodies share a point: a bool, of N poses (N,) bool.
 
         C++: `JointContact::in_contact` in condyle/contact.hpp.
@@ -258,12 +231,12 @@ class Joint(DescribedJoint):
         is_one, answers = _native.in_contact(*self._asked_at(pose), progress_of(progress))
         return bool(answers[0]) if is_one else answers
 
-    def gaps(self, pose: PoseLike, method: str = "radial", *, about: Optional[str] = None) -> Gaps:
+    def gaps(self, pose: OnePoseLike, method: GapMethod = "radial", *, about: Optional[str] = None) -> Gaps:
         """The gap of every vertex at one pose: see :class:`VertexGaps`. Methods and errors as of :meth:`penetration`.
 
         C++: `JointContact::radial` and `tangential` in condyle/contact.hpp.
         """
-        word(method, "method", ("radial", "tangential"))
+        word(method, "method", GapMethod)
         if method == "radial":
             if about is not None:
                 raise UsageError("about: is for method tangential")
@@ -273,7 +246,13 @@ class Joint(DescribedJoint):
                                                     0 if about is None else self._angle(about))
         return Gaps(of_vertices(VertexGaps, mobile, self._mobile), of_vertices(VertexGaps, fixed, self._fixed))
 
-    def depths(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+    @overload
+    def depths(self, pose: OnePoseLike, *, progress: Progress = None) -> Depths: ...
+
+    @overload
+    def depths(self, pose: ManyPosesLike, *, progress: Progress = None) -> list[Depths]: ...
+
+    def depths(self, pose: PoseLike, *, progress: Progress = None) -> Union[Depths, list[Depths]]:
         """The depth to read of every vertex: :class:`Depths` of X_FM (4, 4); of (N, 4, 4) a list of N.
 
         As `condyle depth` answers. Tables are built at the first call and kept; Ctrl-C ends the call between two poses.
@@ -295,7 +274,14 @@ class Joint(DescribedJoint):
                    for mobile, fixed, caveats in found]
         return answers[0] if is_one else answers
 
-    def contact_measures(self, pose: PoseLike, *, progress: Progress = None) -> Any:
+    @overload
+    def contact_measures(self, pose: OnePoseLike, *, progress: Progress = None) -> ContactMeasures: ...
+
+    @overload
+    def contact_measures(self, pose: ManyPosesLike, *, progress: Progress = None) -> list[ContactMeasures]: ...
+
+    def contact_measures(self, pose: PoseLike, *, progress: Progress = None
+                         ) -> Union[ContactMeasures, list[ContactMeasures]]:
         """Areas, volume, nearest points and distances: :class:`ContactMeasures` of X_FM (4, 4); of (N, 4, 4) a list of N.
 
         Every vertex has its nearest distance, which takes most of the time: :meth:`contact_along` computes areas, depths and
@@ -308,8 +294,16 @@ class Joint(DescribedJoint):
         answers = [measures_of(each, self._fixed, self._mobile) for each in found]
         return answers[0] if is_one else answers
 
-    def normal_contact(self, pose: PoseLike, *, casting: str = "both", rule: str = "cut_faces", reach_mm: float = 20,
-                       progress: Progress = None) -> Any:
+    @overload
+    def normal_contact(self, pose: OnePoseLike, *, casting: Bodies = "both", rule: FaceRule = "cut_faces",
+                       reach_mm: float = 20, progress: Progress = None) -> NormalContact: ...
+
+    @overload
+    def normal_contact(self, pose: ManyPosesLike, *, casting: Bodies = "both", rule: FaceRule = "cut_faces",
+                       reach_mm: float = 20, progress: Progress = None) -> list[NormalContact]: ...
+
+    def normal_contact(self, pose: PoseLike, *, casting: Bodies = "both", rule: FaceRule = "cut_faces",
+                       reach_mm: float = 20, progress: Progress = None) -> Union[NormalContact, list[NormalContact]]:
         """What rays along the normals of one body's triangles find of the other: open meshes too.
 
         `casting` says which body casts; `rule` "face_centre" counts whole faces by the ray from their centre,
@@ -327,8 +321,8 @@ class Joint(DescribedJoint):
         """
         return normal_contact(self, pose, casting, rule, reach_mm, progress)
 
-    def contact_along(self, poses: ArrayLike, surfaces: Optional[ElasticContact] = None, *, casting: str = "mobile",
-                      rule: str = "cut_faces", reach_mm: float = 20, progress: Progress = None
+    def contact_along(self, poses: ArrayLike, surfaces: Optional[ElasticContact] = None, *, casting: Body = "mobile",
+                      rule: FaceRule = "cut_faces", reach_mm: float = 20, progress: Progress = None
                       ) -> ContactFrames:
         """Contact in each frame of a motion, (N, 4, 4) poses, on all threads; None for those of NaN, gaps.
 
@@ -378,7 +372,7 @@ class Joint(DescribedJoint):
         """
         return recorded_contact(self, time_s, poses, resolution_s, progress)
 
-    def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: str = "leave_out",
+    def range_of_motion(self, motions: Optional[Sequence[MotionLike]] = None, *, bearing: BearingRule = "leave_out",
                         bearing_margin_mm: Optional[float] = None, accept_reference_contact: bool = False,
                         exclude_reference_contacts: Union[bool, int] = False,
                         translation_mm: Optional[ArrayLike] = None) -> RangeOfMotion:
@@ -414,13 +408,13 @@ class Joint(DescribedJoint):
         elif exclude_reference_contacts is not False:
             rings = count(exclude_reference_contacts, "exclude_reference_contacts", high=1000)
         options = {
-            "count_bearing": word(bearing, "bearing", ("leave_out", "count")) == "count",
+            "count_bearing": word(bearing, "bearing", BearingRule) == "count",
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
         return RangeOfMotion(self, _native.range_of_motion(self._asked, translation_mm, options), motions)
 
-    def picture(self, pose: PoseLike, *, view: str = "anterior", colour: str = "depth", fixed: str = "solid",
-                mobile: str = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
+    def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: Look = "solid",
+                mobile: Look = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,
                 field_mm: Optional[float] = None) -> NDArray[np.uint8]:
         """Both bodies at one pose, drawn without a display: (height, width, 3) uint8, red, green, blue, from the top left.
 
@@ -444,11 +438,10 @@ class Joint(DescribedJoint):
         >>> joint.picture({"flexion_deg": 140}, view="lateral", width=320, height=240).shape
         (240, 320, 3)
         """
-        looks = ("solid", "transparent", "hidden")
         return _native.picture(
             *self._asked_at(pose), text_of(view, "view"),
-            word(colour, "colour", ("depth", "gap", "nearest", "none")), word(fixed, "fixed", looks),
-            word(mobile, "mobile", looks), count(width, "width"), count(height, "height"),
+            word(colour, "colour", Colour), word(fixed, "fixed", Look), word(mobile, "mobile", Look),
+            count(width, "width"), count(height, "height"),
             None if range_mm is None else number(range_mm, "range_mm"),
             None if field_mm is None else number(field_mm, "field_mm"))
 

@@ -5,22 +5,23 @@ from __future__ import annotations
 from typing import Any, Mapping, Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._coordinates import position_in
 from ._errors import UsageError
-from ._words import ball, number_array, text_of, word
+from ._words import Anatomy, Axes, Body, JointKind, LengthUnit, Side, TranslationFrame, ball, number_array, text_of
+from ._words import word
 
-_axes = {"LPS": ((0, -1, 0), (0, 0, 1)), "RAS": ((0, 1, 0), (0, 0, 1))}
+_axes: dict[str, tuple[ArrayLike, ArrayLike]] = {"LPS": ((0, -1, 0), (0, 0, 1)), "RAS": ((0, 1, 0), (0, 0, 1))}
 
 
 def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, translation_frame: Any, centre: Any,
                    fit_body: Any, fit_within: Any, axes: Any, anterior: Any, superior: Any, landmarks: Any,
                    reference_pose: Any, fixed_in_W: Any, mobile_in_W: Any) -> dict[str, Any]:
     """For the compiled part, in mm and degrees."""
-    anatomy = word(joint, "joint", ("hip", "knee", "ankle", "elbow", "shoulder"))
-    to_mm = 1000.0 if word(units, "units", ("mm", "m")) == "m" else 1.0
+    anatomy = word(joint, "joint", Anatomy)
+    to_mm = 1000.0 if word(units, "units", LengthUnit) == "m" else 1.0
     is_fit = isinstance(centre, str)
     if is_fit:
         word(centre, "centre", ("fit", "three numbers"))
@@ -29,17 +30,17 @@ def description_of(*, name: Any, kind: Any, joint: Any, side: Any, units: Any, t
     if landmarks is not None and not isinstance(landmarks, Mapping):
         raise UsageError(f"landmarks: points by their names are needed, not {type(landmarks).__name__}")
     anterior, superior = _directions(axes, anterior, superior, landmarks)
-    word(kind, "kind", ("ball", "hinge", "free"))
+    word(kind, "kind", JointKind)
     angles, translation = position_in({} if reference_pose is None else reference_pose,
                                       _native.angle_names_of(anatomy), "reference_pose", is_free=kind == "free")
-    frame = word(translation_frame, "translation_frame", ("fixed", "joint_axes"))
+    frame = word(translation_frame, "translation_frame", TranslationFrame)
     _refuse_what_files_refuse(kind, anatomy, frame, angles)
     return {
         "name": text_of(name, "name"), "kind": kind, "anatomy": anatomy,
-        "side": word(side, "side", ("right", "left")), "units": units,
+        "side": word(side, "side", Side), "units": units,
         "translation_frame": frame,
         "centre": None if centre is None or is_fit else _point_in_mm(centre, to_mm, "centre"),
-        "fit": word(fit_body, "fit_body", ("mobile", "fixed")) if is_fit else None,
+        "fit": word(fit_body, "fit_body", Body) if is_fit else None,
         "fit_within": None if fit_within is None else _ball_in_mm(fit_within, to_mm),
         "anterior": anterior, "superior": superior,
         "landmarks": None if landmarks is None else {
@@ -71,7 +72,7 @@ def _directions(axes: Any, anterior: Any, superior: Any, landmarks: Any) -> tupl
     if (anterior is None) != (superior is None):
         raise UsageError("superior: anterior and superior are given together")
     if axes is not None:
-        return _axes[word(axes, "axes", ("LPS", "RAS"))]
+        return _axes[word(axes, "axes", Axes)]
     return ((1, 0, 0), (0, 1, 0)) if anterior is None else (anterior, superior)
 
 

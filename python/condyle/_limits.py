@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Mapping, Optional, Sequence
+from typing import Any, Literal, Mapping, Optional, Sequence, Union, get_args
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _native
 from ._coordinates import position_in
+from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import TriMesh
-from ._motion import Motion, Motions
-from ._words import number
-
-if TYPE_CHECKING:
-    from ._joint import Joint
+from ._motion import Angles, Motion, Motions
+from ._words import ContactKind, LimitReason, number
 
 
 #: Values of `reason` in maps, by number.
-REASONS = ("contact", "end_of_range", "contact_at_start")
+REASONS: tuple[LimitReason, ...] = get_args(LimitReason)
 #: Values of `kind` in maps, by number.
-KINDS = ("unknown", "bearing", "impingement")
+KINDS: tuple[ContactKind, ...] = get_args(ContactKind)
+
+Feature = Union[tuple[Literal["vertex"], int], tuple[Literal["edge"], int, int], tuple[Literal["face"], int]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +33,11 @@ class ContactWitness:
     "unknown".
     """
 
-    fixed_feature: tuple[Any, ...]
-    mobile_feature: tuple[Any, ...]
+    fixed_feature: Feature
+    mobile_feature: Feature
     fixed_point: NDArray[np.float64]
     mobile_point: NDArray[np.float64]
-    kind: str
+    kind: ContactKind
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -59,7 +59,7 @@ class Limit:
     """
 
     turned_deg: float
-    reason: str
+    reason: LimitReason
     contact: Optional[ContactWitness]
     error_bound_deg: float
     bearing_contact_deg: Optional[float]
@@ -146,7 +146,7 @@ class PathLimit:
     segment: int
     fraction: float
     angles_deg: Mapping[str, float]
-    reason: str
+    reason: LimitReason
     contact: Optional[ContactWitness]
     distance_mm: float
 
@@ -171,7 +171,7 @@ def motion_limit_of(found: dict[str, Any], motions: Motions, fixed: TriMesh, mob
     return MotionLimit(**found)
 
 
-def path_limit(joint: Joint, waypoints: Sequence[Mapping[str, float]], tolerance_deg: float) -> PathLimit:
+def path_limit(joint: DescribedJoint, waypoints: Sequence[Mapping[str, float]], tolerance_deg: float) -> PathLimit:
     if isinstance(waypoints, str) or not isinstance(waypoints, Sequence):
         raise UsageError(f"waypoints: a list of mappings is needed, not {type(waypoints).__name__}")
     rows = [position_in(each, joint.angle_names, "waypoints", is_free=False)[0] for each in waypoints]
@@ -179,6 +179,6 @@ def path_limit(joint: Joint, waypoints: Sequence[Mapping[str, float]], tolerance
                "leave_out_rings": None}
     found = _native.path_limit(joint._asked, np.array(rows).reshape(-1, 3), number(tolerance_deg, "tolerance_deg"),
                                options)
-    found["angles_deg"] = dict(zip((names[0] for names in joint.angle_names), found["angles_deg"]))
+    found["angles_deg"] = Angles(zip((names[0] for names in joint.angle_names), found["angles_deg"]))
     found["contact"] = witness_of(found["contact"], joint.fixed, joint.mobile)
     return PathLimit(**found)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Optional, Union
+from typing import Any, Iterable, Optional, Protocol, Union
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._errors import UsageError
 from ._native import Mesh as NativeMesh
-from ._words import Path, path_of, refuse_masked
+from ._words import Path, Repair, path_of, refuse_masked, word
 
 
 class TriMesh:
@@ -62,7 +62,7 @@ class TriMesh:
     _triangles: Optional[NDArray[np.uint32]]
     _processing: tuple[str, ...]
 
-    def __init__(self, vertices: Any, triangles: Any, *, merge: Optional[bool] = None) -> None:
+    def __init__(self, vertices: ArrayLike, triangles: ArrayLike, *, merge: Optional[bool] = None) -> None:
         self._take(_native.Mesh(vertices, triangles), merge)
 
     def _take(self, given: NativeMesh, merge: Optional[bool]) -> None:
@@ -148,15 +148,14 @@ class TriMesh:
         """What was done to the mesh of a file in reading it, or in repairs, one line each."""
         return self._processing
 
-    def repaired(self, *repairs: str) -> TriMesh:
+    def repaired(self, *repairs: Repair) -> TriMesh:
         """A mesh with the same surface, repaired: "weld", "drop_unreferenced", "flip_inverted", in this order.
 
         Vertices that go take their numbers along: the result is a mesh of its own. `processing` says what was done.
         MeshError where a repair cannot be made.
         """
         for repair in repairs:
-            if not isinstance(repair, str):
-                raise UsageError(f"repairs: names are needed, not {type(repair).__name__}")
+            word(repair, "repairs", Repair)
         mesh, done = _native.repaired(self._native, list(repairs))
         return TriMesh._of_native(mesh, done)
 
@@ -192,7 +191,45 @@ def _remade(vertices: Any, triangles: Any, merge: bool, processing: tuple[str, .
     return mesh
 
 
-MeshLike = Union[TriMesh, "tuple[Any, Any]", Any]
+class WithFaces(Protocol):
+    """A mesh of trimesh."""
+
+    @property
+    def vertices(self) -> object: ...
+
+    @property
+    def faces(self) -> object: ...
+
+
+class WithPoints(Protocol):
+    """A mesh of PyVista, whose `faces` are flat: 3 i j k for each."""
+
+    @property
+    def points(self) -> object: ...
+
+    @property
+    def faces(self) -> object: ...
+
+
+class WithCells(Protocol):
+    """A mesh of meshio."""
+
+    @property
+    def points(self) -> object: ...
+
+    @property
+    def cells(self) -> object: ...
+
+
+class OfVtk(Protocol):
+    """A vtkPolyData."""
+
+    def GetPoints(self) -> object: ...
+
+    def GetPolys(self) -> object: ...
+
+
+MeshLike = Union[TriMesh, tuple[ArrayLike, ArrayLike], WithFaces, WithPoints, WithCells, OfVtk]
 
 
 def _triangles_of_flat(faces: Any, what: str) -> NDArray[Any]:

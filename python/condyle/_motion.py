@@ -6,9 +6,14 @@ from dataclasses import dataclass
 from typing import Any, Mapping, Optional, Sequence, Union
 
 from . import _native
-from ._errors import UsageError
+from ._answer import ByName
+from ._errors import UsageError, unknown
 from ._native import Joint as NativeJoint
-from ._words import number, text_of, word
+from ._words import number, text_of
+
+
+class Angles(ByName[float]):
+    _what = "angle"
 
 
 @dataclass(frozen=True)
@@ -49,14 +54,16 @@ class Motions:
         """Code, text and source of each caveat of a motion as the compiled part has it."""
         return _native.motion_caveats(self._joint, motion)
 
-    def named(self, degrees: Sequence[float]) -> dict[str, float]:
+    def named(self, degrees: Sequence[float]) -> Angles:
         """The three angles by their positive names."""
-        return {positive: value for (positive, _), value in zip(self.angles, degrees)}
+        return Angles((positive, value) for (positive, _), value in zip(self.angles, degrees))
 
     def angle(self, name: str, what: str) -> tuple[int, int]:
         """Which of the three, and its sense under that name."""
         known = tuple(each for pair in self.angles for each in pair)
-        place = known.index(word(name, what, known))
+        if name not in known:
+            raise unknown(what, name, known)
+        place = known.index(name)
         return place // 2, 1 - 2 * (place % 2)
 
     def positive_angle(self, name: str, what: str) -> int:
@@ -95,7 +102,7 @@ class Motions:
             for motion in self.known:
                 if motion.name == named or motion.name.lower() == wanted:
                     return motion
-        raise UsageError(f"motion: no {named!r:.60}; there are {', '.join(each.name for each in self.known)}")
+        raise unknown("motion", named, (each.name for each in self.known))
 
     def asked(self, motions: Sequence[MotionLike]) -> tuple[Motion, ...]:
         if isinstance(motions, str) or not isinstance(motions, Sequence):

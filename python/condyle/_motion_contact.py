@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Optional
+from typing import Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._contact_checks import ContactNote, reported
+from ._described_joint import DescribedJoint
 from ._errors import UsageError
+from ._poses import Pose
 from ._pressure import ElasticContact
 from ._surface_contact import SurfaceContact, surface_of
-from ._words import Progress, number, progress_of, word
-
-if TYPE_CHECKING:
-    from ._joint import Joint
+from ._words import Body, FaceRule, Progress, number, progress_of, word
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,7 +40,7 @@ class FrameContact:
         ray ends in contact though the bodies meet or one is open.
     """
 
-    X_FM: NDArray[np.float64]
+    X_FM: Pose
     in_contact: bool
     intersecting_pairs: int
     smallest_gap_mm: float
@@ -60,13 +59,13 @@ class ContactFrames(list[Optional[FrameContact]]):
     notes: tuple[ContactNote, ...] = ()
 
 
-def contact_along(joint: Joint, poses: ArrayLike, surfaces: Optional[ElasticContact], casting: str, rule: str,
-                  reach_mm: float, progress: Progress) -> ContactFrames:
+def contact_along(joint: DescribedJoint, poses: ArrayLike, surfaces: Optional[ElasticContact], casting: Body,
+                  rule: FaceRule, reach_mm: float, progress: Progress) -> ContactFrames:
     if surfaces is not None and not isinstance(surfaces, ElasticContact):
         raise UsageError(f"surfaces: an ElasticContact is needed, not {type(surfaces).__name__}")
     found, notes = _native.contact_along(
         joint._asked, poses, None if surfaces is None else surfaces._native,
-        word(casting, "casting", ("fixed", "mobile")), word(rule, "rule", ("cut_faces", "face_centre")),
+        word(casting, "casting", Body), word(rule, "rule", FaceRule),
         number(reach_mm, "reach_mm"), progress_of(progress))
     for frame in found:
         if frame is not None:

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._answer import html_of
 from ._limits import REASONS
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -83,7 +87,7 @@ class MotionMap:
                                                (self.column, f"{self.column_deg[0]:g} to {self.column_deg[-1]:g} deg"),
                                                ("free volume", f"{self.free_volume_deg3:.6g} deg3")])
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """A row per grid point, columns as in map.csv. Needs pandas."""
         import pandas
 
@@ -93,7 +97,7 @@ class MotionMap:
             f"{self.vary}_lower_deg": self.lower_deg.ravel(), f"{self.vary}_upper_deg": self.upper_deg.ravel(),
             "free_width_deg": self.free_width_deg.ravel(), "free_at_start": self.free_at_start.ravel()})
 
-    def to_xarray(self) -> Any:
+    def to_xarray(self) -> xarray.Dataset:
         """A dataset over the two held angles. Needs xarray."""
         import xarray
 

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Iterator, Optional, Union, overload
+from typing import TYPE_CHECKING, Any, Iterator, Optional, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._answer import Columns, html_of
+from ._errors import OutOfRangeError
 from ._mesh import TriMesh
+from ._words import GapMethod
+
+if TYPE_CHECKING:
+    import pandas
 
 #: Values of `state`.
 OUTSIDE, ON_SURFACE, INSIDE = 0, 1, 2
@@ -117,7 +122,7 @@ class Penetration:
 
     mobile: Optional[VerticesInside]
     fixed: Optional[VerticesInside]
-    method: str
+    method: GapMethod
 
     @property
     def max_depth_mm(self) -> float:
@@ -162,6 +167,8 @@ class Penetrations(Penetration):
         if isinstance(n, slice):
             poses = range(self.count)[n]
             return Penetrations(_of_poses(self.mobile, poses), _of_poses(self.fixed, poses), self.method, len(poses))
+        if not -self.count <= n < self.count:
+            raise OutOfRangeError(f"pose: there are {self.count}, counted from 0, and no {n}")
         n = range(self.count)[n]
         return Penetration(_of_pose(self.mobile, n), _of_pose(self.fixed, n), self.method)
 
@@ -189,7 +196,7 @@ class Penetrations(Penetration):
         return html_of(f"{self.method} penetration of {self.count} poses",
                        [("mobile in fixed", self._said(self.mobile)), ("fixed in mobile", self._said(self.fixed))])
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """A row per vertex inside, with columns `pose` and `body`. Needs pandas."""
         import pandas
 

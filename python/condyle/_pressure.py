@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Iterable, Optional, Union
+from typing import Any, Iterable, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._contact_checks import ContactNote, contact_notes, warn_of
+from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import MeshLike, TriMesh
+from ._poses import Pose
 from ._surface_contact import SurfaceContact, surface_of
-from ._words import Progress, array, count, number, progress_of, word
+from ._words import BalanceOutcome, Bodies, Body, FaceRule, PressureLaw, Progress, array, count, number, progress_of
+from ._words import word
 
-if TYPE_CHECKING:
-    from ._joint import Joint
+OneMatrix = Union[np.ndarray[tuple[int, int], np.dtype[np.generic]], Sequence[Sequence[float]]]
+ManyMatrices = Union[np.ndarray[tuple[int, int, int], np.dtype[np.generic]], Sequence[Pose],
+                     Sequence[Sequence[Sequence[float]]]]
 
 
 @dataclass(frozen=True)
@@ -105,9 +109,9 @@ class BalancedPose:
     wrong with the load or the contact.
     """
 
-    outcome: str
+    outcome: BalanceOutcome
     reason: str
-    X_FM: NDArray[np.float64]
+    X_FM: Pose
     residual_force_n: NDArray[np.float64]
     residual_moment_nmm: NDArray[np.float64]
     steps: int
@@ -150,8 +154,8 @@ class ElasticContact:
     __slots__ = ("_native", "_fixed", "_mobile", "_has_warned", "__weakref__")
 
     def __init__(self, fixed: MeshLike, mobile: MeshLike, *, fixed_layer: Optional[ElasticLayer] = None,
-                 mobile_layer: Optional[ElasticLayer] = None, casting: str = "both", rule: str = "cut_faces",
-                 reach_mm: float = 20, law: str = "linear") -> None:
+                 mobile_layer: Optional[ElasticLayer] = None, casting: Bodies = "both",
+                 rule: FaceRule = "cut_faces", reach_mm: float = 20, law: PressureLaw = "linear") -> None:
         self._fixed, self._mobile = TriMesh.of(fixed), TriMesh.of(mobile)
         self._has_warned = False
         for layer, what in ((fixed_layer, "fixed_layer"), (mobile_layer, "mobile_layer")):
@@ -161,11 +165,11 @@ class ElasticContact:
             self._fixed._native, self._mobile._native,
             None if fixed_layer is None else fixed_layer._checked(self._fixed),
             None if mobile_layer is None else mobile_layer._checked(self._mobile),
-            word(casting, "casting", ("both", "fixed", "mobile")), word(rule, "rule", ("cut_faces", "face_centre")),
-            number(reach_mm, "reach_mm"), word(law, "law", ("linear", "logarithmic")) == "logarithmic")
+            word(casting, "casting", Bodies), word(rule, "rule", FaceRule),
+            number(reach_mm, "reach_mm"), word(law, "law", PressureLaw) == "logarithmic")
 
     @classmethod
-    def of_file(cls, joint: Joint) -> ElasticContact:
+    def of_file(cls, joint: DescribedJoint) -> ElasticContact:
         """With the surfaces, layers and rays that the table [contact] of the joint's file says."""
         native = _native.elastic_of_file(joint._asked)
         if native is None:
@@ -176,7 +180,14 @@ class ElasticContact:
         contact._has_warned = False
         return contact
 
-    def at(self, pose: ArrayLike, *, progress: Progress = None) -> Any:
+    @overload
+    def at(self, pose: OneMatrix, *, progress: Progress = None) -> ElasticContactResults: ...
+
+    @overload
+    def at(self, pose: ManyMatrices, *, progress: Progress = None) -> list[ElasticContactResults]: ...
+
+    def at(self, pose: ArrayLike, *, progress: Progress = None
+           ) -> Union[ElasticContactResults, list[ElasticContactResults]]:
         """:class:`ElasticContactResults` of X_FM, (4, 4); of (N, 4, 4) a list of N.
 
         MeshError with the logarithmic law where the overlap reaches the thickness.
@@ -215,7 +226,7 @@ class ElasticContact:
         return self._native.cut_off_by_reach(pose)
 
     def balance(self, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0), start: Optional[ArrayLike] = None,
-                frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
+                frame: Body = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
                 options: BalanceOptions = BalanceOptions()) -> BalancedPose:
         """The pose near `start` (the identity if not given) in which the contact carries a load on the mobile body.
 
@@ -233,7 +244,7 @@ class ElasticContact:
         return pose
 
     def balance_along(self, poses: ArrayLike, force_n: ArrayLike, *, moment_nmm: ArrayLike = (0, 0, 0),
-                      frame: str = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
+                      frame: Body = "fixed", free_directions: ArrayLike = (), free_rotations: bool = False,
                       options: BalanceOptions = BalanceOptions(), progress: Progress = None
                       ) -> list[Optional[BalancedPose]]:
         """The poses that balance a load, frame after frame of a motion, (N, 4, 4); None for those of NaN, gaps.
@@ -283,11 +294,11 @@ def _refuse_moment(moment_nmm: ArrayLike, free_rotations: bool) -> None:
         raise UsageError("moment_nmm: needs free_rotations")
 
 
-def _terms(options: BalanceOptions, frame: str, free_directions: ArrayLike, free_rotations: bool) -> dict[str, Any]:
+def _terms(options: BalanceOptions, frame: Body, free_directions: ArrayLike, free_rotations: bool) -> dict[str, Any]:
     if not isinstance(options, BalanceOptions):
         raise UsageError(f"options: BalanceOptions are needed, not {type(options).__name__}")
     is_empty = isinstance(free_directions, (tuple, list)) and not free_directions
-    return {**options._checked(), "goes_along": word(frame, "frame", ("fixed", "mobile")) == "mobile",
+    return {**options._checked(), "goes_along": word(frame, "frame", Body) == "mobile",
             "free_directions": np.empty((0, 3)) if is_empty else free_directions,
             "free_rotations": bool(free_rotations)}
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from . import _native
 from ._answer import html_of
 from ._contact_checks import ContactNote, reported
-from ._errors import UsageError
+from ._described_joint import DescribedJoint
+from ._errors import UsageError, unknown
 from ._impingement_zone import ImpingementZone, body_zone_of
 from ._limit_band import LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, motion_limit_of, witness_of
@@ -20,12 +21,23 @@ from ._motion_map import MotionMap, map_of
 from ._words import Path, Progress, count, number, path_of, progress_of, text_of
 
 if TYPE_CHECKING:
-    from ._joint import Joint
+    import pandas
 
 #: Of a band: fewer leave nothing below 5 and above 95 % of them.
 FEWEST_SAMPLES = 20
 #: At some milliseconds each these are an hour, and percentiles have long settled.
 MOST_SAMPLES = 100_000
+
+
+class Bearing(TypedDict):
+    """The surface on which head and socket slide: see :attr:`RangeOfMotion.bearing`."""
+
+    head_centre: NDArray[np.float64]
+    head_radius_mm: float
+    margin_mm: Optional[float]
+    parts: Sequence[str]
+    rim_gap_mm: Optional[float]
+    triangles: NDArray[np.uint8]
 
 
 class RangeOfMotion:
@@ -40,7 +52,7 @@ class RangeOfMotion:
 
     __slots__ = ("_native", "_joint", "_motions", "limits", "notes", "__weakref__")
 
-    def __init__(self, joint: Joint, native: _native.RangeOfMotion, asked: Optional[Sequence[MotionLike]]
+    def __init__(self, joint: DescribedJoint, native: _native.RangeOfMotion, asked: Optional[Sequence[MotionLike]]
                  ) -> None:
         self._native, self._joint = native, joint
         self._motions = Motions(joint._native)
@@ -78,7 +90,7 @@ class RangeOfMotion:
         for limit in self.limits:
             if limit.motion.name == name:
                 return limit
-        raise KeyError(name)
+        raise unknown("limit", name, (limit.motion.name for limit in self.limits))
 
     def __iter__(self) -> Iterator[MotionLimit]:
         return iter(self.limits)
@@ -216,14 +228,15 @@ class RangeOfMotion:
         return ImpingementZone(**found)
 
     @property
-    def bearing(self) -> Optional[Mapping[str, Any]]:
+    def bearing(self) -> Optional[Bearing]:
         """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `rim_gap_mm`, `triangles` (T,) uint8.
 
         Told by `margin_mm` around the head; or by `parts`, names of meshes that are called bearing, and then the margin
         is None.
         """
-        found: Optional[Mapping[str, Any]] = self._native.bearing
-        return found
+        found: Any = self._native.bearing
+        bearing: Optional[Bearing] = found
+        return bearing
 
     @property
     def scope(self) -> str:
@@ -249,7 +262,7 @@ class RangeOfMotion:
         return html_of(self._joint.name, [(limit.motion.name, f"{limit.turned_deg:.1f} deg, {limit.reason}")
                                           for limit in self.limits])
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """A row per motion. Needs pandas."""
         import pandas
 

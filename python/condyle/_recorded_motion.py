@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Mapping, Optional
+from typing import TYPE_CHECKING, Mapping, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._contact_checks import ContactNote
+from ._described_joint import DescribedJoint
+from ._errors import unknown
 from ._limits import ContactWitness, witness_of
-from ._words import Path, Progress, number, path_of, progress_of
+from ._poses import Poses
+from ._words import ContactEndKind, Path, Progress, number, path_of, progress_of
 
 if TYPE_CHECKING:
-    from ._joint import Joint
+    import pandas
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -29,13 +32,15 @@ class MotionTable:
     processing: tuple[str, ...]
 
     def __getitem__(self, column: str) -> NDArray[np.float64]:
+        if column not in self.columns:
+            raise unknown("column", column, self.columns)
         return self.columns[column]
 
     def __repr__(self) -> str:
         rows = len(next(iter(self.columns.values())))
         return f"MotionTable({rows} rows; {', '.join(self.columns)})"
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """A column per column. Needs pandas."""
         import pandas
 
@@ -51,7 +56,7 @@ class JointMotion:
     """
 
     time: NDArray[np.float64]
-    X_FM: NDArray[np.float64]
+    X_FM: Poses
     in_seconds: bool
     processing: tuple[str, ...]
     notes: tuple[ContactNote, ...] = ()
@@ -80,7 +85,7 @@ class ContactEnd:
     the next, `turned_deg` after it. `contact`: the features that meet, or None.
     """
 
-    kind: str
+    kind: ContactEndKind
     time_s: float
     uncertainty_s: Optional[float]
     sample: int
@@ -117,7 +122,7 @@ class RecordedContact:
     poses: int
 
 
-def recorded_contact(joint: Joint, time_s: ArrayLike, poses: ArrayLike, resolution_s: float, progress: Progress
+def recorded_contact(joint: DescribedJoint, time_s: ArrayLike, poses: ArrayLike, resolution_s: float, progress: Progress
                      ) -> RecordedContact:
     found = _native.contact_between(joint._asked, time_s, poses, number(resolution_s, "resolution_s"),
                                     progress_of(progress))

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Mapping, Optional
 
 from . import _native
-from ._errors import UsageError
+from ._errors import UsageError, unknown
 from ._mesh import TriMesh
-from ._words import count, number, word
+from ._words import Side, count, number, word
 
 #: The measures that :func:`sample_hip` takes, millimetres and degrees; C++: condyle/sample/hip_parameters.hpp has their
 #: ranges and meanings.
@@ -34,10 +34,10 @@ class SampleCartilages:
     femoral: TriMesh
 
 
-def _parameters(given: dict[str, Any]) -> dict[str, float]:
+def _parameters(given: Mapping[str, float]) -> dict[str, float]:
     for name in given:
         if name not in HIP_PARAMETERS:
-            raise UsageError(f"{name[:60]!r}: no measure of the hip; there are {', '.join(HIP_PARAMETERS)}")
+            raise unknown("measure of the hip", name, HIP_PARAMETERS)
     return {name: number(value, name) for name, value in given.items()}
 
 
@@ -54,12 +54,12 @@ def _resolution(scenario: Optional[int], triangles: Optional[tuple[int, int]], e
     return scenario, triangles, None if edge_mm is None else number(edge_mm, "edge_mm")
 
 
-def _is_left(side: str) -> bool:
-    return word(side, "side", ("right", "left")) == "left"
+def _is_left(side: Side) -> bool:
+    return word(side, "side", Side) == "left"
 
 
 def sample_hip(*, scenario: Optional[int] = None, triangles: Optional[tuple[int, int]] = None,
-               edge_mm: Optional[float] = None, side: str = "right", **parameters: float) -> SampleHip:
+               edge_mm: Optional[float] = None, side: Side = "right", **parameters: float) -> SampleHip:
     """A hip with these measures: closed meshes without self-intersections, mm, X anterior, Y superior, Z to the right.
 
     Resolution: `scenario` 1 to 4 (2 if nothing is given), or `triangles` (hip bone, femur), or `edge_mm`. Measures by
@@ -79,7 +79,7 @@ def sample_hip(*, scenario: Optional[int] = None, triangles: Optional[tuple[int,
 
 def sample_cartilages(*, clearance_mm: float = 0.2, femoral_thickness_mm: float = 1.65, scenario: Optional[int] = None,
                       triangles: Optional[tuple[int, int]] = None, edge_mm: Optional[float] = None,
-                      side: str = "right", **parameters: float) -> SampleCartilages:
+                      side: Side = "right", **parameters: float) -> SampleCartilages:
     """The cartilages of the sample hip with these measures; they fit :func:`sample_hip` of the same measures.
 
     Resolution: `scenario` 5 to 8 (5 if nothing is given), or `triangles` (acetabular, femoral), or `edge_mm`.

@@ -9,33 +9,42 @@ import os
 from dataclasses import dataclass
 from itertools import dropwhile
 from pathlib import Path as FilePath
-from typing import Any, Iterator, Mapping, Optional, Sequence
+from typing import TYPE_CHECKING, Any, Iterator, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import html_of
-from ._errors import FileError, UsageError, warn
+from ._errors import FileError, UsageError, unknown, warn
 from ._pressure import ElasticLayer
-from ._words import Path, Progress, count, number, number_array, path_of, progress_of, text_of, word
+from ._words import Anatomy, BearingRule, Bodies, FaceRule, Path, PressureLaw, Progress, count, number, number_array
+from ._words import path_of, progress_of, text_of, word
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Numbers, or texts as objects.
+Column = Union[NDArray[np.float64], NDArray[np.object_]]
 
 MOST_HIPS = 10_000_000
 _LAYER = ("youngs_modulus_mpa", "poisson_ratio", "thickness_mm")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class StudyTable(Mapping[str, NDArray[Any]]):
+class StudyTable(Mapping[str, Column]):
     """A table of a study: `columns` by name, (N,) each; `units` and `meanings` by the same names.
 
     Numbers are float64, one that is not there NaN; texts are str in arrays of objects, one that is not there "".
     """
 
-    columns: Mapping[str, NDArray[Any]]
+    columns: Mapping[str, Column]
     units: Mapping[str, str]
     meanings: Mapping[str, str]
 
-    def __getitem__(self, column: str) -> NDArray[Any]:
+    def __getitem__(self, column: str) -> Column:
+        if column not in self.columns:
+            raise unknown("column", column, self.columns)
         return self.columns[column]
 
     def __iter__(self) -> Iterator[str]:
@@ -52,7 +61,7 @@ class StudyTable(Mapping[str, NDArray[Any]]):
     def __repr__(self) -> str:
         return f"StudyTable({self.rows} rows; {', '.join(self.columns)})"
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """A column per column. Needs pandas."""
         import pandas
 
@@ -85,11 +94,11 @@ class StudyLoad:
     at: str = ""
     force_n: Optional[ArrayLike] = None
     layer: Optional[ElasticLayer] = None
-    casting: Optional[str] = None
+    casting: Optional[Bodies] = None
     free_directions: Optional[ArrayLike] = None
-    rule: Optional[str] = None
+    rule: Optional[FaceRule] = None
     reach_mm: Optional[float] = None
-    law: Optional[str] = None
+    law: Optional[PressureLaw] = None
 
     def _checked(self) -> dict[str, Any]:
         if self.layer is not None and not isinstance(self.layer, ElasticLayer):
@@ -108,14 +117,14 @@ class StudyLoad:
                 raise UsageError("free_directions: directions (K, 3) are needed")
         layers = {name: [] if self.layer is None else [number(getattr(self.layer, name), name)] for name in _LAYER}
 
-        def one_of(given: Optional[str], name: str, *known: str) -> Optional[str]:
-            return None if given is None else word(given, name, known)
+        def one_of(given: Optional[str], name: str, words: object) -> Optional[str]:
+            return None if given is None else word(given, name, words)
 
         return {"at": text_of(self.at, "at"), "force_n": force.tolist(), "free_directions": free.tolist(), **layers,
-                "casting": one_of(self.casting, "casting", "both", "fixed", "mobile"),
-                "rule": one_of(self.rule, "rule", "cut_faces", "face_centre"),
+                "casting": one_of(self.casting, "casting", Bodies),
+                "rule": one_of(self.rule, "rule", FaceRule),
                 "reach_mm": None if self.reach_mm is None else number(self.reach_mm, "reach_mm"),
-                "law": one_of(self.law, "law", "linear", "logarithmic")}
+                "law": one_of(self.law, "law", PressureLaw)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -137,7 +146,7 @@ class Study:
     limits: StudyTable
     hips: StudyTable
     failures: StudyTable
-    options: Mapping[str, Any]
+    options: Mapping[str, object]
 
     def __repr__(self) -> str:
         motions = len(set(self.limits["motion"].tolist()))
@@ -147,7 +156,7 @@ class Study:
         return html_of("study", [("joints", str(self.hips.rows)), ("failures", str(self.failures.rows)),
                                  ("motions", ", ".join(dict.fromkeys(self.limits["motion"].tolist())))])
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> pandas.DataFrame:
         """`limits` with the columns of `hips` beside, a row per joint and motion. Needs pandas."""
         limits, hips = self.limits.to_dataframe(), self.hips.to_dataframe()
         more = [name for name in hips.columns if name not in limits.columns]
@@ -191,7 +200,7 @@ def _table_of(texts: Mapping[str, str], name: str, folder: FilePath) -> StudyTab
     header, *rows = _rows_of(texts[f"{name}.csv"])
     if header != [column for _, column, *_ in dictionary] or any(len(row) != len(header) for row in rows):
         raise FileError(f"{folder / (name + '.csv')}: has other columns than columns.csv says")
-    columns: dict[str, NDArray[Any]] = {}
+    columns: dict[str, Column] = {}
     for i, (_, column, _, kind, _) in enumerate(dictionary):
         fields = [row[i] for row in rows]
         # Objects: in an array of fixed length each text would be as long as the longest.
@@ -235,7 +244,6 @@ def read_study(folder: Path) -> Study:
                  _table_of(texts, "failures", place), options)
 
 
-_JOINTS = ("hip", "knee", "ankle", "elbow", "shoulder")
 _SIGMAS = ("sigma_centre_mm", "sigma_axes_deg", "sigma_surface_mm")
 Axis = Mapping[str, Sequence[float]]
 
@@ -265,8 +273,8 @@ def _warn_of(noted: Sequence[tuple[str, str]]) -> None:
         warn(f"{joint}: {codes}")
 
 
-def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, anatomy: str = "hip",
-              bearing: str = "leave_out", bearing_margin_mm: Optional[float] = None,
+def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = None, anatomy: Anatomy = "hip",
+              bearing: BearingRule = "leave_out", bearing_margin_mm: Optional[float] = None,
               accept_reference_contact: bool = False, exclude_reference_contacts: bool = False,
               map: Optional[tuple[Axis, Axis]] = None, vary: Optional[str] = None, band_samples: int = 0,
               seed: Optional[int] = None, sigma_centre_mm: Optional[float] = None,
@@ -324,8 +332,8 @@ def run_study(table: Path, folder: Path, *, motions: Optional[Sequence[str]] = N
         if given is not None and samples == 0:
             raise UsageError(f"{name}: is for band_samples")
     options = {
-        "anatomy": word(anatomy, "anatomy", _JOINTS), "motions": names,
-        "count_bearing": word(bearing, "bearing", ("leave_out", "count")) == "count",
+        "anatomy": word(anatomy, "anatomy", Anatomy), "motions": names,
+        "count_bearing": word(bearing, "bearing", BearingRule) == "count",
         "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
         "accept_reference_contact": bool(accept_reference_contact),
         "exclude_reference_contacts": bool(exclude_reference_contacts), "map": _grid(map, vary),

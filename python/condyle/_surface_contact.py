@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Optional, Sequence
+from typing import Any, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import Columns, html_of
+from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._mesh import MeshLike, TriMesh
-from ._words import Progress, number, progress_of, word
-
-if TYPE_CHECKING:
-    from ._joint import Joint, PoseLike
+from ._poses import PoseLike
+from ._words import Bodies, FaceRule, Progress, number, progress_of, word
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +131,7 @@ class SurfaceContact(Columns):
     _dimension = "face_in_contact"
 
 
-def _half_space(given: Any) -> tuple[Any, float]:
+def _half_space(given: tuple[ArrayLike, float]) -> tuple[ArrayLike, float]:
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise UsageError(f"region: a normal and an offset are needed, not {type(given).__name__}")
     return given[0], number(given[1], "region")
@@ -157,10 +156,11 @@ def surface_of(found: Optional[dict[str, Any]]) -> Optional[SurfaceContact]:
     return SurfaceContact(**found)
 
 
-def normal_contact(joint: Joint, pose: PoseLike, casting: str, rule: str, reach_mm: float, progress: Progress) -> Any:
+def normal_contact(joint: DescribedJoint, pose: PoseLike, casting: Bodies, rule: FaceRule, reach_mm: float,
+                   progress: Progress) -> Union[NormalContact, list[NormalContact]]:
     is_one, found = _native.normal_contact(
-        *joint._asked_at(pose), word(casting, "casting", ("both", "fixed", "mobile")),
-        word(rule, "rule", ("cut_faces", "face_centre")), number(reach_mm, "reach_mm"), progress_of(progress))
+        *joint._asked_at(pose), word(casting, "casting", Bodies),
+        word(rule, "rule", FaceRule), number(reach_mm, "reach_mm"), progress_of(progress))
     contacts = [NormalContact(surface_of(fixed), surface_of(mobile)) for fixed, mobile in found]
     return contacts[0] if is_one else contacts
 

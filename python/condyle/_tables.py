@@ -10,10 +10,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _native
 from ._answer import Columns
-from ._errors import UsageError
+from ._errors import OutOfRangeError, UsageError
 from ._gaps import VertexGaps
 from ._mesh import MeshLike, TriMesh
-from ._words import array, count, number, word
+from ._words import ArcRule, CellMap, array, count, number, word
 
 
 class RadialTable:
@@ -46,11 +46,11 @@ class RadialTable:
 
     __slots__ = ("_native", "_mesh", "__weakref__")
 
-    def __init__(self, mesh: MeshLike, *, map: str = "cube", cells_per_side: Optional[int] = None) -> None:
+    def __init__(self, mesh: MeshLike, *, map: CellMap = "cube", cells_per_side: Optional[int] = None) -> None:
         self._mesh = TriMesh.of(mesh)
         cells = None if cells_per_side is None else count(cells_per_side, "cells_per_side", 1, 2048)
         self._native = _native.RadialTable(
-            self._mesh._native, word(map, "map", ("cube", "cartesian")) == "cube", cells)
+            self._mesh._native, word(map, "map", CellMap) == "cube", cells)
 
     def query(self, points: ArrayLike) -> VertexGaps:
         """State, winding number and gap along its ray of each of (N, 3) points in the mesh's frame, mm.
@@ -130,6 +130,8 @@ class OccupiedArcs(Columns):
 
     def of(self, point: int) -> NDArray[np.float64]:
         """(K, 2) begin and end of the arcs of one point, degrees."""
+        if not -len(self) <= point < len(self):
+            raise OutOfRangeError(f"point: there are {len(self)}, counted from 0, and no {point}")
         point = range(len(self))[point]
         part = slice(int(self.offset[point]), int(self.offset[point + 1]))
         return np.column_stack([self.begin_deg[part], self.end_deg[part]])
@@ -164,9 +166,9 @@ class RingTable:
         self._native = _native.RingTable(self._mesh._native, point, direction,
                                          number(cells_per_triangle, "cells_per_triangle"))
 
-    def query(self, points: ArrayLike, *, rule: str = "alternating") -> VertexGaps:
+    def query(self, points: ArrayLike, *, rule: ArcRule = "alternating") -> VertexGaps:
         """State and gap along its circle of each of (N, 3) points; `rule` "nearest_arc" is the founding paper's."""
-        is_nearest = word(rule, "rule", ("alternating", "nearest_arc")) == "nearest_arc"
+        is_nearest = word(rule, "rule", ArcRule) == "nearest_arc"
         return VertexGaps(**self._native.query(points, is_nearest))
 
     def occupied_arcs(self, points: ArrayLike) -> OccupiedArcs:

@@ -4,15 +4,43 @@ from __future__ import annotations
 
 import math
 import os
-from typing import Any, Callable, Optional, SupportsFloat, Union
+from typing import Any, Callable, Literal, Optional, SupportsFloat, SupportsIndex, Union, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import UsageError
 
-Path = Union[str, "os.PathLike[str]"]
-Progress = Optional[Callable[[int, int], Any]]
+Path = Union[str, os.PathLike[str]]
+Progress = Optional[Callable[[int, int], object]]
+Ball = tuple[ArrayLike, float]
+
+# The words that are taken and given, each list written once: `word` reads it from the type.
+Anatomy = Literal["hip", "knee", "ankle", "elbow", "shoulder"]
+JointKind = Literal["ball", "hinge", "free"]
+Side = Literal["right", "left"]
+LengthUnit = Literal["mm", "m"]
+Axes = Literal["LPS", "RAS"]
+TranslationFrame = Literal["fixed", "joint_axes"]
+Body = Literal["mobile", "fixed"]
+Bodies = Literal["both", "mobile", "fixed"]
+DepthMethod = Literal["radial", "tangential", "normal"]
+GapMethod = Literal["radial", "tangential"]
+FaceRule = Literal["cut_faces", "face_centre"]
+ArcRule = Literal["alternating", "nearest_arc"]
+CellMap = Literal["cube", "cartesian"]
+PressureLaw = Literal["linear", "logarithmic"]
+BearingRule = Literal["leave_out", "count"]
+SpherePart = Literal["head", "socket"]
+Repair = Literal["weld", "drop_unreferenced", "flip_inverted"]
+Colour = Literal["depth", "gap", "nearest", "none"]
+Look = Literal["solid", "transparent", "hidden"]
+LimitReason = Literal["contact", "end_of_range", "contact_at_start"]
+ContactKind = Literal["unknown", "bearing", "impingement"]
+Way = Literal["none", "radial", "flexion", "adduction", "internal_rotation", "nearest"]
+BalanceOutcome = Literal["balanced", "at_jump", "pulled_apart", "over_the_rim", "too_large", "unstable",
+                         "free_direction"]
+ContactEndKind = Literal["exact", "bounded", "recording_begins", "recording_ends"]
 
 
 def path_of(given: Any, name: str = "path") -> str:
@@ -68,8 +96,9 @@ def text_of(given: Any, name: str) -> str:
     return given
 
 
-def word(given: Any, name: str, known: tuple[str, ...]) -> str:
-    """One of the words there are."""
+def word(given: object, name: str, of: object) -> str:
+    """One of the words of a Literal, or of a tuple where the joint or the answer says which there are."""
+    known: tuple[str, ...] = of if isinstance(of, tuple) else get_args(of)
     if not isinstance(given, str) or given not in known:
         said = repr(given) if isinstance(given, str) and len(given) < 60 else type(given).__name__
         raise UsageError(f"{name}: there are {', '.join(known[:-1])} and {known[-1]}, not {said}")

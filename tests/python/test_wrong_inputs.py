@@ -76,7 +76,7 @@ CASES = {
     "a landmark named by a line end": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, landmarks={"\n": ""}),
                                        condyle.UsageError, r"landmarks: '\\n': three numbers"),
     "a measure named by a line end": (lambda hip: condyle.sample_hip(**{"\n": 1}), condyle.UsageError,
-                                      r"'\\n': no measure"),
+                                      r"measure of the hip: no '\\n'"),
     "a ball of one number": (lambda hip: condyle.find_sphere(hip.mobile, within=3), condyle.UsageError,
                              "within: a centre and a radius are needed"),
     "a frame of two poses": (lambda hip: condyle.Joint(hip.fixed, hip.mobile, fixed_in_W=[np.eye(4)] * 2),
