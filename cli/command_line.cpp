@@ -47,11 +47,11 @@ void add_where(CLI::App& command, const std::shared_ptr<WhereOptions>& options) 
   command
       .add_option_function<std::string>(
           "--frame", [options](const std::string& name) { options->frame = answer_frame_named(name); },
-          "Give points and meshes in the joint frame, or in the frame of the mesh files")
+          "The frame in which points and meshes are written: that of the joint, or that of the mesh files")
       ->option_text("joint|source (joint)");
   command.add_flag_callback(
       "--ascii", [options] { options->vtp_encoding = VtpEncoding::text; },
-      "Write VTP files as text, as OpenSim reads them");
+      "Write VTP files as text, which OpenSim reads");
 }
 
 }  // namespace condyle::cli

@@ -12,7 +12,7 @@
 
 namespace condyle::cli {
 
-/// The words of a command that decide its answer, in the order of its --help whatever order they were given in: names
+/// The words of a command that decide its answer, in one order whatever order they were given in: names
 /// of commands, arguments, options with their values. Without --out, --json and --threads, so that runs compare.
 std::vector<std::string> words_of(const CLI::App& command);
 

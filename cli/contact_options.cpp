@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <cctype>
 
 #include "condyle/error.hpp"
 
@@ -13,6 +14,12 @@ namespace {
 
 Vec3 vector_of(const std::vector<double>& values) {
   return values.empty() ? Vec3(Vec3::Zero()) : Vec3(values[0], values[1], values[2]);
+}
+
+/// With the condition before it, or with a capital where there is none.
+std::string sentence(const std::string& when, std::string text) {
+  if (when.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return when + text;
 }
 
 }  // namespace
@@ -26,7 +33,7 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options,
                                : name == "mobile" ? Casting::mobile
                                                   : Casting::both;
           },
-          when + "The body from whose surface rays are cast")
+          sentence(when, "the body from whose surface rays are cast"))
       ->check(CLI::IsMember({"fixed", "mobile", "both"}))
       ->option_text("fixed|mobile|both (both)");
   command
@@ -36,11 +43,12 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options,
             options->rule = name == "face_centre" ? FaceRule::face_centre : FaceRule::cut_faces;
           },
           when +
-              "face_centre: each triangle by its centre, as OpenSim-JAM; cut_faces: triangles cut where the "
-              "depth is 0")
+              "face_centre counts whole triangles by their centre, as OpenSim-JAM does; cut_faces cuts them "
+              "where "
+              "the depth is 0")
       ->check(CLI::IsMember({"face_centre", "cut_faces"}))
       ->option_text("face_centre|cut_faces (cut_faces)");
-  command.add_option("--reach", options->reach_mm, when + "How far rays go, mm")->option_text("MM (20)");
+  command.add_option("--reach", options->reach_mm, sentence(when, "how far rays go"))->option_text("MM (20)");
 }
 
 void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& options) {
@@ -48,16 +56,16 @@ void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& option
     command.add_option(name, values, what)->expected(1, 2)->option_text(text);
   };
   add("--e", options->youngs_modulus_mpa,
-      "Young's modulus of the layers, MPa: one, or the fixed body's and the mobile one's", "MPA [MPA]");
-  add("--nu", options->poisson_ratio, "Poisson's ratio of the layers", "NU [NU]");
-  add("--thickness", options->thickness_mm, "Thickness of the layers, mm", "MM [MM]");
+      "Young's modulus of both layers, or of the fixed body's and the mobile one's", "MPA [MPA]");
+  add("--nu", options->poisson_ratio, "Poisson's ratio of the layers, below 0.5", "NU [NU]");
+  add("--thickness", options->thickness_mm, "Thickness of the layers", "MM [MM]");
   command
       .add_option_function<std::string>(
           "--law",
           [options](const std::string& name) {
             options->law = name == "linear" ? PressureLaw::linear : PressureLaw::logarithmic;
           },
-          "How the layers answer an overlap")
+          "How pressure grows with depth")
       ->check(CLI::IsMember({"linear", "logarithmic"}))
       ->option_text("linear|logarithmic (linear)");
 }
@@ -77,12 +85,12 @@ ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bo
 void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) {
   command
       .add_option("--force", given->force,
-                  "Balance this force on the mobile body, N: moves it to where the contact carries it")
+                  "Move the mobile body to where the contact carries this force on it, in N")
       ->expected(3)
       ->option_text("X Y Z");
   command
       .add_option("--moment", given->moment,
-                  "A moment about the mobile body's origin, N mm; with --free-rotations")
+                  "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
       ->expected(3)
       ->option_text("X Y Z");
   command
@@ -96,11 +104,11 @@ void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) 
       ->option_text("fixed|mobile (fixed)");
   command
       .add_option("--along", given->along,
-                  "Translate along this direction of the fixed frame only, or in the plane of two")
+                  "With a force: move along this direction of the fixed frame only, or in the plane of two")
       ->expected(3, 6)
       ->option_text("X Y Z [X Y Z]");
   command.add_flag_callback(
-      "--free-rotations", [given] { given->rotations = true; }, "Balance by rotations too");
+      "--free-rotations", [given] { given->rotations = true; }, "With a force: rotate the mobile body too");
 }
 
 std::vector<Vec3> directions_of(const std::vector<double>& along) {

@@ -18,6 +18,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "contact_options.hpp"
+#include "help_formatter.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/depth_result.hpp"
@@ -126,19 +127,22 @@ void run(const Options& options, const CLI::App& command) {
 
 void add_depth(CLI::App& app) {
   auto* command =
-      app.add_subcommand("depth", "Where and how deep two bones penetrate each other in one pose");
+      app.add_subcommand("depth", "Compute where and how deep two bones penetrate each other in one pose");
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle depth sample/hip.toml --pose \"flexion=110 internal_rotation=30\" --out deep\n"
       "         condyle depth sample/hip.toml --pose flexion=140 --method normal --casting mobile");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   auto* pose = command->add_option(
       "--pose", options->pose,
-      "Angles in degrees (and x, y, z in mm of a free joint) by the names they have at the joint, such as "
-      "\"flexion=90 adduction=-10 internal_rotation=20\"; those left out are 0. Or the matrix X_FM: 16 "
-      "numbers row by row, in mm");
-  command->add_option("--matrix", options->matrix, "File with the pose as such a matrix")->excludes(pose);
+      "Ask in this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
+      "\"flexion=90 adduction=-10 internal_rotation=20\"; what is left out is 0. Or 16 numbers, the matrix "
+      "X_FM row by row");
+  pose->option_text("POSE (all 0)");
+  command->add_option("--matrix", options->matrix, "Read that matrix from this file")
+      ->excludes(pose)
+      ->option_text("FILE");
   command
       ->add_option_function<std::string>(
           "--method",
@@ -148,30 +152,37 @@ void add_depth(CLI::App& app) {
                               : name == "tangential" ? DepthMethod::tangential
                                                      : DepthMethod::normal;
           },
-          "reliable: along rays from the centre where that is a depth, else along the arc about the joint "
-          "axis that frees a vertex soonest; radial: along rays; tangential: along arcs about one axis; "
-          "normal: from triangles along their normals to the other surface, open meshes too")
+          "reliable measures along rays from the joint centre where that is a depth, else along the arc "
+          "about "
+          "a joint axis that frees the vertex soonest; radial along rays; tangential along arcs about one "
+          "axis; normal from triangles along their normals, open meshes too")
       ->check(CLI::IsMember({"reliable", "radial", "tangential", "normal"}))
       ->option_text("reliable|radial|tangential|normal (reliable)");
   command
       ->add_option("--about", options->about,
-                   "With --method tangential: the angle about whose axis it rotates")
+                   "With --method tangential: the angle about whose axis the mobile body turns")
       ->option_text("flexion|adduction|internal_rotation (flexion)");
   add_rays(*command, options->rays, "With --method normal: ");
   auto* out = command->add_option("--out", options->out,
-                                  "Folder for fixed.vtp, mobile.vtp, pairs.csv and depth.json");
+                                  "Write fixed.vtp, mobile.vtp, pairs.csv and depth.json into this folder");
+  out->option_text("FOLDER");
   add_where(*command, options->where);
   command
       ->add_flag_callback(
           "--csv", [options] { options->vertices = VertexTables::write; },
-          "With --out: also fixed.csv and mobile.csv, a line per vertex")
+          "With --out: write fixed.csv and mobile.csv too, a line per vertex")
       ->needs(out);
   command->add_flag_callback(
       "--pairs-only", [options] { options->scope = Scope::pairs_only; },
-      "Accept open meshes: intersecting triangle pairs, and vertices only against a body that is closed");
+      "Accept open meshes: list the pairs of triangles that meet, and vertices inside a body that is closed");
   command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
+  group_help(*command, {{"Most used", {"--pose", "--method", "--out", "--json", "--strict"}},
+                        {"Question", {"--matrix", "--about", "--pairs-only"}},
+                        {"Contact", {"--casting", "--rule", "--reach"}},
+                        {"Output", {"--frame", "--ascii", "--csv", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

@@ -34,9 +34,10 @@ void add_frame(CLI::App& app) {
       app.add_subcommand("frame", "Show the frame of a joint: centre, axes, fit, and what was converted");
   command->footer("Example: condyle frame right_hip.toml --json --strict");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
   command->callback([options, command] { run(*options, *command); });
 }

@@ -3,7 +3,9 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <algorithm>
+#include <memory>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace condyle::cli {
@@ -46,14 +48,48 @@ std::string entry(std::string name, const std::string& description) {
   return name + wrapped(description, description_column, description_column) + "\n";
 }
 
+/// Without the argument that a command takes.
+std::vector<const CLI::Option*> options_of(const CLI::App& app) {
+  return app.get_options([](const CLI::Option* option) { return option->nonpositional(); });
+}
+
 }  // namespace
+
+HelpGroup uncertainty_group() {
+  return {"Uncertainty", {"--seed", "--sigma-centre", "--sigma-axes", "--sigma-surface"}};
+}
+
+HelpFormatter::HelpFormatter(std::vector<HelpGroup> groups) : groups_(std::move(groups)) {
+  label("Positionals", "Arguments");
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
+  std::string help = make_description(app) + make_usage(app, std::move(name)) + make_positionals(app);
+  std::vector<const CLI::Option*> rest = options_of(*app);
+  for (const HelpGroup& group : groups_) {
+    std::vector<const CLI::Option*> shown;
+    for (const std::string& option : group.options) {
+      const auto found = std::find_if(rest.begin(), rest.end(),
+                                      [&](const CLI::Option* each) { return each->check_name(option); });
+      if (found == rest.end()) continue;
+      shown.push_back(*found);
+      rest.erase(found);
+    }
+    if (!shown.empty()) help += make_group(group.title, false, shown);
+  }
+  if (!rest.empty()) help += make_group(groups_.empty() ? "Options" : "Other", false, rest);
+  return help + make_subcommands(app, mode) + "\n" + make_footer(app);
+}
 
 std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positional) const {
   std::string name = make_option_name(option, is_positional);
   // A flag's default value, which its description says.
   if (const auto brace = name.find('{'); brace != name.npos) name.erase(brace);
-  if (!option->get_option_text().empty())
-    name += " " + option->get_option_text();
+  const std::string& text = option->get_option_text();
+  if (!text.empty())
+    name += (text.starts_with("[=") ? "" : " ") + text;
+  else if (is_positional)
+    name += option->get_expected_max() > 1 ? "..." : "";
   else if (option->get_type_size() != 0 && !option->get_type_name().empty())
     name += " " + option->get_type_name();
   std::vector<std::string> others;
@@ -61,6 +97,7 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
   std::sort(others.begin(), others.end());
   std::string description = make_option_desc(option);
   for (std::size_t i = 0; i < others.size(); ++i) description += (i == 0 ? "; not with " : ", ") + others[i];
+  if (option->get_required() && !is_positional) description += "; required";
   return entry(std::move(name), description);
 }
 
@@ -75,6 +112,10 @@ std::string HelpFormatter::make_description(const CLI::App* app) const {
 std::string HelpFormatter::make_footer(const CLI::App* app) const {
   const std::string footer = app->get_footer();
   return footer.empty() ? "" : wrapped(footer, 0, 2) + "\n";
+}
+
+void group_help(CLI::App& command, std::vector<HelpGroup> groups) {
+  command.formatter(std::make_shared<HelpFormatter>(std::move(groups)));
 }
 
 }  // namespace condyle::cli

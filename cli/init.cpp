@@ -49,9 +49,10 @@ void add_init(CLI::App& app) {
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
   auto options = std::make_shared<Options>();
-  command->add_option("FIXED", options->request.fixed, "Mesh of the body that stays, such as the hip bone")
+  command
+      ->add_option("FIXED", options->request.fixed, "The mesh of the body that stays, such as the hip bone")
       ->required();
-  command->add_option("MOBILE", options->request.mobile, "Mesh of the body that moves, such as the femur")
+  command->add_option("MOBILE", options->request.mobile, "The mesh of the body that moves, such as the femur")
       ->required();
   command
       ->add_option_function<std::string>(
@@ -59,7 +60,7 @@ void add_init(CLI::App& app) {
           [options](const std::string& side) {
             options->request.side = side == "right" ? Side::right : Side::left;
           },
-          "Side of the body; default: inferred from the bones")
+          "The side of the body. Without it inferred from the bones")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left");
   command
@@ -68,10 +69,11 @@ void add_init(CLI::App& app) {
           [options](const std::string& units) {
             options->request.units = units == "m" ? LengthUnit::metres : LengthUnit::millimetres;
           },
-          "Units of both meshes; default: inferred from their size")
+          "The unit of both meshes. Without it inferred from their size")
       ->check(CLI::IsMember({"mm", "m"}))
       ->option_text("mm|m");
-  command->add_option("-o,--out", options->out, "Joint file to write; standard output if not given");
+  command->add_option("-o,--out", options->out, "Write the joint file here")
+      ->option_text("FILE (standard output)");
   command->callback([options] { run(*options); });
 }
 

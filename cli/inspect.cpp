@@ -76,15 +76,16 @@ void add_inspect(CLI::App& app) {
       "Example: condyle inspect femur.ply hip_bone.ply\n"
       "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired");
   auto options = std::make_shared<Options>();
-  command->add_option("MESH", options->meshes, "Mesh files: .stl, .obj, .ply, .vtp or .vtk")->required();
-  command
-      ->add_option("--repair", options->repairs,
-                   "Repairs that lose nothing, in this order: weld, drop_unreferenced, flip_inverted")
+  command->add_option("MESH", options->meshes, "Mesh files, .stl, .obj, .ply, .vtp or .vtk")->required();
+  command->add_option("--repair", options->repairs, "Make these repairs, which lose nothing, in this order")
       ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--out", options->out, "Folder to write the meshes to, as read and repaired, as .ply");
+      ->allow_extra_args(false)
+      ->option_text("weld,drop_unreferenced,flip_inverted");
+  command->add_option("--out", options->out, "Write the meshes into this folder, as read and repaired, .ply")
+      ->option_text("FOLDER");
   command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
   command->callback([options, command] { run(*options, *command); });
 }
 

@@ -13,6 +13,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "contact_options.hpp"
+#include "help_formatter.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/load_result.hpp"
 #include "notes.hpp"
@@ -58,24 +59,32 @@ void run(const Options& options, const CLI::App& command) {
 
 void add_load(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "load", "Contact pressure in one pose, and the pose in which the contact carries a load");
+      "load", "Compute contact pressure in one pose, and the pose in which the contact carries a load");
   command->footer(
       "Example: condyle sample cartilages --scenario 7 --out sample\n"
       "         condyle load sample/cartilages.toml --e 12 --nu 0.42 --thickness 1.5 --force 0 1500 -200");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  command->add_option(
-      "--pose", options->pose,
-      "Angles in degrees and, of a free joint, x, y, z in mm, such as \"flexion=30 x=2\"; or 16 numbers, the "
-      "matrix X_FM row by row");
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  command
+      ->add_option(
+          "--pose", options->pose,
+          "Ask in this pose, or start from it: angles in degrees and, of a free joint, x, y, z in mm, "
+          "such as \"flexion=30 x=2\"; or 16 numbers, the matrix X_FM row by row")
+      ->option_text("POSE (all 0)");
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);
-  command->add_option("--out", options->out, "Folder for fixed.vtp, mobile.vtp and load.json");
+  command->add_option("--out", options->out, "Write fixed.vtp, mobile.vtp and load.json into this folder")
+      ->option_text("FOLDER");
   add_where(*command, options->where);
   command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
+  group_help(*command, {{"Most used", {"--pose", "--force", "--e", "--nu", "--thickness"}},
+                        {"Question", {"--moment", "--force-frame", "--along", "--free-rotations"}},
+                        {"Contact", {"--law", "--casting", "--rule", "--reach"}},
+                        {"Output", {"--out", "--json", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

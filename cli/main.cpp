@@ -169,8 +169,9 @@ int run(int argc, char** argv) {
            limit = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                            static_cast<std::size_t>(count));
          },
-         "Most threads to use; all cores if not given. Results are the same for any number")
-      ->check(CLI::Range(1, 4096));
+         "Use at most so many threads. Results are the same for any number")
+      ->check(CLI::Range(1, 4096))
+      ->option_text("N (all cores)");
 
   cli::add_init(app);
   cli::add_inspect(app);

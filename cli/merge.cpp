@@ -20,7 +20,7 @@ void add_merge(CLI::App& app) {
       "Exit code 3: a shard is missing or not whole, or is of another table, other options or another "
       "version. Where no joint was answered: that of the first failure.");
   auto folder = std::make_shared<std::string>();
-  command->add_option("DIR", *folder, "What condyle study --shard was given as --out")->required();
+  command->add_option("DIR", *folder, "The folder that condyle study --shard had as --out")->required();
   command->callback([folder] {
     const StudyDone done = merge_study(*folder);
     for (const NotedJoint& joint : done.noted) note(joint.id + ": " + joint.codes);

@@ -17,6 +17,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
 #include "contact_options.hpp"
+#include "help_formatter.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
@@ -97,55 +98,65 @@ void run(const Options& options, const CLI::App& command) {
 
 void add_motion(CLI::App& app) {
   auto* command = app.add_subcommand(
-      "motion", "Contact in every frame of a recorded motion: area, depth, pressure, force");
+      "motion", "Compute contact in every frame of a recorded motion: area, depth, pressure, force");
   command->footer(
       "Example: condyle motion examples/tibiofemoral.toml --motion states.sto --load --out flexion\n"
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  command->add_option("--motion", options->motion, "Recorded motion: .mot, .sto or .csv")
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  command->add_option("--motion", options->motion, "The recorded motion, .mot, .sto or .csv")
       ->required()
       ->option_text("FILE");
   command->add_flag_callback(
       "--load", [options] { options->with_pressure = true; },
-      "Pressure, force and moment too; layers by options or the joint file");
+      "Compute pressure, force and moment too, with the layers of the options or of the joint file");
   add_rays(*command, options->contact);
   add_layers(*command, options->contact);
   add_balance(*command, options->balance);
   command
-      ->add_option("--loads", options->loads,
-                   "Balance a force per frame: columns force_x_n, force_y_n, force_z_n; with "
-                   "--free-rotations also moment_x_nmm, ...")
+      ->add_option(
+          "--loads", options->loads,
+          "Move the mobile body in each frame to where the contact carries that row of this table: columns "
+          "force_x_n, force_y_n, force_z_n; with --free-rotations moment_x_nmm, ... too")
       ->excludes(command->get_option("--force"))
       ->excludes(command->get_option("--moment"))
       ->option_text("FILE");
   auto* between = command->add_flag_callback(
       "--between", [options] { options->between = true; },
-      "Contact between the samples too, bounded where the centre moves; where it is held that is exact and "
-      "always done");
+      "Find contact between the samples too where the centre moves, within bounds. About a held centre it "
+      "is exact and always found");
   for (const char* load : {"--force", "--moment", "--loads"}) between->excludes(command->get_option(load));
-  auto* out = command->add_option("--out", options->out, "Folder for curves.csv, curves.sto and motion.json");
+  auto* out = command->add_option("--out", options->out,
+                                  "Write curves.csv, curves.sto and motion.json into this folder");
+  out->option_text("FOLDER");
   command
       ->add_option("--cycle", options->cycle,
-                   "With --out: also cycle.csv, 101 points between two times in seconds")
+                   "With --out: write cycle.csv too, 101 points between two times in seconds")
       ->expected(2)
       ->needs(out)
       ->option_text("START END");
   command
       ->add_flag_callback(
           "--maps", [options] { options->files.maps = true; },
-          "With --out: also a VTP file per frame, and motion.pvd for ParaView")
+          "With --out: write a VTP file per frame too, and motion.pvd for ParaView")
       ->needs(out);
   command
       ->add_flag_callback(
           "--jam", [options] { options->files.jam = true; },
-          "With --out: also jam.h5, as OpenSim-JAM writes contact")
+          "With --out: write jam.h5 too, as OpenSim-JAM writes contact")
       ->needs(out);
   add_where(*command, options->where);
   command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
+  group_help(
+      *command,
+      {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
+       {"Question", {"--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations"}},
+       {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
+       {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

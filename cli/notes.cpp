@@ -15,8 +15,8 @@ namespace condyle::cli {
 void add_strict(CLI::App& command, Strictness& strictness) {
   command.add_flag_callback(
       "--strict", [&strictness] { strictness = Strictness::errors; },
-      "Answer nothing, with exit code 4, where something looks wrong with the joint: side, axes, units, "
-      "centre, meshes; or with its layers, load or motion");
+      "Refuse to answer, with exit code 4, where something looks wrong with the joint (side, axes, units, "
+      "centre, meshes) or with its layers, load or motion. Without it a note says so");
 }
 
 namespace {

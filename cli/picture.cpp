@@ -14,6 +14,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/picture.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "notes.hpp"
@@ -79,17 +80,21 @@ void add_body(CLI::App& command, const char* name, std::optional<BodyRole>& body
 }  // namespace
 
 void add_picture(CLI::App& app) {
-  auto* command = app.add_subcommand("picture", "A picture of the joint in one pose, without a display");
+  auto* command = app.add_subcommand("picture", "Draw the joint in one pose, without a display");
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle picture sample/hip.toml --pose \"flexion=110 internal_rotation=35\" --view "
       "anterior-superior --hide fixed --out deep.png");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
-  command->add_option(
-      "--pose", options->pose,
-      "Angles in degrees (and x, y, z in mm of a free joint), or the matrix X_FM, as for condyle depth");
-  command->add_option("--view", options->view, "From where, several with hyphens for a view from between")
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  command
+      ->add_option("--pose", options->pose,
+                   "Draw this pose: angles in degrees, and x, y, z of a free joint in mm, such as "
+                   "\"flexion=110\"; or 16 numbers, the matrix X_FM row by row")
+      ->option_text("POSE (all 0)");
+  command
+      ->add_option("--view", options->view,
+                   "Look from this side; several with hyphens look from between them")
       ->option_text("anterior|posterior|left|right|superior|inferior|medial|lateral (anterior)");
   command
       ->add_option_function<std::string>(
@@ -100,25 +105,29 @@ void add_picture(CLI::App& app) {
                                       : name == "nearest" ? PictureColour::nearest
                                                           : PictureColour::none;
           },
-          "depth: of what is inside the other bone, as condyle depth tells it; gap: along rays from the "
-          "centre; nearest: "
-          "distance to the nearest point")
+          "Colour by depth in the other bone, as condyle depth computes it; by the gap along rays from the "
+          "centre; by the distance to the nearest point; or not")
       ->check(CLI::IsMember({"depth", "gap", "nearest", "none"}))
       ->option_text("depth|gap|nearest|none (depth)");
   command
-      ->add_option("--range", options->picture.range_mm,
-                   "End of the colours; 8 mm if not given, for depths what holds them all")
+      ->add_option(
+          "--range", options->picture.range_mm,
+          "Colours end at this distance or depth. Without it 8 mm, and for depths what holds them all")
       ->option_text("MM");
   command
       ->add_option("--field", options->picture.field_mm,
-                   "Height of what is shown, about the joint centre; all of both bodies if not given")
+                   "Show this height about the joint centre. Without it all of both bodies")
       ->option_text("MM");
-  add_body(*command, "--hide", options->hidden, "The body that is not drawn");
-  add_body(*command, "--transparent", options->transparent, "The body that is drawn as glass");
-  command->add_option("--size", options->size, "Pixels, 64 to 8192 either way")
+  add_body(*command, "--hide", options->hidden, "Do not draw this body");
+  add_body(*command, "--transparent", options->transparent, "Draw this body as glass");
+  command->add_option("--size", options->size, "Width and height in pixels, 64 to 8192 each")
       ->option_text("WIDTHxHEIGHT (1200x900)");
-  command->add_option("--out", options->out, "The picture to write, .png")->required()->option_text("FILE");
+  command->add_option("--out", options->out, "Write the picture to this file, .png")
+      ->required()
+      ->option_text("FILE");
   add_strict(*command, options->strictness);
+  group_help(*command, {{"Most used", {"--pose", "--view", "--colour", "--hide", "--out"}},
+                        {"Output", {"--transparent", "--range", "--field", "--size", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

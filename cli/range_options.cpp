@@ -45,10 +45,10 @@ std::optional<Vec3> translation_of(const std::string& text, const Joint& joint) 
 CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
   auto* map =
       command
-          .add_option(
-              "--map", given->map,
-              "Limits over two held angles, first:last:step in degrees each, such as flexion=-20:120:1 "
-              "adduction=-40:30:1; the first one runs to the right")
+          .add_option("--map", given->map,
+                      "Compute limits over a grid of two held angles, in degrees, such as flexion=-20:120:1 "
+                      "adduction=-40:30:1. The first one runs to the right")
+          ->option_text("ANGLE=FIRST:LAST:STEP ANGLE=FIRST:LAST:STEP")
           // One is refused below, and a file that was taken for the second one: with words that help.
           ->expected(1, 2)
           ->check(
@@ -57,51 +57,62 @@ CLI::Option* add_map(CLI::App& command, const std::shared_ptr<RangeGiven>& given
                                                    : std::string();
               },
               "");
-  command.add_option("--translation", given->translation,
-                     "Of a free joint: what all motions keep, such as \"x=1.5 y=-0.2 z=0\" in mm; without it "
-                     "that of the reference pose");
-  command.add_option("--vary", given->vary, "The angle that varies in the map: the third one");
+  command
+      .add_option("--translation", given->translation,
+                  "Hold a free joint here in all motions, in mm. Without it where the reference pose has it")
+      ->option_text("\"x=X y=Y z=Z\"");
+  command.add_option("--vary", given->vary, "With --map: the angle that turns over the grid")
+      ->option_text("ANGLE (the third one)");
   return map;
 }
 
 CLI::Option* add_bearing(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
-  return command.add_option_function<std::string>(
-      "--bearing", [given](const std::string& text) { given->bearing = parse_bearing(text); },
-      "How far outside the head's sphere contact is bearing contact and does not end a motion, in mm; count: "
-      "any "
-      "contact ends a motion. 2 mm, or less where the rim is near, if not given");
+  return command
+      .add_option_function<std::string>(
+          "--bearing", [given](const std::string& text) { given->bearing = parse_bearing(text); },
+          "Contact so near to the head's sphere is sliding and ends no motion; with count every contact ends "
+          "a motion. Without it 2 mm, or less where the rim is near")
+      ->option_text("MM|count (2)");
 }
 
 CLI::Option* add_accept(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
   return command.add_flag_callback(
       "--accept-reference-contact", [given] { given->reference_contact = ReferenceContact::accept; },
-      "Answer although the bodies are in contact in the reference pose: motions that start in contact say "
+      "Answer although the bodies are in contact in the reference pose. Motions that start in contact say "
       "so");
 }
 
 CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
-  auto* band = command.add_flag("--band{200}", given->band_samples,
-                                "Also compute how far each limit moves with what is uncertain: 5 to 95 % of "
-                                "this many displaced joints, 200 if not "
-                                "given (--band=1000)");
+  auto* band = command
+                   .add_flag("--band{200}", given->band_samples,
+                             "Compute how far each limit moves with what is uncertain: from 5 to 95 % of N "
+                             "displaced joints")
+                   ->option_text("[=N] (200)");
   const auto for_band = [&](CLI::Option* option) { option->needs(band); };
-  for_band(command.add_option(
-      "--seed", given->seed,
-      "With --band: seed of the displacements, 1 if neither this nor the joint file says"));
-  for_band(command.add_option(
-      "--sigma-centre", given->sigma.centre_mm,
-      "With --band: standard deviation of each coordinate of the centre, 0.5 mm if neither this "
-      "nor the joint file says"));
-  for_band(command.add_option("--sigma-axes", given->sigma.axes_deg,
-                              "With --band: of the rotation about each axis, 1 degree if not said"));
-  for_band(command.add_option("--sigma-surface", given->sigma.surface_mm,
-                              "With --band: of each surface along its normals, 0.25 mm if not said"));
+  for_band(command
+               .add_option("--seed", given->seed,
+                           "With --band: the seed of the displacements, instead of that of the joint file")
+               ->option_text("N (1)"));
+  for_band(command
+               .add_option("--sigma-centre", given->sigma.centre_mm,
+                           "With --band: the standard deviation of each coordinate of the centre, instead of "
+                           "that of the joint "
+                           "file")
+               ->option_text("MM (0.5)"));
+  for_band(command
+               .add_option("--sigma-axes", given->sigma.axes_deg,
+                           "With --band: the same of the rotation about each axis")
+               ->option_text("DEG (1)"));
+  for_band(command
+               .add_option("--sigma-surface", given->sigma.surface_mm,
+                           "With --band: the same of each surface along its normals")
+               ->option_text("MM (0.25)"));
   return band;
 }
 
 CLI::Option* add_past(CLI::App& command, const std::shared_ptr<RangeGiven>& given) {
-  return command.add_option("--past", given->past_deg,
-                            "Also find the impingement zones this many degrees past each limit");
+  return command.add_option("--past", given->past_deg, "Find the impingement zones so far past each limit")
+      ->option_text("DEG");
 }
 
 std::optional<MapGrid> grid_of(const RangeGiven& given, JointKind kind, Anatomy anatomy) {

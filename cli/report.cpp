@@ -18,6 +18,7 @@
 #include "condyle/held_translation.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/joint_motion.hpp"
+#include "help_formatter.hpp"
 #include "io/report/report.hpp"
 #include "notes.hpp"
 #include "range.hpp"
@@ -131,8 +132,8 @@ void run(const Options& options, const CLI::App& command) {
 }  // namespace
 
 void add_report(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("report", "One HTML file that shows the joint and computes with it in any browser");
+  auto* command = app.add_subcommand(
+      "report", "Write one HTML file that shows the joint and computes with it in any browser");
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle report sample/hip.toml --out report.html\n"
@@ -142,26 +143,34 @@ void add_report(CLI::App& app) {
       "The file needs no server and no network, and sends nothing. Where limits cannot be answered it says "
       "why and shows the joint.");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)");
+  command->add_option("JOINT", options->joint, "The joint file, .toml");
   command->add_flag_callback(
       "--empty", [options] { options->content = Content::nothing; },
-      "A page without a joint: it takes the meshes of a hip that are dropped on it");
-  command->add_option("--out", options->out, "The HTML file to write")->required()->option_text("FILE");
-  command->add_option("--title", options->title, "Heading of the page: the joint's name if not given");
+      "Write a page without a joint, which takes the meshes of a hip that are dropped on it");
+  command->add_option("--out", options->out, "Write the page to this file, .html")
+      ->required()
+      ->option_text("FILE");
+  command->add_option("--title", options->title, "Put this heading on the page")
+      ->option_text("TEXT (the joint's name)");
   command
       ->add_option("--motion", options->motion,
-                   "Also a recorded motion, .mot, .sto or .csv: its frames and their curves")
+                   "Show the frames of this recorded motion, .mot, .sto or .csv, and their curves")
       ->option_text("FILE");
   command->add_flag_callback(
       "--load", [options] { options->with_pressure = true; },
-      "Pressure too, by the layers of the joint file: as a colour in any pose, and with --motion in its "
-      "curves");
+      "Show pressure too, with the layers of the joint file: as a colour in any pose, and with --motion in "
+      "its curves");
   add_map(*command, options->range);
   add_past(*command, options->range);
   add_bearing(*command, options->range);
   add_accept(*command, options->range);
   add_band(*command, options->range);
   add_strict(*command, options->strictness);
+  group_help(*command, {{"Most used", {"--out", "--band", "--map", "--motion", "--load"}},
+                        {"Question", {"--vary", "--past", "--translation"}},
+                        uncertainty_group(),
+                        {"Contact", {"--bearing", "--accept-reference-contact"}},
+                        {"Output", {"--empty", "--title", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

@@ -16,6 +16,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
+#include "help_formatter.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/rom_files.hpp"
 #include "io/result/rom_result.hpp"
@@ -111,33 +112,36 @@ void run(const Options& options, const CLI::App& command) {
 }  // namespace
 
 void add_rom(CLI::App& app) {
-  auto* command = app.add_subcommand("rom", "How far a joint turns before bone meets bone, where, and why");
+  auto* command =
+      app.add_subcommand("rom", "Compute how far a joint turns before bone meets bone, where, and why");
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle rom sample/hip.toml --motion flexion --motion fadir\n"
       "         condyle rom sample/hip.toml --map flexion=0:120:10 adduction=-30:20:10 --out range\n"
       "Exit code 6: the bodies are in contact in the reference pose and no option says what to do about it.");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "Joint file (TOML)")->required();
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
   command
       ->add_option("--motion", options->motions,
-                   "A motion by its name, or several parted by commas; all if not given")
+                   "Compute the limits of this motion only, or of these, with commas between their names")
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->option_text("NAME[,NAME...] (all)");
   command->add_flag_callback(
       "--list-motions", [options] { options->task = Task::list_motions; },
-      "Say which motions there are, degrees from where to where, and end");
+      "Print the motions that the joint has, with their angles, and end");
   auto* map = add_map(*command, options->range);
   add_past(*command, options->range);
   auto* bearing = add_bearing(*command, options->range);
   auto* contacts = command->add_flag_callback(
       "--exclude-reference-contacts",
       [options] { options->reference_contacts = ReferenceContacts::leave_out; },
-      "Leave out what is in contact in the reference pose");
+      "Ignore triangles that are in contact in the reference pose");
   auto* depth =
       command->add_option("--allow-depth", options->allow_depth_mm,
-                          "End a motion where the radial depth exceeds this many mm, for meshes that "
-                          "overlap wherever they are: searched for, not exact");
+                          "End a motion where the radial depth exceeds this, for meshes that overlap in "
+                          "every pose. Such a limit is searched for and is not exact");
+  depth->option_text("MM");
   auto* accept = add_accept(*command, options->range);
   auto* band = add_band(*command, options->range);
   for (CLI::Option* other : {map, bearing, contacts, accept, band}) depth->excludes(other);
@@ -147,18 +151,28 @@ void add_rom(CLI::App& app) {
           [options](const std::string& name) {
             options->clock = name == "rim" ? ClockPlane::rim : ClockPlane::sagittal;
           },
-          "Where contacts are read on the socket's clock: in the sagittal plane, or in that of the rim with "
-          "6 at the notch")
+          "The plane of the clock on which contacts are read: the sagittal one, or that of the rim with 6 at "
+          "the notch")
       ->check(CLI::IsMember({"sagittal", "rim"}))
       ->option_text("sagittal|rim (sagittal)");
-  command->add_option(
-      "--out", options->out,
-      "Folder for rom.json, limits.csv and bearing.vtp, map.csv, map_intervals.csv and map.vtp of a "
-      "map, zone_*.vtp of zones; python3 -m condyle.plot draws what is in it");
+  command
+      ->add_option(
+          "--out", options->out,
+          "Write rom.json, limits.csv and bearing.vtp into this folder; map.csv, map_intervals.csv and "
+          "map.vtp of a map, zone_*.vtp of zones. python3 -m condyle.plot FOLDER draws them")
+      ->option_text("FOLDER");
   add_where(*command, options->where);
   command->add_flag_callback(
-      "--json", [options] { options->form = AnswerForm::json; }, "Answer in JSON");
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
+  group_help(*command,
+             {{"Most used", {"--motion", "--band", "--map", "--out", "--json"}},
+              {"Question", {"--list-motions", "--vary", "--past", "--translation", "--clock"}},
+              uncertainty_group(),
+              {"Contact",
+               {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--allow-depth"}},
+              {"Output", {"--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

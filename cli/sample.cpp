@@ -10,6 +10,7 @@
 #include "answer.hpp"
 #include "commands.hpp"
 #include "followed.hpp"
+#include "help_formatter.hpp"
 #include "io/result/sample_files.hpp"
 
 namespace condyle::cli {
@@ -93,8 +94,9 @@ void add_resolution(CLI::App& command, int& scenario, int first, const char* hel
                           ->check(CLI::Range(first, last))
                           ->option_text(fmt::format("{}..{} ({})", first, last, first));
   const auto add_count = [&](const Count& count) {
-    return command.add_option(count.option, count.triangles, "Exact number of triangles instead")
-        ->excludes(by_scenario);
+    return command.add_option(count.option, count.triangles, "Make exactly so many triangles instead")
+        ->excludes(by_scenario)
+        ->option_text("N");
   };
   auto *of_mobile = add_count(mobile), *of_fixed = add_count(fixed);
   of_mobile->needs(of_fixed);
@@ -105,69 +107,94 @@ void add_side(CLI::App& command, Side& side) {
   command
       .add_option_function<std::string>(
           "--side", [&side](const std::string& name) { side = name == "left" ? Side::left : Side::right; },
-          "Side of the body; a left hip is the mirrored right one")
+          "The side of the body. A left hip is the right one mirrored")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left (right)");
 }
 
 void add_measures(CLI::App& command, HipParameters& hip) {
   add_length(command, "--head-radius", hip.head_radius_mm, "Radius of the femoral head");
-  add_length(command, "--joint-space", hip.joint_space_mm, "Bony joint space");
-  add_angle(command, "--neck-shaft-angle", hip.neck_shaft_angle, "Between the axes of neck and shaft");
-  add_angle(command, "--anteversion", hip.femoral_anteversion, "Of the femoral neck");
+  add_length(command, "--joint-space", hip.joint_space_mm, "Joint space between the bones");
+  add_angle(command, "--neck-shaft-angle", hip.neck_shaft_angle, "Angle between the axes of neck and shaft");
+  add_angle(command, "--anteversion", hip.femoral_anteversion, "Anteversion of the femoral neck");
   add_length(command, "--neck-radius", hip.neck_radius_mm,
              "Half the narrowest front-to-back width of the neck");
-  add_length(command, "--neck-length", hip.neck_length_mm, "From the head's centre to the shaft's axis");
-  add_length(command, "--shaft-length", hip.shaft_length_mm, "From the neck's axis to the lower end");
+  add_length(command, "--neck-length", hip.neck_length_mm,
+             "Distance from the head's centre to the shaft's axis");
+  add_length(command, "--shaft-length", hip.shaft_length_mm,
+             "Distance from the neck's axis to the lower end");
   command
       .add_option_function<double>(
           "--alpha-angle", [&hip](double degrees) { hip.alpha_angle = Angle::degrees(degrees); },
-          "Alpha angle of a cam at half past one around the neck, up to 90; no cam if not given")
-      ->option_text("DEG");
+          "Alpha angle of a cam at half past one around the neck, up to 90")
+      ->option_text("DEG (no cam)");
   add_angle(command, "--acetabular-inclination", hip.acetabular_inclination,
-            "Of the socket's opening, from the vertical");
+            "Angle of the socket's opening from the vertical");
   add_angle(command, "--acetabular-version", hip.acetabular_version,
-            "Of the socket's opening, forward of lateral");
-  add_angle(command, "--centre-edge-angle", hip.lateral_centre_edge_angle, "Lateral coverage of the head");
+            "Angle of the socket's opening forward of lateral");
+  add_angle(command, "--centre-edge-angle", hip.lateral_centre_edge_angle,
+            "Lateral centre-edge angle, how far the socket covers the head");
+}
+
+HelpGroup measures_group() {
+  return {"Measures of the hip",
+          {"--alpha-angle", "--head-radius", "--joint-space", "--neck-shaft-angle", "--anteversion",
+           "--neck-radius", "--neck-length", "--shaft-length", "--acetabular-inclination",
+           "--acetabular-version", "--centre-edge-angle"}};
 }
 
 void add_hip(CLI::App& sample) {
-  auto* command = sample.add_subcommand("hip", "A hip: hip bone, femur and joint file");
+  auto* command = sample.add_subcommand("hip", "Make a hip: hip bone, femur and joint file");
   command->footer(
       "Example: condyle sample hip --out sample\n"
       "         condyle sample hip --scenario 2 --neck-shaft-angle 135 --side left --out valgus");
   auto options = std::make_shared<HipOptions>();
-  command->add_option("--out", options->out, "Folder for hip_bone.ply, femur.ply and hip.toml")->required();
+  command->add_option("--out", options->out, "Write hip_bone.ply, femur.ply and hip.toml into this folder")
+      ->required()
+      ->option_text("FOLDER");
   add_resolution(*command, options->scenario, 1,
-                 "Resolution: 1 is 1542 and 2442 triangles (femur, hip bone), each next four times as many",
+                 "How fine the meshes are: 1 has 1542 triangles of the femur and 2442 of the hip bone, each "
+                 "next one four times as many",
                  {"--hip-bone-triangles", options->hip_bone_triangles},
                  {"--femur-triangles", options->femur_triangles});
   add_side(*command, options->side);
   add_measures(*command, options->hip);
+  group_help(*command,
+             {{"Most used", {"--out", "--side", "--scenario", "--alpha-angle", "--neck-shaft-angle"}},
+              measures_group(),
+              {"Resolution", {"--femur-triangles", "--hip-bone-triangles", "--help"}}});
   command->callback([options] { run(*options); });
 }
 
 void add_cartilages(CLI::App& sample) {
-  auto* command = sample.add_subcommand("cartilages", "Cartilages and labrum of that hip, and joint file");
+  auto* command =
+      sample.add_subcommand("cartilages", "Make cartilages and labrum of that hip, and a joint file");
   command->footer(
       "Example: condyle sample cartilages --out cartilages\n"
       "         condyle sample cartilages --scenario 6 --clearance -0.3 --out overlapping");
   auto options = std::make_shared<CartilageOptions>();
   command
-      ->add_option("--out", options->out,
-                   "Folder for acetabular_cartilage.ply, femoral_cartilage.ply and cartilages.toml")
-      ->required();
-  add_resolution(*command, options->scenario, 5,
-                 "Resolution: 2824 and 2876 triangles (femoral, acetabular), 4338 and 4222, 7734 and 7870, "
-                 "17294 and 14824",
-                 {"--acetabular-triangles", options->acetabular_triangles},
-                 {"--femoral-triangles", options->femoral_triangles});
+      ->add_option(
+          "--out", options->out,
+          "Write acetabular_cartilage.ply, femoral_cartilage.ply and cartilages.toml into this folder")
+      ->required()
+      ->option_text("FOLDER");
+  add_resolution(
+      *command, options->scenario, 5,
+      "How fine the meshes are: 2824 femoral and 2876 acetabular triangles, 4338 and 4222, 7734 and "
+      "7870, or 17294 and 14824",
+      {"--acetabular-triangles", options->acetabular_triangles},
+      {"--femoral-triangles", options->femoral_triangles});
   add_side(*command, options->side);
   add_length(*command, "--clearance", options->cartilage.clearance_mm,
-             "Gap between the articular spheres; negative: overlap");
+             "Gap between the articular spheres; below 0 they overlap");
   add_length(*command, "--femoral-thickness", options->cartilage.femoral_thickness_mm,
-             "Of the femoral cartilage; the acetabular one fills what is left of the joint space");
+             "Thickness of the femoral cartilage. The acetabular one fills what is left of the joint space");
   add_measures(*command, options->hip);
+  group_help(*command,
+             {{"Most used", {"--out", "--side", "--scenario", "--clearance", "--femoral-thickness"}},
+              measures_group(),
+              {"Resolution", {"--femoral-triangles", "--acetabular-triangles", "--help"}}});
   command->callback([options] { run(*options); });
 }
 
@@ -189,21 +216,23 @@ void run(const CohortOptions& options) {
 
 void add_cohort(CLI::App& sample) {
   auto* command =
-      sample.add_subcommand("cohort", "Hips with measures drawn at random: a table for condyle study");
+      sample.add_subcommand("cohort", "Draw hips with random measures: a table for condyle study");
   command->footer(
       "Example: condyle sample cohort --n 4 --seed 1 --out cohort\n"
       "         condyle study cohort/cohort.csv --out study\n"
       "Distributions stand in cohort.json. Hip k of a seed is the same whatever n.");
   auto options = std::make_shared<CohortOptions>();
-  command->add_option("--out", options->out, "Folder for cohort.csv and cohort.json")->required();
-  command->add_option("--n", options->cohort.n, "How many hips")->required();
-  command->add_option("--seed", options->cohort.seed, "Of the draws, 1 if not given");
-  command->add_option("--scenario", options->scenario, "Resolution of each hip, as of condyle sample hip")
+  command->add_option("--out", options->out, "Write cohort.csv and cohort.json into this folder")
+      ->required()
+      ->option_text("FOLDER");
+  command->add_option("--n", options->cohort.n, "Draw so many hips")->required()->option_text("N");
+  command->add_option("--seed", options->cohort.seed, "The seed of the draws")->option_text("N (1)");
+  command->add_option("--scenario", options->scenario, "How fine the meshes are, as in condyle sample hip")
       ->check(CLI::Range(1, 4))
       ->option_text("1..4 (1)");
   command->add_flag_callback(
       "--meshes", [options] { options->cohort.meshes = CohortMeshes::in_files; },
-      "Write meshes and joint file of each hip too; without, a study makes each hip of its measures");
+      "Write meshes and joint file of each hip too. Without them a study makes each hip from its measures");
   command->callback([options] { run(*options); });
 }
 

@@ -11,6 +11,7 @@
 #include "condyle/error.hpp"
 #include "condyle/io/study.hpp"
 #include "contact_options.hpp"
+#include "help_formatter.hpp"
 #include "prompt_stop.hpp"
 #include "range_options.hpp"
 
@@ -81,7 +82,7 @@ void run(const Options& given) {
 }  // namespace
 
 void add_study(CLI::App& app) {
-  auto* command = app.add_subcommand("study", "The limits of many joints: a table in, tables out");
+  auto* command = app.add_subcommand("study", "Compute the limits of many joints: a table in, tables out");
   command->footer(
       "Example: condyle sample cohort --n 4 --out cohort\n"
       "         condyle study cohort/cohort.csv --out study --shard 1/2\n"
@@ -97,56 +98,70 @@ void add_study(CLI::App& app) {
   command
       ->add_option(
           "TABLE", options->table,
-          "CSV with a row per joint: id, then joint (a joint file), or fixed and mobile (meshes) with side, "
-          "units and axes, or sample (1 to 4) with measures; other columns go into the results")
+          "A CSV file with a row per joint: id, then joint (a joint file), or fixed and mobile (meshes) with "
+          "side, units and axes, or sample (1 to 4) with measures. Other columns go into the results")
       ->required();
   command
       ->add_option("--out", options->out,
-                   "Folder for limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and study.json")
-      ->required();
+                   "Write limits.csv, hips.csv, failures.csv, columns.csv, study.h5 and study.json into this "
+                   "folder")
+      ->required()
+      ->option_text("FOLDER");
   command
-      ->add_option("--shard", options->shard,
-                   "Only part i of N of the table, into OUT/shards; condyle merge puts them together")
+      ->add_option(
+          "--shard", options->shard,
+          "Answer only part i of N of the table, into FOLDER/shards. condyle merge puts the parts together")
       ->option_text("i/N");
   command
       ->add_option("--motion", options->motions,
-                   "A motion by its name, or several parted by commas; all if not given")
+                   "Compute the limits of this motion only, or of these, with commas between their names")
       ->expected(1)
-      ->take_all();
-  command->add_option("--anatomy", options->anatomy, "Of all joints of the table")
+      ->take_all()
+      ->option_text("NAME[,NAME...] (all)");
+  command->add_option("--anatomy", options->anatomy, "Which joint all rows of the table are")
       ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
       ->option_text("hip|knee|ankle|elbow|shoulder (hip)");
   add_map(*command, options->range);
   add_bearing(*command, options->range);
   command->add_flag("--exclude-reference-contacts", options->leaves_out_reference_contacts,
-                    "Leave out what is in contact in the reference pose");
+                    "Ignore triangles that are in contact in the reference pose");
   add_accept(*command, options->range);
   add_band(*command, options->range);
-  command->add_option("--depth", options->depth,
-                      "Also how deep the bodies are in each other in this pose, such as \"flexion=90 "
-                      "internal_rotation=30\"");
   command
-      ->add_option(
-          "--load", options->load,
-          "Also contact pressure in this pose (\"\": the reference pose), of the layers in joint files "
-          "or of those of --e, --nu and --thickness")
+      ->add_option("--depth", options->depth,
+                   "Compute how deep the bodies are in each other in this pose too, such as \"flexion=90 "
+                   "internal_rotation=30\"")
+      ->option_text("POSE");
+  command
+      ->add_option("--load", options->load,
+                   "Compute contact pressure in this pose too (\"\" is the reference pose), with the layers "
+                   "of the joint "
+                   "files or those of --e, --nu and --thickness")
       ->option_text("POSE");
   command
       ->add_option("--force", options->force,
-                   "With --load: on the mobile body, N; moves it to where the contact carries this force")
+                   "With --load: move the mobile body to where the contact carries this force on it, in N")
       ->expected(3)
       ->option_text("ANTERIOR SUPERIOR LATERAL");
   command
       ->add_option("--along", options->along,
-                   "With --force: translate along this direction only, or in the plane of two")
+                   "With --force: move along this direction only, or in the plane of two")
       ->expected(3, 6)
       ->option_text("ANTERIOR SUPERIOR LATERAL [...]");
   add_rays(*command, options->contact, "With --load: ");
   add_layers(*command, options->contact);
   command->add_flag_callback(
       "--strict", [options] { options->bad_joint = BadJoint::ends_run; },
-      "A joint that cannot be answered, or with which something looks wrong (exit code 4), ends the run; "
-      "nothing is written");
+      "End the run, and write nothing, at a joint that cannot be answered or with which something looks "
+      "wrong (exit code 4)");
+  group_help(*command, {{"Most used", {"--out", "--motion", "--band", "--map", "--shard"}},
+                        {"Question",
+                         {"--anatomy", "--vary", "--translation", "--depth", "--load", "--force", "--along"}},
+                        uncertainty_group(),
+                        {"Contact",
+                         {"--bearing", "--accept-reference-contact", "--exclude-reference-contacts", "--e",
+                          "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
+                        {"Output", {"--strict", "--help"}}});
   command->callback([options] { run(*options); });
 }
 

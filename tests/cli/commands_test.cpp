@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "command.hpp"
@@ -207,6 +209,30 @@ TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
       has_example = has_example || line.find("condyle ") != line.npos;
     }
     EXPECT_TRUE(has_example || std::string(command) == "sample");
+  }
+}
+
+/// Every option in one group, and first the five that matter most.
+TEST_F(Command, HelpBeginsWithFiveOptionsAndLeavesNoneWithoutAGroup) {
+  for (const char* command :
+       {"depth", "rom", "load", "motion", "picture", "report", "sample hip", "sample cartilages", "study"}) {
+    SCOPED_TRACE(command);
+    std::istringstream help(run(std::string(command) + " --help").out);
+    std::map<std::string, std::set<std::string>> options;
+    std::set<std::string> all;
+    std::string group;
+    for (std::string line; std::getline(help, line);) {
+      if (line.ends_with(":") && !line.starts_with(" ")) group = line;
+      if (line.empty()) group.clear();
+      std::smatch option;
+      if (!group.empty() && std::regex_search(line, option, std::regex("^  (?:-h,)?(--[a-z-]+)"))) {
+        EXPECT_TRUE(all.insert(option[1]).second) << option[1] << " is there twice";
+        options[group].insert(option[1]);
+      }
+    }
+    EXPECT_EQ(options["Most used:"].size(), 5u);
+    EXPECT_TRUE(options["Other:"].empty());
+    EXPECT_TRUE(all.contains("--help") && all.contains("--out"));
   }
 }
 

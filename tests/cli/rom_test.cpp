@@ -9,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "command.hpp"
@@ -280,6 +281,21 @@ TEST_F(RomCommand, BandsStandBesideLimitsAndInEveryFile) {
   EXPECT_EQ(run("rom joint.toml --motion flexion --band=40 --threads 1 --json").out,
             run("rom joint.toml --motion flexion --band=40 --threads 2 --json").out);
   EXPECT_NE(run("rom joint.toml").out.find("band unknown"), std::string::npos);
+}
+
+/// What is printed is as wide as a terminal: what people quote; all else is in rom.json and limits.csv.
+TEST_F(RomCommand, PrintedLinesFitATerminal) {
+  for (const char* options : {"", " --frame source", " --map flexion=0:10:10 adduction=0:10:10",
+                              " --band=20 --past 5", " --allow-depth 1"}) {
+    std::istringstream out(run(std::string("rom joint.toml") + options).out);
+    std::size_t lines = 0;
+    for (std::string line; std::getline(out, line); ++lines) {
+      const auto letters =
+          std::count_if(line.begin(), line.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; });
+      EXPECT_LE(letters, 100) << line;
+    }
+    EXPECT_GT(lines, 12u) << options;
+  }
 }
 
 TEST_F(RomCommand, AnUnwritableFolderIsRefusedBeforeALongMap) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "condyle/io/pose_text.hpp"
@@ -21,6 +22,40 @@
 
 namespace condyle {
 namespace {
+
+/// Characters of well-formed UTF-8: what a terminal shows, for the usual scripts.
+std::size_t shown_width(std::string_view text) noexcept {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Lines of more than a terminal's width are broken between words, what comes after indented.
+std::string wrapped(std::string_view lines) {
+  constexpr std::size_t width = 100;
+  std::string text;
+  for (std::size_t end = 0; !lines.empty(); lines.remove_prefix(std::min(end + 1, lines.size()))) {
+    end = lines.find('\n');
+    std::string_view line = lines.substr(0, end);
+    if (end == lines.npos) end = lines.size();
+    const std::size_t indent = std::min(line.find_first_not_of(' '), line.size());
+    std::size_t column = 0;
+    for (std::string_view blanks; !line.empty();) {
+      const std::size_t begin = std::min(line.find_first_not_of(' '), line.size());
+      blanks = line.substr(0, begin), line.remove_prefix(begin);
+      const std::string_view word = line.substr(0, line.find(' '));
+      if (column > indent && column + begin + shown_width(word) > width) {
+        text += "\n" + std::string(indent + 2, ' ');
+        column = indent + 2;
+      } else {
+        text += blanks, column += begin;
+      }
+      text += word, column += shown_width(word);
+      line.remove_prefix(word.size());
+    }
+    text += "\n";
+  }
+  return text;
+}
 
 /// One line or two: what does not count and by which numbers.
 std::string bearing_text(const RomResult& result) {
@@ -64,12 +99,6 @@ std::string_view words_of(const MotionLimit& limit) noexcept {
   return "";
 }
 
-/// Characters of well-formed UTF-8: what a terminal shows, for the usual scripts.
-std::size_t shown_width(std::string_view text) noexcept {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xC0) != 0x80; }));
-}
-
 enum class Align { left, right };
 
 struct Column {
@@ -97,7 +126,7 @@ std::string table_text(std::span<const Column> columns) {
 std::string band_text(const RomResult& result) {
   if (result.bands.empty())
     return result.depths.empty()
-               ? "  band unknown: --band tells how far these limits move with what is uncertain\n"
+               ? "  band unknown: --band computes how far these limits move with what is uncertain\n"
                : "";
   const BandOptions& options = result.band_options;
   std::string text = fmt::format(
@@ -120,7 +149,7 @@ std::string band_text(const RomResult& result) {
         add(surface, band.width_from.surface);
     free.cells.push_back(fmt::format("{:.0f} %", 100 * band.share_without_contact));
   }
-  return text + table_text(std::array{name, median, low, high, centre, axes, surface, free});
+  return wrapped(text) + table_text(std::array{name, median, low, high, centre, axes, surface, free});
 }
 
 /// What usually ends motions like these: a line for each caveat, with the motions that it is about.
@@ -145,7 +174,15 @@ std::string caveat_text(const RomResult& result) {
     text += fmt::format("    {}{}: {}\n", caveat.summary,
                         caveat.source.empty() ? "" : fmt::format(" ({})", caveat.source),
                         fmt::join(motions, ", "));
-  return text;
+  return wrapped(text);
+}
+
+/// The plane in which hours are read; nothing where there are none.
+std::string clock_words(const RomResult& result) {
+  if (!result.joint.is_hip()) return "";
+  return result.clock_plane == ClockPlane::rim
+             ? "  clock: hours in the plane of the rim, 6 at the notch and 3 anterior\n"
+             : "  clock: hours in the sagittal plane, 12 superior and 3 anterior\n";
 }
 
 /// What meets past each limit; nothing without zones.
@@ -156,8 +193,7 @@ std::string zones_text(const RomResult& result) {
   Column name{Align::left, {"motion"}},
       of_fixed{Align::right, {"area of " + result.joint.fixed.name + " (mm2)"}},
       of_mobile{Align::right, {"of " + result.joint.mobile.name}}, depth{Align::right, {"depth (mm)"}},
-      clock{Align::right, {result.clock_plane == ClockPlane::rim ? "rim clock" : "sagittal clock"}},
-      place{Align::left, {"centre (mm)"}};
+      clock{Align::right, {"clock"}}, place{Align::left, {"centre (mm)"}};
   double past_deg = 0;
   for (const auto& zone : result.zones) {
     if (!zone) continue;
@@ -181,9 +217,9 @@ std::string zones_text(const RomResult& result) {
       "  zones {:g} deg past the limit: triangles that meet, the deepest vertex along the motion's arc, and "
       "where on {}:\n",
       past_deg, result.joint.fixed.name);
-  return heading + (result.joint.is_hip()
-                        ? table_text(std::array{name, of_fixed, of_mobile, depth, clock, place})
-                        : table_text(std::array{name, of_fixed, of_mobile, depth, place}));
+  return wrapped(heading) + (result.joint.is_hip()
+                                 ? table_text(std::array{name, of_fixed, of_mobile, depth, clock})
+                                 : table_text(std::array{name, of_fixed, of_mobile, depth, place}));
 }
 
 }  // namespace
@@ -196,9 +232,7 @@ std::string rom_text(const RomResult& result) {
   };
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
-      clock{Align::right, {result.clock_plane == ClockPlane::rim ? "rim clock" : "sagittal clock"}},
-      bearing{Align::right, {"bearing (deg)"}}, centres{Align::right, {"centres (mm)"}},
-      space{Align::right, {"space (mm)"}};
+      clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}};
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
     const MotionLimit& limit = result.limits[i];
     name.cells.push_back(limit.motion.name);
@@ -209,30 +243,30 @@ std::string rom_text(const RomResult& result) {
                               : "-");
     const auto& sliding = limit.end.bearing_contact;
     bearing.cells.push_back(sliding ? fmt::format("{:.2f}", sliding->turned.degrees()) : "-");
-    const bool distance = limit.head && limit.head->centre_distance_mm;
-    centres.cells.push_back(distance ? fmt::format("{:.2f}", *limit.head->centre_distance_mm) : "-");
-    const bool spaced = limit.head && limit.head->joint_space_mm;
-    space.cells.push_back(spaced ? fmt::format("{:.2f}", *limit.head->joint_space_mm) : "-");
     const auto hour = io::clock_hour(result, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
   const Joint& joint = result.joint;
-  std::string text = fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name, joint.fixed.name,
-                                 name_of(joint.side));
-  text += bearing_text(result);
-  for (const std::string& caveat : result.caveats) text += fmt::format("  {}\n", caveat);
-  text += result.bearing.surface
-              ? table_text(std::array{name, turned, reason, clock, point, bearing, centres, space})
-          : joint.is_hip() ? table_text(std::array{name, turned, reason, clock, point})
-                           : table_text(std::array{name, turned, reason, point});
+  std::string text = wrapped(fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name,
+                                         joint.fixed.name, name_of(joint.side)));
+  text += wrapped(bearing_text(result));
+  for (const std::string& caveat : result.caveats) text += wrapped(fmt::format("  {}\n", caveat));
+  text += clock_words(result);
+  // What people quote, as wide as a terminal; the rest is in JSON and CSV.
+  std::vector<Column> shown{std::move(name), std::move(turned), std::move(reason)};
+  shown.push_back(std::move(joint.is_hip() ? clock : point));
+  if (std::any_of(result.limits.begin(), result.limits.end(),
+                  [](const MotionLimit& limit) { return limit.end.bearing_contact.has_value(); }))
+    shown.push_back(std::move(bearing));
+  text += table_text(shown);
   text += zones_text(result);
   text += band_text(result);
   if (std::any_of(result.limits.begin(), result.limits.end(),
                   [](const MotionLimit& limit) { return io::is_as_defined_here(limit.motion); }))
     text += "  fadir and faber: as defined here (--list-motions); no angles are agreed on\n";
   text += caveat_text(result);
-  if (result.map) text += map_text(*result.map);
-  return text + fmt::format("  {}\n", scope_text(result.joint));
+  if (result.map) text += wrapped(map_text(*result.map));
+  return text + wrapped(fmt::format("  {}\n", scope_text(result.joint)));
 }
 
 }  // namespace condyle
