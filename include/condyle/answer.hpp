@@ -35,7 +35,8 @@
 
 namespace condyle {
 
-/// How an answer's work, which may have several stages, is followed and ended: a Control that says which stage it is.
+/// How the progress of an answer, which may have several stages, is reported and the work stopped: a Control that
+/// names its stage.
 struct AnswerControl {
   /// `stage` names what is counted, such as "map points": one call at a time, growing counts.
   std::function<void(std::string_view stage, std::size_t done, std::size_t total)> progress = {};
@@ -57,7 +58,7 @@ enum class MeasuresOf : std::uint8_t {
   distances_only,  ///< Nearest distances of vertices; the other measures stay as they are made.
 };
 
-/// What may be asked about one pose, with its defaults.
+/// Options of a query at one pose, with their defaults.
 struct DepthRequest {
   JointAngles pose = {};  ///< the angles of X_FM: arcs are about the joint's axes there
   Pose X_FM = Pose::Identity();
@@ -112,10 +113,10 @@ DepthAnswer answer_depth(const Joint& joint, const DepthRequest& request);
 
 // ---- a load in one pose --------------------------------------------------------------------------------------------------
 
-/// What may be asked about the pressure of layers, with its defaults.
+/// Options of a query for the pressure of layers, with their defaults.
 struct LoadRequest {
   Pose X_FM = Pose::Identity();
-  /// The mobile body is moved from X_FM to where the contact carries this; default: it stays.
+  /// The mobile body is moved from X_FM to the pose in which the contact carries this; default: it stays.
   std::optional<Load> load = {};
   BalanceOptions balance = {};
   BodyNames names = {};  ///< as notes call the bodies
@@ -131,8 +132,8 @@ struct LoadAnswer {
   std::vector<ContactNote> notes = {};        ///< what looks wrong with layers, load and contact
   std::vector<std::string> caveats = {};      ///< what an elastic foundation leaves out
 
-  /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are where the
-  /// search ended, and the numbers mean nothing.
+  /// False if a load was requested and no contact carries it: `balanced` has the reason, X_FM and the contact are
+  /// those at which the search stopped, and the numbers mean nothing.
   bool carries_load() const noexcept { return !balanced || balanced->carries_load(); }
 };
 
@@ -152,11 +153,12 @@ enum class BetweenFrames : std::uint8_t {
   always,    ///< Also where the origin moves: bounded. Needs times, and poses as recorded.
 };
 
-/// What may be asked about a recorded motion, with its defaults.
+/// Options of a query about a recorded motion, with their defaults.
 struct MotionRequest {
   std::vector<std::optional<Pose>> X_FM = {};  ///< one per frame, empty for gaps
   std::vector<double> time_s = {};             ///< one per frame, or none if times are not known
-  /// The mobile body is moved to where the contact carries this, the same in all frames; default: poses are as recorded.
+  /// The mobile body is moved to the pose in which the contact carries this, the same in all frames; default: poses
+  /// are as recorded.
   std::optional<Load> load = {};
   /// The same with a load for each frame; an empty one makes its frame a gap, and a frame whose load is zero has no answer.
   std::vector<std::optional<Load>> loads = {};
@@ -200,12 +202,13 @@ std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
 
 // ---- the range of motion -------------------------------------------------------------------------------------------------
 
-/// What may be asked about the range of motion, with its defaults.
+/// Options of a query for the range of motion, with their defaults.
 struct RangeRequest {
   std::vector<Motion> motions = {};
   /// The reference pose of the overlap options is taken from the joint's placement.
   RangeOptions range = {};
-  /// A motion ends where the radial depth exceeds this, for meshes that overlap everywhere. Excludes maps, bands and zones.
+  /// A motion ends if the radial depth exceeds this, for meshes that overlap everywhere. Excludes maps, bands and
+  /// zones.
   std::optional<AllowedDepth> allowed_depth = {};
   /// The translation that a free joint keeps, mm, in the fixed body's axes; default: that of its reference pose.
   std::optional<Vec3> translation_mm = {};
@@ -225,7 +228,8 @@ enum class RangeNoteCode : std::uint8_t {
 /// As in files: "centre_moves_limits".
 std::string_view name_of(RangeNoteCode code) noexcept;
 
-/// What limits must be read with, because of the shape of this joint. Unlike a JointNote it says nothing against the set-up.
+/// Caveat on the limits that follows from the shape of this joint. Unlike a JointNote it reports no fault of the
+/// set-up.
 struct RangeNote {
   RangeNoteCode code;
   std::string text;  ///< one sentence

@@ -13,8 +13,8 @@ struct TriMesh;
 ///
 /// An axis through the origin along a coordinate axis (either sense) only permutes and negates coordinates:
 /// nothing is rounded, and every exact decision made in the frame is exact for the points given. Any other
-/// axis rounds each coordinate once on the way in (to about 4 * 2^-53 of the point's distance from the axis
-/// point): decisions are then exact for the rounded points. One vertex always gets the same bits, so a closed
+/// axis rounds each coordinate once on conversion into the frame (to about 4 * 2^-53 of the point's distance from the
+/// axis point): decisions are then exact for the rounded points. One vertex always gets the same bits, so a closed
 /// mesh stays closed.
 class AxisFrame {
  public:

@@ -20,7 +20,7 @@ inline constexpr double usual_bearing_margin_mm = 2;
 inline constexpr double rim_reserve_mm = 0.5;
 /// Segmented surfaces are as rough as this: with a narrower margin contact inside the socket may be called impingement.
 inline constexpr double narrow_bearing_margin_mm = 1;
-/// A head whose centre is farther from the joint centre is no basis to tell bearing surfaces by.
+/// If the head's centre is farther than this from the joint centre, no bearing surface is inferred from the head.
 inline constexpr double farthest_head_centre_mm = 5;
 
 /// The part of the mobile body that slides in the socket: the triangles with all three corners within the head's radius and
@@ -68,20 +68,20 @@ struct NarrowMargin {
   double rim_gap_mm, margin_mm;
 };
 
-/// The bearing surface of a joint, or in one sentence why none can be told.
+/// The bearing surface of a joint, or one sentence with the reason why none can be inferred.
 struct BearingFinding {
   std::optional<BearingSurface> surface = {};
   std::string why_none = {};
   /// If the gap at the rim makes the usual margin smaller than narrow_bearing_margin_mm.
   std::optional<NarrowMargin> narrow_margin = {};
 
-  /// Of a contact on this feature of the mobile mesh. Linear in its triangles for vertices and edges.
+  /// Kind of a contact on this feature of the mobile mesh. Linear in its triangles for vertices and edges.
   ContactKind kind_of(const TriMesh& mobile, const Feature& feature) const noexcept;
 };
 
-/// Looks for the head around the joint centre. None for a hinge, where no head is found, where its centre is farther
-/// than farthest_head_centre_mm from the joint centre, where the joint space leaves no margin, and where the whole
-/// mobile body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
+/// Searches for the head around the joint centre. None for a hinge, if no head is found, if its centre is farther
+/// than farthest_head_centre_mm from the joint centre, if the joint space leaves no margin, and if the whole mobile
+/// body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
 ///
 /// Some milliseconds per 10,000 triangles: both bodies are searched for spheres, once, which are kept with their meshes.
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});

@@ -33,7 +33,7 @@ struct ClockFace {
 /// within a degree of Y, or 12 and X leave no 3.
 ClockFace clock_face(const Vec3& normal);
 
-/// The acetabular clock where the opening plane is not given: the sagittal plane, normal Z. Published clock
+/// The acetabular clock if the opening plane is not given: the sagittal plane, normal Z. Published clock
 /// positions refer to the opening plane itself; between the two a position moves by up to half an hour or so,
 /// depending on inclination and version.
 ClockFace sagittal_clock();

@@ -6,7 +6,7 @@
 // In reading order, not in the alphabet's.
 // clang-format off
 
-// What everything is made of.
+// Types that everything else is made of.
 #include "condyle/points.hpp"
 #include "condyle/angle.hpp"
 #include "condyle/pose.hpp"

@@ -34,7 +34,7 @@ struct TrianglePair {
   friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
 };
 
-/// What one pose shows, vertex by vertex of each body against the other one, and pair by pair.
+/// Results at one pose: for each vertex of each body against the other body, and for each pair of triangles.
 template <class VertexResults>
 struct ContactResults {
   /// Vertices of the mobile body against the fixed one; empty where the fixed mesh is open and has no inside.
@@ -56,15 +56,16 @@ using RadialContact = ContactResults<RadialResults>;
 /// it, which is the opposite movement.
 using TangentialContact = ContactResults<TangentialResults>;
 
-/// A fixed and a mobile body, each in its own frame with the joint centre as origin, asked at any pose.
+/// A fixed and a mobile body, each in its own frame with the joint centre as origin, queried at any pose.
 ///
 /// A pose rounds coordinates: mobile vertices into F, fixed vertices into M. Every answer is the exact one for
 /// the vertices so rounded, each into the frame of the body it is held against. Open meshes have no inside:
 /// their pairs are found all the same, and vertices are held against a body that is closed.
 ///
 /// Tables are built when the first question needs them and kept: direction tables for depths and gaps along
-/// rays, ring tables for those about an axis (of the latest axes asked), trees for pairs. Any number of threads
-/// may ask; results do not depend on how many. Each raises UsageError for a pose that is not finite or translates beyond 1e30 mm.
+/// rays, ring tables for those about an axis (of the latest axes queried), trees for pairs. Any number of threads may
+/// query; results do not depend on how many. Each query raises UsageError for a pose that is not finite or translates
+/// beyond 1e30 mm.
 class JointContact {
  public:
   /// The meshes of a joint, which are in the joint frame.
@@ -78,16 +79,16 @@ class JointContact {
   /// path: vertices that are certainly outside cost next to nothing. Raises MeshError where the joint centre
   /// lies on a surface.
   Contact at(const Pose& X_FM) const;
-  /// The penetrating vertices alone, into results that keep their capacity: nothing is allocated once they are
-  /// large enough. Raises MeshError where the other body's mesh is open, too.
+  /// Only the penetrating vertices, into results that keep their capacity: nothing is allocated once they are large
+  /// enough. Raises MeshError if the other body's mesh is open, too.
   void mobile_in_fixed(const Pose& X_FM, Penetrations& out) const;
   void fixed_in_mobile(const Pose& X_FM, Penetrations& out) const;
 
   /// The same and the gap of every vertex outside: the joint space along rays. Raises as at() does.
   RadialContact radial(const Pose& X_FM) const;
-  /// Gaps and depths about an axis through the joint centre, given in F, of any length but zero. A ring table
-  /// costs much more than to ask it; those of both bodies are kept for the next pose with the same axis in the
-  /// body's own frame.
+  /// Gaps and depths about an axis through the joint centre, given in F, of any length but zero. Building a ring
+  /// table costs much more than querying it; those of both bodies are kept for the next pose with the same axis in
+  /// the body's own frame.
   TangentialContact tangential(const Pose& X_FM, const Vec3& axis_F,
                                TangentialRule rule = TangentialRule::alternating) const;
 
@@ -140,7 +141,7 @@ struct DeepestVertex {
 struct RadialBodySummary {
   std::size_t vertices_inside = 0;
   std::size_t vertices_on_surface = 0;
-  /// Of those inside, how many have a radial depth that is no depth.
+  /// Number of vertices inside whose radial depth is no depth.
   std::size_t oblique_inside = 0;
   std::optional<DeepestVertex> deepest;
   /// The deepest of those whose radial depth is a depth.
@@ -149,7 +150,7 @@ struct RadialBodySummary {
   std::optional<double> min_gap_mm;
 };
 
-/// `points` are those that were asked of `other`, which gave `results`.
+/// `points` are the query points of `other` that gave `results`.
 RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other);
 
 /// Both bodies; empty where the other mesh is open.
@@ -171,10 +172,10 @@ struct DeepestRotation {
 struct TangentialBodySummary {
   std::size_t vertices_inside = 0;
   std::size_t vertices_on_surface = 0;
-  /// Of those inside, how many no rotation about the axis sets free: their whole circle is solid.
+  /// Number of vertices inside that no rotation about the axis frees: their whole circle is solid.
   std::size_t without_exit = 0;
-  /// Of the others, the one whose exit is longest in mm, and the one whose exit is the largest angle: a vertex
-  /// near the axis rotates far without moving much.
+  /// Among the other vertices inside, the one with the longest exit in mm, and the one whose exit is the largest
+  /// angle: a vertex near the axis rotates far without moving much.
   std::optional<DeepestRotation> deepest, largest_angle;
   /// Smallest angle and smallest arc between a vertex outside and the other body, not always of one vertex;
   /// empty where no circle meets it.

@@ -11,14 +11,14 @@
 #include "condyle/motion_contact.hpp"
 #include "condyle/pressure.hpp"
 
-/// What looks wrong with materials, loads and motions: numbers that no tissue, implant or joint has, as where a unit or a sign is
-/// another one. docs/checks.md has the table, with the sources of the bounds.
+/// Checks of materials, loads and motions: reports numbers that no tissue, implant or joint has, as when a unit or a
+/// sign is wrong. docs/checks.md has the table, with the sources of the bounds.
 
 namespace condyle {
 
 enum class ContactNoteCode : std::uint8_t {
   unlikely_modulus,        ///< No tissue or implant is so soft or stiff.
-  unlikely_poisson_ratio,  ///< Below 0, or so near to a half that it alone decides the stiffness.
+  unlikely_poisson_ratio,  ///< Below 0, or so near to a half that it determines the stiffness by itself.
   unlikely_thickness,      ///< No cartilage or implant is so thin or thick.
   layer_on_bone,           ///< The layer is far thinner than the closed mesh that is to be its surface.
   unlikely_load,           ///< A force beyond ten body weights.
@@ -42,7 +42,7 @@ struct ContactNote {
 /// Adds those whose code is not among the notes yet: a force that was noted as a load is not noted again as the contact's.
 void add_new(std::vector<ContactNote>& notes, std::vector<ContactNote> more);
 
-/// What the bodies are called in sentences.
+/// Names of the bodies in sentences.
 struct BodyNames {
   std::string_view fixed = "the fixed body", mobile = "the mobile body";
 };
@@ -58,8 +58,8 @@ std::vector<ContactNote> check_load(const Load& load);
 /// Looks at what one pose shows: force, strain of the layers, and what the largest values come from. Without layers the last only.
 std::vector<ContactNote> check_contact(const ElasticContactResults& results, const BodyNames& names = {});
 
-/// Looks at the frames of a motion, one note for all: strain, force, where the peaks come from, and the distance of the bodies in most
-/// frames that have an answer.
+/// Checks the frames of a motion, one note for all: strain, force, the source of the peaks, and the distance of the
+/// bodies in most frames that have an answer.
 std::vector<ContactNote> check_motion(std::span<const std::optional<FrameContact>> frames,
                                       const BodyNames& names = {});
 

@@ -10,8 +10,8 @@
 
 namespace condyle {
 
-/// From vertices of one body to the nearest point of the other body's surface, mm, >= 0 inside and outside: the shortest way out, or
-/// in, by translation. One element per vertex; NaN for vertices whose distance was not asked for.
+/// Distances from vertices of one body to the nearest point of the other body's surface, mm, >= 0 inside and outside:
+/// the shortest translation out, or in. One element per vertex; NaN for vertices whose distance was not requested.
 struct NearestDistances {
   std::vector<double> mobile, fixed;
 };
@@ -22,7 +22,7 @@ struct NearestPoints {
   Vec3 on_fixed, on_mobile;  ///< in F; where they meet, points of triangles that do
 };
 
-/// Of a body's surface, the part inside the other body.
+/// The part of a body's surface inside the other body.
 struct ContactPatch {
   double area_mm2 = 0;
   /// Mean over the patch of the distance to the other body's surface; empty where there is no patch.
@@ -47,7 +47,7 @@ struct ContactMeasures {
   /// By how much the body covers the surroundings of the overlap more than once, mm^3: above 0 where it crosses itself or has
   /// components one in another, and the volume may count space more than once.
   double mobile_covered_again_mm3 = 0, fixed_covered_again_mm3 = 0;
-  /// Of the patches of both; in F, empty where there is none.
+  /// Centroid of both patches; in F, empty if there is none.
   std::optional<Vec3> centroid;
 };
 

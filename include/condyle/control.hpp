@@ -6,7 +6,7 @@
 
 namespace condyle {
 
-/// How long work is followed and ended: maps, bands, frames, studies, meshes.
+/// Reports the progress of long work and stops it: maps, bands, frames, studies, meshes.
 struct Control {
   /// Called by whichever thread finished a piece, one call at a time, with growing counts.
   std::function<void(std::size_t done, std::size_t total)> progress = {};

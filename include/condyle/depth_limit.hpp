@@ -7,8 +7,8 @@
 
 #include "condyle/range_of_motion.hpp"
 
-/// Limits of joints whose meshes overlap a little wherever they are: a motion ends where the deepest radial
-/// depth exceeds an allowed one. For such joints only; where the meshes are clean, RangeOfMotion is exact.
+/// Limits of joints whose meshes overlap a little in every pose: a motion ends if the deepest radial depth exceeds an
+/// allowed one. For such joints only; if the meshes are clean, RangeOfMotion is exact.
 
 namespace condyle {
 
@@ -29,8 +29,8 @@ struct DepthLimit {
   MotionLimit limit = {};      ///< its error bound is here the tolerance of the search
   DeepestPlace at_limit = {};  ///< at the reported angle, where the depth is still allowed
   double start_depth_mm = 0;
-  /// Whether every pose tried inside the last step was as deep as the allowed ones before it: where not, the
-  /// surfaces are rough at this scale and a limit a little further on would be as good.
+  /// Whether every pose tried inside the last step was as deep as the allowed ones before it: if not, the surfaces
+  /// are rough at this scale and a limit a little further on would be as good.
   bool depth_grows = true;
 };
 
@@ -39,10 +39,10 @@ struct DepthLimit {
 /// a neck runs into a rim the ray grazes the wall and the radial depth reads many times the true one, so
 /// there a motion ends almost as soon as a vertex is inside: what is allowed is allowed to sliding surfaces.
 ///
-/// Not exact, unlike RangeOfMotion: depth is computed at poses one step apart, and only of vertices. Contact
-/// that comes and goes between two poses of the search, or of edges and faces without a vertex, is not seen.
-/// Of the first step whose end is too deep, ten parts are tried and the first too deep one is halved until
-/// the tolerance: the reported angle is allowed, and within the tolerance after it the depth is too large.
+/// Not exact, unlike RangeOfMotion: depth is computed at poses one step apart, and only of vertices. Contact that
+/// comes and goes between two poses of the search, or of edges and faces without a vertex, is not seen. The first
+/// step whose end is too deep is divided into ten parts, and the first too deep part is halved until the tolerance:
+/// the reported angle is allowed, and within the tolerance after it the depth is too large.
 class DepthRange {
  public:
   /// Throws UsageError for an allowed depth below 0, steps or tolerances that are not above 0, a tolerance
@@ -53,11 +53,11 @@ class DepthRange {
   DepthRange& operator=(const DepthRange&) = delete;
 
   DeepestPlace deepest(const JointAngles& at) const;
-  /// `contact_at_start` where the depth at the start is too large already.
+  /// `contact_at_start` if the depth at the start is too large already.
   DepthLimit limit(const Motion& motion) const;
   std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
 
-  /// What contacts are labelled by: all of them count.
+  /// The bearing surface that labels contacts: all of them count.
   const BearingFinding& bearing() const noexcept;
 
  private:

@@ -11,8 +11,8 @@ class FileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A mesh that was read well but does not allow the question asked of it: open where a closed surface is
-/// needed, of inverted orientation, the joint centre on its surface. The message is one line.
+/// A mesh that was read well but does not allow the query: open although a closed surface is needed, of inverted
+/// orientation, the joint centre on its surface. The message is one line.
 class MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

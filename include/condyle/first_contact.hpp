@@ -27,15 +27,15 @@ struct Feature {
   friend auto operator<=>(const Feature&, const Feature&) = default;
 };
 
-/// What a contact of a joint is: see BearingSurface.
+/// Kind of a joint's contact: see BearingSurface.
 enum class ContactKind : std::uint8_t {
   unknown,      ///< No bearing surface is known.
   bearing,      ///< The sliding surfaces touch: the centre or the segmentation is off.
   impingement,  ///< Something else meets.
 };
 
-/// A pair of features in contact, and where on each body in its own frame. Of several pairs in contact at the
-/// same reported angle the first in the order of Feature, the turning body's first.
+/// A pair of features in contact, and the point on each body in its own frame. If several pairs are in contact at the
+/// same reported angle, the first in the order of Feature, the rotating body's feature compared first.
 struct ContactWitness {
   Feature fixed_feature, mobile_feature;
   Vec3 fixed_point, mobile_point;  ///< mm, each in its own body's frame
@@ -64,13 +64,13 @@ struct Limit {
   std::optional<ContactWitness> contact = {};
   /// First contact is at `turned` or past it by at most this; never before.
   Angle error_bound = {};
-  /// Of RangeOfMotion where bearing contact does not count: the first one, if it comes before the limit.
+  /// Set by RangeOfMotion if bearing contact does not count: the first one, if it comes before the limit.
   std::optional<BearingContact> bearing_contact = {};
 
   ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
 };
 
-/// What a search has looked at.
+/// Work counters of a search.
 struct SearchWork {
   std::int64_t node_pairs = 0;       ///< pairs of regions compared
   std::int64_t leaf_pairs = 0;       ///< pairs of leaves whose features were compared

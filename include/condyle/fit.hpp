@@ -46,7 +46,7 @@ struct SphereSearch {
 struct SphericalPatch {
   SphereFit fit;
   double coverage;  ///< its area over that of the whole sphere; a femoral head has 0.6 to 0.8
-  /// Of the centre, mm: 95 % of fits to resampled parts lie within. Where resamples were asked for.
+  /// Bound of the centre, mm: 95 % of fits to resampled parts lie within. Set if resamples were requested.
   std::optional<double> centre_bound_mm = {};
 };
 
@@ -69,8 +69,8 @@ struct CylinderFit {
   double largest_residual;      ///< its largest magnitude, mm
   std::vector<Index> vertices;  ///< used, ascending
   double coverage = 0;          ///< the share of a turn about the axis in which there are vertices
-  /// Of the direction, and of the axis beside its point, mm: 95 % of fits to resampled parts lie within. Given by
-  /// find_cylinder().
+  /// Bounds of the direction, and of the axis beside its point, mm: 95 % of fits to resampled parts lie within. Set
+  /// by find_cylinder().
   std::optional<Angle> direction_bound = {};
   std::optional<double> axis_bound_mm = {};
 };

@@ -25,7 +25,7 @@ struct BodyZone {
   /// One per vertex, 0 for those not inside the other body; empty where the other body is open and has no
   /// inside. At rim and neck rays graze the wall: there read the tangential depth.
   std::vector<double> radial_depth_mm;
-  /// Of those inside, else 0; beyond 60 the radial depth is no depth. As many, and empty likewise.
+  /// Angle for vertices inside, else 0; beyond 60 the radial depth is no depth. Same length, and empty likewise.
   std::vector<double> ray_to_normal_deg;
   /// The arc about the motion's axis by which the vertex would have to turn back or on, whichever is shorter;
   /// infinite where its whole circle is solid. As many, and empty likewise.

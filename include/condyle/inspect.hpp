@@ -71,7 +71,7 @@ struct LikelyUnit {
   std::string reason;              ///< One line, with the size that decided.
 };
 
-/// What is so and what is wrong with a mesh. Lengths are in the mesh's unit; elements are counted from 0.
+/// Properties and faults of a mesh. Lengths are in the mesh's unit; elements are counted from 0.
 ///
 /// A triangle that names a vertex twice has no sides of its own: it counts as degenerate and stays out of
 /// edges, boundaries and components. The bounds are those of the surface: vertices without a triangle do not

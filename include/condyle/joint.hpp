@@ -47,7 +47,7 @@ struct Joint {
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.
   bool names_its_joint() const noexcept { return anatomy != Anatomy::hip || kind != JointKind::hinge; }
-  /// With a head in a socket, for all that is told by those.
+  /// Whether the joint has a head in a socket, for everything inferred from those.
   bool is_hip() const noexcept { return anatomy == Anatomy::hip && names_its_joint(); }
 };
 

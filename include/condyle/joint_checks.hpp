@@ -7,8 +7,8 @@
 
 #include "condyle/make_joint.hpp"
 
-/// What looks wrong with a joint: a side, axes, units or a centre that its meshes contradict, and meshes that not every
-/// question can be asked of. docs/checks.md has the table.
+/// Checks of a joint: a side, axes, units or a centre that its meshes contradict, and meshes that do not allow every
+/// query. docs/checks.md has the table.
 
 namespace condyle {
 

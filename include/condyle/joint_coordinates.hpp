@@ -60,7 +60,7 @@ struct JointAngles {
   friend bool operator==(const JointAngles&, const JointAngles&) = default;
 };
 
-/// What an angle is called where it is above zero, and where below.
+/// Names of an angle above zero and below zero.
 struct AngleNames {
   std::string_view positive, negative;
 };

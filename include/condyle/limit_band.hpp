@@ -17,8 +17,8 @@ namespace condyle {
 struct Uncertainty {
   double centre_mm = 0.5;          ///< of each coordinate of the joint centre
   Angle axes = Angle::degrees(1);  ///< of the rotation of the joint frame about each of its axes
-  /// Of the surface along its normals, one value over a whole bone: a segmentation takes too much everywhere or too
-  /// little everywhere.
+  /// Standard deviation of the surface along its normals, one value over a whole bone: a segmentation takes too much
+  /// everywhere or too little everywhere.
   double surface_mm = 0.25;
 };
 
@@ -42,12 +42,12 @@ struct LimitBand {
 };
 
 /// Bands of these motions, in their order: each of `samples` joints has its centre displaced, its axes rotated and both
-/// surfaces moved, by a Latin hypercube of the seed; its limits are exact. Where a bearing surface is known, that of the
+/// surfaces moved, by a Latin hypercube of the seed; its limits are exact. If a bearing surface is known, that of the
 /// joint as given is used in all. The same bits whatever the threads.
 ///
 /// Throws UsageError for fewer than 20 samples, a standard deviation that is negative or not finite, and motions that
-/// check_motion() refuses. Up to four searches per sample, all together and each source alone, of some milliseconds
-/// each for twelve motions of a hip.
+/// check_motion() refuses. Up to four searches per sample, one with all sources together and one with each source by
+/// itself, of some milliseconds each for twelve motions of a hip.
 std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                    const RangeOptions& range, const BandOptions& options = {});
 /// The same; empty where it was stopped before all samples were done.

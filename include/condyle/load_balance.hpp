@@ -15,7 +15,7 @@
 
 namespace condyle {
 
-/// What else acts on the mobile body.
+/// The external loads on the mobile body.
 struct Load {
   /// Force and moment about the origin of M. Moments count with free rotations only.
   Wrench on_mobile;
@@ -29,12 +29,12 @@ struct BalanceOptions {
   std::vector<Vec3> free_directions = {};
   /// Rotations about the origin of M are unknowns too, and moments are balanced.
   bool free_rotations = false;
-  /// What is left of the force, N, and of the moment, N mm, in a balanced pose.
+  /// Largest residual of the force, N, and of the moment, N mm, in a balanced pose.
   double force_tolerance_n = 1e-6, moment_tolerance_nmm = 1e-4;
   /// How far the mobile body may go from where it starts.
   double farthest_mm = 20;
   int most_steps = 100;
-  /// Of the load, what may be left where no step leaves less, 0 to 1: BalanceOutcome::at_jump.
+  /// Largest residual, as a fraction of the load, 0 to 1, if no step reduces it: BalanceOutcome::at_jump.
   double most_left_at_jump = 0.02;
 };
 
@@ -47,7 +47,7 @@ enum class BalanceOutcome {
   pulled_apart,  ///< along the load the bodies do not meet, or they part
   over_the_rim,  ///< in contact, and nowhere near was a pose found in which the contact carries the load
   too_large,  ///< compressed by nine tenths of their thickness or more, the layers carry less than the load
-  unstable,  ///< in balance, but moved along a direction the body is pushed on, not back: no contact alone holds it
+  unstable,  ///< in balance, but if moved along a direction the body is pushed on, not back: contact by itself does not hold it
   free_direction,  ///< the contact holds the mobile body in no place along a direction: prescribe it
 };
 

@@ -29,7 +29,8 @@ struct FrameDirections {
   Vec3 superior = Vec3::UnitY();
 };
 
-/// Axes of images, named by where x, y and z point: Right Anterior Superior, Left Posterior Superior.
+/// Axes of images, named by the directions in which x, y and z point: Right Anterior Superior, Left Posterior
+/// Superior.
 inline const FrameDirections ras_axes{Vec3::UnitY(), Vec3::UnitZ()}, lps_axes{-Vec3::UnitY(), Vec3::UnitZ()};
 
 /// The centre of a ball is that of the sphere fitted to its head (mobile) or its socket (fixed), and so is that of a free
@@ -68,9 +69,9 @@ struct JointDescription {
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
 };
 
-/// What became of a mesh on its way into the joint.
+/// Report of how a mesh was placed in the joint.
 struct BodyPlacement {
-  LikelyUnit likely_unit;  ///< what its size suggests; followed is what the description says
+  LikelyUnit likely_unit;  ///< unit that its size suggests; the description's unit is used
   BoundingBox bounds;      ///< of all its vertices, in the joint frame at zero angles, mm
 };
 
@@ -93,7 +94,7 @@ struct PlacedJoint {
   JointPlacement placement;
 };
 
-/// Places both bodies in the joint frame, from where their meshes are in W, p_W = X_WB p_B:
+/// Places both bodies in the joint frame, from the poses of their meshes in W, p_W = X_WB p_B:
 ///
 ///     p_F = X_WF^-1 p_W                        fixed vertices
 ///     p_M = X_FM(reference pose)^-1 X_WF^-1 p_W   mobile vertices; with mobile_axes X_WM^-1 p_W
@@ -101,10 +102,10 @@ struct PlacedJoint {
 /// Each coordinate, conversion from metres included, is computed in extended precision and rounded once. With
 /// millimetres, the centre 0, the standard axes and a reference pose of zero, vertices keep every bit.
 ///
-/// Throws UsageError where the description cannot be followed (axes that are not orthonormal, landmarks that
-/// coincide, meshes whose sizes speak for two units, coordinates too large), MeshError where a fit finds
-/// nothing or an axis more than 45 degrees from the one described. One line that begins with the part of the
-/// description it is about ("frame", "frame.centre", "units") or the name of the body.
+/// Throws UsageError if the description is inconsistent (axes that are not orthonormal, landmarks that coincide,
+/// meshes whose sizes suggest two units, coordinates too large), MeshError if a fit finds nothing or an axis more
+/// than 45 degrees from the one described. One line that begins with the part of the description it is about
+/// ("frame", "frame.centre", "units") or the name of the body.
 ///
 /// Linear in the meshes, but for a fit, which searches the surface.
 PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mobile);

@@ -50,8 +50,8 @@ struct DirectedEdge {
 class Mesh {
  public:
   /// Checks the arrays, which are taken over. Raises MeshError naming the first bad element ("triangle 812
-  /// uses vertex 40991 of 40000"). Not explicit: whatever asks for a Mesh checks what it is given. Linear for
-  /// a closed mesh.
+  /// uses vertex 40991 of 40000"). Not explicit: every function that takes a Mesh checks its argument. Linear for a
+  /// closed mesh.
   Mesh(TriMesh arrays);
 
   const TriMesh& arrays() const noexcept;
@@ -59,14 +59,14 @@ class Mesh {
   const std::vector<Triangle>& triangles() const noexcept { return arrays().triangles; }
   Vec3 corner(std::size_t triangle, int k) const noexcept { return arrays().corner(triangle, k); }
 
-  /// Whether every edge is used as often in one direction as in the other: then the surface has an inside, in
-  /// the sense of the winding number. Neither manifoldness nor freedom from self-intersections is asked.
+  /// Whether every edge is used as often in one direction as in the other: then the surface has an inside, in the
+  /// sense of the winding number. Neither manifoldness nor freedom from self-intersections is required.
   bool is_closed() const noexcept { return !unbalanced_edge().has_value(); }
   /// The first directed edge, in the order of triangles, that is used more often than its opposite.
   const std::optional<DirectedEdge>& unbalanced_edge() const noexcept;
 
-  /// The same triangles on vertices elsewhere: whether it is closed needs no second look. Raises MeshError
-  /// where there are not as many of them, and as the constructor does.
+  /// The same triangles with other vertex positions: whether the mesh is closed is not computed again. Raises
+  /// MeshError if the number of vertices differs, and as the constructor does.
   Mesh moved_to(Points vertices) const;
 
   operator const TriMesh&() const noexcept { return arrays(); }

@@ -19,7 +19,7 @@
 
 namespace condyle {
 
-/// What is asked of the surfaces: pressure and depths, or depths with one of the bodies casting.
+/// Results requested of the surfaces: pressure and depths, or depths with one of the bodies casting.
 using SurfaceQuestion = std::variant<const ElasticContact*, const NormalDepth*>;
 
 /// Contact of one frame.
@@ -28,21 +28,21 @@ struct FrameContact {
   bool in_contact = false;             ///< the surfaces meet, or one body is inside the other
   std::size_t intersecting_pairs = 0;  ///< of triangles
   double smallest_gap_mm = 0;          ///< between the surfaces; 0 where they meet
-  /// Of the surface that casts, in its body's frame: the mobile one's where both are cast.
+  /// Results of the casting surface, in its body's frame: the mobile one's if both are cast.
   SurfaceContact surface = {};
   Wrench on_mobile = {};  ///< by the fixed body, in F, about the origin of M; with pressure only
-  /// Rays that a longer reach would find in contact: NormalDepth::cut_off_by_reach(). That costs as much as the depths, so it
-  /// is asked where depths near the reach or their absence give reason to: the largest is beyond half of it, or no ray ends in
-  /// contact though bodies meet or one is open. Else 0, as the depth does not go from below a half to beyond the whole of the
-  /// reach from one ray to the next, steps of a surface aside.
+  /// Rays that a longer reach would find in contact: NormalDepth::cut_off_by_reach(). That costs as much as the
+  /// depths, so it is computed only if depths near the reach or their absence give reason to: the largest is beyond
+  /// half of it, or no ray ends in contact though bodies meet or one is open. Else 0, as the depth does not go from
+  /// below a half to beyond the whole of the reach from one ray to the next, steps of a surface aside.
   std::size_t cut_off_by_reach = 0;
 };
 
 /// `casting` is the body that casts in a NormalDepth, which does not know; it means nothing to an ElasticContact.
 ///
 /// One entry per pose, empty for gaps; frames in parallel, with the same answers on any number of threads. The outer
-/// optional is empty where it was stopped before the end. Raises what ElasticContact::at() raises, the message begun with
-/// the frame's number.
+/// optional is empty if the work was stopped before its end. Raises what ElasticContact::at() raises, with the
+/// frame's number before the message.
 std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     const JointContact& joint, const SurfaceQuestion& surfaces, std::span<const std::optional<Pose>> X_FM,
     BodyRole casting = BodyRole::mobile, const Control& control = {});

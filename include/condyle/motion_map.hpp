@@ -27,7 +27,7 @@ struct GridAxis {
 /// each fill gigabytes.
 inline constexpr std::size_t most_map_points = 10'000'000;
 
-/// What a map shows: for every pair of values of the two held angles, which values of the third are free.
+/// Grid of a map: for every pair of values of the two held angles, which values of the third are free.
 ///
 ///     column.count()
 ///     +---+---+---+
@@ -39,16 +39,16 @@ struct MapGrid {
   GridAxis row = {}, column = {};
   JointAngle vary = JointAngle::internal_rotation;
   Angle start = {};                                                   ///< of the varied angle
-  RotationRange range = {Angle::degrees(-180), Angle::degrees(180)};  ///< from the start, either way
+  RotationRange range = {Angle::degrees(-180), Angle::degrees(180)};  ///< from the start, in either direction
 
   std::size_t size() const { return row.count() * column.count(); }
   /// The joint's angles at the start of a point's rotations.
   JointAngles start_of(std::size_t point) const;
 };
 
-/// Throws UsageError for three angles that are not all different, steps that are not above 0, axes that end
-/// before they begin, values that are not finite, an empty range or one of more than half a turn either way,
-/// a hinge, or more than most_map_points (saying how many).
+/// Throws UsageError for three angles that are not all different, steps that are not above 0, axes that end before
+/// they begin, values that are not finite, an empty range or one of more than half a turn in either direction, a
+/// hinge, or more than most_map_points (with their number).
 void check_grid(const MapGrid& grid, JointKind kind);
 
 /// Free angles over a grid. A point in contact at the start may be free elsewhere on its rotation, and one that is free
@@ -58,14 +58,14 @@ struct MotionMap {
   std::vector<FreeAngles> points;  ///< grid.size(), row by row
   Anatomy anatomy = Anatomy::hip;  ///< of the joint
 
-  /// Of all searches together.
+  /// Work counters of all searches together.
   SearchWork work() const noexcept;
 };
 
 /// Computes all points, on all threads. Each point's answer is that of RangeOfMotion: the same bits whatever
 /// the threads. Throws as check_grid().
 MotionMap motion_map(const MapGrid& grid, const RangeOfMotion& joint);
-/// The same; empty where it was stopped before all points were done.
+/// The same; empty if it was stopped before all points were computed.
 std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& joint, const Control& control);
 
 /// How much of the space of joint angles is free, all intervals of every point together, by the trapezoidal rule over the grid: the error of the
@@ -80,7 +80,7 @@ std::optional<MotionMap> motion_map(const MapGrid& grid, const RangeOfMotion& jo
 /// adduction over a half, has 360 * 360 * 360 / pi deg^3.
 struct FreeVolume {
   double plain_deg3 = 0;
-  double weighted_deg3 = 0;           ///< the weight integrated too, exactly where its own angle is varied
+  double weighted_deg3 = 0;           ///< the weight integrated too, exactly if its own angle is varied
   std::vector<double> row_area_deg2;  ///< free width over the columns of each row
 };
 

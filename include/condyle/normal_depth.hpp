@@ -28,7 +28,7 @@ namespace contact {
 class OverlapSampler;
 }
 
-/// What a face of the casting surface counts for.
+/// Contribution of a face of the casting surface.
 enum class FaceRule {
   /// The whole face, with the depth of the ray from its centre along its normal: the rule of OpenSim-JAM.
   face_centre,
@@ -49,7 +49,7 @@ struct FaceContact {
   double max_depth_mm;
   double overlap_mm3;               ///< integral of the depth
   Vec3 overlap_moment;              ///< integral of depth times place, mm^4
-  double max_pressure_mpa = 0;      ///< 0 where no pressure was asked for, as what follows
+  double max_pressure_mpa = 0;      ///< 0 if no pressure was requested, as the next members
   double load_n = 0;                ///< integral of the pressure
   Vec3 load_moment = Vec3::Zero();  ///< integral of pressure times place, N mm
 
@@ -57,7 +57,7 @@ struct FaceContact {
   double mean_pressure_mpa() const noexcept { return load_n / area_mm2; }
 };
 
-/// What faces in contact add up to, in the frame of the casting body.
+/// Sums over the faces in contact, in the frame of the casting body.
 struct ContactTotals {
   std::size_t triangles = 0;
   double area_mm2 = 0;
@@ -70,14 +70,14 @@ struct ContactTotals {
   Vec3 force_n = Vec3::Zero(), moment_nmm = Vec3::Zero();
 };
 
-/// What one pose shows of the casting surface.
+/// Results for the casting surface at one pose.
 struct SurfaceContact {
   std::vector<FaceContact> faces;  ///< in contact, ascending
   ContactTotals totals;
 
-  /// Rays that met the front of an open target, which looks at the ray's origin: the casting point is outside the target's
-  /// body if it has one. Counted as depths all the same, as the target has no inside that could tell. Of a closed target
-  /// such rays are no contact.
+  /// Rays that met the front of an open target, which faces the ray's origin: the casting point is outside the
+  /// target's body if it has one. Counted as depths all the same, as the target has no inside that would decide. With
+  /// a closed target such rays are no contact.
   std::size_t met_from_front = 0;
   /// With cut faces: those at the rim of the target, where a corner's ray meets nothing or another part of it. They are cut where
   /// their edges leave a closed target, else decided by the centres of 16 parts.
@@ -88,11 +88,11 @@ struct SurfaceContact {
   double oblique_area_mm2 = 0;
   /// With face_centre: the largest depth or the largest pressure comes from such a ray.
   bool peak_is_oblique = false;
-  /// The largest depth over the thickness of both layers where it is; 0 where no pressure was asked for.
+  /// The largest depth over the thickness of both layers at that place; 0 if no pressure was requested.
   double max_strain = 0;
 };
 
-/// What some of the faces in contact add up to: a compartment, say.
+/// Sums over some of the faces in contact: a compartment, say.
 ContactTotals totals_of(std::span<const FaceContact> faces, const Mesh& casting, FaceRule rule);
 
 /// The points p with normal.p > offset_mm, in the frame of the casting body.
@@ -131,8 +131,8 @@ class NormalDepth {
   std::unique_ptr<contact::OverlapSampler> sampler_;
 };
 
-/// Of each vertex of a layer's surface, the distance along its negative normal to a surface behind it: the thickness of a
-/// cartilage on its bone, mm. NaN where nothing lies within the reach.
+/// For each vertex of a layer's surface, the distance along its negative normal to a surface behind it: the thickness
+/// of a cartilage on its bone, mm. NaN if nothing lies within the reach.
 std::vector<double> thickness_to(const Mesh& layer, const Mesh& behind, double reach_mm = 20);
 
 }  // namespace condyle

@@ -11,9 +11,9 @@
 
 namespace condyle {
 
-/// What becomes of two bodies that are in contact in the reference pose.
+/// Treatment of two bodies that are in contact in the reference pose.
 enum class ReferenceContact : std::uint8_t {
-  refuse,  ///< ReferenceContactError: what can be done, and where it is deepest
+  refuse,  ///< ReferenceContactError: what can be done, and the place of greatest depth
   accept,  ///< motions that start in contact say so
 };
 
@@ -25,11 +25,11 @@ struct LeaveOutReferenceContacts {
   int rings = 2;
 };
 
-/// What is not to count as contact. Triangles left out leave open meshes, and an open mesh has no inside: a
-/// body wholly swallowed by the other one is then not noticed at the start of a motion, and a vertex deep in
-/// the hole meets nothing. Everything else about the limits stays exact.
+/// Triangles excluded from contact. Triangles left out leave open meshes, and an open mesh has no inside: a body
+/// wholly swallowed by the other one is then not noticed at the start of a motion, and a vertex deep in the hole
+/// meets nothing. Everything else about the limits stays exact.
 struct OverlapOptions {
-  /// The pose in which the meshes are known: checked for contact, and where contacts are left out.
+  /// The pose in which the meshes are known: checked for contact, and the pose in which contacts are left out.
   JointAngles reference_pose = {};
   ReferenceContact reference_contact = ReferenceContact::refuse;
   std::optional<LeaveOutReferenceContacts> leave_out_reference_contacts = {};
@@ -40,7 +40,7 @@ struct LeftOut {
   std::size_t fixed_triangles = 0, mobile_triangles = 0;
 };
 
-/// Bodies in contact in the reference pose where the options say nothing about it.
+/// Bodies in contact in the reference pose although the options do not cover it.
 class ReferenceContactError : public MeshError {
  public:
   using MeshError::MeshError;

@@ -19,7 +19,7 @@ struct PathLimit {
   /// For `contact`, the two faces that are nearest to meeting and their nearest points.
   std::optional<ContactWitness> contact = {};
   double distance_mm = 0;  ///< between these points
-  std::size_t poses = 0;   ///< looked at on the way
+  std::size_t poses = 0;   ///< evaluated along the path
 };
 
 /// Follows paths of straight segments in the joint's angles. Several angles that change at once are a rotation
@@ -35,10 +35,10 @@ struct PathLimit {
 /// W = sqrt(da^2 + (|df| + |dr|)^2) over the segment, so from a pose from which no rotation below c brings
 /// anything together the next c / W of the segment are free.
 ///
-/// Guarantee: the path is free up to the limit, whatever the surfaces do between two poses. The search ends
-/// where c falls below the tolerance: there a rotation by no more than that, about some axis, might bring the
-/// surfaces together, though not always the path itself: surfaces that pass that close count as in contact. A
-/// path along only one angle is better computed as a motion, which is exact.
+/// Guarantee: the path is free up to the limit, whatever the surfaces do between two poses. The search ends if c
+/// falls below the tolerance: a rotation by no more than that, about some axis, might then bring the surfaces
+/// together, though not always the path itself: surfaces that pass that close count as in contact. A path along only
+/// one angle is better computed as a motion, which is exact.
 class PathFinder {
  public:
   /// Throws as RangeOfMotion does.

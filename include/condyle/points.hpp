@@ -10,7 +10,7 @@
 
 namespace condyle {
 
-/// A point or direction; millimetres where it is a length.
+/// A point or direction; in millimetres if it is a length.
 using Vec3 = Eigen::Vector3d;
 
 /// Number of a vertex, triangle or cell.

@@ -15,8 +15,8 @@ inline Vec3 posed(const Pose& X, const Vec3& p) noexcept {
   return {row(0), row(1), row(2)};
 }
 
-/// The pose the other way round, its sums in one fixed order too. The last coordinate's differs from the others' as Eigen's does
-/// where it vectorises: stored results keep their bits.
+/// The inverse pose, its sums in one fixed order too. The last coordinate's order differs from the others' as Eigen's
+/// does when it vectorises: stored results keep their bits.
 inline Pose inverted(const Pose& X) noexcept {
   const auto& m = X.matrix();
   Pose out = Pose::Identity();

@@ -25,10 +25,10 @@ namespace condyle {
 struct ElasticLayer {
   double youngs_modulus_mpa;  ///< > 0
   double poisson_ratio;       ///< > -1 and < 0.5
-  /// Of the whole layer, or one for each vertex of its mesh; > 0.
+  /// One value for the whole layer, or one for each vertex of its mesh; > 0.
   std::variant<double, std::vector<double>> thickness_mm;
 
-  /// Of a layer that cannot spread sideways, MPa.
+  /// Modulus of a layer that cannot spread sideways, MPa.
   double confined_modulus_mpa() const noexcept {
     return (1 - poisson_ratio) * youngs_modulus_mpa / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio));
   }
@@ -53,18 +53,18 @@ struct Wrench {
   Vec3 force_n = Vec3::Zero(), moment_nmm = Vec3::Zero();
 };
 
-/// What one pose shows.
+/// Results at one pose.
 struct ElasticContactResults {
-  /// Of the surfaces that were cast, each in its own body's frame; pressures and loads are filled in.
+  /// Results for the surfaces that were cast, each in its own body's frame; pressures and loads are filled in.
   std::optional<SurfaceContact> fixed, mobile;
-  /// What the fixed body exerts on the mobile one, in F, about the origin of M. With one casting, minus or plus what its
-  /// totals say; with both, the mean.
+  /// Wrench of the fixed body on the mobile one, in F, about the origin of M. With one casting, plus or minus its
+  /// totals; with both, the mean.
   Wrench on_mobile;
   /// Stored in the layers, N mm.
   double energy_nmm = 0;
 };
 
-/// Two surfaces with their layers, asked at any pose. Any number of threads may ask.
+/// Two surfaces with their layers, queried at any pose. Any number of threads may query.
 class ElasticContact {
  public:
   /// UsageError where an option is outside its domain or thicknesses are not as many as vertices.
@@ -73,7 +73,7 @@ class ElasticContact {
   ElasticContact(ElasticContact&&) noexcept;
   ElasticContact& operator=(ElasticContact&&) noexcept;
 
-  /// MeshError with the logarithmic law where the overlap reaches the thickness, naming the triangle.
+  /// MeshError with the logarithmic law if the overlap reaches the thickness, naming the triangle.
   ElasticContactResults at(const Pose& X_FM) const;
 
   /// The force on the mobile body, in F, with the depth asked at 16 places of each face in contact: what the edges of the meshes leave
@@ -88,7 +88,7 @@ class ElasticContact {
   const Mesh& mobile() const noexcept;
   const ElasticContactOptions& options() const noexcept;
 
-  /// What balance() works on; not for use outside the library.
+  /// Internal data of balance(); not for use outside the library.
   struct Parts;
   const Parts& parts() const noexcept { return *parts_; }
 

@@ -39,7 +39,7 @@ struct RadialOptions {
 /// wall, and the tangential depth is the one to read. docs/mathematics/02-radial-method.md.
 inline constexpr Angle oblique_ray = Angle::degrees(60);
 
-/// Which way along its ray a vertex reaches the surface that its gap or depth is measured to.
+/// Direction along its ray in which a vertex reaches the surface that its gap or depth is measured to.
 enum class RayDirection : std::uint8_t { towards_centre, away_from_centre };
 
 /// The answer for each query point, one array per quantity, all of one length, in the order of the points.
@@ -70,7 +70,7 @@ struct Penetrations {
   std::vector<PointState> state;
   /// Winding number; for a point on the surface that of the side facing the centre.
   std::vector<int> winding;
-  /// Triangle that the point leaves through by the nearer way; for a point on the surface one that it lies
+  /// Triangle that the point leaves through by its nearer exit; for a point on the surface a triangle that it lies
   /// on.
   std::vector<Index> triangle;
   /// Along the ray to that triangle, mm, >= 0; 0 on the surface.
@@ -87,7 +87,7 @@ struct Penetrations {
   friend bool operator==(const Penetrations&, const Penetrations&) = default;
 };
 
-/// What one penetration query cost; numbers add up over queries.
+/// Work counters of a penetration query; numbers add up over queries.
 struct PenetrationWork {
   std::uint64_t blocks = 0;       ///< of 16 points: all
   std::uint64_t near_blocks = 0;  ///< of those, not rejected by the table's min-max pyramid
@@ -113,7 +113,7 @@ class SortedPoints {
   std::shared_ptr<const radial::PointBlocks> blocks_;
 };
 
-/// What a table holds, for tuning and for the figures of docs/performance.md.
+/// Contents of a table, for tuning and for the figures of docs/performance.md.
 struct RadialTableSize {
   std::size_t cells, entries, bytes;
   Index longest_list;
@@ -173,8 +173,8 @@ class RadialTable {
   void query(PointsView points, RadialResults& out) const;
   RadialResults query(PointsView points) const;
 
-  /// radial_gap_mm of query() alone, one number for each point, sooner: for colours and curves. The same errors; the angle
-  /// between ray and normal costs an arctangent each.
+  /// Only the radial_gap_mm of query(), one number for each point, sooner: for colours and curves. The same errors;
+  /// the angle between ray and normal costs an arctangent each.
   std::vector<double> radial_gaps(PointsView points) const;
 
   /// Every point that is not outside at a pose X_FM, with what query() says of it, byte for byte: points posed
@@ -206,7 +206,7 @@ class RadialTable {
   bool is_closed() const noexcept;
   /// Winding number of the centre; empty for an open mesh.
   std::optional<int> winding_at_centre() const noexcept;
-  /// Of what is built so far.
+  /// Size of the parts built so far.
   RadialTableSize table_size() const noexcept;
 
  private:

@@ -115,21 +115,21 @@ struct RangeOptions {
 
 /// A joint made ready for motions: exact limits, each from tables that are built once.
 ///
-/// Changing one joint angle rotates one body about an axis that is constant in the other (section 6), so the
-/// body in which the axis is constant carries the table and the other one turns:
+/// Changing one joint angle rotates one body about an axis that is constant in the other (section 6), so the body in
+/// which the axis is constant carries the table and the other one rotates:
 ///
-///     varied             axis             table on                     turning body
+///     varied             axis             table on                     rotating body
 ///     flexion            e1, in F         F, once                      M, from the pose
 ///     internal rotation  e3, in M         M, once                      F, from the inverse pose, about -e3
 ///     adduction          e2, in neither   F, once per flexion value    M, from the pose
 ///
-/// With F turning instead of M, contact is reported the same: features and points say fixed and mobile.
+/// With F rotating instead of M, contact is reported the same: features and points say fixed and mobile.
 ///
-/// Where a bearing surface is known (find_bearing_surface) and is not to count, a limit is the first contact of the
-/// rest of the mobile body, exactly, and bearing contact on the way to it stands beside it. The rest is an open
-/// surface: the fixed body is not noticed inside of it.
+/// If a bearing surface is known (find_bearing_surface) and does not count, a limit is the first contact of the rest
+/// of the mobile body, exactly, and the limit also reports bearing contact before it. The rest is an open surface:
+/// the fixed body is not noticed inside of it.
 ///
-/// Guarantee: as of FirstContact, for the vertices of the turning body as rounded into the frame of the axis:
+/// Guarantee: as of FirstContact, for the vertices of the rotating body as rounded into the frame of the axis:
 /// never past a contact, short of one by at most `error_bound`. All limits of one joint and pose are the same
 /// bits on any thread and in any order.
 class RangeOfMotion {

@@ -40,11 +40,11 @@ struct DeepestReliable {
   std::array<std::optional<WayOut>, 3> rotations;
 };
 
-/// Of one body's vertices.
+/// Reliable depths of one body's vertices.
 struct ReliableDepths {
   std::vector<DepthWay> way;
   std::vector<double> depth_mm;  ///< 0 for vertices that are not inside; always finite
-  /// Of the vertices inside with a way other than nearest.
+  /// Deepest of the vertices inside whose kind is other than nearest.
   std::optional<DeepestReliable> deepest;
   std::size_t without = 0;  ///< vertices inside of which neither ray nor arc is a depth
 };

@@ -22,10 +22,10 @@ std::size_t weld_exactly(TriMesh& mesh);
 /// Drops vertices no triangle uses; the order of the others stays. Returns how many went.
 std::size_t drop_unreferenced_vertices(TriMesh& mesh);
 
-/// Turns a mesh of inverted orientation, by exchanging the last two corners of every triangle: each component
-/// closed and of negative volume. Returns the number of triangles turned: all, or none where no component is
-/// inverted. Raises MeshError where that cannot be told (not closed) or where only some components are
-/// inverted: these may be the boundaries of cavities, which are wound that way.
+/// Flips a mesh of inverted orientation, by exchanging the last two corners of every triangle: each component closed
+/// and of negative volume. Returns the number of triangles flipped: all, or none if no component is inverted. Raises
+/// MeshError if the orientation cannot be determined (not closed) or if only some components are inverted: these may
+/// be the boundaries of cavities, which are oriented like that.
 std::size_t flip_inverted(TriMesh& mesh);
 
 /// The three as values, for lists of them.

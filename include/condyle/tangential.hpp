@@ -42,7 +42,7 @@ struct RingTableOptions {
 struct TangentialWork {
   std::size_t points = 0;           ///< Points queried.
   std::size_t candidates = 0;       ///< Triangles in the lists of their cells.
-  std::size_t evaluated = 0;        ///< Of those, triangles whose box holds the circle.
+  std::size_t evaluated = 0;        ///< Triangles among them whose box holds the circle.
   std::size_t crossings = 0;        ///< Crossings found.
   std::size_t exact_decisions = 0;  ///< Signs that double arithmetic left open, of the circle's own.
 
@@ -122,7 +122,7 @@ class OccupiedArcs {
   std::vector<OccupiedArc> arc_;
 };
 
-/// What a table holds, for tuning and for the figures of docs/performance.md.
+/// Contents of a table, for tuning and for the figures of docs/performance.md.
 struct RingTableSize {
   std::size_t cells, entries, bytes;
   std::size_t cells_in_use;  ///< Cells with at least one triangle.

@@ -7,7 +7,7 @@
 
 namespace condyle {
 
-/// What takes the place of what a joint file says of its surfaces in contact, each where it is given.
+/// Values that replace a joint file's entries for its surfaces in contact; only those given replace.
 struct ContactChanges {
   std::optional<Casting> casting = {};
   std::optional<FaceRule> rule = {};

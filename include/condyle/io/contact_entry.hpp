@@ -8,7 +8,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/pressure.hpp"
 
-/// What a joint file says of its surfaces in contact: the table [contact], whose keys are in docs/joint-contact.md.
+/// A joint file's entries for its surfaces in contact: the table [contact], whose keys are in docs/joint-contact.md.
 
 namespace condyle {
 
@@ -17,7 +17,7 @@ struct LoadedJoint;
 /// A layer as a file describes it.
 struct LayerEntry {
   double youngs_modulus_mpa = 0, poisson_ratio = 0;
-  /// Of the layer, or where nothing lies behind it; 0: not given.
+  /// Thickness of the layer, or of its parts with nothing behind them; 0: not given.
   double thickness_mm = 0;
   /// The mesh of what lies behind the layer, in the frame of the body's own mesh file: its thickness is measured.
   std::optional<std::filesystem::path> behind = {};
@@ -32,7 +32,7 @@ struct RegionEntry {
   std::vector<HalfSpace> half_spaces;  ///< in the casting body's joint frame
 };
 
-/// The body that a moment is told of: the casting one, as the force is, or the target, as OpenSim-JAM prints it.
+/// The body whose moment is reported: the casting one, as for the force, or the target, as OpenSim-JAM prints it.
 enum class MomentOn { casting, target };
 
 struct ContactEntry {

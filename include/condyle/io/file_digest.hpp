@@ -6,7 +6,7 @@
 
 namespace condyle {
 
-/// What tells a file from every other one, whatever its name and date.
+/// Identifies a file by its contents, whatever its name and date.
 struct FileDigest {
   std::uintmax_t bytes = 0;
   std::string sha256;  ///< 64 hexadecimal digits, as `sha256sum` prints them
@@ -14,7 +14,7 @@ struct FileDigest {
   friend bool operator==(const FileDigest&, const FileDigest&) = default;
 };
 
-/// Of a file's whole contents. Some 3 ms per MB.
+/// Digest of a file's whole contents. Some 3 ms per MB.
 FileDigest digest_of(std::string_view contents);
 
 }  // namespace condyle

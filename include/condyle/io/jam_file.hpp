@@ -13,8 +13,8 @@
 
 namespace condyle {
 
-/// What is known of a surface, or of a region of it, in one frame of a motion; NaN where there is no answer, 0 where there is no
-/// contact.
+/// Known values of a surface, or of a region of it, in one frame of a motion; NaN if there is no answer, 0 if there
+/// is no contact.
 struct JamTotals {
   double contact_area_m2 = 0;
   double mean_proximity_m = 0, max_proximity_m = 0;  ///< depth of overlap, over the triangles in contact

@@ -52,7 +52,7 @@ JointFile read_joint_file(const std::filesystem::path& path);
 /// The file itself, its meshes, and what its layers are measured by.
 std::vector<std::filesystem::path> files_of(const JointFile& file);
 
-/// What became of one mesh on its way into the joint.
+/// Report of how one mesh was placed in the joint.
 struct BodyMeshReport {
   std::string part;  ///< as in MeshEntry
   std::filesystem::path mesh;
@@ -62,7 +62,7 @@ struct BodyMeshReport {
   FileDigest digest = {};  ///< of the file before anything was done to the mesh
 };
 
-/// What was done to make a joint of a file, for reading and for checking.
+/// Steps that made a joint from a file, for reading and for checking.
 struct JointReport {
   JointFile file;
   std::vector<BodyMeshReport> fixed, mobile;  ///< one for each mesh of the body

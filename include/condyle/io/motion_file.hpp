@@ -18,7 +18,7 @@ struct MotionTable {
   /// One vector of `rows` numbers per column. NaN where the file has a gap (`nan`, an empty CSV cell), never inf.
   std::vector<std::vector<double>> values;
   std::vector<std::size_t> line_of_row;  ///< line of the file, from 1, for messages
-  /// What `inDegrees=` of an OpenSim header says of angles; nothing where no header says it.
+  /// Value of `inDegrees=` in an OpenSim header, which applies to angles; empty if the header has none.
   std::optional<bool> in_degrees;
   std::vector<std::string> processing;  ///< where the file contradicts itself and was read nevertheless
   FileDigest digest;

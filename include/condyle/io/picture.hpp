@@ -15,7 +15,7 @@
 
 namespace condyle {
 
-/// What the surfaces are coloured by, mm.
+/// Quantity that colours the surfaces, mm.
 enum class PictureColour {
   none,
   depth,  ///< of each body's part inside the other the depth to read; hatched where only the nearest distance is known

@@ -10,7 +10,7 @@
 
 namespace condyle {
 
-/// What a proposal is made of.
+/// Input of a proposal.
 struct ProposalRequest {
   std::filesystem::path fixed, mobile;   ///< mesh files
   std::filesystem::path joint_file;      ///< where it is to lie: meshes are named from its folder

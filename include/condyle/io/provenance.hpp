@@ -26,9 +26,9 @@ std::string_view name_of(AnswerFrameName name) noexcept;
 /// The frame of that name; throws UsageError with the names there are.
 AnswerFrameName answer_frame_named(std::string_view name);
 
-/// Brings points and meshes of an answer, which are in the bodies' own joint frames, into the frame asked for. Points
-/// are mm in both; meshes in the source frame have the unit of their files, so that they lie on those. The joint frame
-/// unless told otherwise: nothing changes then, not a bit.
+/// Brings points and meshes of an answer, which are in the bodies' own joint frames, into the requested frame. Points
+/// are mm in both; meshes in the source frame have the unit of their files, so that they lie on those. Default: the
+/// joint frame, in which not a bit changes.
 class AnswerFrame {
  public:
   AnswerFrame() = default;

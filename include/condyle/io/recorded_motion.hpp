@@ -24,7 +24,8 @@ struct ColumnOfCoordinate {
   /// The column's name. For "/jointset/knee_r/knee_flex_r/value", as OpenSim writes states, "knee_flex_r" does too where
   /// no other column has it.
   std::string column = {};
-  /// Of the column. An angle without one is as the file's header says, and must not contradict it; a length must have one.
+  /// Unit of the column. An angle without one is as the file's header says, and must not contradict it; a length must
+  /// have one.
   std::optional<ColumnUnit> unit = {};
   double sign = 1;    ///< 1 or -1
   double offset = 0;  ///< degrees or mm
@@ -64,10 +65,10 @@ struct RecordedPoses {
 ///   femur_T11 femur_T12 ... femur_T44                     (OpenSim-JAM: p_L = T p, translation in the last column), or
 ///   femur_R11 femur_R12 femur_R13 femur_01 femur_R21 ... femur_TX femur_TY femur_TZ femur_1, with an ending such as _25Hz
 ///                                                         (XMALab: row vectors, translation in the last row).
-/// Where 0 0 0 1 stands tells which it is, whatever the names; the names decide only if no translation differs from 0.
-/// Rotations are the nearest ones to what the file has (singular values); a note says by how much the file's are off
-/// where that is beyond 1e-9. Raises FileError for columns that are not there, for 0 0 0 1 in neither place or in
-/// both by turns, and for a row whose rotation is off by more than 1e-4 or is a reflection.
+/// The position of 0 0 0 1 determines the convention, whatever the names; the names decide only if no translation
+/// differs from 0. Rotations are the nearest ones to those of the file (singular values); a note reports the
+/// deviation of the file's if it is beyond 1e-9. Raises FileError for columns that are missing, for 0 0 0 1 in
+/// neither place or in both by turns, and for a row whose rotation is off by more than 1e-4 or is a reflection.
 RecordedPoses recorded_poses(const MotionTable& table, const ColumnsOfPoses& mapping);
 
 }  // namespace condyle

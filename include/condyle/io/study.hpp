@@ -49,7 +49,7 @@ struct StudyLoad {
   std::vector<Vec3> free_directions = {};
 };
 
-/// What is asked of every joint of a study: its limits, and what else is set.
+/// Queries for every joint of a study: its limits, and other options.
 struct StudyOptions {
   Anatomy anatomy = Anatomy::hip;         ///< of all of them; one of another is a failure
   std::vector<std::string> motions = {};  ///< by their names; all that a joint has where empty
@@ -72,13 +72,13 @@ struct Shard {
   bool is_whole() const noexcept { return of == 1; }
 };
 
-/// What a joint that cannot be answered does to a study.
+/// Effect on a study of a joint that cannot be answered.
 enum class BadJoint {
   is_a_row,  ///< of failures.csv
   ends_run,  ///< with its own error, as does one that looks wrong (MeshError); that of the lowest row of several
 };
 
-/// What to run, and where to.
+/// Input and output of a study.
 struct Study {
   std::filesystem::path table, folder;
   StudyOptions options = {};
@@ -98,7 +98,7 @@ struct StudyFailure {
   std::string message;
 };
 
-/// What a study came to.
+/// Outcome of a study.
 struct StudyDone {
   std::size_t joints = 0, failures = 0;
   std::optional<StudyFailure> first_failure = {};  ///< of the lowest row
