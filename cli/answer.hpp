@@ -11,7 +11,7 @@ namespace condyle::cli {
 enum class AnswerForm { text, json };
 
 /// Writes an answer to standard output, after the notes; what a terminal would obey is left out (plain_text()). Throws FileError
-/// where it cannot be written (closed, disk full).
+/// if it cannot be written (closed, disk full).
 void print(std::string_view answer);
 
 /// Something that is no answer and no error, one line on standard error whatever a name in it holds. It waits for the

@@ -8,7 +8,7 @@
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 
-/// What answers say of the command line they came from, and options that several commands share.
+/// Command line as answers quote it, and options that several commands share.
 
 namespace condyle::cli {
 

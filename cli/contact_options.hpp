@@ -22,7 +22,8 @@ void add_rays(CLI::App& command, const std::shared_ptr<ContactChanges>& options,
               const std::string& when = "");
 void add_layers(CLI::App& command, const std::shared_ptr<ContactChanges>& options);
 
-/// What the joint file says with what was given. With pressure UsageError where no body has a layer or one misses a value.
+/// The joint file's entries with the given changes. With pressure UsageError if no body has a layer or one misses a
+/// value.
 ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bool with_pressure);
 
 struct BalanceGiven {
@@ -32,7 +33,7 @@ struct BalanceGiven {
   bool any() const noexcept { return !force.empty() || !moment.empty(); }
 };
 void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given);
-/// What --along gives; UsageError for a count that is not whole directions.
+/// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);
 Load load_of(const BalanceGiven& given);
 BalanceOptions balance_options_of(const BalanceGiven& given);

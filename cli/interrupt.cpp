@@ -28,7 +28,7 @@ void note(int signal) {
   if (signalled.exchange(true)) end(signal);
 }
 
-/// What a signal does from now on, where the parent did not have it ignored (nohup; a shell's background).
+/// Handler of a signal from now on, unless the parent had it ignored (nohup; a shell's background).
 void handle(int signal, void (*handler)(int), struct sigaction* before) noexcept {
   struct sigaction now {};
   ::sigaction(signal, nullptr, &now);

@@ -114,7 +114,7 @@ std::string describe_unexpected(const std::string& word, const CLI::App& command
                      condyle::core::did_you_mean(option, options));
 }
 
-/// What is wrong with the command line, with what to write in its place.
+/// The fault of the command line, with a correction.
 std::string describe(const CLI::ParseError& error, const CLI::App& app,
                      const std::vector<std::string>& words) {
   if (!app.get_subcommands().empty()) {

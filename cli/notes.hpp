@@ -12,7 +12,7 @@ class App;
 
 namespace condyle::cli {
 
-/// What notes on a joint are: remarks beside an answer, or errors instead of it.
+/// Severity of notes on a joint: remarks beside an answer, or errors instead of it.
 enum class Strictness { notes, errors };
 
 /// --strict for a command that answers for a joint; `strictness` is written while arguments are read.

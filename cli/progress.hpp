@@ -18,7 +18,7 @@ enum class ProgressPlace { terminal, log };
 /// The place that standard error is.
 ProgressPlace standard_error_place();
 
-/// Seconds still to go at the pace since the start; nothing where there is no pace yet.
+/// Seconds still to go at the pace since the start; nothing if there is no pace yet.
 std::optional<double> remaining_seconds(double elapsed_s, std::size_t done, std::size_t total);
 
 /// "40 s", "12 min", "3 h 05 min": to the precision that an estimate has.

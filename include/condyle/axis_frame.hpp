@@ -18,7 +18,7 @@ struct TriMesh;
 /// mesh stays closed.
 class AxisFrame {
  public:
-  /// The direction may have any length but zero. UsageError where it is zero, a value is not finite, or the point is beyond
+  /// The direction may have any length but zero. UsageError if it is zero, a value is not finite, or the point is beyond
   /// 1e30 mm.
   AxisFrame(const Vec3& point, const Vec3& direction);
 

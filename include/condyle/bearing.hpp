@@ -38,8 +38,8 @@ struct BearingSurface {
   double head_coverage = 0;             ///< of the fit
   double margin_mm = 0;                 ///< as used
   std::vector<std::string> parts = {};  ///< the meshes called bearing
-  std::optional<double> rim_gap_mm;     ///< between head and rim; empty where no rim was found
-  std::optional<Sphere> socket;         ///< in F, fitted; empty where the fixed body has no spherical socket
+  std::optional<double> rim_gap_mm;     ///< between head and rim; empty if no rim was found
+  std::optional<Sphere> socket;         ///< in F, fitted; empty if the fixed body has no spherical socket
   std::vector<std::uint8_t> triangles;  ///< of the mobile mesh: 1 for bearing
 
   std::size_t count() const noexcept;

@@ -29,7 +29,7 @@ struct ClockFace {
 };
 
 /// The face whose plane has this normal (either sense, any length but zero): 12 is Y of the joint frame and 3
-/// is X, each as it falls on the plane, X as far as it is across 12. Throws UsageError where the normal is
+/// is X, each as it falls on the plane, X as far as it is across 12. Throws UsageError if the normal is
 /// within a degree of Y, or 12 and X leave no 3.
 ClockFace clock_face(const Vec3& normal);
 
@@ -39,7 +39,7 @@ ClockFace clock_face(const Vec3& normal);
 ClockFace sagittal_clock();
 
 /// The acetabular clock in the plane of the rim: the plane fitted to the rim as the head sees it, 6 o'clock at the
-/// acetabular notch, where published clock positions have it. Head and mesh in F. Empty where no rim or no notch is
+/// acetabular notch, where published clock positions have it. Head and mesh in F. Empty if no rim or no notch is
 /// found, or the plane leaves no 3 o'clock.
 std::optional<ClockFace> find_rim_clock(const TriMesh& fixed, const Sphere& head);
 
@@ -53,7 +53,7 @@ struct NeckAxis {
 
 /// The neck's axis as the mesh has it: the direction of the centroid, by area, of all triangles with their
 /// corners between 1.2 and 1.6 head radii from the joint centre. There the femur consists only of the neck;
-/// nearer is the head, farther begin the trochanters. Empty where there is nothing in that shell, or it lies
+/// nearer is the head, farther begin the trochanters. Empty if there is nothing in that shell, or it lies
 /// around the centre more evenly than any neck does.
 std::optional<NeckAxis> find_neck_axis(const TriMesh& mobile, double head_radius_mm);
 

@@ -37,9 +37,9 @@ struct TrianglePair {
 /// Results at one pose: for each vertex of each body against the other body, and for each pair of triangles.
 template <class VertexResults>
 struct ContactResults {
-  /// Vertices of the mobile body against the fixed one; empty where the fixed mesh is open and has no inside.
+  /// Vertices of the mobile body against the fixed one; empty if the fixed mesh is open and has no inside.
   std::optional<VertexResults> mobile_in_fixed;
-  /// Vertices of the fixed body against the mobile one; empty where the mobile mesh is open.
+  /// Vertices of the fixed body against the mobile one; empty if the mobile mesh is open.
   std::optional<VertexResults> fixed_in_mobile;
   /// The exact set of intersecting triangle pairs, ascending; touching counts.
   std::vector<TrianglePair> pairs;
@@ -76,7 +76,7 @@ class JointContact {
   JointContact& operator=(JointContact&&) noexcept;
 
   /// Vertices inside either body, or on its surface, with radial depths, and intersecting pairs. The fast
-  /// path: vertices that are certainly outside cost next to nothing. Raises MeshError where the joint centre
+  /// path: vertices that are certainly outside cost next to nothing. Raises MeshError if the joint centre
   /// lies on a surface.
   Contact at(const Pose& X_FM) const;
   /// Only the penetrating vertices, into results that keep their capacity: nothing is allocated once they are large
@@ -146,14 +146,14 @@ struct RadialBodySummary {
   std::optional<DeepestVertex> deepest;
   /// The deepest of those whose radial depth is a depth.
   std::optional<DeepestVertex> deepest_facing;
-  /// Smallest gap of a vertex outside, mm; empty where no ray meets the other body.
+  /// Smallest gap of a vertex outside, mm; empty if no ray meets the other body.
   std::optional<double> min_gap_mm;
 };
 
 /// `points` are the query points of `other` that gave `results`.
 RadialBodySummary summarise(const RadialResults& results, PointsView points, const Mesh& other);
 
-/// Both bodies; empty where the other mesh is open.
+/// Both bodies; empty if the other mesh is open.
 struct RadialSummary {
   std::optional<RadialBodySummary> mobile, fixed;
 };
@@ -178,7 +178,7 @@ struct TangentialBodySummary {
   /// angle: a vertex near the axis rotates far without moving much.
   std::optional<DeepestRotation> deepest, largest_angle;
   /// Smallest angle and smallest arc between a vertex outside and the other body, not always of one vertex;
-  /// empty where no circle meets it.
+  /// empty if no circle meets it.
   std::optional<Angle> min_gap;
   std::optional<double> min_gap_mm;
 };

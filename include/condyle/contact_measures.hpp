@@ -18,14 +18,14 @@ struct NearestDistances {
 
 /// Where two surfaces are nearest to each other.
 struct NearestPoints {
-  double distance_mm;        ///< 0 where they meet
+  double distance_mm;        ///< 0 if they meet
   Vec3 on_fixed, on_mobile;  ///< in F; where they meet, points of triangles that do
 };
 
 /// The part of a body's surface inside the other body.
 struct ContactPatch {
   double area_mm2 = 0;
-  /// Mean over the patch of the distance to the other body's surface; empty where there is no patch.
+  /// Mean over the patch of the distance to the other body's surface; empty if there is no patch.
   std::optional<double> mean_depth_mm;
   std::optional<Vec3> centroid;  ///< in F
 };
@@ -38,20 +38,20 @@ struct ContactPatch {
 struct ContactMeasures {
   NearestDistances distances;
   NearestPoints nearest;
-  /// Empty where the other mesh is open and nothing can be inside it.
+  /// Empty if the other mesh is open and nothing can be inside it.
   std::optional<ContactPatch> mobile, fixed;
   /// The space that is inside both counts, each point as often as the bodies cover it; empty if either mesh is open.
   std::optional<double> volume_mm3;
   /// No more than this is the volume off by what the computation rounds; vertices as placed in F are taken as exact.
   double volume_error_mm3 = 0;
-  /// By how much the body covers the surroundings of the overlap more than once, mm^3: above 0 where it crosses itself or has
+  /// By how much the body covers the surroundings of the overlap more than once, mm^3: above 0 if it crosses itself or has
   /// components one in another, and the volume may count space more than once.
   double mobile_covered_again_mm3 = 0, fixed_covered_again_mm3 = 0;
   /// Centroid of both patches; in F, empty if there is none.
   std::optional<Vec3> centroid;
 };
 
-/// Which vertices are inside the other body, empty where that is open, and which triangles meet. Without any the measures are
+/// Which vertices are inside the other body, empty if that is open, and which triangles meet. Without any the measures are
 /// distances only.
 struct MeasuredContact {
   std::optional<std::span<const PointState>> mobile, fixed;

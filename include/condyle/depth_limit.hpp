@@ -20,7 +20,7 @@ struct AllowedDepth {
 
 /// The deepest place of two bodies at one pose.
 struct DeepestPlace {
-  double depth_mm = 0;                         ///< 0 where no vertex is inside
+  double depth_mm = 0;                         ///< 0 if no vertex is inside
   std::optional<ContactWitness> contact = {};  ///< that vertex, and the face that its ray leaves through
   Angle ray_to_normal = {};                    ///< at that face; beyond 60 degrees the radial depth grazes
 };
@@ -46,7 +46,7 @@ struct DepthLimit {
 class DepthRange {
  public:
   /// Throws UsageError for an allowed depth below 0, steps or tolerances that are not above 0, a tolerance
-  /// above the step; MeshError where a mesh is open, for depth needs an inside.
+  /// above the step; MeshError if a mesh is open, for depth needs an inside.
   DepthRange(const Joint& joint, const AllowedDepth& allowed);
   ~DepthRange();
   DepthRange(const DepthRange&) = delete;

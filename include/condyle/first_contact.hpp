@@ -50,8 +50,8 @@ enum class LimitReason : std::uint8_t {
 
 /// Contact of bearing surfaces on the way to a limit.
 struct BearingContact {
-  Angle turned = {};  ///< from the start, >= 0; 0 where they are in contact there already
-  /// Empty where one surface is inside the other body and they do not meet.
+  Angle turned = {};  ///< from the start, >= 0; 0 if they are in contact there already
+  /// Empty if one surface is inside the other body and they do not meet.
   std::optional<ContactWitness> contact = {};
   Angle error_bound = {};  ///< as a limit's
 };
@@ -60,7 +60,7 @@ struct BearingContact {
 struct Limit {
   Angle turned = {};  ///< from the start, >= 0 in either sense; 0 for contact_at_start
   LimitReason reason = LimitReason::end_of_range;
-  /// For contact and contact_at_start; empty where one body is inside the other and their surfaces do not meet.
+  /// For contact and contact_at_start; empty if one body is inside the other and their surfaces do not meet.
   std::optional<ContactWitness> contact = {};
   /// First contact is at `turned` or past it by at most this; never before.
   Angle error_bound = {};
@@ -119,7 +119,7 @@ class FirstContact {
   FirstContact(FirstContact&&) noexcept;
   FirstContact& operator=(FirstContact&&) noexcept;
 
-  /// Both limits from the start pose. Throws UsageError where the range does not hold 0, is more than a full
+  /// Both limits from the start pose. Throws UsageError if the range does not hold 0, is more than a full
   /// turn either way, or is not finite, and for a pose that is not finite or translates beyond 1e30 mm. May be called from any thread; the same bits on each.
   RotationLimits limits(const Pose& X_FM = Pose::Identity(), const RotationRange& range = {}) const;
 

@@ -24,7 +24,7 @@ struct SphereFit {
   std::vector<Index> vertices;  ///< used, ascending
 };
 
-/// The sphere that minimises the sum of squared distances of these points to it. Throws MeshError where fewer
+/// The sphere that minimises the sum of squared distances of these points to it. Throws MeshError if fewer
 /// than four points, or points (nearly) in one plane, leave it undetermined.
 SphereFit fit_sphere(PointsView points, std::span<const Index> vertices);
 SphereFit fit_sphere(PointsView points);
@@ -52,7 +52,7 @@ struct SphericalPatch {
 
 /// The spherical part of a surface: the head that covers most of its sphere, or the socket with most supporting area, by
 /// how well its normals point to the centre. Found without a hint, fitted only to the vertices of that part.
-/// Deterministic. Throws MeshError where no part of the surface is spherical: at
+/// Deterministic. Throws MeshError if no part of the surface is spherical: at
 /// least a tenth of a sphere, spread in all directions (no strip, as where a sphere touches a cylinder from
 /// inside), 12 vertices or more.
 SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search = {});
@@ -76,7 +76,7 @@ struct CylinderFit {
 };
 
 /// The cylinder near `start` that minimises the sum of squared distances of these points to it. Throws
-/// MeshError where the points leave it undetermined (fewer than five, or all on one line or plane).
+/// MeshError if the points leave it undetermined (fewer than five, or all on one line or plane).
 CylinderFit fit_cylinder(PointsView points, std::span<const Index> vertices, const Cylinder& start);
 
 /// Parts of one surface that give axes farther apart give no axis.
@@ -93,7 +93,7 @@ struct CylinderSearch {
 /// times the length in radii, so that a long and full one wins): found without a hint, fitted only to the
 /// vertices of that part. On a whole long bone that is its shaft: limit the search to the condyles to get
 /// those, and inside a ball the part with most area is taken and may be as imperfect as a talar dome, whose residuals
-/// are a twentieth of its radius. Deterministic. Throws MeshError where no part of the surface is cylindrical, or where
+/// are a twentieth of its radius. Deterministic. Throws MeshError if no part of the surface is cylindrical, or where
 /// its parts do not agree on a direction within largest_direction_bound.
 CylinderFit find_cylinder(const TriMesh& mesh, const CylinderSearch& search = {});
 

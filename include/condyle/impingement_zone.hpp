@@ -22,17 +22,17 @@ struct ZoneOptions {
 
 /// One body's part of a zone, in that body's own frame.
 struct BodyZone {
-  /// One per vertex, 0 for those not inside the other body; empty where the other body is open and has no
+  /// One per vertex, 0 for those not inside the other body; empty if the other body is open and has no
   /// inside. At rim and neck rays graze the wall: there read the tangential depth.
   std::vector<double> radial_depth_mm;
   /// Angle for vertices inside, else 0; beyond 60 the radial depth is no depth. Same length, and empty likewise.
   std::vector<double> ray_to_normal_deg;
   /// The arc about the motion's axis by which the vertex would have to turn back or on, whichever is shorter;
-  /// infinite where its whole circle is solid. As many, and empty likewise.
+  /// infinite if its whole circle is solid. As many, and empty likewise.
   std::vector<double> tangential_depth_deg, tangential_depth_mm;
   std::vector<Index> triangles;     ///< that meet the other body, ascending
   double area_mm2 = 0;              ///< of these triangles, whole
-  std::optional<Vec3> centroid_mm;  ///< by area of these triangles; empty where there are none
+  std::optional<Vec3> centroid_mm;  ///< by area of these triangles; empty if there are none
 };
 
 struct ImpingementZone {
@@ -62,7 +62,7 @@ class ZoneFinder {
   /// overlap options left out are part of zones.
   std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
 
-  /// In M; empty where it was not given and no neck was found.
+  /// In M; empty if it was not given and no neck was found.
   const std::optional<NeckAxis>& neck() const noexcept;
 
  private:

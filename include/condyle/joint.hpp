@@ -22,13 +22,13 @@ struct BodyPart {
 struct Body {
   std::string name;
   Mesh mesh;                         ///< of all parts together
-  std::vector<BodyPart> parts = {};  ///< in their order, covering the mesh; empty where it is one mesh
+  std::vector<BodyPart> parts = {};  ///< in their order, covering the mesh; empty if it is one mesh
 };
 
 /// The mesh of the part of this name. Throws UsageError with the names there are. Linear in the part.
 Mesh mesh_of_part(const Body& body, std::string_view part);
 
-/// The part that a vertex or a triangle of the body's mesh is of; null where the body is one mesh.
+/// The part that a vertex or a triangle of the body's mesh is of; null if the body is one mesh.
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;
 const BodyPart* part_of_triangle(const Body& body, std::size_t triangle) noexcept;
 

@@ -37,7 +37,7 @@ AxisErrors axis_errors(const Vec3& anterior, const Vec3& superior) noexcept;
 /// directions are off.
 Pose frame_from_axes(const Vec3& centre, const Vec3& anterior, const Vec3& superior);
 
-// The frames from landmarks throw UsageError where landmarks coincide or lie on one line. Points in mm.
+// The frames from landmarks throw UsageError if landmarks coincide or lie on one line. Points in mm.
 
 /// Pelvic frame of the International Society of Biomechanics (Wu et al., J Biomech 35, 2002): Z parallel to
 /// the line from the left to the right anterior superior iliac spine (ASIS), X in the plane of both ASIS and

@@ -50,7 +50,7 @@ struct LimitBand {
 /// itself, of some milliseconds each for twelve motions of a hip.
 std::vector<LimitBand> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                    const RangeOptions& range, const BandOptions& options = {});
-/// The same; empty where it was stopped before all samples were done.
+/// The same; empty if it was stopped before all samples were done.
 std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<const Motion> motions,
                                                   const RangeOptions& range, const BandOptions& options,
                                                   const Control& control);
@@ -62,7 +62,7 @@ struct DisplacedLimit {
 };
 
 /// Exact limits of the joint as it would turn about each of these centres, given in the reference pose in mm from the joint
-/// centre: for each centre one per motion. Throws UsageError where check_motion() does. A search per centre and motion, of
+/// centre: for each centre one per motion. Throws UsageError if check_motion() does. A search per centre and motion, of
 /// some milliseconds for twelve motions of a hip.
 std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
                                          const RangeOptions& range, std::span<const Vec3> centres);

@@ -47,7 +47,7 @@ enum class BalanceOutcome {
   pulled_apart,  ///< along the load the bodies do not meet, or they part
   over_the_rim,  ///< in contact, and nowhere near was a pose found in which the contact carries the load
   too_large,  ///< compressed by nine tenths of their thickness or more, the layers carry less than the load
-  unstable,  ///< in balance, but if moved along a direction the body is pushed on, not back: contact by itself does not hold it
+  unstable,   ///< in balance, but pushed on if moved along some direction: contact by itself does not hold it
   free_direction,  ///< the contact holds the mobile body in no place along a direction: prescribe it
 };
 
@@ -69,7 +69,7 @@ struct BalancedPose {
   bool carries_load() const noexcept;
 };
 
-/// One line that says why there is no balance, or what is wrong with it; empty where nothing is.
+/// One line that says why there is no balance, or what is wrong with it; empty if nothing is.
 std::string reason_of(const BalancedPose& pose);
 
 /// From a start nearby, with its rotation held unless rotations are free: Newton's method on the load of the contact, of each
@@ -79,7 +79,7 @@ std::string reason_of(const BalancedPose& pose);
 /// load of which little is left just before a jump, or of which no step leaves less, is taken to lie within it, and reported with
 /// what is left. Of a refused load no more is left than was applied, unless the contact pushes along it as far as is searched.
 ///
-/// UsageError where a share is not from 0 to 1, the load is zero or not finite along what is free, or directions depend on each other. Some ten times
+/// UsageError if a share is not from 0 to 1, the load is zero or not finite along what is free, or directions depend on each other. Some ten times
 /// the cost of a pose.
 BalancedPose balance(const ElasticContact& contact, const Pose& start, const Load& load,
                      const BalanceOptions& options = {});

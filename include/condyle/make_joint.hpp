@@ -42,7 +42,7 @@ struct CentreFit {
 
 /// Where a joint frame lies in W; lengths in mm, whatever the unit of the meshes.
 struct FrameDescription {
-  /// Not read where the axes are a TransepicondylarAxis, which gives the centre too; else nothing means the
+  /// Not read if the axes are a TransepicondylarAxis, which gives the centre too; else nothing means the
   /// origin of W.
   std::variant<std::monostate, Vec3, CentreFit> centre = {};
   std::variant<FrameDirections, PelvisLandmarks, AnteriorPelvicPlane, FemurLandmarks, TransepicondylarAxis>

@@ -15,7 +15,7 @@
 ///
 ///     const JointContact joint(femur, tibia);
 ///     const ElasticContact surfaces(femur, tibia, options);
-///     const auto frames = contact_along(joint, &surfaces, X_FM);  // one entry per pose, empty where that is a gap
+///     const auto frames = contact_along(joint, &surfaces, X_FM);  // one entry per pose, empty if that is a gap
 
 namespace condyle {
 
@@ -27,7 +27,7 @@ struct FrameContact {
   Pose X_FM;
   bool in_contact = false;             ///< the surfaces meet, or one body is inside the other
   std::size_t intersecting_pairs = 0;  ///< of triangles
-  double smallest_gap_mm = 0;          ///< between the surfaces; 0 where they meet
+  double smallest_gap_mm = 0;          ///< between the surfaces; 0 if they meet
   /// Results of the casting surface, in its body's frame: the mobile one's if both are cast.
   SurfaceContact surface = {};
   Wrench on_mobile = {};  ///< by the fixed body, in F, about the origin of M; with pressure only

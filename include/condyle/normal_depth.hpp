@@ -108,14 +108,14 @@ std::vector<FaceContact> faces_within(std::span<const FaceContact> faces, const 
 /// may ask.
 class NormalDepth {
  public:
-  /// UsageError where the reach is not above 0.
+  /// UsageError if the reach is not above 0.
   NormalDepth(Mesh casting, Mesh target, NormalDepthOptions options = {});
   ~NormalDepth();
   NormalDepth(NormalDepth&&) noexcept;
   NormalDepth& operator=(NormalDepth&&) noexcept;
 
   /// X_CT is the pose of the target in the casting body: X_FM with the fixed body casting, its inverse with the mobile one.
-  /// UsageError where it is not finite or translates beyond 1e30 mm. Some 0.1 microseconds a ray.
+  /// UsageError if it is not finite or translates beyond 1e30 mm. Some 0.1 microseconds a ray.
   SurfaceContact at(const Pose& X_CT) const;
   void at(const Pose& X_CT, SurfaceContact& out) const;
 

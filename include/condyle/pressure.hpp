@@ -67,7 +67,7 @@ struct ElasticContactResults {
 /// Two surfaces with their layers, queried at any pose. Any number of threads may query.
 class ElasticContact {
  public:
-  /// UsageError where an option is outside its domain or thicknesses are not as many as vertices.
+  /// UsageError if an option is outside its domain or thicknesses are not as many as vertices.
   ElasticContact(Mesh fixed, Mesh mobile, ElasticContactOptions options);
   ~ElasticContact();
   ElasticContact(ElasticContact&&) noexcept;
@@ -76,9 +76,10 @@ class ElasticContact {
   /// MeshError with the logarithmic law if the overlap reaches the thickness, naming the triangle.
   ElasticContactResults at(const Pose& X_FM) const;
 
-  /// The force on the mobile body, in F, with the depth asked at 16 places of each face in contact: what the edges of the meshes leave
-  /// open of `at(X_FM).on_mobile`, whose depths are linear from corner to corner. Sixteen times the rays. Empty with the rule
-  /// face_centre, which is what it is, and where the logarithmic law has no answer at one of these places.
+  /// The force on the mobile body, in F, with the depth evaluated at 16 points of each face in contact: it shows the
+  /// effect of mesh edges on `at(X_FM).on_mobile`, whose depths are linear from corner to corner. Sixteen times the
+  /// rays. Empty with the rule face_centre, whose depths have no such effect, and if the logarithmic law has no
+  /// answer at one of these points.
   std::optional<Vec3> refined_force_n(const Pose& X_FM) const;
 
   /// Rays of this pose that a longer reach would find in contact: NormalDepth::cut_off_by_reach().

@@ -50,10 +50,10 @@ struct RadialResults {
   /// Signed, mm, along the ray: > 0 apart, < 0 penetrating, 0 on the surface; +infinity where the ray meets
   /// nothing.
   std::vector<double> radial_gap_mm;
-  /// Triangle that the gap or depth is measured to; no_index where there is none.
+  /// Triangle that the gap or depth is measured to; no_index if there is none.
   std::vector<Index> triangle;
   std::vector<RayDirection> direction;
-  /// Between the ray and the normal of that triangle, 0 to a right angle; 0 where there is no triangle.
+  /// Between the ray and the normal of that triangle, 0 to a right angle; 0 if there is no triangle.
   std::vector<Angle> ray_to_normal;
 
   std::size_t size() const noexcept { return state.size(); }
@@ -132,7 +132,7 @@ struct RadialTableSize {
 /// may only be assigned to or destroyed.
 class RadialTable {
  public:
-  /// Raises MeshError where the origin lies exactly on the surface or nearer than 1e-36 mm to a vertex, and UsageError for
+  /// Raises MeshError if the origin lies exactly on the surface or nearer than 1e-36 mm to a vertex, and UsageError for
   /// options out of range.
   /// Open meshes are accepted; queries of them are not. Linear in triangles and cells.
   explicit RadialTable(Mesh mesh, RadialOptions options = {});
@@ -143,7 +143,7 @@ class RadialTable {
   ~RadialTable();
 
   /// The surface has deformed: new positions of all vertices, as many as there were. Answers are those of a
-  /// table made anew for the mesh as it is now. Raises UsageError where the number differs and MeshError where
+  /// table made anew for the mesh as it is now. Raises UsageError if the number differs and MeshError if
   /// a coordinate is not finite or the surface now holds the origin; the table is then what it was before.
   ///
   /// The first update gives each vertex a slack rectangle on the cube: triangles are binned by the rectangles

@@ -61,7 +61,7 @@ std::vector<Motion> with_own_motions(std::vector<Motion> built_in, std::span<con
 /// underscores. Throws UsageError with the names there are.
 const Motion& motion_named(std::span<const Motion> motions, std::string_view name);
 
-/// Throws UsageError where this kind of joint has no such motion: a range that is not above 0 and at
+/// Throws UsageError if this kind of joint has no such motion: a range that is not above 0 and at
 /// most a full turn, an angle that is not finite, or a hinge turned or held in another angle than flexion.
 void check_motion(const Motion& motion, JointKind kind);
 
@@ -80,15 +80,15 @@ struct FreeAngles {
   RotationLimits from_start;
   std::vector<FreeInterval> intervals;  ///< ascending
 
-  /// The one that holds the start, else the nearest to it, the lower of two as near; null where nothing is free.
+  /// The one that holds the start, else the nearest to it, the lower of two as near; null if nothing is free.
   const FreeInterval* nearest_to_start() const noexcept;
 };
 
 /// How a head lies in its socket where a motion ends.
 struct HeadAtLimit {
-  /// Between the centres of head and socket, mm; empty where no socket was fitted.
+  /// Between the centres of head and socket, mm; empty if no socket was fitted.
   std::optional<double> centre_distance_mm;
-  /// The smallest distance between the bearing surface and the fixed body, mm; 0 where they meet, empty where bearing
+  /// The smallest distance between the bearing surface and the fixed body, mm; 0 if they meet, empty where bearing
   /// contact counts.
   std::optional<double> joint_space_mm;
 };
@@ -134,7 +134,7 @@ struct RangeOptions {
 /// bits on any thread and in any order.
 class RangeOfMotion {
  public:
-  /// Throws ReferenceContactError where the bodies are in contact in the reference pose and the options say nothing
+  /// Throws ReferenceContactError if the bodies are in contact in the reference pose and the options say nothing
   /// about it: the message explains what can be done and names the deepest vertex. Contact that does not count is
   /// none.
   explicit RangeOfMotion(const Joint& joint, const RangeOptions& options = {});
@@ -142,7 +142,7 @@ class RangeOfMotion {
   RangeOfMotion(const RangeOfMotion&) = delete;
   RangeOfMotion& operator=(const RangeOfMotion&) = delete;
 
-  /// Throws UsageError where check_motion() does.
+  /// Throws UsageError if check_motion() does.
   MotionLimit limit(const Motion& motion) const;
   /// The same for many, in their order, on all threads.
   std::vector<MotionLimit> limits(std::span<const Motion> motions) const;

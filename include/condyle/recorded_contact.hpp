@@ -87,7 +87,7 @@ struct RecordedContactOptions {
 /// sample is named, counted from 0.
 RecordedContact contact_between(const JointContact& bodies, std::span<const double> time_s,
                                 std::span<const Pose> X_FM, const RecordedContactOptions& options = {});
-/// The same; empty where it was stopped before all ways were done.
+/// The same; empty if it was stopped before all ways were done.
 std::optional<RecordedContact> contact_between(const JointContact& bodies, std::span<const double> time_s,
                                                std::span<const Pose> X_FM,
                                                const RecordedContactOptions& options, const Control& control);

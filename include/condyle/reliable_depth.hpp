@@ -36,7 +36,7 @@ struct DeepestReliable {
   double nearest_distance_mm;
   double radial_depth_mm;  ///< whether or not it is a depth
   Angle ray_to_normal;
-  /// About the axes of flexion, adduction and internal rotation; empty where none sets it free, or none was asked for.
+  /// About the axes of flexion, adduction and internal rotation; empty if none sets it free, or none was asked for.
   std::array<std::optional<WayOut>, 3> rotations;
 };
 
@@ -49,7 +49,7 @@ struct ReliableDepths {
   std::size_t without = 0;  ///< vertices inside of which neither ray nor arc is a depth
 };
 
-/// Both bodies; empty where the other mesh is open.
+/// Both bodies; empty if the other mesh is open.
 struct ReliableContact {
   std::optional<ReliableDepths> mobile, fixed;
 };
@@ -70,7 +70,7 @@ struct DeepestOfBoth {
   DeepestReliable vertex;
 };
 
-/// Empty where no vertex has a depth other than its nearest distance.
+/// Empty if no vertex has a depth other than its nearest distance.
 std::optional<DeepestOfBoth> deepest_of(const ReliableContact& contact);
 
 /// Vertices inside of either body of which neither ray nor arc is a depth.

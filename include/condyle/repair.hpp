@@ -37,7 +37,7 @@ struct RepairDone {
   std::size_t count;
 };
 
-/// Makes the repairs in this order. Raises MeshError where one cannot be made.
+/// Makes the repairs in this order. Raises MeshError if one cannot be made.
 std::vector<RepairDone> repair_mesh(TriMesh& mesh, const std::vector<Repair>& repairs);
 
 }  // namespace condyle

@@ -59,7 +59,7 @@ struct TangentialResults {
   /// circle is solid (also for a point on the axis, which no rotation moves). 0 on the surface.
   std::vector<Angle> angular_gap;
   std::vector<double> arc_gap_mm;  ///< The same as a length at the point's own radius.
-  std::vector<Index> triangle;     ///< The triangle reached; no_index where there is none.
+  std::vector<Index> triangle;     ///< The triangle reached; no_index if there is none.
   /// Which way to rotate the point to reach it: inside, the nearer exit.
   std::vector<RotationSense> rotation_sense;
   TangentialWork work;
@@ -140,7 +140,7 @@ struct RingTableSize {
 /// destroyed.
 class RingTable {
  public:
-  /// MeshError where the mesh is not closed: arcs need an inside. UsageError for options out of range. Linear
+  /// MeshError if the mesh is not closed: arcs need an inside. UsageError for options out of range. Linear
   /// in triangles.
   RingTable(const Mesh& mesh, const AxisFrame& frame, RingTableOptions options = {});
 

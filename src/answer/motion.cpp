@@ -98,7 +98,7 @@ bool is_between_searched(const MotionRequest& request, const Frames& X_FM) {
   return false;
 }
 
-/// Of loads the one with the largest force, which is the first to be unlikely.
+/// The load with the largest force, which is the first to be unlikely.
 std::optional<Load> largest_load(const MotionRequest& request) {
   if (request.load) return request.load;
   std::optional<Load> largest;

@@ -4,7 +4,7 @@
 
 namespace condyle::contact {
 
-/// Of length 1; zero of zero.
+/// The vector scaled to length 1; zero for zero.
 inline Vec3 unit(const Vec3& v) {
   const double length = v.norm();
   return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());

@@ -17,7 +17,7 @@ struct Box {
   std::array<float, 3> low, high;
 };
 
-/// Some boxes, told from another one at once.
+/// Some boxes, compared with another one at once.
 class Boxes {
  public:
   static constexpr Index most = mesh::TriangleTree::leaf_triangles;
@@ -42,8 +42,8 @@ class Boxes {
     return all;
   }
 
-  /// By how much each is apart from another box, above 0; what is not a number may meet. Without branches: which axis tells two
-  /// boxes apart is anybody's guess.
+  /// By how much each is apart from another box, above 0; a NaN may meet. Without branches: no branch predicts which
+  /// axis separates two boxes.
   std::array<float, most> apart_from(const Box& other) const noexcept {
     std::array<float, most> apart;
     const auto along = [&](std::size_t k, std::size_t i) {
@@ -70,7 +70,7 @@ struct LeafTriangles {
   Boxes boxes;
   Box box;  ///< of all
 
-  /// Does nothing where it is this leaf already: in a row of pairs one of the two often is.
+  /// Does nothing if it is this leaf already: in a row of pairs one of the two often is.
   template <class CornersOf>
   void take(Index number, const Node& node, const CornersOf& corners_of) {
     if (leaf == number) return;
@@ -106,8 +106,8 @@ void visit_meeting_pairs(const mesh::TriangleTree& fixed, const mesh::TriangleTr
   });
 }
 
-/// Sum of the crossings above p of the tree's triangles: `box_of` tells where a node may be, `corners_of`
-/// where a triangle is.
+/// Sum of the crossings above p of the tree's triangles: `box_of` bounds a node, `corners_of` gives the corners of a
+/// triangle.
 template <class BoxOf, class CornersOf>
 int winding_number(const mesh::TriangleTree& tree, const Vec3& p, const BoxOf& box_of,
                    const CornersOf& corners_of) {

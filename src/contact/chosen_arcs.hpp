@@ -16,8 +16,8 @@ struct ChosenArcs {
   TangentialResults mobile, fixed;
 };
 
-/// What JointContact::tangential() answers of these vertices, bit by bit. A ring table is built for a body only if vertices of the
-/// other one are chosen, which is closed then.
+/// The results of JointContact::tangential() for these vertices, bit by bit. A ring table is built for a body only if
+/// vertices of the other one are chosen, which is closed then.
 ChosenArcs arcs_of(const JointContact& joint, const Pose& X_FM, const Vec3& axis_F,
                    const ChosenVertices& vertices);
 

@@ -25,7 +25,7 @@ std::vector<double> distances_of(const Points& vertices,
   return distances;
 }
 
-/// What the parts of a patch add up to.
+/// Sums over the parts of a patch.
 struct Sums {
   mesh::CompensatedSum area, depth;
   Vec3 moment = Vec3::Zero();

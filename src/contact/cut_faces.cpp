@@ -15,8 +15,9 @@ using Barycentric = std::array<double, 3>;
 /// across its rim, or on another condyle. Faces then meet at more than 60 degrees, and are no thin layer.
 constexpr double steepest_linear = 2;
 
-/// A depth that would change by more than this for each mm up to the rim is told by a side of the target, not by what lies opposite.
-/// Twice that makes the greatest depth of a hip's walk a quarter larger, with the head's cartilage cast.
+/// A depth that would change by more than this for each mm up to the rim comes from a side of the target, not from
+/// the surface opposite. Twice that makes the greatest depth of a hip's walk a quarter larger, with the head's
+/// cartilage cast.
 constexpr double steepest_at_rim = 0.25;
 
 /// The place where an edge leaves the target is taken to move at most one over this as fast as the target does, also where the edge
@@ -154,7 +155,8 @@ void OverlapSampler::cast_outwards(const Pose& X_CT, Scratch& scratch, Found& ou
     if (oblique == 3) out.oblique_area += face_area_[face];
     if (oblique == 3 || !(oblique > 0 || ends.has(a) || ends.has(b) || ends.has(c))) continue;
     scratch.active.push_back(face);
-    // What meets the target inwards, though at a slant, is not outside it. Beside it parts decide, which ask no gaps.
+    // A ray that meets the target inwards, though at a slant, is not outside it. Beside it parts decide, which need
+    // no gaps.
     if (oblique > 0) continue;
     for (const Index ray : corner_ray_[face]) scratch.outwards[ray] = !ends.has(ray);
   }

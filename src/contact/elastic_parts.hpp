@@ -31,7 +31,7 @@ class ElasticCast {
 
  private:
   void answer_samples(Answer& out) const;
-  /// Of an OverlapSample, an OverlapCorner or an OverlapBorder.
+  /// Layers at an OverlapSample, an OverlapCorner or an OverlapBorder.
   LayerAnswer layers_at(const auto& place) const;
 
   OverlapSampler sampler_;
@@ -51,7 +51,7 @@ struct MobileLoad {
 /// How the wrench changes when the mobile body is translated and turned (radians) a little about the origin of M, loads held in
 /// place.
 using LoadChange = Eigen::Matrix<double, 6, 6>;
-/// What of it is asked for: how forces change with translations, the others zero, or all.
+/// Requested derivatives: how forces change with translations, the others zero, or all.
 enum class Motions { translations, all };
 
 }  // namespace contact
@@ -61,7 +61,7 @@ struct ElasticContact::Parts {
   ElasticContactOptions options;
   std::optional<contact::ElasticCast> from_fixed, from_mobile;
 
-  /// What the surfaces that are cast answer at a pose.
+  /// Results at a pose for the surfaces that are cast.
   struct Answers {
     contact::ElasticCast::Answer of_fixed, of_mobile;
   };

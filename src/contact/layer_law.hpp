@@ -4,7 +4,7 @@
 
 namespace condyle::contact {
 
-/// One layer, or none where the thickness is 0.
+/// One layer, or none if the thickness is 0.
 struct LayerHere {
   double modulus;  ///< confined, MPa
   double thickness;

@@ -22,7 +22,7 @@ using FreeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using FreeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 /// Columns are translations and rotations about the origin of M, in F.
 using FreeMotions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
-/// Of square matrices: they need no preconditioner.
+/// For square matrices: they need no preconditioner.
 using Svd = Eigen::JacobiSVD<FreeMatrix, Eigen::NoQRPreconditioner>;
 
 /// A stiffness below this share of the largest one is rounding: flat and prismatic contacts have none along themselves.
@@ -31,19 +31,19 @@ constexpr double least_stiffness = 1e-9;
 constexpr double longest_step = 1;
 /// Steps of the search along the load, mm: much less than cartilage is thick.
 constexpr double search_step = 0.1;
-/// The same where the contact already tells how far it is.
+/// The same if the contact already shows the distance.
 constexpr double longest_search_step = 0.3;
 /// The part of a step that is enough to know how far it leads: of walks on a hip's cartilages a half leaves more of the load at
 /// jumps, an eighth balances fewer frames.
 constexpr double least_part = 1.0 / 4;
-/// Where the load changes by this many times what the stiffness tells, it jumps. Half of it balances fewer frames; twice that takes
-/// more steps and balances no more.
+/// If the load changes by this many times the change that the stiffness predicts, it jumps. At 4, fewer frames
+/// converge; at 16, no more do and steps increase.
 constexpr double steepest_change = 8;
 /// How far the mobile body is moved each way to measure stiffness across jumps of the force, mm: some faces of a cartilage mesh
 /// then pass its rim.
 constexpr double measured_way = 0.05;
-/// Over shorter ways what is stored tells nothing: a face that begins or ceases to meet the other surface changes it by more
-/// than the way does.
+/// Over shorter distances the stored energy shows nothing: a face that begins or ceases to meet the other surface
+/// changes it by more than the distance does.
 constexpr double least_climb = measured_way;
 /// Rotations that move the surfaces about as far, rad: half a joint across is some 20 mm.
 constexpr double measured_angle = measured_way / 20;
@@ -112,7 +112,7 @@ class Search {
     return load;
   }
   Vector6 along_free(const Vector6& wrench) const { return free_ * (free_.transpose() * wrench); }
-  /// What is left, along what is free, as a wrench.
+  /// Residual along the free directions, as a wrench.
   Vector6 left(const Pose& X, const MobileLoad& carried) const {
     return along_free(carried.wrench + load_at(X));
   }
@@ -189,7 +189,8 @@ class Search {
       if ((left_over - against * along).norm() <= against / 2) return BalanceOutcome::too_large;
       take(ended, tried(ended));
     }
-    // What pushes along with the load leaves more than was applied. Further along the load it may leave go.
+    // A contact that pushes along with the load leaves a residual above the applied load. Further along the load it
+    // may let go.
     const bool carried_some = most_ && most_->carried > least_carried_share;
     const bool leaves_less = size_of(residual_) <= size_of(along_free(load_at(out_.X_FM)));
     if (carried_some && leaves_less) return outcome;
@@ -241,7 +242,7 @@ class Search {
         return resisted_ ? BalanceOutcome::free_direction : BalanceOutcome::pulled_apart;
       }
       if (is_small(residual_)) {
-        // What pushes back along a motion: the symmetric part, whatever the units of rotations.
+        // Stiffness that pushes back along a motion: the symmetric part, whatever the units of rotations.
         const Eigen::SelfAdjointEigenSolver<FreeMatrix> pushes_back((stiffness + stiffness.transpose()) / 2);
         if (pushes_back.eigenvalues()[0] > 0) return BalanceOutcome::balanced;
         out_.direction = (free_ * pushes_back.eigenvectors().col(0)).head<3>().normalized();
@@ -274,7 +275,7 @@ class Search {
     return stiffness;
   }
 
-  /// What is left of the load.
+  /// Residual as a share of the load.
   double left_share() const { return size_of(residual_) / size_of(along_free(load_at(out_.X_FM))); }
 
   /// A contact that has pushed against the load at all was left over its rim, or at one.
@@ -386,7 +387,7 @@ double strain_of(const ElasticContactResults& contact) {
 }  // namespace
 
 std::string reason_of(const BalancedPose& pose) {
-  // Of the moment nothing is left to tell where rotations are held.
+  // If rotations are held, no residual of the moment is reported.
   const auto what_is_left = [](const BalancedPose& of) {
     const double moment = of.residual.moment_nmm.norm();
     return core::formatted("%.3g N", of.residual.force_n.norm()) +

@@ -135,7 +135,7 @@ class Columns {
     return total;
   }
 
-  /// The part of a body's triangle that is inside the other body; nothing where that is no more than rounding.
+  /// The part of a body's triangle that is inside the other body; nothing if that is no more than rounding.
   std::optional<PatchPart> part_inside(const Prism& prism, const Grid& other_body) const {
     Polygon part = crop_.of(prism);
     part = cut(part, [&](std::size_t k) { return part.corners[k].z; });

@@ -5,14 +5,14 @@
 
 #include "condyle/contact.hpp"
 
-/// What is inside two bodies at once, by signed prisms. docs/mathematics/03-both-directions.md.
+/// The space inside two bodies at once, by signed prisms. docs/mathematics/03-both-directions.md.
 
 namespace condyle::contact {
 
 /// A body's surface in F, and what is known of it against the other body.
 struct OverlapBody {
   const TriMesh& surface;
-  /// One per vertex; empty where the other body is open and has no inside.
+  /// One per vertex; empty if the other body is open and has no inside.
   std::span<const PointState> states;
 };
 
@@ -28,7 +28,7 @@ struct Overlap {
   /// error: what all roundings after the vertices in F can amount to.
   double volume = 0, volume_error = 0;
   /// How much of the overlap's surroundings a body covers more than once, mm^3: the integral of w (w - 1) over the box that holds
-  /// the overlap. 0 where it is no more than rounding.
+  /// the overlap. 0 if it is no more than rounding.
   double fixed_covered_again = 0, mobile_covered_again = 0;
   /// In the order of triangles; of a body without states none.
   std::vector<PatchPart> fixed, mobile;

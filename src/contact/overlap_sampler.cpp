@@ -275,7 +275,7 @@ void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
     face->max_depth_mm = std::max(face->max_depth_mm, corner.depth);
     if (pressures) face->max_pressure_mpa = std::max(face->max_pressure_mpa, pressures->of_corners[i]);
   }
-  // What a cut leaves of a face may be no more than rounding.
+  // The part that a cut leaves of a face may be no more than rounding.
   std::erase_if(out.faces, [](const FaceContact& of) { return !(of.overlap_mm3 > 0); });
   out.totals = totals_of(out.faces, sampler.casting(), sampler.options().rule);
   const auto is_peak = [&](const FaceContact& of) {

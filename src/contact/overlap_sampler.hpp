@@ -38,7 +38,8 @@ struct OverlapBorder {
   Index face;
   double depth;
   Vec3 point;  ///< on the casting surface
-  /// Of the area in contact: when the target is translated, mm^2 per mm, and turned about the casting body's origin, mm^2 per rad.
+  /// Growth of the area in contact: when the target is translated, mm^2 per mm, and turned about the casting body's
+  /// origin, mm^2 per rad.
   Vec3 growth, growth_turned;
   double casting_thickness, target_thickness;  ///< where asked for, else 0
 };
@@ -85,7 +86,7 @@ class OverlapSampler {
   void make_centre_rays(const mesh::TriangleTree& order);
   void make_corner_rays(const mesh::TriangleTree& order);
 
-  /// What a ray met: the depth is below 0 where a ray outwards met the target.
+  /// End of a ray: the depth is below 0 if a ray outwards met the target.
   struct RayEnd {
     double depth;
     Index triangle;
@@ -163,7 +164,7 @@ class OverlapSampler {
   Vec3 casting_corner(Index face, std::size_t k) const {
     return casting_.vertices()[casting_.triangles()[face][k]];
   }
-  /// Whether no line can be told that cuts a face at the rim.
+  /// Whether no line is known that cuts a face at the rim.
   bool is_decided_by_parts(Index face, const Scratch& scratch) const;
   /// How many of a face's corners have rays that meet the target too far off its normal.
   int oblique_corners(Index face, const Scratch& scratch) const;
@@ -171,7 +172,7 @@ class OverlapSampler {
   void cast_along_edges(const Pose& X_CT, Scratch& scratch, Found& out) const;
   /// Rays from the parts of the rim faces that no line cuts.
   void cast_parts(const Pose& X_CT, Scratch& scratch, Found& out) const;
-  /// Of a face: its part in contact, a triangle or what a line leaves of one.
+  /// Corner of a face's part in contact, a triangle or the part that a line leaves of one.
   struct PartCorner;
   class Part;
   Part part_of(Index face, const RimFace* rim, const LayerThicknesses& thicknesses, const Pose& X_TC,
@@ -208,11 +209,11 @@ class OverlapSampler {
 struct OverlapPressures {
   std::span<const double> of_samples, of_corners;
 };
-/// What samples add up to, face by face and in all; without pressures of depths only.
+/// Sums of the samples, face by face and in all; without pressures of depths only.
 void add_up(const OverlapSampler& sampler, const OverlapSampler::Found& found,
             const std::optional<OverlapPressures>& pressures, SurfaceContact& out);
 
-/// From each vertex along its negative normal to the other surface; NaN where there is none within the reach.
+/// From each vertex along its negative normal to the other surface; NaN if there is none within the reach.
 std::vector<double> distances_along_normals(const Mesh& from, const Mesh& to, double reach);
 
 }  // namespace condyle::contact

@@ -13,9 +13,9 @@ namespace condyle::contact {
 
 /// Two trees in one pose, X_FM: which nodes may share a point.
 ///
-/// Three tests, each telling most of what is apart from what may meet, in single precision and widened by
-/// more than it rounds: shells about the joint centre, boxes seen along the axes of F, boxes seen along the
-/// axes of M (six of the fifteen directions of Gottschalk 1996: the nine others seldom tell more).
+/// Three tests, each separating most nodes that are apart from those that may meet, in single precision and widened
+/// by more than it rounds: shells about the joint centre, boxes seen along the axes of F, boxes seen along the axes
+/// of M (six of the fifteen directions of Gottschalk 1996: the nine others seldom separate more).
 class PlacedTrees {
  public:
   PlacedTrees(const mesh::TriangleTree& fixed, const mesh::TriangleTree& mobile, const Pose& X_FM) noexcept;
@@ -58,7 +58,7 @@ class PlacedTrees {
     return Eigen::Map<const Eigen::Array4f, Eigen::Aligned16>(values.data());
   }
 
-  /// One branch for all: which test tells is anybody's guess. What is not a number counts as meeting.
+  /// One branch for all: no branch predicts which test separates. A NaN counts as meeting.
   bool may_meet(const Node& f, const PlacedBox& f_in_m, const Node& m,
                 const PlacedBox& m_in_f) const noexcept {
     const float shells = std::max(f.nearest - m.farthest, m.nearest - f.farthest) - centres_apart_;

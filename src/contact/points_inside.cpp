@@ -10,8 +10,8 @@ namespace {
 /// RadialTable::penetrations() is fast up to here: translations, in distances of the surface from the origin.
 constexpr double farthest_translation = 4;
 
-/// Whether no point outside can be followed, along a ray, by a surface seen from behind. Then winding numbers are nowhere below
-/// 0, and what is outside has 0.
+/// Whether no ray from a point outside first meets a surface from behind. Then winding numbers are nowhere below 0,
+/// and points outside have 0.
 bool is_plain_solid(const Mesh& mesh) {
   if (!mesh.is_closed()) return false;
   const MeshReport report = inspect(mesh);

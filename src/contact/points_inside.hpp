@@ -7,16 +7,17 @@
 
 namespace condyle::contact {
 
-/// Which points of one body lie in another, where that tells which rays from them can be in contact: a ray that begins
+/// Which points of one body lie in another, if that decides which rays from them can be in contact: a ray that begins
 /// outside a solid meets its front first, and that is no contact.
 class PointsInside {
  public:
   /// Points in the frame of their own body; the surface is no nearer than `nearest_mm` to the origin of its.
   PointsInside(Mesh surface, double nearest_mm, Points points);
 
-  /// The points that are inside or on the surface, neighbours behind each other; all others are outside. False where this is
-  /// not told: of open surfaces, of those that run through themselves or have an inverted piece, and where the pose moves the
-  /// origin so far that a radial table would be slower than rays are. The first call makes the table.
+  /// The points that are inside or on the surface, neighbours behind each other; all others are outside. False if
+  /// this is not decided: for open surfaces, for those that run through themselves or have an inverted component, and
+  /// if the pose moves the origin so far that a radial table would be slower than rays are. The first call makes the
+  /// table.
   bool find(const Pose& X_of_points, Penetrations& out) const;
 
  private:

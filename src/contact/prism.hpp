@@ -39,7 +39,7 @@ struct Polygon {
   }
 };
 
-/// What is left of the polygon where value(corner number), linear over it, is at least 0.
+/// The part of the polygon in which value(corner number), linear over it, is at least 0.
 template <class Value>
 Polygon cut(const Polygon& polygon, const Value& value) noexcept {
   Polygon left;
@@ -155,7 +155,7 @@ class Prism {
     return low_x <= other.high_x && other.low_x <= high_x && low_y <= other.high_y && other.low_y <= high_y;
   }
 
-  /// What of a polygon lies over or under the triangle.
+  /// The part of a polygon over or under the triangle.
   Polygon clipped(const Polygon& polygon) const noexcept {
     // Most pairs have nothing in common, and most edges cut nothing.
     std::array<bool, 3> cuts;

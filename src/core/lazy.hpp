@@ -27,7 +27,7 @@ class Lazy {
     return value_;
   }
 
-  /// To be kept current by hand while nothing else reads it; null where it is out of date.
+  /// To be kept current by hand while nothing else reads it; null if it is out of date.
   T* current() noexcept { return is_current_.load(std::memory_order_relaxed) ? &value_ : nullptr; }
   /// Its memory is kept for when it is made again.
   void make_out_of_date() noexcept { is_current_.store(false, std::memory_order_relaxed); }

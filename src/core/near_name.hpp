@@ -7,7 +7,7 @@
 namespace condyle::core {
 
 /// The name that a mistyped one was most likely meant to be: at most two letters put in, left out, changed or exchanged
-/// with their neighbour, and no more than a third of them; the first of those as near. Empty where none is, and for words of more
+/// with their neighbour, and no more than a third of them; the first of those as near. Empty if none is, and for words of more
 /// than a hundred letters. Case counts.
 std::string near_name(std::string_view word, std::span<const std::string> names);
 

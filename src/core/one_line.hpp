@@ -6,7 +6,8 @@
 
 namespace condyle::core {
 
-/// What a message may quote of a file or of a user's words: its start, plain characters only, so that the message stays one line.
+/// Quotation, for messages, of a file or of a user's words: its start, plain characters only, so that the message
+/// stays one line.
 inline std::string one_line(std::string_view text, std::size_t longest = 200) {
   std::string out;
   for (const char c : text.substr(0, longest)) out += c >= ' ' && c <= '~' ? c : '?';

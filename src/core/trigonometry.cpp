@@ -62,8 +62,9 @@ struct SineCosinePair {
   Pair sine, cosine;
 };
 
-/// Of at most an eighth of a turn, and a little. Taylor's series of a sixteenth of the angle u, and four doublings. The first
-/// terms are kept in pairs; from u^5 / 120 on they are a part in 10^7 of the sine, and doubles do.
+/// Sine and cosine of at most an eighth of a turn, and a little. Taylor's series of a sixteenth of the angle u, and
+/// four doublings. The first terms are kept in pairs; from u^5 / 120 on they are a part in 10^7 of the sine, and
+/// doubles do.
 SineCosinePair of_small(Pair angle) noexcept {
   constexpr Pair sixth{0x1.5555555555555p-3, 0x1.5555555555555p-57},
       twenty_fourth{0x1.5555555555555p-5, 0x1.5555555555555p-59};
@@ -87,8 +88,8 @@ constexpr Pair quotient(Pair a, Pair b) noexcept {
   return ordered_sum(high, rest.high / b.high);
 }
 
-/// Of at most 1/128 and a little, by Taylor's series: the terms from r^3 / 3 on are at most 2^-15 of it, so that doubles do: some
-/// roundings of 2^-53 make 2^-67.
+/// Arctangent of at most 1/128 and a little, by Taylor's series: the terms from r^3 / 3 on are at most 2^-15 of it,
+/// so that doubles do: some roundings of 2^-53 make 2^-67.
 constexpr Pair arctangent_of_small(Pair r) noexcept {
   const double x = r.high * r.high;
   const double more = r.high * x * (-1.0 / 3 + x * (1.0 / 5 - x * (1.0 / 7 - x * (1.0 / 9))));

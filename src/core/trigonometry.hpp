@@ -11,7 +11,7 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/// Of an angle of at most 2^20 radians either way; larger ones are the C library's.
+/// Sine and cosine of an angle of at most 2^20 radians in either sense; larger ones are the C library's.
 SineCosine sine_cosine(double radians) noexcept;
 
 /// The angle of (x, y) in [-pi, pi], as std::atan2 has it, signs of zeros included.

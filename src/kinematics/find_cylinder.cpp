@@ -50,8 +50,8 @@ constexpr Strictness strictly{0.10, 0.05, true};
 /// would make one cylinder of a shaft and its condyles.
 constexpr Strictness loosely{0.20, 0.15, false};
 
-/// The strict part tells the axis better, where there is one: a dome and the flanks below it are one loose cylinder. On
-/// an uneven dome it is a piece that happens to look round, whose direction (cosine of 5 degrees) or area (share) is
+/// The strict part gives the better axis, if there is one: a dome and the flanks below it are one loose cylinder. On
+/// an uneven dome it is a part that happens to look round, whose direction (cosine of 5 degrees) or area (share) is
 /// not that of the loose part.
 constexpr double agreeing_direction = 0.996, least_share = 0.4;
 
@@ -60,7 +60,7 @@ constexpr double agreeing_direction = 0.996, least_share = 0.4;
 constexpr double same_part = 0.25;
 constexpr double same_direction = 0.985;
 
-/// What a cylindrical part must have: rays spread around the axis (the smaller eigenvalue of the mean of u
+/// Requirements on a cylindrical part: rays spread around the axis (the smaller eigenvalue of the mean of u
 /// u^T across it is 1/2 for a half circle, 0.1 for an arc of 64 degrees) and a length, in radii: the strip
 /// where a sphere touches a cylinder from inside is at most 2 sqrt(2 widest_band) = 0.63 radii long, in a ball 1.1.
 constexpr double smallest_spread = 0.10;

@@ -36,8 +36,8 @@ constexpr double largest_vote = 1.0 / 12;
 /// cell numbers.
 constexpr double farthest_cell = 1e9;
 
-/// Fullest cells followed up at each radius. Two are enough for every head and socket tried, down to edges of
-/// half the radius, where normals are off by 10 degrees; the rest is margin.
+/// Fullest cells refined at each radius. Two are enough for every head and socket tried, down to edges of half the
+/// radius, where normals are off by 10 degrees; the rest is margin.
 constexpr std::size_t kept_per_radius = 4;
 
 /// A candidate this near (in radii) to a part already found would grow into the same part.
@@ -59,7 +59,7 @@ constexpr double widest_band = 0.05;
 /// Robust deviations from a socket within which a vertex belongs to it and not to its fossa's floor.
 constexpr double floor_deviations = 3;
 
-/// What a spherical part must have: a tenth of its sphere, and rays spread in all three directions. The
+/// Requirements on a spherical part: a tenth of its sphere, and rays spread in all three directions. The
 /// smallest eigenvalue of the mean of u u^T is 1/3 for a hemisphere and 0.15 for a cap of 48 degrees; for the
 /// strip where a tube touches a sphere from inside (2 sqrt(4 widest_band) radii wide) it is 4 widest_band / 3
 /// = 0.07, on coarse meshes up to 0.12.
@@ -215,7 +215,7 @@ std::vector<Index> on_sphere(const std::vector<SurfacePoint>& points, const Poin
 }
 
 /// The sphere of least squares through some of the places to a ten-thousandth of its radius, by a few Gauss-Newton steps from one
-/// that is near it: all sums of fit_sphere() in one pass, and none of its care. Empty where that is not enough.
+/// that is near it: all sums of fit_sphere() in one pass, and none of its care. Empty if that is not enough.
 std::optional<Sphere> roughly_fitted(const Points& places, const std::vector<Index>& part, Sphere sphere) {
   constexpr int most_steps = 6;
   constexpr double settled = 1e-4;
@@ -248,7 +248,7 @@ struct Part {
   SphericalPatch patch;
   double spread;  ///< smallest eigenvalue of the mean of u u^T over the area, u the unit rays
   double
-      support;  ///< area, mm^2: all of it where normals are along the rays, none where they are 30 degrees off
+      support;  ///< area, mm^2: all of it where normals are along the rays, none if they are 30 degrees off
 };
 
 Part measured(const std::vector<kinematics::SurfacePoint>& points, const std::vector<Index>& part,

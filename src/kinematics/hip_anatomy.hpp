@@ -6,7 +6,8 @@
 
 namespace condyle::kinematics {
 
-/// What two bones say of how a hip lies in the frame of its meshes, before any frame is known. Directions are unit, mm.
+/// Evidence of two bones on how a hip lies in the frame of its meshes, before any frame is known. Directions are
+/// unit, mm.
 struct HipAnatomy {
   SphericalPatch head;
   std::optional<SphericalPatch> socket;
@@ -17,7 +18,7 @@ struct HipAnatomy {
   std::optional<Vec3> opening;       ///< of the socket: to the side, down and forwards
 };
 
-/// Of a surface, by area; the origin where it has none.
+/// Centroid of a surface, by area; the origin if it has none.
 Vec3 area_centroid(const TriMesh& mesh);
 
 /// The sphere with most supporting area on the fixed body near a head; empty if there is none.
@@ -29,8 +30,8 @@ bool fits_into(const Sphere& head, const SphericalPatch& socket);
 /// The socket around a head: that sphere; empty if there is none, or if the head does not fit into it.
 std::optional<SphericalPatch> find_socket(const TriMesh& fixed, const Sphere& head);
 
-/// Of a femur whose head lies near the hip bone; empty where no head is found there. Some milliseconds per 10,000
-/// triangles.
+/// Anatomy of a femur whose head lies near the hip bone; empty if no head is found there. Some milliseconds per
+/// 10,000 triangles.
 std::optional<HipAnatomy> hip_anatomy(const TriMesh& hip_bone, const TriMesh& femur);
 
 }  // namespace condyle::kinematics

@@ -31,11 +31,11 @@ constexpr double most_in_other_axes = 0.1;
 /// head radii. In the same scans both are 5 to 60 degrees nearer to the vertical.
 constexpr double long_femur = 3.3, long_hip_bone = 5.5, end_margin_deg = 10;
 
-/// What votes for a side: the socket opens in front of the neck by 30 to 50 degrees, less in a femur that is turned
-/// inwards; the hip bone's lower part runs forwards to the pubis, deeper in front than behind. In the same scans the wrong
-/// side gets 26 degrees at most, and a correlation of 0.47 (if a cut took the pubis away).
+/// Votes for a side: the socket opens in front of the neck by 30 to 50 degrees, less in a femur that is turned
+/// inwards; the hip bone's lower part runs forwards to the pubis, deeper in front than behind. In the same scans the
+/// wrong side gets 26 degrees at most, and a correlation of 0.47 (if a cut took the pubis away).
 constexpr double neck_margin_deg = 30, hip_bone_margin = 0.5;
-/// What one piece of evidence speaks against by half its margin is not taken.
+/// A reading that one piece of evidence contradicts by half its margin is not taken.
 constexpr double contradiction = -0.5;
 
 /// From the head's centre to the pubis, in head radii: a hip bone that does not come so near the midline is cut.
@@ -108,7 +108,7 @@ double best_mean_of_all(const std::vector<Direction>& directions) {
   return best;
 }
 
-/// What speaks for or against a reading, in its margins.
+/// Evidence for or against a reading, in its margins.
 struct Evidence {
   double vote;
   std::string line;

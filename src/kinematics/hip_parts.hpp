@@ -17,7 +17,7 @@ const std::optional<SphericalPatch>& head_near_centre(const Mesh& mobile);
 /// The fullest sphere anywhere on the body.
 const std::optional<SphericalPatch>& head_anywhere(const Mesh& mobile);
 /// Keeps the head that these vertices are, which a search of the whole surface found before the mesh was placed. Does
-/// nothing where the head near the centre is known.
+/// nothing if the head near the centre is known.
 void keep_head(const Mesh& mobile, const std::vector<Index>& vertices);
 /// The head that was kept so; empty if none was.
 const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile);

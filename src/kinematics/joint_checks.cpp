@@ -18,19 +18,19 @@ namespace {
 
 using core::formatted;
 
-/// What human bones and their cartilages span, mm: as for likely_unit().
+/// Extent of human bones and their cartilages, mm: as for likely_unit().
 constexpr double shortest_bone = 20, longest_bone = 1000, mm_per_m = 1000;
 
 /// The share of the surface that may cross itself unmentioned: 5 mm by 5 on a femur. Letters engraved into a real hip
 /// bone take a twentieth of it, two overlapping pieces of bone ten times as much.
 constexpr double largest_crossing_share = 5e-4;
 
-/// Of a sphere: femoral heads have 0.7 and more, half resected ones 0.4; sockets have 0.3.
+/// Shares of a sphere: femoral heads have 0.7 and more, half resected ones 0.4; sockets have 0.3.
 constexpr double fullest_stray_sphere = 0.4, least_socket_coverage = 0.2;
-/// What is taken for a femoral head in a joint that is said to be none: condyles, tali and capitella are less of a sphere, or
+/// Least size of a femoral head in a joint declared to be none: condyles, tali and capitella are less of a sphere, or
 /// smaller.
 constexpr double least_femoral_coverage = 0.5, least_femoral_radius_mm = 15;
-/// Of a turn: a talar dome has a third.
+/// Share of a turn: a talar dome has a third.
 constexpr double least_cylinder_coverage = 0.2;
 
 /// Bounds of a good fit: a head's is 0.1 mm, a cylinder's of a whole turn less than a degree.
@@ -73,7 +73,8 @@ Vec3 open_side(const TriMesh& mesh, const SphericalPatch& patch) {
   return sum.norm() > whole * area ? sum.normalized() : Vec3(Vec3::Zero());
 }
 
-/// The sphere round the joint centre, which bearing surfaces are told by; where it is not most of a head, one anywhere.
+/// The sphere round the joint centre, from which bearing surfaces are inferred; if it is not most of a head, one
+/// anywhere.
 std::optional<SphericalPatch> head_of(const Mesh& mesh) {
   const auto& near_centre = kinematics::head_near_centre(mesh);
   if (near_centre && near_centre->coverage >= fullest_stray_sphere) return near_centre;
@@ -85,7 +86,8 @@ std::optional<SphericalPatch> head_of(const Mesh& mesh) {
 /// The head that the centre was fitted to, if it was, in M; there its centre is the origin.
 std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& placement) {
   if (!placement.sphere || placement.fitted_body != BodyRole::mobile) return head_of(joint.mobile.mesh);
-  // The placed head differs by rounding: with the very one that bearing surfaces are told by, its socket is found once.
+  // The placed head differs by rounding: with the very one from which bearing surfaces are inferred, its socket is
+  // found once.
   const auto& kept = kinematics::fitted_head(joint.mobile.mesh);
   if (kept && kept->fit.vertices == placement.sphere->fit.vertices) return kept;
   SphericalPatch head = *placement.sphere;
@@ -93,7 +95,7 @@ std::optional<SphericalPatch> head_of(const Joint& joint, const JointPlacement& 
   return head;
 }
 
-/// False where the size is no bone's: what is searched for in mm is then not found.
+/// False if the size is no bone's: what is searched for in mm is then not found.
 bool check_size(const Body& body, Notes& notes) {
   const double size = mesh::bounds_of_surface(body.mesh).diagonal();
   if (size >= shortest_bone && size <= longest_bone) return true;
@@ -193,7 +195,7 @@ struct Evidence {
   double medial, anterior, superior;
 };
 
-/// Of the hip bone: its mass is up, inwards and a little behind, its socket opens the other way.
+/// Evidence of the hip bone: its mass is up, inwards and a little behind, its socket opens in the opposite direction.
 Evidence of_hip_bone(const Vec3& mass, const Vec3& opening, double rightwards) {
   const Vec3 both = (mass.normalized() - opening) / 2;
   return {-rightwards * both.z(), -both.x(), both.y()};

@@ -55,7 +55,7 @@ Angle in_sense(double sense, Angle angle) noexcept {
   return angle.radians() == std::numbers::pi ? angle : angle * sense;
 }
 
-/// Of R_z R_x R_y.
+/// Angles of R_z R_x R_y.
 JointAngles angles_about_zxy(const Rotations& sense, const Eigen::Matrix4d& R) noexcept {
   // Column 1 is (-sf ca, cf ca, sa) and row 2 is (-ca sr, sa, ca cr). With f known, row 0 of
   // R_z(-f) R = R_x(a) R_y(r) is (cr, 0, sr): well conditioned even where f itself is not, so that the three always
@@ -71,7 +71,7 @@ JointAngles angles_about_zxy(const Rotations& sense, const Eigen::Matrix4d& R) n
   return {in_sense(sense.e1, flexion), adduction * sense.e2, in_sense(sense.e3, rotation)};
 }
 
-/// Of R_y R_x R_y, the second angle 0 or more.
+/// Angles of R_y R_x R_y, the second angle 0 or more.
 JointAngles angles_about_yxy(const Rotations& sense, const Eigen::Matrix4d& R) noexcept {
   // Column 1 is (sp se, ce, cp se), se of the sense of e2. With p known, row 0 of R_y(-p) R = R_x(e) R_y(i) is
   // (ci, 0, si), well conditioned wherever p is not.

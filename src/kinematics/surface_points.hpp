@@ -5,7 +5,7 @@
 
 #include "condyle/fit.hpp"
 
-/// What the searches for spherical and cylindrical parts read of a mesh: its vertices with normals and areas.
+/// Data that the searches for spherical and cylindrical parts read from a mesh: its vertices with normals and areas.
 
 namespace condyle::kinematics {
 
@@ -45,7 +45,7 @@ class PointNeighbours {
 std::vector<Index> vertices_of(const std::vector<SurfacePoint>& points, const std::vector<Index>& chosen);
 
 /// The spherical part that these vertices are, ascending, as find_sphere() gives it once it has chosen them. Throws MeshError
-/// where no sphere fits them.
+/// if no sphere fits them.
 SphericalPatch patch_of(const TriMesh& mesh, const std::vector<Index>& vertices);
 
 /// 1.4826 times the median magnitude: the standard deviation of a normal distribution, given by the better

@@ -10,8 +10,8 @@ namespace condyle::mesh {
 /// mesh without one bounds a solid in the sense of the winding number: rays cross it as often inwards as
 /// outwards. This asks less than being a closed manifold, and exactly as much as a winding number needs.
 ///
-/// What `Mesh` asks where it is made: everybody else asks the Mesh. Decides as EdgeTable does, without
-/// building one for a closed mesh.
+/// `Mesh` calls this in its constructor: all other code queries the Mesh. Decides as EdgeTable does, without building
+/// one for a closed mesh.
 ///
 /// Vertices are fewer than 2^31. Linear in the number of triangles for a closed mesh; n log n otherwise.
 std::optional<DirectedEdge> first_unbalanced_edge(const TriMesh& mesh);

@@ -17,7 +17,7 @@ using HalfEdge = Index;
 /// components; a triangle whose three corners are one vertex is a component of its own.
 struct ConnectedComponents {
   std::vector<Index> of_triangle;     ///< Number of its component.
-  std::vector<Index> first_triangle;  ///< Of each component; ascending.
+  std::vector<Index> first_triangle;  ///< One for each component; ascending.
 };
 
 /// The edges of a mesh: every pair of vertices that a triangle's side joins, and the half-edges along it.
@@ -45,7 +45,7 @@ class EdgeTable {
   /// The edge on which a half-edge lies; no_index for a side from a vertex to itself.
   Index edge_of(HalfEdge h) const noexcept { return edge_of_[h]; }
 
-  /// Uses from the smaller to the larger vertex, less those in the opposite direction: 0 where it is balanced.
+  /// Uses from the smaller to the larger vertex, less those in the opposite direction: 0 if it is balanced.
   int balance(const TriMesh& mesh, std::size_t edge) const noexcept;
   /// The first directed edge, in the order of triangles and within one of vertices, that is used more often
   /// than its opposite; none in a closed mesh.

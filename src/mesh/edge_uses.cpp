@@ -13,9 +13,8 @@ namespace {
 /// A slot without a use, and what stands for an edge from a vertex to itself.
 constexpr EdgeUse no_use = 0;
 
-/// Slots in which uses wait for opposite ones. A use goes to one slot, which the edge tells: there it cancels
-/// its opposite, or drives out what waits, to be gone through again. What is driven out without need costs
-/// time, never the answer.
+/// Slots in which uses wait for opposite ones. The edge determines a use's slot: there it cancels its opposite, or
+/// drives out the waiting use, to be gone through again. A use driven out without need costs time, never the answer.
 class EdgeSlots {
  public:
   explicit EdgeSlots(std::size_t count) : slot_(count, no_use) {}
@@ -139,7 +138,7 @@ core::UninitialisedVector<EdgeUse> first_pass(std::span<const Triangle> triangle
   std::size_t first = 0;
   for (; first + UseBatch::triangles <= triangles.size(); first += UseBatch::triangles)
     take_batch(triangles.data() + first);
-  // What is beyond the last triangle has no edges.
+  // Lanes beyond the last triangle have no edges.
   std::array<Triangle, UseBatch::triangles> last{};
   std::copy(triangles.begin() + static_cast<std::ptrdiff_t>(first), triangles.end(), last.begin());
   take_batch(last.data());
@@ -148,8 +147,8 @@ core::UninitialisedVector<EdgeUse> first_pass(std::span<const Triangle> triangle
   return left;
 }
 
-/// Goes through uses once more, with about as many slots as there are uses, told by the upper bits of a
-/// product with `odd`.
+/// Goes through uses once more, with about as many slots as there are uses, selected by the upper bits of a product
+/// with `odd`.
 void cancel_again(core::UninitialisedVector<EdgeUse>& uses, std::uint64_t odd) {
   const auto slots_log2 = static_cast<unsigned>(std::bit_width(uses.size()));
   EdgeSlots slots(std::size_t{1} << slots_log2);

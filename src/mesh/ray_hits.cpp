@@ -68,7 +68,7 @@ HWY_INLINE unsigned bits_of(Tag tag, hn::Mask<Tag> mask) {
 class PlacedRay {
  public:
   PlacedRay() = default;
-  /// Of the target, `size` is the largest coordinate.
+  /// `size` is the largest coordinate of the target.
   PlacedRay(const Pose& X, const Ray& ray, double reach, float size)
       : origin_(posed(X, ray.origin)), direction_(core::turned(X, ray.direction)), distance_(reach) {
     Eigen::Index steepest;
@@ -183,8 +183,8 @@ class PlacedRay {
   float slack_;  ///< more than rounding moves rays and distances by, mm
 };
 
-/// What holds some rays up to their ends: slabs along the axes of the target, along the rays and across them. A box beyond one
-/// of the slabs is met by no ray.
+/// Bounds of some rays up to their ends: slabs along the axes of the target, along the rays and across them. No ray
+/// meets a box beyond one of the slabs.
 class Hull {
  public:
   explicit Hull(std::span<const PlacedRay> rays) {
@@ -234,7 +234,7 @@ class Hull {
         }
         apart = hn::Max(apart, hn::Sub(hn::Abs(at), wide));
       }
-      // What is not a number may be met.
+      // A NaN may be met.
       met |= bits_of(f, hn::Not(hn::Gt(apart, hn::Zero(f)))) << i;
     }
     return met & boxes.used;

@@ -58,8 +58,8 @@ class RayTarget {
 
 /// The first triangle along each ray, within a reach.
 struct RayHits {
-  std::vector<double> distance;  ///< mm, >= 0; infinite where nothing is met
-  std::vector<Index> triangle;   ///< of the target's mesh; no_index where nothing is met
+  std::vector<double> distance;  ///< mm, >= 0; infinite if nothing is met
+  std::vector<Index> triangle;   ///< of the target's mesh; no_index if nothing is met
 
   bool is_hit(std::size_t ray) const noexcept { return triangle[ray] != no_index; }
 

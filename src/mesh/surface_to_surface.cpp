@@ -64,7 +64,8 @@ struct PlacedTriangle {
     low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
   }
 
-  /// No point of the other triangle is nearer to the box. Of two that face each other a little apart balls tell nothing.
+  /// No point of the other triangle is nearer to the box. Bounding balls cannot separate two triangles that face each
+  /// other at a small distance.
   double distance_to(const TriangleCorners& other) noexcept {
     make_box();
     Vec3 other_low, other_high;
@@ -119,7 +120,7 @@ class Search {
 
   static Vec3 vec3(const std::array<float, 4>& v) noexcept { return {v[0], v[1], v[2]}; }
 
-  /// Of the boxes, B's seen along the axes of A.
+  /// Distance of the boxes, B's seen along the axes of A.
   double apart(const Node& na, const Node& nb) const noexcept {
     const Vec3 centre = posed(X_AB_, vec3(nb.centre));
     const Vec3 half = to_a_size_ * vec3(nb.half);
@@ -128,7 +129,8 @@ class Search {
     return between.cwiseMax(0.0).norm() * (1 - rounding) - rounding * scale;
   }
 
-  /// Of the shells about both origins: a head and its socket lie apart by them near the roots of their trees.
+  /// Distance of the shells about both origins: a head and its socket lie apart by them near the roots of their
+  /// trees.
   double shells_apart(const Node& na, const Node& nb) const noexcept {
     const double between =
         std::max(double{na.nearest} - double{nb.farthest}, double{nb.nearest} - double{na.farthest});
@@ -179,8 +181,8 @@ class Search {
   const Pose& X_AB_;
   Eigen::Matrix3d to_a_size_;
   double origins_apart_;
-  /// Of distances from B's origin where the pose is not quite a rotation: |R p|^2 is |p|^2 and p.(R^T R - 1)p, at most three times
-  /// the largest entry.
+  /// Scale of distances from B's origin if the pose is not quite a rotation: |R p|^2 is |p|^2 and p.(R^T R - 1)p, at
+  /// most three times the largest entry.
   double stretch_;
   std::vector<Pair> open_;
   Index leaf_a_ = no_index;

@@ -16,11 +16,11 @@ struct NearestPoints {
 /// The foot of p where it is inside the triangle, else the nearest point of an edge.
 Vec3 nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& triangle) noexcept;
 
-/// Of the segments a b and c d. The nearest pair either lies inside both lines, where the connecting line is at a
-/// right angle to both, or holds an end.
+/// Nearest points of the segments a b and c d. The nearest pair either lies inside both lines, where the connecting
+/// line is at a right angle to both, or holds an end.
 NearestPoints between_segments(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) noexcept;
 
-/// Of two triangles that do not intersect.
+/// Nearest points of two triangles that do not intersect.
 NearestPoints between_triangles(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) noexcept;
 
 }  // namespace condyle::mesh

@@ -86,7 +86,7 @@ std::vector<KeyedTriangle> in_order_of_the_curve(const TriMesh& mesh) {
   return items;
 }
 
-/// What a node must hold, still in double.
+/// Bounds of a node, still in double.
 struct Extent {
   Vec3 low = Vec3::Constant(infinity), high = -low;
   double squared_nearest = infinity, squared_farthest = 0;

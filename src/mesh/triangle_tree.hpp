@@ -27,7 +27,7 @@ class TriangleTree {
   /// One cache line. Single precision, rounded outwards: a node never holds less than its triangles, at worst
   /// (coordinates beyond single precision) everything.
   struct alignas(64) Node {
-    std::array<float, 4> centre, half;  ///< Of the box; the fourth is 0.
+    std::array<float, 4> centre, half;  ///< The box; the fourth is 0.
     float nearest, farthest;            ///< From the origin, bounds on every point of its triangles.
     Index first, last;                  ///< Places of its triangles.
     Index child;                        ///< 0 for a leaf.

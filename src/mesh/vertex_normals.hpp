@@ -4,8 +4,8 @@
 
 namespace condyle::mesh {
 
-/// Of each vertex twice the sum of the area vectors of its triangles: outwards, longer the more surface there is around
-/// it; zero where no triangle uses it.
+/// For each vertex twice the sum of the area vectors of its triangles: outwards, longer the more surface there is
+/// around it; zero if no triangle uses it.
 inline Points area_normals(const TriMesh& mesh) {
   Points normals(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

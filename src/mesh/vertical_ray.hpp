@@ -23,7 +23,7 @@ inline core::Sign side_of_shifted(const Vec3& a, const Vec3& b, const Vec3& p) n
 }
 
 /// +1 where the vertical line through the shifted point crosses the triangle and its normal points up, -1
-/// where down, 0 where they do not meet.
+/// where down, 0 if they do not meet.
 inline int vertical_crossing(const TriangleCorners& t, const Vec3& p) noexcept {
   const core::Sign first = side_of_shifted(t[0], t[1], p);
   if (first == core::Sign::zero || side_of_shifted(t[1], t[2], p) != first ||

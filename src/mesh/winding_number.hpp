@@ -32,7 +32,7 @@ struct PointWinding {
 /// never decrease along x and y; long thin slanting triangles are listed in more cells than they cross.
 class WindingNumber {
  public:
-  /// MeshError where the mesh is not closed, naming an edge: without an inside there is no answer.
+  /// MeshError if the mesh is not closed, naming an edge: without an inside there is no answer.
   explicit WindingNumber(Mesh mesh);
 
   PointWinding at(const Vec3& p) const noexcept;

@@ -13,7 +13,7 @@
 
 namespace condyle::radial {
 
-/// What a RadialTable holds; its functions are those of RadialTable.
+/// Data of a RadialTable; its functions are those of RadialTable.
 class DirectionTable {
  public:
   DirectionTable(Mesh mesh, const RadialOptions& options);
@@ -36,7 +36,7 @@ class DirectionTable {
   RadialTableSize table_size() const noexcept;
 
  private:
-  /// What penetrations() reads and query() does not.
+  /// Parts that penetrations() reads and query() does not.
   struct RejectionParts {
     CellRadii radii;
     DirectionPyramid pyramid;

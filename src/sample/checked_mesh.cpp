@@ -10,7 +10,7 @@
 namespace condyle::sample {
 namespace {
 
-/// What is wrong with a mesh, if anything.
+/// The fault of a mesh, if any.
 std::optional<std::string> defect(const TriMesh& mesh, int wanted_genus) {
   if (const int found = genus(mesh); found != wanted_genus) {
     return fmt::format("has {} holes through it, not {}", found, wanted_genus);

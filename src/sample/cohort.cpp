@@ -28,7 +28,7 @@ constexpr MeasureDistribution distributions[] = {
     {"lateral_centre_edge_angle_deg", "deg", 33, 6, 18, 44},
 };
 
-/// What a neck can be long, whatever the head; HipParameters.
+/// Bounds of a neck's length, whatever the head; HipParameters.
 constexpr double shortest_neck_mm = 40, longest_neck_mm = 65;
 /// The least alpha angle of a cam, degrees; HipParameters.
 constexpr double least_cam_deg = 50;

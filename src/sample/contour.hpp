@@ -10,7 +10,7 @@ namespace condyle::sample {
 ///
 /// Marching tetrahedra: every lattice cube is cut into the six tetrahedra about its long diagonal, and a
 /// tetrahedron has no ambiguous case, so the result is always closed and manifold. Its triangles are badly
-/// shaped; they are a start for remeshing. Details thinner than `spacing` may be lost. Raises MeshError where
+/// shaped; they are a start for remeshing. Details thinner than `spacing` may be lost. Raises MeshError if
 /// the surface leaves the solid's box.
 TriMesh contoured(const Solid& solid, double spacing);
 

@@ -27,7 +27,7 @@ Vec3 cam_direction(const FemurAxes& axes) noexcept;
 
 /// The alpha angle at the cam's clock position that head and neck make without a cam. Alpha (Noetzli et al.,
 /// J Bone Joint Surg Br 2002) is the angle between the neck's axis and the line from the head's centre to
-/// where the contour, followed from the head towards the neck, leaves the head's circle: where it is half a
+/// where the contour, traced from the head towards the neck, leaves the head's circle: where it is half a
 /// per cent of the head's radius outside (`cam_departure`). He measured it in the oblique axial plane, at 3
 /// o'clock; here it is measured in the plane of cam_direction().
 Angle native_alpha_angle(const HipParameters&);

@@ -86,7 +86,7 @@ struct HipBonePieces {
 
   FieldValue operator()(const Vec3& p) const noexcept {
     const Vec3 nominal = p / scale;
-    // What is larger than the rest by the width of the seam has no part in it.
+    // A part larger than the rest by the width of the seam has no influence on it.
     constexpr double ring_seam = 10, tip_seam = 8;
     FieldValue bone = ring(nominal);
     bone = joined(ilium_sheet.up_to(bone.value + ring_seam, nominal), bone, ring_seam);

@@ -17,7 +17,7 @@ struct Laid {
 ///
 /// Newton's step -f g / |g|^2 halves or better from anywhere near a surface whose field grows by about one
 /// per millimetre; steps are limited so that a point in a thin plate is not thrown across it. Where a crease
-/// makes the steps alternate, the sign change they found is bisected. Raises MeshError where neither arrives,
+/// makes the steps alternate, the sign change they found is bisected. Raises MeshError if neither arrives,
 /// which means that the point was not near the surface.
 Laid laid_on(const Field& solid, const Vec3& p);
 

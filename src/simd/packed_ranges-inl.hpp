@@ -21,8 +21,8 @@ HWY_INLINE hwy::HWY_NAMESPACE::Vec<Tag> range_excess(Tag tag, hwy::HWY_NAMESPACE
 #if HWY_TARGET == HWY_SCALAR
   return hn::Set(tag, holds(hn::GetLane(ranges), hn::GetLane(points)) ? 0u : 1u);
 #elif HWY_TARGET == HWY_EMU128
-  // The emulation takes vectors of bytes apart. As words, the topmost bit of each byte of `least` tells whether the other seven
-  // of the point are no less than the range's: nothing is borrowed from the next byte.
+  // The emulation takes vectors of bytes apart. As words, the topmost bit of each byte of `least` shows whether the
+  // other seven of the point are no less than the range's: nothing is borrowed from the next byte.
   const auto top = hn::Set(tag, 0x80808080u);
   const auto least = hn::Sub(hn::Or(points, top), hn::AndNot(top, ranges));
   const auto holding = hn::Or(hn::AndNot(ranges, points), hn::AndNot(hn::Xor(points, ranges), least));

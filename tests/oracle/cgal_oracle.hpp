@@ -33,7 +33,7 @@ class CgalOracle {
   /// Smallest distance from a point to the surface, mm.
   double min_distance(PointsView points) const;
 
-  /// Smallest distance of the two surfaces, mm; 0 where they meet.
+  /// Smallest distance of the two surfaces, mm; 0 if they meet.
   double surface_distance(const TriMesh& other) const;
 
   /// From each point to the surface, mm.

@@ -117,7 +117,7 @@ std::array<Exact3, 3> exact_corners(const Grid& grid, const TriMesh& mesh, std::
   return {grid.exact(mesh.corner(t, 0)), grid.exact(mesh.corner(t, 1)), grid.exact(mesh.corner(t, 2))};
 }
 
-/// Signed crossings of the ray from p along d; empty where it meets an edge or a vertex.
+/// Signed crossings of the ray from p along d; empty if it meets an edge or a vertex.
 std::optional<int> crossings(const std::vector<std::array<Exact3, 3>>& triangles, const Exact3& p,
                              const Exact3& d) {
   int sum = 0;

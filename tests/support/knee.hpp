@@ -34,7 +34,7 @@ struct Knee {
   double published(const std::string& contact, std::size_t frame, const std::string& name) const;
 };
 
-/// None where the shared data is missing.
+/// None if the shared data is missing.
 std::optional<Knee> shared_knee();
 
 }  // namespace condyle::test

@@ -7,7 +7,7 @@
 
 namespace condyle::test {
 
-/// The right hip of the shared data, about the centre of its head; nothing where that is missing.
+/// The right hip of the shared data, about the centre of its head; nothing if that is missing.
 inline std::optional<Joint> hip_vhf_right() {
   const auto data = shared_data();
   if (!data) return std::nullopt;

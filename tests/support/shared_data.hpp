@@ -12,7 +12,7 @@ namespace condyle::test {
 /// Where real joints are looked for: $CONDYLE_DATA, or shared/data beside the repository.
 std::filesystem::path shared_data_folder();
 
-/// That folder. None where it is missing; the test then skips with a message.
+/// That folder. None if it is missing; the test then skips with a message.
 std::optional<std::filesystem::path> shared_data();
 
 /// Binary little-endian PLY with float vertices x, y, z and faces `list uchar int` of three: what the data

@@ -73,6 +73,6 @@ int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* sta
 int condyle_free_angles(CondyleJoint* joint, int vary, const double* start_deg, const double* held_mm,
                         double back_deg, double forth_deg);
 const double* condyle_intervals(const CondyleJoint* joint);
-/// How many triangles of the mobile body are its bearing surface, each marked 1 in `triangles`; 0 where none was found.
+/// How many triangles of the mobile body are its bearing surface, each marked 1 in `triangles`; 0 if none was found.
 int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles);
 }

@@ -53,7 +53,7 @@ struct CondyleJoint {
   std::vector<double> intervals = {};
   std::optional<condyle::mesh::SurfaceDistance> to_fixed = {}, to_mobile = {};
   PagePressure pressure = {};
-  PageProposal proposal = {};  ///< empty where the joint was given
+  PageProposal proposal = {};  ///< empty if the joint was given
   std::string description = {};
 };
 

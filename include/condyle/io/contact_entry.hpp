@@ -54,7 +54,7 @@ ContactSurfaces surfaces_of(const ContactEntry& entry, const Joint& joint);
 
 /// The options of an elastic contact of these surfaces, thicknesses measured or read. FileError for a mesh or a file of
 /// thicknesses that cannot be read or has not one for each vertex,
-/// MeshError where a vertex of a layer has nothing behind it within the reach and the entry gives no thickness for that.
+/// MeshError if a vertex of a layer has nothing behind it within the reach and the entry gives no thickness for that.
 ElasticContactOptions elastic_options(const ContactEntry& entry, const ContactSurfaces& surfaces,
                                       const LoadedJoint& joint);
 

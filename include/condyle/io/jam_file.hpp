@@ -58,7 +58,7 @@ struct JamCoordinate {
 /// Writes `/time`, the value of each coordinate and, for each contact and each of its two meshes, the datasets of
 /// `/model/forceset/Smith2018ArticularContactForce/CONTACT/MESH`; which: docs/motion-files.md. The same input gives the same
 /// bytes. The file appears whole or not at all.
-/// Raises FileError where it cannot be written, and for names that the scripts could not read: each is a letter and then
+/// Raises FileError if it cannot be written, and for names that the scripts could not read: each is a letter and then
 /// up to 62 letters, digits and _, contacts and coordinates have different names and so have the two meshes of a contact.
 void write_jam_file(const std::filesystem::path& path, std::span<const double> times_s,
                     std::span<const JamContact> contacts, std::span<const JamCoordinate> coordinates = {});

@@ -21,7 +21,7 @@ namespace condyle {
 
 /// One mesh of a body.
 struct MeshEntry {
-  std::string part;            ///< its name among several; empty where it is the only one
+  std::string part;            ///< its name among several; empty if it is the only one
   std::filesystem::path mesh;  ///< found from the joint file's folder
   std::vector<Repair> repairs;
   bool is_bearing = false;  ///< one of several of the mobile body that slides on the fixed one
@@ -77,7 +77,7 @@ struct LoadedJoint {
 };
 
 /// Reads a joint file and its meshes, and makes the joint: docs/joint-frame.md, "Placement", and make_joint().
-/// Throws FileError, and MeshError where a fit finds nothing or a repair cannot be made.
+/// Throws FileError, and MeshError if a fit finds nothing or a repair cannot be made.
 LoadedJoint read_joint(const std::filesystem::path& path);
 
 }  // namespace condyle

@@ -15,7 +15,7 @@ struct MotionTable {
   std::filesystem::path path;        ///< as given, for messages
   std::vector<std::string> columns;  ///< one name each, no two the same; the column of times is among them
   std::size_t rows = 0;              ///< at least one
-  /// One vector of `rows` numbers per column. NaN where the file has a gap (`nan`, an empty CSV cell), never inf.
+  /// One vector of `rows` numbers per column. NaN if the file has a gap (`nan`, an empty CSV cell), never inf.
   std::vector<std::vector<double>> values;
   std::vector<std::size_t> line_of_row;  ///< line of the file, from 1, for messages
   /// Value of `inDegrees=` in an OpenSim header, which applies to angles; empty if the header has none.

@@ -29,7 +29,7 @@ struct JointProposal {
 /// inferred among the frames in use: RAS, LPS, and X anterior, Y superior, Z right. Where femur, neck, hip bone and the
 /// socket's opening lie about the head votes for up and outwards, and so do the far ends of whole bones; the neck's angle
 /// in the socket and the hip bone's shape vote for the side. What the votes do not settle, or settle against the given
-/// side, is left to fill in; nothing is guessed. Throws FileError where a mesh cannot be read.
+/// side, is left to fill in; nothing is guessed. Throws FileError if a mesh cannot be read.
 JointProposal propose_joint(const ProposalRequest& request);
 
 }  // namespace condyle

@@ -43,7 +43,7 @@ using RecordedMotionMapping = std::variant<std::vector<ColumnOfCoordinate>, Colu
 struct NamedCoordinates {
   FrameTimes times;
   std::vector<std::string> names;
-  /// Per frame one value for each name, in degrees or mm; nothing where one of their columns has a gap.
+  /// Per frame one value for each name, in degrees or mm; nothing if one of their columns has a gap.
   std::vector<std::optional<std::vector<double>>> frames;
   std::vector<std::string> processing;  ///< of the table and of this reading
 };
@@ -56,7 +56,7 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
 /// Poses of every frame.
 struct RecordedPoses {
   FrameTimes times;
-  /// X_FM = X_LF^-1 X_LM of the bodies' own frames, translation in mm; nothing where one of the 32 cells is a gap.
+  /// X_FM = X_LF^-1 X_LM of the bodies' own frames, translation in mm; nothing if one of the 32 cells is a gap.
   std::vector<std::optional<Pose>> X_FM;
   std::vector<std::string> processing;  ///< of the table and of this reading
 };

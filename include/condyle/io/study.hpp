@@ -113,13 +113,13 @@ struct StudyDone {
 /// folder at a time.
 ///
 /// Throws FileError for a table that cannot be read and a folder that cannot be written; UsageError for options that do not
-/// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty where it was stopped: nothing is written.
+/// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: nothing is written.
 std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
 
 /// Throws where no joint was answered, which is no result: the error of the first failure, naming `table`.
 void require_answered(const StudyDone& done, const std::filesystem::path& table);
 
-/// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError where
+/// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError if
 /// a shard is missing, or is of another table, other options or another version than the first, or was changed. Reads all tables
 /// into memory.
 StudyDone merge_study(const std::filesystem::path& folder);

@@ -21,7 +21,7 @@ struct Failure {
   std::string message;  ///< one line, whatever a file or its name holds
 };
 
-/// Of the exception that is being handled.
+/// Failure for the exception that is being handled.
 Failure failure_of_current_exception();
 
 /// With a blank in the place of what a terminal would obey: plain_text().

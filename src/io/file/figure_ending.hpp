@@ -4,7 +4,7 @@
 
 namespace condyle::io {
 
-/// Of the formats that condyle.plot draws in, with the point.
+/// Whether this is an extension, with its point, of a format that condyle.plot draws in.
 inline bool is_figure_ending(std::string_view ending) noexcept {
   return ending == ".pdf" || ending == ".svg" || ending == ".png";
 }

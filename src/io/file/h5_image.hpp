@@ -11,7 +11,7 @@
 
 namespace condyle::io {
 
-/// HDF5 prints its errors unless it is told not to.
+/// HDF5 prints its errors unless this suppresses them.
 class H5Silence {
  public:
   H5Silence();

@@ -6,7 +6,7 @@
 
 namespace condyle::io {
 
-/// Throws FileError where write_output_file() could not put a file there, or where it would take the place of one of those
+/// Throws FileError if write_output_file() could not put a file there, or where it would take the place of one of those
 /// that were `read`: to be called before long work. Leaves nothing.
 void check_output_file(const std::filesystem::path& path, std::span<const std::filesystem::path> read = {});
 

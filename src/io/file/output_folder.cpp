@@ -30,7 +30,7 @@ fs::path without_last_slash(const fs::path& folder) {
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-/// What there is of the command in the folder, where there is a folder.
+/// The command's files in the folder; none if there is no folder.
 std::vector<fs::path> files_of_command(const fs::path& folder, const OutputFolder::OfCommand& of_command) {
   std::vector<fs::path> files;
   std::error_code error;
@@ -79,8 +79,8 @@ std::vector<fs::path> OutputFolder::left_by_earlier_runs() const {
 }
 
 std::vector<fs::path> OutputFolder::commit() {
-  // What would stop a move is looked for before the first one, and all memory is taken: nothing then stops between two moves
-  // but the file system.
+  // Checks before the first move everything that would stop one, and allocates all memory: between two moves only the
+  // file system can then fail.
   std::vector<fs::path> from, to;
   for (const fs::path& name : names_) {
     from.push_back(aside_->path() / name);

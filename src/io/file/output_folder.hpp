@@ -27,9 +27,9 @@ class OutputFolder {
   using OfCommand = std::function<bool(std::string_view name)>;
 
   explicit OutputFolder(const std::filesystem::path& folder);
-  /// What an earlier run of the command left and this one does not write goes at commit(): no file of another question
-  /// stays beside those of this one. Every name that file() is asked for must be of the command. Refused is a folder where one of
-  /// those that were `read` has a name of the command, directly or by a link: it would be replaced or go.
+  /// commit() removes files that an earlier run of the command left and this one does not write: no file of another
+  /// query stays beside those of this one. Every name passed to file() must be of the command. Refuses a folder in
+  /// which one of the files `read` has a name of the command, directly or by a link: it would be replaced or removed.
   OutputFolder(const std::filesystem::path& folder, OfCommand of_command,
                std::span<const std::filesystem::path> read = {});
   ~OutputFolder();

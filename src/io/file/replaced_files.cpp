@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a name leads to, whatever its other names.
+/// Identity of the file that a name leads to, whatever its other names.
 using FileId = std::pair<dev_t, ino_t>;
 
 std::optional<FileId> id_of(const fs::path& path) noexcept {

@@ -10,7 +10,7 @@ namespace condyle::io {
 void check_replaces_none(std::span<const std::filesystem::path> written,
                          std::span<const std::filesystem::path> read);
 
-/// What lies under a name that a result is to have.
+/// Kind of the file that already has a result's name.
 enum class NameTaken {
   replaceable,  ///< nothing, a regular file, or a link to one or to nothing
   folder,

@@ -12,8 +12,8 @@ void check_is_file(const std::filesystem::path& path);
 /// The bytes of a regular file. Raises FileError for a file that is missing, a folder, or cannot be read.
 std::string read_whole_file(const std::filesystem::path& path);
 
-/// The file that a name leads to, the name itself where it is no link or leads to nothing. Raises FileError for a link that
-/// cannot be followed.
+/// The file that a name leads to, the name itself if it is no link or leads to nothing. Raises FileError for a link
+/// that cannot be resolved.
 std::filesystem::path end_of_links(const std::filesystem::path& path);
 
 /// Puts bytes under a name: whole, or not at all. They are written beside it under a temporary name, which

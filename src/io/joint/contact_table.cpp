@@ -91,7 +91,8 @@ ContactEntry contact_entry(TomlTable& table, double mm_per_unit, const std::file
 
 namespace {
 
-/// Of each vertex of a body's mesh, to the mesh behind it, which is brought into the joint as the body's own mesh was.
+/// Distance from each vertex of a body's mesh to the mesh behind it, which is brought into the joint as the body's
+/// own mesh was.
 std::vector<double> measured(const Body& layer, const LayerEntry& entry, const MeshOrigin& origin,
                              double reach) {
   TriMesh bone = read_mesh(*entry.behind).mesh;

@@ -219,7 +219,7 @@ std::string hinge_text(const JointDescription& joint) {
   return fmt::format("a hinge rotates in {} only", name_of(JointAngle::flexion, joint.anatomy));
 }
 
-/// What the file says, else what its frame is of.
+/// The file's entry, else the anatomy of its frame.
 Anatomy anatomy_of(io::TomlTable& file, const JointDescription& joint) {
   if (!file.has("joint")) {
     if (joint.kind == JointKind::free)

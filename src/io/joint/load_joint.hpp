@@ -4,7 +4,7 @@
 
 namespace condyle::io {
 
-/// What read_joint() does once the joint file is read. `file.path` is what messages name.
+/// The part of read_joint() after the joint file is read. Messages name `file.path`.
 LoadedJoint load_joint(JointFile file);
 
 }  // namespace condyle::io

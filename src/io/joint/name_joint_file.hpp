@@ -7,8 +7,8 @@
 
 namespace condyle::io {
 
-/// What `answer` gives for a joint that was read. The library's errors name bodies, which many files may have: a MeshError of
-/// `answer` leaves with `place` before it, the joint file or the line of a table.
+/// Result of `answer` for a joint that was read. The library's errors name bodies, which many files may have: a
+/// MeshError of `answer` leaves with `place` before it, the joint file or the line of a table.
 template <class Answer>
 auto name_joint_file(const std::string& place, const Answer& answer) {
   try {

@@ -12,7 +12,7 @@ inline constexpr double largest_skew = 1e-6;
 struct PoseOfRows {
   Pose X;
   double
-      skew;  ///< largest entry of R^T R - 1 where the nearest rotation is given instead; 0 where none was needed
+      skew;  ///< largest entry of R^T R - 1 where the nearest rotation is given instead; 0 if none was needed
 };
 
 /// A pose from its matrix row by row, finite numbers; its rotation as it is, or where it is none to rounding the nearest

@@ -16,7 +16,7 @@ struct CoordinateName {
   CoordinateKind kind = CoordinateKind::angle;
 };
 
-/// What a joint has: angles by their positive names, and of a free joint x, y and z.
+/// Names of a joint's coordinates: angles by their positive names, and for a free joint x, y and z.
 std::vector<CoordinateName> coordinate_names_of(JointKind kind, Anatomy joint);
 
 /// The table [recorded_motion] of a joint file, whose keys are docs/motion-files.md: either columns of coordinates, of

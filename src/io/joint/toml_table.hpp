@@ -32,7 +32,7 @@ class TomlTable {
   /// A key that must be there is not; names one that was most likely meant to be it, and says what it is needed for.
   [[noreturn]] void fail_missing(std::string_view key, std::string_view needed_for = {}) const;
 
-  /// The key's value, or nothing where it is not there. A wrong type fails.
+  /// The key's value, or nothing if it is not there. A wrong type fails.
   std::optional<std::string> text(std::string_view key);
   std::optional<double> number(std::string_view key);
   std::optional<long long> integer(std::string_view key);
@@ -43,7 +43,7 @@ class TomlTable {
   bool is_list(std::string_view key) const;
   std::optional<std::vector<std::string>> texts(std::string_view key);
   std::optional<TomlTable> table(std::string_view key);
-  /// Tables written as [[key]], in their order; none where the key is not there.
+  /// Tables written as [[key]], in their order; none if the key is not there.
   std::vector<TomlTable> tables(std::string_view key);
 
   /// The same, where the key must be there.

@@ -20,7 +20,7 @@
 #include "condyle/mesh.hpp"
 #include "io/file/in_quotes.hpp"
 
-/// What the mesh readers have in common. They are our own, every format: VTK's drop digits of a double (STL,
+/// Common parts of the mesh readers. They are our own, every format: VTK's drop digits of a double (STL,
 /// OBJ, PLY readers keep floats), merge with tolerances, read past a truncation and print, and believe any
 /// count a header gives. Here no byte is read past the end, no memory is allocated before the bytes that
 /// justify it are known to be there, and the first bad element has a name.

@@ -56,7 +56,7 @@ std::size_t size_of(Type type) {
 struct Property {
   std::string name;
   Type type;
-  std::optional<Type> count_type;  ///< Of a list: how its length is given.
+  std::optional<Type> count_type;  ///< Type of a list's length.
 };
 
 struct Element {

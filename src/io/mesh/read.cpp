@@ -33,7 +33,7 @@ RawMesh read_raw(const Source& source, MeshFormat format) {
   return io::read_legacy_vtk(source);
 }
 
-/// What TriMesh promises, held against the file; this is the one place where it is.
+/// Checks everything that TriMesh promises against the file; the only place that does.
 TriMesh checked(RawMesh&& raw, const Source& source) {
   const auto count = raw.vertices.size();
   if (count == 0) source.fail("holds no vertices");

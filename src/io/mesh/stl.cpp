@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::size_t header_size = 80, count_size = 4;
 constexpr std::size_t normal_size = 12,
-                      triangle_size = 50;  // normal, three corners of three floats, two spare bytes
+                      triangle_size = 50;  // normal, three corners of three floats, two unused bytes
 
-/// How many triangles a binary file announces; 0 where it is too short to announce any.
+/// How many triangles a binary file announces; 0 if it is too short to announce any.
 std::uint32_t announced_triangles(const Source& source) {
   if (source.bytes.size() < header_size + count_size) return 0;
   return ByteCursor(source, header_size).value<std::uint32_t>(std::endian::little);

@@ -49,7 +49,7 @@ auto with_type(VtkType type, const Call& call) {
 
 enum class Compressor { none, zlib, lz4 };
 
-/// What the file's first tag says of all its arrays.
+/// Encoding of all arrays, from the file's first tag.
 struct VtkEncoding {
   std::endian order = std::endian::little;
   std::size_t header_word = sizeof(std::uint32_t);  ///< Bytes of one of the lengths before an array.

@@ -46,7 +46,7 @@ std::string_view required(const XmlTag& tag, std::string_view attribute, const X
   return *value;
 }
 
-/// A count from an attribute; 0 where it is not given.
+/// A count from an attribute; 0 if it is not given.
 std::uint64_t count_from(const XmlTag& tag, std::string_view attribute, const XmlCursor& xml) {
   std::uint64_t count = 0;
   const auto value = tag.find(attribute);
@@ -146,7 +146,7 @@ AppendedData appended_from(const XmlTag& tag, const XmlCursor& xml, const Source
   while (!data.empty() && is_space(data.front())) data.remove_prefix(1);
   if (!data.starts_with('_')) xml.fail("appended data should begin with '_'");
   data.remove_prefix(1);
-  // What is cut off at the end need not be missed by any array that is read.
+  // A file cut off at its end need not lack bytes of any array that is read.
   auto end = source.bytes;
   while (!end.empty() && is_space(end.back())) end.remove_suffix(1);
   if (!end.ends_with(end_of_file))

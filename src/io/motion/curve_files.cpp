@@ -15,7 +15,7 @@
 namespace condyle {
 namespace {
 
-/// Names that a reader can tell apart, and numbers that it takes: it refuses all else.
+/// Refuses names that a reader cannot distinguish, and numbers that it does not take.
 void check(const std::filesystem::path& path, const Curves& curves, std::string_view not_in_names) {
   assert(curves.values.size() == curves.names.size());
   const auto fail = [&](const std::string& name, std::string_view what) {

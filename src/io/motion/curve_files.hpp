@@ -18,16 +18,16 @@ struct Curves {
   std::vector<double> at;     ///< strictly increasing
   std::vector<std::string> names;
   std::vector<std::vector<double>>
-      values;  ///< one vector per name, as long as `at`; NaN where there is no value
+      values;  ///< one vector per name, as long as `at`; NaN if there is no value
 };
 
 /// The curves over one cycle: `points` values at equal distances from start to end, both included, along "cycle_percent"
-/// from 0 to 100. Between two frames linear in time; nothing where either of the two has no value, and at a frame that
+/// from 0 to 100. Between two frames linear in time; nothing if either of the two has no value, and at a frame that
 /// frame's own value. Raises UsageError for a cycle that is empty or not within the curves, and for less than 2 points.
 /// Cost: points * curves, and a binary search per point.
 Curves cycle_of(const Curves& curves, double start_s, double end_s, std::size_t points = 101);
 
-/// What the angles among the columns of a file are in.
+/// Unit of the angles among the columns of a file.
 enum class AngleUnit { degrees, radians };
 
 /// Writes OpenSim's .sto: title, header, a column `time` and one per curve, NaN as nan. Every number has the digits that

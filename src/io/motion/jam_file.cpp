@@ -21,7 +21,7 @@
 namespace condyle {
 namespace {
 
-/// What JAM's scripts (jam_analysis.m) can take as the name of a field.
+/// Whether JAM's scripts (jam_analysis.m) can take this as the name of a field.
 bool is_field_name(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   return !name.empty() && name.size() <= 63 && is_letter(name[0]) &&
@@ -53,7 +53,7 @@ void check_names(const std::filesystem::path& path, std::span<const JamContact> 
   }
 }
 
-/// What is told of totals, by the names JAM has for it.
+/// Visits the values of totals, by JAM's names for them.
 void for_each_of_totals(const auto& scalar, const auto& vector) {
   scalar("contact_area", &JamTotals::contact_area_m2);
   scalar("mean_proximity", &JamTotals::mean_proximity_m);

@@ -9,8 +9,8 @@
 #include "io/motion/curve_files.hpp"
 
 namespace condyle {
-/// ParaView's format: https://www.paraview.org/Wiki/ParaView/Data_formats#PVD_File_Format. Files of one time are blocks, told
-/// apart by a number each.
+/// ParaView's format: https://www.paraview.org/Wiki/ParaView/Data_formats#PVD_File_Format. Files of one time are
+/// blocks, each with a number of its own.
 void write_pvd(const std::filesystem::path& path, std::span<const SeriesFile> files) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"

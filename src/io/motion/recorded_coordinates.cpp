@@ -16,7 +16,7 @@ namespace {
 ColumnUnit unit_of(const MotionTable& table, const ColumnOfCoordinate& entry) {
   if (entry.unit) {
     const bool is_degrees = entry.unit == ColumnUnit::degrees;
-    // Which of the two is wrong cannot be told, and either answer would look like one.
+    // Nothing shows which of the two is wrong, and either answer would look right.
     if (entry.kind == CoordinateKind::angle && table.in_degrees && *table.in_degrees != is_degrees)
       throw FileError(fmt::format(
           "{}: column {}: its unit is given as {}, and the header says inDegrees={}: leave the unit out, or "

@@ -18,8 +18,9 @@ namespace {
 /// Places of a body's sixteen columns, matrix row by row.
 using Places = std::array<std::size_t, 16>;
 
-/// Of OpenSim-JAM (initialize() of OpenSim/JAM/JointMechanicsTool.cpp, opensim-jam-org/opensim-core) and of XMALab
-/// (saveRigidBodyTransformations() of src/core/Trial.cpp, XROMMPackages/xmalab; row vectors as in Maya).
+/// Column endings of OpenSim-JAM (initialize() of OpenSim/JAM/JointMechanicsTool.cpp, opensim-jam-org/opensim-core)
+/// and of XMALab (saveRigidBodyTransformations() of src/core/Trial.cpp, XROMMPackages/xmalab; row vectors as in
+/// Maya).
 constexpr std::array<const char*, 16> jam_endings = {"_T11", "_T12", "_T13", "_T14", "_T21", "_T22",
                                                      "_T23", "_T24", "_T31", "_T32", "_T33", "_T34",
                                                      "_T41", "_T42", "_T43", "_T44"};
@@ -35,7 +36,7 @@ struct BodyColumns {
   Translation named_for;  ///< what the program that gives such names writes
 };
 
-/// What follows "femur_R11" in the first column of that body: nothing, or a filter's frequency ("_25Hz").
+/// The suffix after "femur_R11" in the first column of that body: empty, or a filter's frequency ("_25Hz").
 std::optional<std::string> xmalab_suffix(const MotionTable& table, const std::string& body) {
   const std::string first = body + xmalab_endings.front();
   std::optional<std::string> suffix;
@@ -83,7 +84,7 @@ BodyColumns columns_of(const MotionTable& table, const std::string& body) {
   return columns;
 }
 
-/// The matrix of one row; nothing where it has a gap.
+/// The matrix of one row; nothing if it has a gap.
 std::optional<Eigen::Matrix4d> matrix_of(const MotionTable& table, const BodyColumns& columns,
                                          std::size_t row) {
   Eigen::Matrix4d matrix;
@@ -133,7 +134,7 @@ constexpr double most_off = 1e-4;
 /// Beyond this it is said. Twelve printed digits leave 1e-12, floats 1e-7.
 constexpr double said_beyond = 1e-9;
 
-/// What the roundings of a rotation's own entries leave: three products of entries that are each half a unit off.
+/// Error from rounding a rotation's own entries: three products of entries that are each half a unit off.
 constexpr double off_as_doubles_are = 8 * core::rounding_unit;
 
 struct WorstRotation {

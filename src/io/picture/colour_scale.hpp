@@ -12,7 +12,7 @@ using Rgb = std::array<double, 3>;
 
 inline constexpr Rgb white = {255, 255, 255}, black = {0, 0, 0};
 inline constexpr Rgb fixed_bone = {230, 218, 192}, mobile_bone = {190, 205, 225};
-/// Of hatching, for what is no more than a bound.
+/// Colours of hatching, for values that are only bounds.
 inline constexpr Rgb hatch_dark = {70, 70, 70}, hatch_light = {150, 150, 150};
 
 /// Colours over mm, the same as the page's: of one hue's scale by lightness, for all eyes.

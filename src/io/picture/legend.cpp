@@ -26,7 +26,7 @@ struct Layout {
   double bar_right() const noexcept { return std::round(0.68 * width); }
   double bar_top() const noexcept { return std::round(top + 0.12 * height); }
   double bar_bottom() const noexcept { return std::round(top + 0.42 * height); }
-  /// Of digits; letters are wider than high, so that a narrow picture has smaller ones.
+  /// Height of digits; letters are wider than high, so that a narrow picture has smaller ones.
   double letter_size() const noexcept { return std::min(0.24 * height, 0.02 * width); }
 };
 

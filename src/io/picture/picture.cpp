@@ -20,10 +20,10 @@ namespace {
 
 /// Rows of pixels that a thread draws at a time: samples of two bodies stay within some megabytes.
 constexpr std::size_t strip_pixels = 8;
-/// Of the smaller side of the picture, left free around the bodies.
+/// Margin around the bodies, as a fraction of the smaller side of the picture.
 constexpr double margin = 0.04;
 constexpr double usual_range_mm = 8;
-/// What is seen from its edge is shown as if it were this large.
+/// A body seen from its edge is shown as if it were this large.
 constexpr double smallest_size_mm = 0.1;
 constexpr double largest_field_mm = 100'000;
 
@@ -102,7 +102,7 @@ class Surface {
     if (look_ != BodyLook::hidden) rasteriser_.draw(strip, hits);
   }
 
-  /// What it lays over the colour behind it at a sample.
+  /// Colour at a sample, laid over the colour behind it.
   Rgb over(const Rgb& behind, Index triangle, double x, double y) const {
     const auto shares = corner_shares(mesh_, triangle, x, y);
     const Triangle& corners = mesh_.triangles[triangle];
@@ -110,7 +110,7 @@ class Surface {
     for (std::size_t k = 0; k < 3; ++k) normal += shares[k] * normals_[corners[k]];
     const double length = normal.norm();
     if (length > 0) normal /= length;
-    // What is seen from behind, of an open sheet, is lit as from its front.
+    // An open sheet seen from behind is lit as from its front.
     if (normal.dot(camera_.towards_viewer) < 0) normal = -normal;
     const double facing = std::min(1.0, normal.dot(camera_.towards_viewer));
     const double light = brightness(facing, normal.dot(camera_.up));
@@ -168,7 +168,7 @@ double range_of_depths(const BothValues& values) {
       if (step * decade >= deepest) return step * decade;
 }
 
-/// What is seen at a sample: the nearer body over the other one over white.
+/// Colour at a sample: the nearer body over the other one over white.
 Rgb seen_at(const Surface& fixed, const Hit& of_fixed, const Surface& mobile, const Hit& of_mobile, double x,
             double y) {
   Rgb colour = white;

@@ -17,7 +17,7 @@ struct EdgeFunction {
 
 /// Samples whose middles lie in [low, high], of `count`: first and one past the last.
 std::array<std::size_t, 2> samples_between(double low, double high, std::size_t count) noexcept {
-  // What is not a number, of places beyond all numbers, is before the first.
+  // NaN, from positions beyond all numbers, is before the first.
   const auto clamped = [&](double value) {
     return value > 0 ? static_cast<std::size_t>(std::min(value, static_cast<double>(count))) : 0;
   };

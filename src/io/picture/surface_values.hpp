@@ -9,7 +9,7 @@
 
 namespace condyle::io {
 
-/// What one body's vertices are coloured by.
+/// Values that colour one body's vertices.
 struct SurfaceValues {
   std::vector<double> mm;       ///< not finite where there is none
   std::vector<double> outside;  ///< of depths only: the nearest distance, negative inside the other body
@@ -21,8 +21,8 @@ struct BothValues {
   SurfaceValues fixed, mobile;
 };
 
-/// Of every vertex at this pose. Throws MeshError where a depth or a gap is asked of an open mesh; nearest distances of
-/// vertices that cannot be inside are above 0.
+/// Values of every vertex at this pose. Throws MeshError if a depth or a gap is requested of an open mesh; nearest
+/// distances of vertices that cannot be inside are above 0.
 BothValues surface_values(PictureColour colour, const Joint& joint, const JointAngles& at, const Pose& X_FM);
 
 }  // namespace condyle::io

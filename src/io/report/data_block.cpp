@@ -193,7 +193,7 @@ Json poses_json(const Report& report, BlockArrays& arrays) {
   return std::move(poses).json();
 }
 
-/// What a curve's numbers are in, by the end of its name.
+/// Unit of a curve's numbers, by the end of its name.
 std::string_view unit_of(std::string_view name) {
   static constexpr std::pair<std::string_view, std::string_view> units[] = {
       {"_mm2", "mm²"}, {"_nmm", "N mm"}, {"_mpa", "MPa"}, {"_mm", "mm"}, {"_deg", "°"}, {"_n", "N"}};

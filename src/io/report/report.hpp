@@ -8,8 +8,8 @@
 #include "io/result/motion_result.hpp"
 #include "io/result/rom_result.hpp"
 
-/// What `condyle report` writes: one HTML file that shows a joint in any browser and computes with it there. It
-/// loads nothing and sends nothing. What it holds, key by key, is in docs/report.md.
+/// The output of `condyle report`: one HTML file that shows a joint in any browser and computes with it there. It
+/// loads nothing and sends nothing. Its contents, key by key, are in docs/report.md.
 
 namespace condyle {
 
@@ -26,12 +26,12 @@ struct ReportedLayers {
   ElasticContactOptions options;  ///< elastic_options() of the entry
 };
 
-/// What a report is made of.
+/// Contents of a report.
 struct Report {
   std::string title;  ///< any text; it stays text on the page
   const Joint& joint;
   JointCoordinates reference_pose = {};  ///< in which the mobile mesh was given
-  /// The limits of the joint, of a free one where it is held; null where they cannot be answered, and `rom_error`
+  /// The limits of the joint, of a free one where it is held; null if they cannot be answered, and `rom_error`
   /// says why.
   const RomResult* rom = nullptr;
   std::string rom_error = {};
@@ -43,7 +43,7 @@ struct Report {
 /// end of each limit; the rest is linear in meshes, map and frames. The same bytes whatever the threads.
 std::string report_html(const Report& report);
 
-/// Throws FileError where write_report() could not put a file there, or would write over a file that was read
+/// Throws FileError if write_report() could not put a file there, or would write over a file that was read
 /// (Provenance::read): to be called before long work. Leaves nothing.
 void check_report_file(const std::filesystem::path& path, const Provenance* from);
 

@@ -9,8 +9,8 @@
 #include "condyle/joint.hpp"
 #include "condyle/range_of_motion.hpp"
 
-/// What a number is not: which tissues an answer covers, and whether bone is what usually ends a motion. Written once, for every
-/// text, file, figure and page.
+/// Caveats of the numbers: which tissues an answer covers, and whether bone is what usually ends a motion. Written
+/// once, for every text, file, figure and page.
 
 namespace condyle {
 
@@ -36,7 +36,7 @@ enum class MotionCaveatCode : std::uint8_t {
 /// As in files: "soft_tissue_ends".
 std::string_view name_of(MotionCaveatCode code) noexcept;
 
-/// What to know before a limit is compared with a living joint.
+/// Caveat to read before a limit is compared with a living joint.
 struct MotionCaveat {
   MotionCaveatCode code;
   std::string_view summary;  ///< of several motions: "soft tissue usually ends them before bone does"

@@ -5,7 +5,7 @@
 #include "condyle/io/contact_entry.hpp"
 #include "io/result/json.hpp"
 
-/// What depths and pressures of surfaces in contact rest on, as every answer says it.
+/// Assumptions behind depths and pressures of surfaces in contact, worded the same in every answer.
 
 namespace condyle::io {
 
@@ -13,7 +13,7 @@ std::string_view name_of(Casting casting) noexcept;
 std::string_view name_of(FaceRule rule) noexcept;
 std::string_view name_of(PressureLaw law) noexcept;
 
-/// casting, rule, reach, and with pressure law, layers and whose moment is told.
+/// casting, rule, reach, and with pressure law, layers and the body whose moment is reported.
 Json contact_terms(const ContactEntry& entry, bool with_pressure);
 /// The same as one line.
 std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces& surfaces,
@@ -21,14 +21,14 @@ std::string contact_terms_text(const ContactEntry& entry, const ContactSurfaces&
 
 Json totals_json(const ContactTotals& totals, bool with_pressure);
 
-/// A line on overlap that has no depth along normals, as its rays meet the other surface at a slant; empty where there is none.
+/// A line on overlap that has no depth along normals, as its rays meet the other surface at a slant; empty if there is none.
 std::string oblique_text(const SurfaceContact& surface, FaceRule rule);
 /// A line that compares a force with that of 16 places of each face.
 std::string refined_force_text(const Vec3& force_n, const Vec3& refined_n);
 
 /// The face in contact with the greatest depth; null without contact.
 const FaceContact* deepest_of(const SurfaceContact& surface);
-/// The part of the body that a triangle is of and its number there, under this key; nothing where the body is one mesh.
+/// The part of the body that a triangle is of and its number there, under this key; nothing if the body is one mesh.
 void add_triangle_part(Json& json, const char* key, const Body& body, Index triangle);
 /// " (12 of meniscus)": the same behind the number of a triangle.
 std::string triangle_part_text(const Body& body, Index triangle);

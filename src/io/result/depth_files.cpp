@@ -19,7 +19,7 @@ bool is_of_depth(std::string_view name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
 
-/// A line per vertex: its number, where it is, and what its arrays have; empty where they have nothing.
+/// A line per vertex: its number, where it is, and what its arrays have; empty if they have nothing.
 std::string vertices_csv(const DepthArrays& arrays, const Points& points) {
   std::string text = "vertex,x_mm,y_mm,z_mm";
   for (const MeshArray& array : arrays.points) text += "," + array.name;

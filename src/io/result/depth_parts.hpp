@@ -7,7 +7,7 @@
 #include "io/result/depth_result.hpp"
 #include "io/result/json.hpp"
 
-/// What the results of all methods have in common.
+/// Common parts of the results of all methods.
 
 namespace condyle::io {
 
@@ -17,7 +17,7 @@ Json depth_header(const DepthQuestion& question, const DepthAnswer& answer, cons
 /// "right hip: femur in hip bone, flexion 90, ...", and whether they touch; two lines.
 std::string depth_headline(const DepthQuestion& question, const DepthAnswer& answer, std::size_t pairs);
 
-/// The part of the body that a vertex is of and its number there, under this key; nothing where the body is one mesh.
+/// The part of the body that a vertex is of and its number there, under this key; nothing if the body is one mesh.
 void add_part(Json& json, const char* key, const Body& body, Index vertex);
 
 /// "vertex 12 of femur", and of which part of it where it has several.
@@ -107,7 +107,7 @@ std::string place_text(const Vec3& p);
 std::string measures_text(const DepthQuestion& question, const ContactMeasures& measures);
 void add_measures(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
 
-/// Of these the nearest distance only.
+/// The nearest distance only, out of all measures.
 std::string nearest_text(const ContactMeasures& measures);
 void add_nearest(Json& json, const DepthQuestion& question, const ContactMeasures& measures);
 

@@ -12,7 +12,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// What `condyle depth` found, for files. Every key, array, unit and sign is in docs/formats-depth.md.
+/// Results of `condyle depth`, for files. Every key, array, unit and sign is in docs/formats-depth.md.
 
 namespace condyle {
 
@@ -54,7 +54,7 @@ struct DepthFiles {
   VertexTables vertices = VertexTables::leave_out;
 };
 
-/// Throws FileError where write_depth() could not write into the folder, or would write over a file that was read
+/// Throws FileError if write_depth() could not write into the folder, or would write over a file that was read
 /// (Provenance::read): to be called before long work. Leaves nothing.
 void check_depth_folder(const std::filesystem::path& folder, const Provenance* from);
 

@@ -7,8 +7,7 @@
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// What `condyle frame` shows: how a joint was made of its file. Keys of the JSON are listed in
-/// docs/joint-file.md.
+/// Results of `condyle frame`: how a joint was made from its file. Keys of the JSON are listed in docs/joint-file.md.
 
 namespace condyle {
 

@@ -9,7 +9,7 @@
 #include "condyle/io/file_digest.hpp"
 #include "condyle/repair.hpp"
 
-/// What `condyle inspect` found. Keys of the JSON are listed in docs/mesh-files.md.
+/// Results of `condyle inspect`. Keys of the JSON are listed in docs/mesh-files.md.
 
 namespace condyle {
 
@@ -28,11 +28,11 @@ struct InspectedMesh {
 };
 
 /// Reads a mesh, makes the repairs in their order and inspects what came of it. Throws FileError, and
-/// MeshError where a repair cannot be made.
+/// MeshError if a repair cannot be made.
 InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs);
 
 /// For people, and for programs: whole documents that end with a newline. `command`: the command line word by word, without
-/// the program; empty where there is none.
+/// the program; empty if there is none.
 std::string to_text(std::span<const MeshInspection> meshes);
 std::string to_json(std::span<const MeshInspection> meshes, const std::vector<std::string>& command = {});
 

@@ -33,7 +33,7 @@ JamTotals in_si_units(const ContactTotals& totals) {
           .max_pressure_pa = 1e6 * totals.max_pressure_mpa,
           .centre_of_pressure_m = 1e-3 * totals.centre_of_pressure.value_or(Vec3::Zero()),
           .contact_force_n = totals.force_n,
-          .contact_moment_nm = -1e-3 * totals.moment_nmm};  // JAM tells the moment on the target
+          .contact_moment_nm = -1e-3 * totals.moment_nmm};  // JAM reports the moment on the target
 }
 
 /// A half of a surface, in JAM's order: even ones are below 0 along an axis, odd ones not.

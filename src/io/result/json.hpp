@@ -18,7 +18,7 @@
 #include "condyle/points.hpp"
 #include "io/result/caveats.hpp"
 
-/// What all JSON answers have in common.
+/// Common parts of all JSON answers.
 
 namespace condyle::io {
 
@@ -54,7 +54,7 @@ Json numbers(const Vec3& p);
 Json notes_json(std::span<const JointNote> notes, std::span<const ContactNote> of_contact = {},
                 std::span<const RangeNote> of_range = {});
 
-/// What to know of a motion's limit, under `caveats`: code, text, and source or null.
+/// Caveats of a motion's limit, under `caveats`: code, text, and source or null.
 Json caveats_json(std::span<const MotionCaveat> caveats);
 
 /// Which joint it is; null for a hinge that is none in particular.
@@ -70,7 +70,7 @@ void drop_negative_zeros(Json& json);
 /// stand and terminals obey.
 std::string document(Json json);
 
-/// Reads a document. Throws Json::parse_error, and FileError where lists and objects are more than 64 deep: what is written
+/// Reads a document. Throws Json::parse_error, and FileError if lists and objects are more than 64 deep: what is written
 /// of a value goes down its levels by recursion.
 Json parsed_json(std::string_view text);
 

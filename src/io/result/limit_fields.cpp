@@ -16,7 +16,7 @@
 namespace condyle::io {
 namespace {
 
-/// Of each angle of the joint, under its name.
+/// One value for each angle of the joint, under its name.
 Json of_angles(const Joint& joint, const auto& of_angle) {
   Json json;
   for (const JointAngle angle : all_joint_angles) json[name_of(angle, joint.anatomy)] = of_angle(angle);
@@ -309,7 +309,7 @@ constexpr LimitField fields[] = {
      &band},
 };
 
-/// Of a point each coordinate's direction in the joint frame.
+/// Directions of a point's coordinates in the joint frame.
 constexpr std::array<const char*, 3> directions = {"anterior", "superior", "to the subject's right"};
 
 void append(std::vector<std::string>& texts, const Json& json) {

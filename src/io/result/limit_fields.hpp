@@ -9,8 +9,9 @@
 #include "io/result/result_column.hpp"
 #include "io/result/rom_result.hpp"
 
-/// What is said of a limit, described once: an element of `motions` in rom.json, a line of limits.csv and one of a study's are made
-/// from this table, and docs/formats-limits.md is held against it. Whoever adds a value adds an entry.
+/// The fields of a limit, described once: an element of `motions` in rom.json, a line of limits.csv and one of a
+/// study's are made from this table, and a test compares docs/formats-limits.md with it. Whoever adds a value adds an
+/// entry.
 
 namespace condyle::io {
 
@@ -54,7 +55,7 @@ struct LimitField {
 /// In the order of the files.
 std::span<const LimitField> limit_fields() noexcept;
 
-/// What stands for a key that an answer does not have.
+/// Value of a key that an answer does not have.
 Json left_out();
 
 /// The columns of a field, by the names of the joint's angles.

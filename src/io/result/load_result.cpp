@@ -29,7 +29,7 @@ Json wrench_json(const Wrench& wrench) {
   return {{"force_n", io::numbers(wrench.force_n)}, {"moment_nmm", io::numbers(wrench.moment_nmm)}};
 }
 
-/// The force on the casting body, and the moment on the body that the joint file tells it of.
+/// The force on the casting body, and the moment on the body that the joint file names for it.
 Json totals_json(const ContactEntry& contact, ContactTotals totals) {
   if (contact.moment_on == MomentOn::target) totals.moment_nmm = -totals.moment_nmm;
   return io::totals_json(totals, true);
@@ -50,13 +50,13 @@ Json surface_json(const ContactEntry& contact, const Body& body,
   return json;
 }
 
-/// What the faces of a region add up to.
+/// Sums over the faces of a region.
 ContactTotals region_totals(const ContactEntry& contact, const RegionEntry& region, const Body& body,
                             const SurfaceContact& surface) {
   return totals_of(faces_within(surface.faces, body.mesh, region.half_spaces), body.mesh, contact.rays.rule);
 }
 
-/// What each region of a casting surface carries; an empty list where the joint file has none.
+/// Loads of each region of a casting surface; an empty list if the joint file has none.
 Json regions_json(const ContactEntry& contact, const Body& body,
                   const std::optional<SurfaceContact>& surface) {
   if (!surface) return nullptr;

@@ -13,7 +13,7 @@
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 
-/// What `condyle load` found, for files. Every key and array is in docs/formats-load.md.
+/// Results of `condyle load`, for files. Every key and array is in docs/formats-load.md.
 
 namespace condyle {
 
@@ -31,7 +31,7 @@ struct LoadQuestion {
 std::string load_text(const LoadQuestion& question, const LoadAnswer& answer);
 std::string load_json(const LoadQuestion& question, const LoadAnswer& answer);
 
-/// Throws FileError where write_load() could not write into the folder, or would write over a file that was read
+/// Throws FileError if write_load() could not write into the folder, or would write over a file that was read
 /// (Provenance::read): to be called before long work. Leaves nothing.
 void check_load_folder(const std::filesystem::path& folder, const Provenance* from);
 

@@ -6,7 +6,7 @@
 #include "condyle/io/provenance.hpp"
 #include "condyle/motion_map.hpp"
 
-/// What `condyle rom --map` found, as text. Every key, column, unit and sign is in docs/formats-rom.md.
+/// Results of `condyle rom --map`, as text. Every key, column, unit and sign is in docs/formats-rom.md.
 
 namespace condyle {
 

@@ -15,7 +15,7 @@ struct ReasonCounts {
   std::size_t operator[](LimitReason reason) const { return of[static_cast<std::size_t>(reason)]; }
 };
 
-/// What a map comes to.
+/// Summary of a map.
 struct MapSummary {
   ReasonCounts negative_ends, positive_ends;
   std::size_t free_elsewhere = 0;  ///< points in contact at the start that are free at other angles

@@ -38,7 +38,8 @@ class Columns {
   std::size_t frames_;
 };
 
-/// Of both castings the load is the mean on the mobile body, in its frame; of one, what the casting body carries in its own.
+/// With both castings, the mean load on the mobile body, in its frame; with one, the load on the casting body in its
+/// own.
 Wrench load_of(const ContactEntry& contact, const FrameContact& frame) {
   if (contact.casting != Casting::both)
     return {frame.surface.totals.force_n, frame.surface.totals.moment_nmm};
@@ -52,7 +53,7 @@ struct FrameTotals {
   Wrench load;
 };
 
-/// What they say, under names that begin with `prefix`.
+/// Adds their values, under names that begin with `prefix`.
 void add_contact(const MotionQuestion& question, Columns& columns, const std::string& prefix,
                  const std::vector<std::optional<FrameTotals>>& frames) {
   const auto add = [&](const char* name, double ContactTotals::*value) {

@@ -24,13 +24,13 @@ bool is_of_motion(std::string_view name) {
                                                "motion.json", "motion.pvd", "contacts.csv",
                                                "regions.csv", "jam.h5",     "map_fixed.vtp"};
   if (std::find(std::begin(names), std::end(names), name) != std::end(names)) return true;
-  // What condyle.plot drew of an earlier motion would belie this one.
+  // Figures that condyle.plot drew of an earlier motion would contradict this one.
   for (const std::string_view stem : {"curves", "cycle", "pressure_map"})
     if (name.starts_with(stem) && io::is_figure_ending(name.substr(stem.size()))) return true;
   return (name.starts_with("map_fixed_") || name.starts_with("map_mobile_")) && name.ends_with(".vtp");
 }
 
-/// Where the bodies meet as a contact begins or ends; empty where no features are known to.
+/// Where the bodies meet as a contact begins or ends; empty if no features are known to.
 std::string meeting_fields(const MotionQuestion& question, const ContactEnd& end) {
   if (!end.contact) return ",,,,,";
   const auto& [fixed, mobile] = question.surfaces;

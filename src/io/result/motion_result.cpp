@@ -19,7 +19,7 @@ namespace {
 
 using io::Json;
 
-/// What a person wants to know of a motion before looking at its curves.
+/// Summary of a motion, to read before its curves.
 struct Summary {
   std::size_t frames = 0, gaps = 0, in_contact = 0, balanced = 0, carried = 0, from_front = 0, cut_off = 0,
               oblique = 0, oblique_peak = 0;

@@ -15,7 +15,7 @@
 #include "condyle/joint_checks.hpp"
 #include "io/motion/curve_files.hpp"
 
-/// What `condyle motion` found, for files. Every column, key and array is in docs/motion-files.md.
+/// Results of `condyle motion`, for files. Every column, key and array is in docs/motion-files.md.
 
 namespace condyle {
 
@@ -55,7 +55,7 @@ struct MotionFiles {
   VtpEncoding encoding = VtpEncoding::binary;
 };
 
-/// Throws FileError where write_motion() could not write into the folder, or would write over a file that was read
+/// Throws FileError if write_motion() could not write into the folder, or would write over a file that was read
 /// (Provenance::read): to be called before long work. Leaves nothing.
 void check_motion_folder(const std::filesystem::path& folder, const Provenance* from);
 

@@ -51,7 +51,7 @@ io::Json body_json(const Views& bodies, const View& view) {
   return json;
 }
 
-/// What rays the answer rests on.
+/// The rays that the answer rests on.
 ContactEntry rays_of(const DepthAnswer& answer) {
   return {.casting = answer.request.casting.value_or(Casting::both),
           .rays = answer.request.rays.value_or(NormalDepthOptions{})};

@@ -7,7 +7,7 @@
 
 namespace condyle {
 
-/// How far a healthy adult hip is said to turn in the motion of this name; empty where the source has no value. American Academy
+/// How far a healthy adult hip is said to turn in the motion of this name; empty if the source has no value. American Academy
 /// of Orthopaedic Surgeons, "Joint Motion: Method of Measuring and Recording", Chicago 1965: flexion 120, extension 30,
 /// abduction 45, adduction 30, internal and external rotation 45 degrees. Measured on the living, where soft tissue stops
 /// most motions before bone does: a bony limit past the range is usual, one well short of it is not. Of other joints no ranges

@@ -8,7 +8,7 @@
 
 namespace condyle::io {
 
-/// The number of each triangle's part in the body, from 0: part; nothing where the body is one mesh.
+/// The number of each triangle's part in the body, from 0: part; nothing if the body is one mesh.
 inline std::vector<MeshArray> part_map(const Body& body) {
   if (body.parts.empty()) return {};
   std::vector<std::int32_t> part;
@@ -17,7 +17,7 @@ inline std::vector<MeshArray> part_map(const Body& body) {
   return {{"part", std::move(part)}};
 }
 
-/// One number per triangle of the surface that casts, 0 where it is not in contact: pressure_mpa, depth_mm, contact_area_mm2;
+/// One number per triangle of the surface that casts, 0 if it is not in contact: pressure_mpa, depth_mm, contact_area_mm2;
 /// and part_map().
 inline std::vector<MeshArray> pressure_map(const SurfaceContact& surface, const Body& body,
                                            bool with_pressure) {

@@ -9,7 +9,7 @@
 #include "condyle/io/provenance.hpp"
 #include "io/result/json.hpp"
 
-/// Provenance as each kind of file has it. Null, nothing and nothing where it is not known, as in a program that makes
+/// Provenance as each kind of file has it. Null, nothing and nothing if it is not known, as in a program that makes
 /// its joints itself.
 
 namespace condyle::io {
@@ -17,7 +17,7 @@ namespace condyle::io {
 /// A file that an answer comes from.
 Json file_json(const std::filesystem::path& path, const FileDigest& digest);
 
-/// What was read for an answer; nothing where that is not known.
+/// Files that were read for an answer; nothing if that is not known.
 inline std::span<const std::filesystem::path> files_read(const Provenance* from) {
   if (from == nullptr) return {};
   return from->read;

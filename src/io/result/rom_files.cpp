@@ -65,7 +65,7 @@ void write_zones(OutputFolder& out, const RomResult& result) {
   }
 }
 
-/// How the reason of an interval's end is told in a VTP file.
+/// Code of the reason for an interval's end in a VTP file.
 std::int32_t code_of(LimitReason reason) noexcept {
   return reason == LimitReason::end_of_range ? 0 : 1;
 }

@@ -7,7 +7,7 @@
 
 namespace condyle {
 
-/// Throws FileError where write_rom() could not write into the folder, or would write over a file that was read
+/// Throws FileError if write_rom() could not write into the folder, or would write over a file that was read
 /// (Provenance::read): to be called before long work. Leaves nothing.
 void check_rom_folder(const std::filesystem::path& folder, const Provenance* from);
 

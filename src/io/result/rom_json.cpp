@@ -17,7 +17,7 @@ namespace {
 
 using io::Json;
 
-/// Of the i-th motion.
+/// JSON of the i-th motion.
 Json motion_json(const RomResult& result, std::size_t i) {
   Json json;
   for (const io::LimitField& field : io::limit_fields()) {

@@ -8,7 +8,7 @@
 #include "io/result/normal_range.hpp"
 #include "io/result/rom_result.hpp"
 
-/// What the JSON and the lines of a range of motion share.
+/// Common parts of the JSON and the lines of a range of motion.
 
 namespace condyle::io {
 
@@ -18,7 +18,7 @@ std::string_view name_of(FeatureKind kind) noexcept;
 /// "vertex 12", "edge 3-7", "face 40".
 std::string text_of(const Feature& feature);
 
-/// The part of a body that a feature of its mesh is of; null where the body is one mesh.
+/// The part of a body that a feature of its mesh is of; null if the body is one mesh.
 const BodyPart* part_of(const Body& body, const Feature& feature) noexcept;
 
 inline bool ends_in_contact(const MotionLimit& limit) noexcept {
@@ -30,7 +30,7 @@ inline bool is_as_defined_here(const Motion& motion) noexcept {
   return motion.name == "fadir" || motion.name == "faber";
 }
 
-/// Of the living, behind the limit of a hip's motion; none where no source has a value.
+/// Range in the living, behind the limit of a hip's motion; none if no source has a value.
 inline std::optional<Angle> normal_range(const RomResult& result, const MotionLimit& limit) noexcept {
   return result.joint.is_hip() ? normal_hip_range(limit.motion.name) : std::nullopt;
 }

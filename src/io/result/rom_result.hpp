@@ -19,7 +19,7 @@
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"
 
-/// What `condyle rom` found, as text for people and for programs. Every key, column, unit and sign is in
+/// Results of `condyle rom`, as text for people and for programs. Every key, column, unit and sign is in
 /// docs/formats-rom.md.
 
 namespace condyle {
@@ -28,29 +28,29 @@ namespace condyle {
 struct RomResult {
   const Joint& joint;
   std::span<const MotionLimit> limits;
-  /// What contacts are told apart by, and whether bearing contact counts.
+  /// The bearing surface that labels contacts, and whether bearing contact counts.
   BearingFinding bearing = {};
   BearingRule bearing_rule = BearingRule::count;
   /// The clock on which contacts are read, and which one it is.
   ClockFace clock = sagittal_clock();
   ClockPlane clock_plane = ClockPlane::sagittal;
-  /// What was left out or allowed, one line each; empty where any contact at all ends a motion.
+  /// Contacts that were left out or allowed, one line each; empty if any contact at all ends a motion.
   std::vector<std::string> caveats = {};
-  /// Of a free joint, the translation at which `joint` is held (held_at()), along the fixed body's axes.
+  /// Translation at which a free `joint` is held (held_at()), along the fixed body's axes.
   std::optional<Vec3> held_translation_mm = {};
-  /// What looks wrong with the joint.
+  /// Notes on the joint's set-up.
   std::span<const JointNote> notes = {};
-  /// What limits must be read with, because of the joint's shape.
+  /// Caveats on the limits because of the joint's shape.
   std::span<const RangeNote> range_notes = {};
-  /// What looks wrong with the layers and the motion that a report shows beside the limits.
+  /// Notes on the layers and the motion that a report shows beside the limits.
   std::span<const ContactNote> contact_notes = {};
   /// One per limit where a depth was allowed, none where limits are exact.
   std::span<const DepthLimit> depths = {};
-  /// One per limit where zones were computed, none where not.
+  /// One per limit where zones were computed, none if not.
   std::span<const std::optional<ImpingementZone>> zones = {};
   /// Null where none was computed.
   const MotionMap* map = nullptr;
-  /// One per limit where bands were computed, none where not, and what they were computed with.
+  /// One per limit where bands were computed, none if not, and what they were computed with.
   std::span<const LimitBand> bands = {};
   BandOptions band_options = {};
   /// Where the answer comes from and in which frame it is given; null: not known, and the joint frame.
@@ -67,7 +67,7 @@ std::string_view name_of(LimitReason reason) noexcept;
 /// "unknown", "bearing", "impingement".
 std::string_view name_of(ContactKind kind) noexcept;
 
-/// What is guaranteed of the limit, in one sentence.
+/// Guarantee of the limit, in one sentence.
 std::string guarantee_text(const MotionLimit& limit);
 /// The same of a limit with a depth allowed, which is searched for and not exact.
 std::string guarantee_text(const DepthLimit& limit);
@@ -75,7 +75,7 @@ std::string guarantee_text(const DepthLimit& limit);
 /// The frame in which it gives points and meshes.
 AnswerFrame frame_of(const RomResult& result);
 
-/// The summary as JSON text, ending in a newline.
+/// The summary as JSON text, with a newline at its end.
 std::string rom_json(const RomResult& result);
 
 /// A table for people, one line per motion, then what the map comes to.

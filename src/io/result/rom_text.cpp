@@ -152,7 +152,7 @@ std::string band_text(const RomResult& result) {
   return wrapped(text) + table_text(std::array{name, median, low, high, centre, axes, surface, free});
 }
 
-/// What usually ends motions like these: a line for each caveat, with the motions that it is about.
+/// Caveats on the usual ends of motions like these: a line for each, with its motions.
 std::string caveat_text(const RomResult& result) {
   struct Line {
     MotionCaveat caveat;
@@ -185,7 +185,7 @@ std::string clock_words(const RomResult& result) {
              : "  clock: hours in the sagittal plane, 12 superior and 3 anterior\n";
 }
 
-/// What meets past each limit; nothing without zones.
+/// The features that meet past each limit; nothing without zones.
 std::string zones_text(const RomResult& result) {
   if (std::none_of(result.zones.begin(), result.zones.end(),
                    [](const auto& zone) { return zone.has_value(); }))

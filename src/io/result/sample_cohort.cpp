@@ -88,7 +88,7 @@ void write_hip(const fs::path& folder, const SampleCohort& cohort, std::size_t k
   out.commit();
 }
 
-/// False where it was stopped.
+/// False if it was stopped.
 bool write_hips(const fs::path& folder, const SampleCohort& cohort, const Control& control) {
   std::mutex mutex;
   std::size_t done = 0;

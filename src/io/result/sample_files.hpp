@@ -39,7 +39,7 @@ struct SampleCohort {
 
 /// Writes cohort.csv, a table for a study, and cohort.json, what it was drawn from; with meshes hips/000001/ and so on before,
 /// on all threads. A hip whose measures cannot be made has no folder then, and is a failure of the study. Some microseconds a
-/// hip, with meshes a second or more. Throws UsageError for no hip or more than 10 million, FileError. Empty where it was
+/// hip, with meshes a second or more. Throws UsageError for no hip or more than 10 million, FileError. Empty if it was
 /// stopped: then there is no table.
 std::optional<std::vector<std::filesystem::path>> write_sample_cohort(const std::filesystem::path& folder,
                                                                       const SampleCohort& cohort,

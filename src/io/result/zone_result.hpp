@@ -11,7 +11,7 @@
 namespace condyle {
 
 /// Point arrays of one body: radial_depth_mm, ray_to_normal_deg, tangential_depth_deg, tangential_depth_mm.
-/// None where the other mesh is open and nothing can be inside it. An arc that nothing ends is NaN.
+/// None if the other mesh is open and nothing can be inside it. An arc that nothing ends is NaN.
 std::vector<MeshArray> zone_point_arrays(const BodyZone& zone);
 
 /// Cell array in_zone: 1 for a triangle that meets the other body.

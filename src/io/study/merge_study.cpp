@@ -75,7 +75,7 @@ void check_keeps_the_table(const fs::path& folder, const io::StudyRecord& record
   }
 }
 
-/// Throws FileError where the results would take the place of a shard's.
+/// Throws FileError if the results would take the place of a shard's.
 void check_keeps_the_shards(const fs::path& folder, std::size_t of) {
   std::vector<fs::path> read;
   for (std::size_t number = 1; number <= of; ++number)

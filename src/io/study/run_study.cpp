@@ -34,7 +34,7 @@ Rows rows_of(const StudyTable& table, const Shard& shard) {
   return Rows(table.rows).subspan(before(shard.number - 1), before(shard.number) - before(shard.number - 1));
 }
 
-/// What stands in study.json before the tables are known.
+/// Contents of study.json before the tables are known.
 io::StudyRecord record_of(const Study& study, const StudyTable& table) {
   io::StudyRecord record;
   record.version = version;
@@ -72,7 +72,7 @@ class Answers {
         answers_(rows.size()),
         errors_(rows.size()) {}
 
-  /// Empty where it was stopped. Throws what ends the run, of the lowest row.
+  /// Empty if it was stopped. Throws what ends the run, of the lowest row.
   std::optional<std::vector<StudyAnswer>> all() {
     core::parallel_tasks(rows_.size(), [&](std::size_t i) { answer(i); });
     for (const std::exception_ptr& error : errors_)
@@ -147,7 +147,8 @@ io::StudyTexts texts_of(const std::vector<StudyAnswer>& answers, const io::Study
   return texts;
 }
 
-/// What is read is never written over: by a shard not by what merge_study() will write either. Throws FileError.
+/// Files that were read are never overwritten: a shard does not overwrite those that merge_study() will write either.
+/// Throws FileError.
 void check_replaces_none(const Study& study, const std::filesystem::path& folder, const StudyTable& table) {
   std::vector<std::filesystem::path> written = io::study_result_files(study.folder);
   if (folder != study.folder)
@@ -163,7 +164,7 @@ void check_replaces_none(const Study& study, const std::filesystem::path& folder
   io::check_replaces_none(written, read);
 }
 
-/// What lies in the folder, where it is what this run would write.
+/// The study in the folder, if it is the one that this run would write.
 std::optional<StudyDone> done_before(const std::filesystem::path& folder, const io::StudyRecord& asked,
                                      const std::string& columns, const StudyTable& table, Rows rows) {
   const auto there = io::read_study_record(folder);
@@ -211,7 +212,7 @@ std::optional<StudyDone> run_study(const Study& study, const Control& control) {
   // A folder that cannot be written to is reported before the work, not after it.
   io::prepare_study_folder(folder);
   const auto done = done_before(folder, results.record, results.columns, table, rows);
-  // Of what is to end the run the tables know the message only, not the error.
+  // For a failure that ends the run, the tables have only the message, not the error.
   const bool all_well = done && done->failures == 0 && done->noted.empty();
   if (all_well || (done && study.bad_joint == BadJoint::is_a_row)) return done;
 

@@ -28,7 +28,7 @@ std::string text_of(const std::optional<Value>& value) {
   return value ? fmt::format("{}", *value) : std::string();
 }
 
-/// What each line of this row begins with.
+/// First fields of each line of this row.
 Fields row_fields(const StudyTable& table, const StudyRow& row) {
   Fields fields = {csv_field(table.id(row)), fmt::format("{}", row.number)};
   for (std::string& field : table.carried_fields(row)) fields.push_back(std::move(field));
@@ -97,7 +97,7 @@ void add_map(Fields& fields, const MotionMap& map) {
   add(summary.with_islands);
 }
 
-/// Empty where nothing is a depth.
+/// Empty if nothing is a depth.
 std::string name_of_way(DepthWay way, Anatomy joint) {
   if (const auto angle = angle_of(way)) return std::string(name_of(*angle, joint));
   return way == DepthWay::radial ? "radial" : "";
@@ -137,7 +137,7 @@ Fields hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std:
           surface ? fmt::format("{}", surface->margin_mm) : "", std::string(notes), std::string(inputs)};
 }
 
-/// Codes of what looks wrong with a joint that was read, as a sample hip is as it was made, and with its load. Throws MeshError where that is to end
+/// Codes of what looks wrong with a joint that was read, as a sample hip is as it was made, and with its load. Throws MeshError if that is to end
 /// the run.
 std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJoint& loaded,
                      std::span<const ContactNote> of_load, BadJoint bad_joint) {

@@ -9,13 +9,13 @@
 
 namespace condyle::io {
 
-/// What became of one row: lines of limits.csv and one of hips.csv, or one of failures.csv.
+/// Outcome of one row: lines of limits.csv and one of hips.csv, or one of failures.csv.
 struct StudyAnswer {
   std::string limits, hip, failure;
   std::string inputs_sha256;
 };
 
-/// The lines of an answer. Throws where there is none, and where a joint looks wrong and bad ones end the run; empty where it
+/// The lines of an answer. Throws where there is none, and where a joint looks wrong and bad ones end the run; empty if it
 /// was stopped.
 std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
                                      std::stop_token stop);

@@ -16,7 +16,7 @@ struct StudyColumns {
   std::vector<ResultColumn> limits, hips, failures;
 };
 
-/// Of this table with what these options ask for.
+/// Columns for this table and these options.
 StudyColumns study_columns(const StudyTable& table, const StudyOptions& options);
 
 /// The values of limits.csv that `condyle rom` has too, by these options.

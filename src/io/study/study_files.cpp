@@ -27,7 +27,8 @@ struct NamedFile {
   std::string contents;
 };
 
-/// What a table comes from, as far as all shards of a study have it in common, so that merged tables are those of one run.
+/// Provenance of a table, as far as all shards of a study have it in common, so that merged tables are those of one
+/// run.
 std::string comments_of(const StudyRecord& record) {
   return fmt::format("# condyle_version: {}\n# options: {}\n", record.version, record.options);
 }

@@ -11,7 +11,7 @@
 
 namespace condyle::io {
 
-/// What study.json says of the tables beside it.
+/// Entries of study.json for the tables beside it.
 struct StudyRecord {
   std::string version;
   /// SHA-256 of what the tables depend on: rows, contents of the files they name, options, version. Empty of merged tables.
@@ -53,11 +53,11 @@ void prepare_study_folder(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> write_study(const std::filesystem::path& folder,
                                                const StudyResults& results);
 
-/// What study.json says; empty where there is none that can be read, or where a file beside it is not the one that it was
+/// Reads study.json; empty if there is none that can be read, or if a file beside it is not the one that it was
 /// written with, as when a run was killed between two files.
 std::optional<StudyRecord> read_study_record(const std::filesystem::path& folder);
 
-/// All of it. Throws FileError where read_study_record() is empty.
+/// All of it. Throws FileError if read_study_record() is empty.
 StudyResults read_study(const std::filesystem::path& folder);
 
 }  // namespace condyle::io

@@ -63,7 +63,7 @@ Side side_of(const StudyTable& table, const StudyRow& row) {
   return one_of(table, row, "side", sides);
 }
 
-/// What the row says in place of a joint file.
+/// The row's entries in place of a joint file.
 JointFile described(const StudyTable& table, const StudyRow& row) {
   static constexpr std::pair<std::string_view, LengthUnit> units[] = {{"mm", LengthUnit::millimetres},
                                                                       {"m", LengthUnit::metres}};
@@ -123,7 +123,7 @@ std::string sha256_of_file(const std::filesystem::path& path) {
   }
 }
 
-/// What the layers of the surfaces in contact are measured by.
+/// Adds the files that the layers of the surfaces in contact are measured by.
 void add_layer_files(const JointFile& file, std::vector<std::string>& files) {
   if (!file.contact) return;
   for (const auto* layer : {&file.contact->fixed, &file.contact->mobile}) {
@@ -196,7 +196,7 @@ std::string inputs_sha256(const StudyTable& table, const StudyRow& row) {
       add_files(read_joint_file(path_in(table, row, "joint")), files);
     }
   } catch (const FileError&) {
-    // What was found until here is what the row's failure depends on.
+    // The row's failure depends on everything up to here.
   }
   return sha256_of(row, files);
 }

@@ -10,10 +10,10 @@
 namespace condyle::io {
 
 /// The joint of a row: of its joint file, of its two meshes, or a sample hip of its measures. Throws what read_joint() does;
-/// FileError where the row does not say which, or a field is not what it must be.
+/// FileError if the row does not say which, or a field is not what it must be.
 LoadedJoint load_joint(const StudyTable& table, const StudyRow& row);
 
-/// What messages about the joint begin with: its joint file, else the row's line, "table.csv: line 7".
+/// Start of messages about the joint: its joint file, else the row's line, "table.csv: line 7".
 std::string place_of(const StudyTable& table, const StudyRow& row);
 
 /// Whether the row's joint is made, not read.

@@ -33,7 +33,7 @@ void add(Fields& fields, const Vec3& v) {
   for (int axis = 0; axis < 3; ++axis) add(fields, v[axis]);
 }
 
-/// Empty where the body's surface was not cast, a mean or a centre also where nothing of it is in contact.
+/// Empty if the body's surface was not cast, a mean or a centre also where nothing of it is in contact.
 void add_surface(Fields& fields, const std::optional<SurfaceContact>& surface) {
   const std::size_t end = fields.size() + 9;
   if (surface) {

@@ -12,7 +12,7 @@ namespace condyle::io {
 
 std::vector<ResultColumn> load_columns();
 
-/// Those columns of this joint. FileError where it has no layers.
+/// Those columns of this joint. FileError if it has no layers.
 struct LoadFields {
   std::vector<std::string> fields;
   std::vector<ContactNote> notes;  ///< on layers, load and contact

@@ -6,7 +6,7 @@
 
 namespace condyle::io {
 
-/// What was asked, as JSON: the same text for the same options, whatever the order they were given in.
+/// The query options as JSON: the same text for the same options, whatever the order they were given in.
 std::string options_json(const StudyOptions& options);
 
 }  // namespace condyle::io

@@ -21,7 +21,7 @@
 namespace condyle::io {
 namespace {
 
-/// What says where a joint comes from; not carried.
+/// Columns that give the source of a joint; not carried.
 constexpr std::string_view source_columns[] = {"id",   "joint", "fixed", "mobile",
                                                "side", "units", "axes",  "sample"};
 
@@ -62,7 +62,7 @@ void check_spelling(const StudyTable& table, std::size_t line, const Source& sou
   }
 }
 
-/// What HDF5 takes as a name.
+/// Longest name that HDF5 takes.
 constexpr std::size_t longest_name = 1000;
 bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;

@@ -32,7 +32,7 @@ struct StudyTable {
   std::vector<CarriedColumn> carried;
   std::vector<StudyRow> rows;
 
-  /// Empty where the table has no such column.
+  /// Empty if the table has no such column.
   std::string_view field(const StudyRow& row, std::string_view column) const noexcept;
   const std::string& id(const StudyRow& row) const noexcept { return row.fields[id_column]; }
   /// The fields that are carried, as CSV has them.

@@ -7,7 +7,7 @@
 #include "motion/events/rotation_function.hpp"
 #include "motion/events/wrapped_angle.hpp"
 
-/// What a feature occupies around the axis, in terms that a rotation leaves alone or merely shifts.
+/// Bounds of a feature around the axis, in quantities that a rotation keeps or merely shifts.
 
 namespace condyle::motion {
 
@@ -21,7 +21,7 @@ namespace condyle::motion {
 ///           |  rho.lo rho.hi              .     o      .
 ///
 /// The distance r from the origin follows from rho and z for a point but not for boxes: with the origin in
-/// the centre of a ball joint, head and socket are two shells apart in r that no box in (rho, z) tells apart.
+/// the centre of a ball joint, head and socket are two shells apart in r that no box in (rho, z) separates.
 ///
 /// All bounds include what rounding may have moved.
 struct CylinderBox {
@@ -70,7 +70,7 @@ CylinderBox box_of_edge(const Triple<double>& a, const CylinderPoint& at_a, cons
 CylinderBox box_of_triangle(const Triple<double>& a, const CylinderPoint& at_a, const Triple<double>& b,
                             const CylinderPoint& at_b, const Triple<double>& c,
                             const CylinderPoint& at_c) noexcept;
-/// Of everything within `half` of the centre along each axis.
+/// Box of everything within `half` of the centre along each axis.
 CylinderBox box_of_box(const Triple<double>& centre, const Triple<double>& half) noexcept;
 /// Around both, its arc the shorter of the two that cover both.
 CylinderBox hull(const CylinderBox& a, const CylinderBox& b) noexcept;

@@ -120,7 +120,7 @@ Sides sides_of_line(const Root& root, const Point& preferred, const SideFunction
 Triple<double> short_direction(const Triple<double>& d) {
   const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}), scale = 0x1p20 / largest;
   const Triple<double> whole = {std::round(d.x * scale), std::round(d.y * scale), std::round(d.z * scale)};
-  // Of zeros, of what is not finite, and of what is so small that the scale is not.
+  // Zeros, values that are not finite, and values so small that the scale is not.
   if (!std::isfinite(whole.x + whole.y + whole.z)) return {1, 0, 0};
   return whole;
 }

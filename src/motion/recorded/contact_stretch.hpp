@@ -17,7 +17,7 @@ struct ContactStretch {
   };
   std::optional<Proven> proven = {};
   double undecided = 0;  ///< how much of it is neither shown to be in contact nor free
-  /// Empty where one body is inside the other and their surfaces do not meet, and where nothing is proven.
+  /// Empty if one body is inside the other and their surfaces do not meet, and where nothing is proven.
   std::optional<ContactWitness> at_entry = {}, at_exit = {};
 };
 

@@ -33,7 +33,7 @@ bool crosses(const Vec3& p, const Vec3& q, const Corners& t) {
          core::orientation(p, q, t[2], t[0]) == side;
 }
 
-/// How far everything may move before the segment no longer crosses the triangle; 0 where it does not.
+/// How far everything may move before the segment no longer crosses the triangle; 0 if it does not.
 double reserve(const Vec3& p, const Vec3& q, const Corners& t) {
   if (!crosses(p, q, t)) return 0;
   double least =

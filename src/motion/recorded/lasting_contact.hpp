@@ -10,7 +10,7 @@ namespace condyle::motion {
 
 /// How much of a motion on either side of a pose is in contact for certain, and a pair of triangles that shows it.
 struct LastingContact {
-  double lasts_for;  ///< units of the motion; 0 where nothing crosses by more than rounding
+  double lasts_for;  ///< units of the motion; 0 if nothing crosses by more than rounding
   ContactWitness witness;
 };
 

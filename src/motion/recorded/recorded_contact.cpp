@@ -55,7 +55,7 @@ double reach_of(const Mesh& mesh) {
   return reach;
 }
 
-/// What was found on the way from one sample to the next.
+/// Contact found between one sample and the next.
 struct Way {
   BetweenSamples searched = BetweenSamples::exact;
   Angle rotation = {};

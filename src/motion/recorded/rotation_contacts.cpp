@@ -14,10 +14,10 @@ namespace {
 /// Narrower ones may be what rounding leaves between two contacts, and are none.
 constexpr double narrowest_gap = 1e-9;
 
-/// Of ends that only the contact set tells: twice the largest error of an event.
+/// Error of ends that only the contact set gives: twice the largest error of an event.
 constexpr double contact_set_error = 2 * worst_event_error;
 
-/// A gap is told by start and width, in radians below 4: its end is off by two roundings at most.
+/// A gap is given by start and width, in radians below 4: its end is off by two roundings at most.
 constexpr double gap_rounding = 4 * 2 * core::rounding_unit;
 
 /// One end of a free gap; without contact where the sample is free.
@@ -71,7 +71,7 @@ GapEnd gap_end(double angle, Limit limit) {
   return {angle, limit.reason == LimitReason::contact, limit.error_bound.radians(), std::move(limit.contact)};
 }
 
-/// The gap of the contact set from low to high; empty where one body is inside the other there. The search goes a
+/// The gap of the contact set from low to high; empty if one body is inside the other there. The search goes a
 /// little past the gap, since its angles are of poses rounded anew; what it does not find there the set has found.
 std::optional<FreeGap> free_gap(Rotation& rotation, double low, double high) {
   const double whole = rotation.whole(), middle = (low + high) / 2;
@@ -89,7 +89,7 @@ std::vector<FreeGap> free_gaps(Rotation& rotation) {
   const double whole = rotation.whole();
   std::vector<FreeGap> free;
   std::vector<core::Arc> known{{Angle::radians(whole), Angle::radians(two_pi - whole)}};
-  // Most ways are free: one search tells.
+  // Most segments are free: one search decides.
   if (RotationLimits start = rotation.limits_from(0, 0, whole); start.free_at_start()) {
     const Angle first = start.positive.turned;
     free.push_back({{0, false, 0}, gap_end(std::min(whole, first.radians()), std::move(start.positive))});

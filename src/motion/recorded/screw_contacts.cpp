@@ -12,7 +12,7 @@ namespace {
 /// Rounding of fractions of the way; what is known of them is shortened by it.
 constexpr double fraction_slack = 1e-12;
 
-/// What one pose shows: contact or not, and for how much of the way on either side.
+/// State at one pose: contact or not, and for how much of the segment on either side.
 struct Known {
   bool in_contact;
   double lasts_for;
@@ -38,7 +38,7 @@ class Search {
     Known known = at(middle);
     const double lasts_for = std::max(0.0, known.lasts_for - fraction_slack);
     const bool to_ends = lasts_for >= (to - from) / 2;
-    // A short rest is told by its middle or not at all.
+    // The middle decides a short remainder, or nothing does.
     if (is_short && !to_ends && !known.in_contact) return add_undecided(from, to);
     const double low = to_ends ? from : middle - lasts_for, high = to_ends ? to : middle + lasts_for;
     const auto rest = [&](double first, double last) {
@@ -83,8 +83,8 @@ class Search {
     return nearest ? nearest->free_for : whole_way;
   }
 
-  /// The last stretch where it reaches to here or nearly so, else a new one. What is free for less than the resolution
-  /// counts as undecided: near a contact it alternates with what could not be told.
+  /// The last interval if it reaches to here or nearly so, else a new one. A part that is free for less than the
+  /// resolution counts as undecided: near a contact it alternates with undecided parts.
   ContactStretch& stretch_from(double from) {
     auto& contacts = found_.contacts;
     if (contacts.empty() || from - contacts.back().exit >= resolution_) {

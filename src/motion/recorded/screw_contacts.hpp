@@ -20,15 +20,15 @@ struct ScrewContacts {
   std::size_t poses = 0;  ///< looked at
 };
 
-/// Contact on a way that has no closed form, by a bound: at a pose the bodies are in contact or apart, which is decided
-/// exactly, and stay so for as much of the way as no point can move far enough to change it (clearance(),
+/// Contact on a segment that has no closed form, by a bound: at a pose the bodies are in contact or apart, which is decided
+/// exactly, and stay so for as much of the segment as no point can move far enough to change it (clearance(),
 /// lasting_contact()).
 ///
-///     0              s                1     the middle of what is not known yet; then the rest on either side of it,
-///     |----( - - - - + - - - - )------|     until what is left is shorter than `resolution`, a fraction of the way:
-///                free for c                 that is told by its own middle or stays undecided
+///     0              s                1     the middle of the unknown part; then the rest on either side of it,
+///     |----( - - - - + - - - - )------|     until the rest is shorter than `resolution`, a fraction of the segment:
+///                free for c                 its own middle then decides it, or it stays undecided
 ///
-/// What is not in the answer is free.
+/// Everything that is not in the answer is free.
 ScrewContacts screw_contacts(const PosedBodies& bodies, const ScrewMotion& motion, double resolution);
 
 }  // namespace condyle::motion

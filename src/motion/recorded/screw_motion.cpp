@@ -7,12 +7,12 @@
 namespace condyle::motion {
 namespace {
 
-/// Rounding of the speeds below, relative, with much to spare; they are bounds and are raised by it.
+/// Rounding of the speeds below, relative, with much margin; they are bounds and are raised by it.
 constexpr double speed_slack = 1e-12;
 
 }  // namespace
 
-/// Of the origin's change D the part along the axis a is slide a; the rest, P, is the chord of a circle about the
+/// The part of the origin's change D along the axis a is slide a; the rest, P, is the chord of a circle about the
 /// line, whose centre seen from the chord's middle is at (a x P) / (2 tan(rotation / 2)). So the origin starts at
 /// -(P + k a x P) / 2 from it, k = 1 / tan(rotation / 2), and after the angle t has moved by
 ///
@@ -26,7 +26,7 @@ ScrewMotion::ScrewMotion(const Pose& from, const Pose& to, double reach_mm)
       4 * core::rounding_unit * (reach_mm + from.translation().lpNorm<Eigen::Infinity>());
   holds_origin_ = change.lpNorm<Eigen::Infinity>() <= rounding_mm;
 
-  // Of a rotation R by t about a, the half of R - R^T is the cross product with a sin t, and the trace 1 + 2 cos t.
+  // For a rotation R by t about a, the half of R - R^T is the cross product with a sin t, and the trace 1 + 2 cos t.
   const Eigen::Matrix3d R = to.linear() * from.linear().transpose();
   const Vec3 a_sine = 0.5 * Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
   const double sine = a_sine.norm(), angle = std::atan2(sine, 0.5 * (R.trace() - 1));

@@ -14,12 +14,12 @@ namespace condyle::motion {
 ///     o - . . - '   s = 0      s slide along it, at one speed all the way
 ///     |
 ///
-/// The way of a motion between two samples of it, as far as two samples tell. Of all rotations that lead from one to
-/// the other the one below half a turn; which way round two poses half a turn apart are connected is not known, and
-/// rotation() then is pi to rounding.
+/// The segment of a motion between two samples of it, as far as two samples determine it. Among all rotations that
+/// lead from one to the other the one below half a turn; in which sense two poses half a turn apart are connected is
+/// not known, and rotation() then is pi to rounding.
 class ScrewMotion {
  public:
-  /// The largest distance of a mobile point from its origin, in mm, tells which differences are rounding.
+  /// The largest distance of a mobile point from its origin, in mm, decides which differences are rounding.
   ScrewMotion(const Pose& from, const Pose& to, double reach_mm);
 
   /// At a fraction of the way, in [0, 1]; `from` to the bit at 0, `to` to rounding at 1.

@@ -117,7 +117,7 @@ DepthLimit DepthRange::limit(const Motion& motion) const {
   };
   if (out.start_depth_mm > allowed.depth_mm) return finish(LimitReason::contact_at_start, Angle());
 
-  // Moves the bracket to the first of `count` equal parts whose end is too deep; false where none is.
+  // Moves the bracket to the first of `count` equal parts whose end is too deep; false if none is.
   const auto narrow = [&](Bracket& bracket, int count, EndOfBracket end) {
     const Angle from = bracket.free, width = bracket.deep - bracket.free;
     const int tried = end == EndOfBracket::too_deep ? count - 1 : count;

@@ -23,7 +23,7 @@ constexpr std::size_t dimensions = 8;
 
 enum class Source { all, centre, axes, surface };
 
-/// What is to be computed: all of it together, and each source alone where it is not the only one.
+/// The sources to compute: all of them together, and each one by itself if there are several.
 std::vector<Source> sources_of(const Uncertainty& sigma) {
   std::vector<Source> moving;
   if (sigma.centre_mm > 0) moving.push_back(Source::centre);
@@ -40,7 +40,7 @@ bool moves(const Uncertainty& sigma, Source source) {
                                   : sigma.surface_mm > 0;
 }
 
-/// Of the displacement only what one source moves.
+/// Only the part of the displacement that one source moves.
 Displacement only(Source source, Displacement d) {
   if (source == Source::all) return d;
   if (source != Source::centre) d.centre.setZero();
@@ -86,7 +86,7 @@ std::vector<Displacement> displacements(const BandOptions& options) {
   return out;
 }
 
-/// Of sorted values, linear between neighbours (type 7 of Hyndman and Fan 1996).
+/// Quantile of sorted values, linear between neighbours (type 7 of Hyndman and Fan 1996).
 double quantile(const std::vector<double>& sorted, double q) {
   const double at = q * static_cast<double>(sorted.size() - 1);
   const auto low = static_cast<std::size_t>(at);

@@ -13,8 +13,8 @@
 namespace condyle {
 namespace {
 
-/// How far past the last step an axis may end and still count as ending on it, in steps: decimal steps such
-/// as 0.1 are not exact in binary.
+/// How far past the last step an axis may end and still count as stopping on it, in steps: decimal steps such as 0.1
+/// are not exact in binary.
 constexpr double step_slack = 1e-6;
 
 /// Points that one thread takes at a time: neighbours share boxes in its caches and, where adduction is

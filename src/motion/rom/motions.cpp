@@ -18,7 +18,7 @@ constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
   return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
 }
 
-/// Of the Latin alphabet; blanks and hyphens as the names have them.
+/// Latin letters become small; blanks and hyphens as the names have them.
 std::string in_small_letters(std::string_view name) {
   std::string small(name);
   for (char& c : small) {

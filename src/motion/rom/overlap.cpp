@@ -13,7 +13,7 @@ namespace {
 /// One entry per triangle; bytes, because threads never share them and vector<bool> is slow to scan.
 using Marks = std::vector<unsigned char>;
 
-/// Empty where no triangle is wanted.
+/// Empty if no triangle is wanted.
 std::optional<PartOfMesh> part_of(const Mesh& mesh, const Marks& wanted) {
   const TriMesh& whole = mesh;
   TriMesh part{whole.vertices, {}};

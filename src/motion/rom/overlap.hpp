@@ -7,7 +7,7 @@
 #include "condyle/bearing.hpp"
 #include "condyle/overlap_options.hpp"
 
-/// What OverlapOptions come to: the triangles that count, and words for people whose meshes overlap.
+/// Effects of OverlapOptions: the triangles that count, and texts for users whose meshes overlap.
 
 namespace condyle::motion {
 
@@ -17,7 +17,7 @@ struct PartOfMesh {
   std::vector<Index> triangle_in_whole;
 };
 
-/// What of a joint's bodies is asked for contact.
+/// The parts of a joint's bodies that are tested for contact.
 struct PartsOfJoint {
   PartOfMesh fixed;
   PartOfMesh mobile;                  ///< what ends motions
@@ -26,7 +26,7 @@ struct PartsOfJoint {
 };
 
 /// Both bodies without what the options leave out; where bearing contact is not to count, the mobile one without its
-/// bearing surface. Throws UsageError for fewer than 0 rings, and MeshError where nothing of a body is left.
+/// bearing surface. Throws UsageError for fewer than 0 rings, and MeshError if nothing of a body is left.
 PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
                               const std::optional<BearingSurface>& bearing, BearingRule rule);
 

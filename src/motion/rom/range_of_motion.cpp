@@ -46,7 +46,8 @@ constexpr Angle narrowest_interval = Angle::radians(1e-9);
 /// Taken off the ends of arcs, which err by 1e-7 rad at most; narrower arcs are not worth their sorting.
 constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees(1);
 
-/// Vertices whose angles of contact are told before pairs of triangles are looked at: more tell little that these do not.
+/// Vertices whose contact angles are computed before pairs of triangles are evaluated: more vertices add little to
+/// these.
 constexpr std::size_t told_vertices = 512;
 
 /// The body that turned in a search.
@@ -101,7 +102,7 @@ struct RangeOfMotion::Parts {
   std::unique_ptr<MobilePart> sliding;  ///< the bearing surface, where it does not count
   motion::RotationTable flexion_table;
 
-  /// What one thread keeps: bodies ready to turn, and the table of the flexion it last adducted at.
+  /// Storage of one thread: bodies ready to rotate, and the table of the flexion of its last adduction.
   struct Worker {
     motion::TurningBody fixed, ending;
     std::optional<motion::TurningBody> sliding;
@@ -189,8 +190,8 @@ struct RangeOfMotion::Parts {
     const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
     const bool has_rings = worker.rings && worker.rings->frame().direction() == axis.direction();
     if (fixed.mesh.is_closed() && !has_rings) worker.rings.emplace(fixed.mesh, axis, coarse_rings);
-    // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Most contact is told so,
-    // without a pair of triangles; what is left are the ends of intervals.
+    // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Vertices detect most
+    // contact, without a pair of triangles; the ends of intervals remain.
     if (worker.rings) {
       const OccupiedArcs arcs =
           worker.rings->occupied_arcs(posed(pose_at(system, start), ending_vertices.view()));
@@ -276,7 +277,7 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
       const Angle low = std::max(gap.start + shift, range.negative);
       const Angle high = std::min(gap.start + gap.width + shift, range.positive);
       if (!(high - low > narrowest_interval)) continue;
-      // The gap is free or, one body inside the other, all contact; its ends are told as limits are.
+      // The gap is free or, one body inside the other, all contact; its ends are computed as limits are.
       const Angle middle = low + (high - low) * 0.5;
       const RotationLimits both =
           parts_->first_contact(worker, parts_->ending, worker.ending, vary, turned_by(start, vary, middle),

@@ -11,7 +11,7 @@
 namespace condyle::motion {
 namespace {
 
-/// Events of a pair closer than this, in radians, are not told apart: between them the bodies could be nearer
+/// Events of a pair closer than this, in radians, are not distinguished: between them the bodies could be nearer
 /// than the rounding of turned coordinates.
 constexpr double narrow_gap = 1e-9;
 
@@ -64,7 +64,7 @@ class Collector {
   }
 
  private:
-  /// What lies wholly in the angles already found has nothing to add.
+  /// A feature wholly in the angles already found has nothing to add.
   bool may_add(const CylinderBox& turning, const CylinderBox& resting) const {
     return turning.overlaps_profile(resting) && !found_.contains(window(turning, resting));
   }

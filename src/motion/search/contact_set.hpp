@@ -21,8 +21,8 @@ namespace condyle::motion {
 /// other without going in (mirrored rulings of one hyperboloid) may be reported by the ends of their contact
 /// only.
 ///
-/// Angles in `known` are of contact for certain, or nobody's concern: they are in the answer and are not looked at.
-/// Bodies that are not are made ready only as far as they are looked at.
+/// Angles in `known` are certainly in contact, or irrelevant: they are in the answer and are not evaluated. Bodies
+/// that are not ready are prepared only as far as they are evaluated.
 core::ArcSet contact_set(const RotationTable& resting, TurningBody& turning, const core::ArcSet& known = {});
 core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known = {});
 

@@ -22,7 +22,7 @@ struct Clearance {
 };
 
 /// How much of a motion is free on either side of X_FM, whatever its path, the mobile body moving no faster than
-/// `speed`; empty where it is `enough` or more. For bodies that do not meet at X_FM. By default the motion is a
+/// `speed`; empty if it is `enough` or more. For bodies that do not meet at X_FM. By default the motion is a
 /// rotation about M's origin, and its parameter the angle.
 ///
 /// A point at radius rho from M's origin moves by at most rotation * rho + origin_mm per unit, so triangles D apart

@@ -77,7 +77,7 @@ class TurningBody {
   explicit TurningBody(const FeatureTree& tree);
 
   /// Starts at X_RT, the pose of the turning body T measured in the resting body R, about the axis given in
-  /// R. What is ready stays so where it starts there already.
+  /// R. Prepared parts stay ready if it starts there already.
   void start_at(const AxisFrame& frame_R, const Pose& X_RT);
 
   const FeatureTree& tree() const noexcept { return *tree_; }

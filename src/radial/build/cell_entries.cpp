@@ -35,7 +35,7 @@ void CellEntries::split_rows() {
     if (length <= longest_whole || length >= CellRow::whole) continue;
     for (auto& part : parts) part.clear();
     for (std::uint32_t i = at.first; i < at.last; ++i) {
-      // Of least u, and of 255 - greatest u: never both.
+      // Bits of least u, and of 255 - greatest u: never both.
       const std::uint32_t is_right = axis[i] >> 7 & 1, is_left = axis[i] >> 15 & 1;
       parts[1 + is_right - is_left].push_back({triangle[i], {axis[i], diagonal[i]}});
     }

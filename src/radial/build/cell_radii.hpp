@@ -13,7 +13,7 @@ struct CellRadii {
   /// Upper half of the code of the least squared radius of each entry's triangle; vector code reads beyond
   /// the last entry.
   core::UninitialisedVector<std::uint8_t> nearest;
-  /// Of each entry's triangle in its cell; kept once some vertices have moved, empty until then.
+  /// Interval of each entry's triangle in its cell; kept once some vertices have moved, empty until then.
   core::UninitialisedVector<PackedInterval> of_entry;
   std::vector<float> inverse_length;  ///< of the directions to a face's cell corners
 

@@ -56,8 +56,8 @@ struct Bounds {
   Floats least, greatest;
 };
 
-/// Of planes n . p = 1, within cells of the given width; least <= 0, or greatest < 0, where there is none. n
-/// is along the face's normal.
+/// Bounds of planes n . p = 1, within cells of the given width; least <= 0, or greatest < 0, if there is none. n is
+/// along the face's normal.
 HWY_INLINE Bounds view_planes(const CornersInLanes& cell, float width, float cosine, Floats n, Floats n_u,
                               Floats n_w) {
   const auto set = [](float value) { return hn::Set(d, value); };
@@ -77,7 +77,7 @@ HWY_INLINE Bounds view_planes(const CornersInLanes& cell, float width, float cos
   return {hn::Div(set(cosine), hn::Add(greatest, margin)), hn::Div(set(1), hn::Sub(least, margin))};
 }
 
-/// What is known of as many triangles as there are lanes: normals, by axis or as a face has them, and radii.
+/// Data of as many triangles as there are lanes: normals, by axis or as a face has them, and radii.
 struct Planes {
   Floats n[3];
   Ints radii;
@@ -138,7 +138,7 @@ HWY_INLINE Ints intervals_of_radii(const IntervalScale& scale, const Bounds& squ
                                                interval_codes(d, scale, squared.greatest));
 }
 
-/// What is found of entries: their radii, all together, and packed.
+/// Results for entries: their radii, all together, and packed.
 struct Found {
   Floats least = hn::Set(d, std::numeric_limits<float>::infinity()), greatest = hn::Zero(d);
   Ints words;
@@ -216,7 +216,7 @@ SurfaceRadii measure_rows_any(const RadiiView& view, std::span<const CellRow> ro
       const std::uint32_t* triangle = view.triangle + i;
       for (std::size_t k = 0; k < lanes; ++k) hwy::Prefetch(view.plane + triangle[k + prefetch_ahead]);
       const Planes planes = load_planes(view.plane, triangle);
-      // What follows the row is written too: entries of the next one, rightly, or padding.
+      // Bytes after the row are written too: entries of the next one, rightly, or padding.
       hn::StoreU(hn::DemoteTo(d8, nearest_of(planes)), d8, view.nearest + i);
       const auto is_entry = first_lanes(row.last - i);
       const Bounds squared = radii_in_cells(view, corners, on_face(planes, at), is_entry);

@@ -129,7 +129,7 @@ void CubeBinning::bin_larger(Index triangle) {
   if (!project_on_one_face(triangle) && !project_on_faces(triangle)) bin_clipped(triangle);
 }
 
-/// False where it reaches over the face's edges.
+/// False if it reaches over the face's edges.
 bool CubeBinning::project_on_one_face(Index triangle) {
   const Triangle& vertex = triangles_[triangle];
   const int face = placed_.face[vertex[0]];
@@ -150,7 +150,7 @@ bool CubeBinning::project_on_one_face(Index triangle) {
   return true;
 }
 
-/// False where it is too near to the plane between the centre and a face.
+/// False if it is too near to the plane between the centre and a face.
 bool CubeBinning::project_on_faces(Index triangle) {
   const Triangle& at = triangles_[triangle];
   const std::array<PlacedCorner, 3> corner = {corner_at(placed_, at[0]), corner_at(placed_, at[1]),

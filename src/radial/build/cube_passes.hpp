@@ -10,8 +10,8 @@
 #include "radial/build/edge_functions.hpp"
 #include "radial/exact/cell_dop.hpp"
 
-/// What building a cube table does for every vertex and every triangle, compiled for every instruction set
-/// and chosen at run time.
+/// The work of building a cube table for every vertex and every triangle, compiled for every instruction set and
+/// chosen at run time.
 
 namespace condyle::radial {
 
@@ -78,7 +78,7 @@ struct Binning {
   int cells_per_side;
   CellEntry* entry;
   std::size_t count, capacity;
-  std::uint32_t* length;     ///< for each cell, and four spare ones for cells that a triangle does not meet
+  std::uint32_t* length;     ///< for each cell, and four unused ones for cells that a triangle does not meet
   std::uint32_t* elsewhere;  ///< triangles not binned here: on several faces, or larger than two cells
   std::size_t elsewhere_count;
 };
@@ -110,7 +110,7 @@ struct RadiiView {
   float cosine;                  ///< of the angle between the middle of a cell and its corners, at most
   PackedInterval of_every_cell;  ///< what all cells have: no_radii, or those of the centre
   std::uint8_t* nearest;         ///< written for each entry, see CellLists
-  PackedInterval* entry_radii;   ///< the same; null where they are not kept
+  PackedInterval* entry_radii;   ///< the same; null if they are not kept
 };
 
 /// Triangles that have changed: their numbers and planes, and for each cell where entries have changed, the
@@ -127,14 +127,14 @@ struct ChangedTriangles {
   }
 };
 
-/// What is new of an entry: radii of its triangle in its cell, and the nearest one, see CellLists.
+/// New values of an entry: radii of its triangle in its cell, and the nearest one, see CellLists.
 struct ChangedEntry {
   std::uint32_t triangle;
   PackedInterval radii;
   std::int32_t nearest;
 };
 
-/// Squared radii of a surface; infinity and 0 where there is none.
+/// Squared radii of a surface; infinity and 0 if there is none.
 struct SurfaceRadii {
   float least, greatest;
 };

@@ -13,7 +13,7 @@
 
 namespace condyle::radial {
 
-/// What is measured of each triangle.
+/// Measured quantities of each triangle.
 struct TriangleForms {
   IntervalScale scale;
   core::UninitialisedVector<EdgeFunctions> edge_functions;

@@ -104,7 +104,7 @@ HWY_INLINE void spread_line(const PackedInterval* line, std::size_t n, PackedInt
   });
 }
 
-/// What is beyond an edge. A direction displaced beyond it, to a coordinate 1 + e, is e / (1 + e) away from
+/// The region beyond an edge. A direction displaced beyond it, to a coordinate 1 + e, is e / (1 + e) away from
 /// the edge on the neighbouring face, less than e; the other coordinate is divided by 1 + e too, which brings
 /// it nearer to the middle by no more than that. So the tiles m others away from the edge, which take
 /// displacements of up to m + 1 tiles to be reached, are spread by so many along it.

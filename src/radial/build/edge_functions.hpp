@@ -10,14 +10,14 @@ using simd::PackedInterval;
 /// Four linear forms of a point v, side by side: a . v in lanes x[k] v_x + y[k] v_y + z[k] v_z. For a
 /// triangle (a, b, c) with normal N and D = a . (b x c):
 ///
-///     lanes 0 1 2    (a x b) / D, (b x c) / D, (c x a) / D      all > 0 where the ray through v crosses it
+///     lanes 0 1 2    (a x b) / D, (b x c) / D, (c x a) / D      all > 0 if the ray through v crosses it
 ///     lane 3         N / |D|        its magnitude is |v| over the crossing's radius, > 1 where the crossing
 ///                                   lies before v; positive where the ray leaves the solid
 ///
 /// NaN throughout where floats could not say enough of the triangle: a plane nearly through the centre, a
 /// sliver. Every comparison with them is false, and the point is decided in double.
 ///
-/// `low` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN where that is. `radii` are the
+/// `low` has what lane 3 leaves out: the sum of both is scaled_normal(), NaN if that is. `radii` are the
 /// squared radii that the triangle takes, of the table's scale.
 struct alignas(64) EdgeFunctions {
   float x[4], y[4], z[4], low[3];

@@ -176,7 +176,7 @@ struct DirectionBox {
   }
 };
 
-/// What the descent through blocks of Cartesian cells needs of one triangle.
+/// Bounds of one triangle for the descent through blocks of Cartesian cells.
 struct ConeBounds {
   Vec3 edge[3];  // inward normals of the cone's sides, each component known to within edge_error
   double edge_error;

@@ -23,7 +23,7 @@ double distance_along_ray(const Vec3& v, const Cone& t);
 /// Between the ray through v and the triangle's normal, 0 to a right angle.
 Angle angle_to_normal(const Vec3& v, const Cone& t) noexcept;
 
-/// What the ray from the centre through one point says: one element of RadialResults.
+/// Result of the ray from the centre through one point: one element of RadialResults.
 struct RayAnswer {
   PointState state;
   int winding;
@@ -41,7 +41,8 @@ class RayScan {
 
   /// All triangles that the ray through v can meet are to be among those given, each once.
   RayAnswer answer(const Vec3& v, std::span<const Index> triangles);
-  /// The same with what ray_crossing() and distance_along_ray() say of a triangle, told by others who know it sooner.
+  /// The same with the results of ray_crossing() and distance_along_ray() for a triangle, given by callers who know
+  /// them sooner.
   template <class CrossingOf, class DistanceTo>
   RayAnswer answer(const Vec3& v, std::span<const Index> triangles, const CrossingOf& crossing_of,
                    const DistanceTo& distance_to);
@@ -62,7 +63,7 @@ class RayScan {
     }
   };
   /// Where the solid's boundary is crossed on each side of the point, overlapping solids counted by winding
-  /// number: the last change between w <= 0 and w > 0 before the point and the first after it. no_index where there
+  /// number: the last change between w <= 0 and w > 0 before the point and the first after it. no_index if there
   /// is none.
   struct Neighbours {
     Index before = no_index, after = no_index;

@@ -43,7 +43,7 @@ struct NearestExit {
   bool away_from_centre;
 };
 
-/// The triangle through which a point inside leaves, by the nearer way; false where floats cannot tell.
+/// The triangle through which a point inside leaves, by the nearer exit; false if floats cannot decide.
 ///
 /// The gaps 1 - 1/s before and 1/s' - 1 behind compare as 2 s s' does with s + s'.
 HWY_INLINE bool nearest_exit(const Ray& ray, int winding_at_centre, NearestExit& way) {
@@ -121,7 +121,7 @@ HWY_INLINE void decide(const CubeView& cube, const NearPoints& points, std::size
   }
 }
 
-/// What the crossings of a ray, the last of which is at `last`, say of its point, the centre outside.
+/// Result of the crossings of a ray, the last of which is at `last`, for its point, the centre outside.
 struct PointCrossings {
   int winding;
   bool uncertain;

@@ -19,10 +19,10 @@ namespace {
 /// Points per task: enough to outweigh starting one.
 constexpr std::size_t points_per_chunk = 256;
 
-/// What floats tell for certain of the ray through one point, which the exact way would say too.
+/// Facts that floats establish for certain about the ray through one point, equal to those of the exact method.
 class RoughRay {
  public:
-  /// Nothing is told where `edge_functions` is null.
+  /// Decides nothing if `edge_functions` is null.
   RoughRay(const Vec3& v, const EdgeFunctions* edge_functions)
       : v_{static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())} {
     const double largest = v.cwiseAbs().maxCoeff();
@@ -57,7 +57,7 @@ class RoughRay {
     return RayCrossing{value[3] > 0 ? core::Sign::positive : core::Sign::negative, beyond > 0, false};
   }
 
-  /// The normal of a triangle as gap_to_plane() wants it; NaN where it is not kept.
+  /// The normal of a triangle as gap_to_plane() wants it; NaN if it is not kept.
   Vec3 scaled_normal(Index triangle) const noexcept {
     if (!functions_) return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
     return functions_[triangle].scaled_normal();
@@ -89,7 +89,7 @@ RayAnswer answer_of(RayScan& scan, const ExactView& table, const Vec3& v, std::s
       });
 }
 
-/// tell(i, point, answer) for each point, on all threads.
+/// report(i, point, answer) for each point, on all threads.
 template <class Tell>
 void answer_each(const ExactView& table, PointsView points, const Tell& tell) {
   core::parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {

@@ -7,13 +7,13 @@
 
 namespace condyle::radial {
 
-/// What a point's exact answer is found from.
+/// Data from which a point's exact answer is computed.
 struct ExactView {
   const TriMesh& mesh;
   const DirectionMap& map;
   const CellEntries& entries;
   int winding_at_centre;
-  const EdgeFunctions* edge_functions;  ///< of each triangle; null where the table has none
+  const EdgeFunctions* edge_functions;  ///< of each triangle; null if the table has none
 };
 
 /// Points decided together: their candidates stay in the nearest caches.

@@ -68,7 +68,7 @@ HWY_INLINE Floats dot(Floats x, Floats y, Floats z, float a, float b, float c) {
 }
 
 /// Level of the pyramid with slack for a displacement on the face, given in cells: see DirectionPyramid. With k
-/// half the octaves above one cell that are begun, counting the second half from 3/2 on: 0 where there are
+/// half the octaves above one cell that are begun, counting the second half from 3/2 on: 0 if there are
 /// none, 1 up to two cells, then k itself.
 HWY_INLINE Ints level_for(Floats cells) {
   const auto one = std::bit_cast<std::int32_t>(1.0f);
@@ -87,7 +87,7 @@ HWY_INLINE Ints pyramid_index(const CubeView& cube, const Projection& place, Int
   const auto squares = hn::Set(di, finest * finest), own = hn::Mul(n, n);
   const auto before = hn::Add(hn::Set(di, 6 * finest * finest), hn::ShiftLeft<4>(hn::Sub(squares, own)));
   const auto start = hn::IfThenZeroElse(hn::Eq(level, hn::Zero(di)), before);
-  // Of two levels with tiles of one size the second is as the first, six faces further on.
+  // With two levels of tiles of one size the second is as the first, six faces further on.
   const auto face = hn::Add(place.face, hn::Mul(hn::And(pair, hn::Set(di, 1)), hn::Set(di, 6)));
   return hn::Add(start, hn::Add(hn::Mul(hn::Add(hn::Mul(face, n), row), n), col));
 }
@@ -147,7 +147,7 @@ HWY_INLINE hn::Mask<DU> are_near(const CubeView& cube, const BlockColumns& block
   const auto entry = hn::GatherIndex(du, cube.pyramid, index);
   const auto reached = reach(interval_codes(d, cube.scale, hn::Mul(least, hn::Set(d, 1 - 0x1p-15f))),
                              interval_codes(d, cube.scale, hn::Mul(greatest, hn::Set(d, 1 + 0x1p-15f))));
-  // What is too wide for the pyramid may be near.
+  // An interval too wide for the pyramid may be near.
   return hn::Or(radii_meet(entry, reached), hn::Not(hn::RebindMask(du, in_pyramid)));
 }
 

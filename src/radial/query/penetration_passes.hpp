@@ -72,7 +72,7 @@ struct Pairs {
   std::size_t count;
 };
 
-/// What rows and edge functions are queried with, of all near points.
+/// Query constants of rows and edge functions, the same for all near points.
 struct QueryConstants {
   alignas(64) BatchArray<std::uint32_t> diagonal;
   alignas(64) BatchArray<float> bound;  ///< error of a form over the sum of its coefficients' magnitudes
@@ -82,7 +82,7 @@ struct QueryConstants {
 /// positive where the ray leaves the solid and negative where it enters; NaN where floats do not say whether
 /// there is one.
 struct Crossings {
-  /// Of the first: a vector of crossings can be read before it too, as behind the last, of no point.
+  /// Start of the first: a vector of crossings can be read before it too, as behind the last, of no point.
   static constexpr std::size_t begin = vector_padding;
   template <class T>
   using Array = std::array<T, begin + most_pairs + vector_padding>;
@@ -108,13 +108,13 @@ struct CrossingSum {
   std::uint8_t uncertain;
 };
 
-/// Of points that may be inside.
+/// Decisions for points that may be inside.
 struct Decisions {
   std::array<CrossingSum, points_per_batch> sum;
   std::array<std::uint32_t, points_per_batch + vector_padding> kept;
 };
 
-/// What inside_points() writes on its way, 150 kB.
+/// Scratch of inside_points(), 150 kB.
 struct CrossingScratch {
   Pairs pairs;
   QueryConstants constants;

@@ -76,7 +76,7 @@ std::optional<Search> search_in(const ExactView& table, const std::optional<Cube
   return Search{*cube, points_of(points), pose, static_cast<float>(bound)};
 }
 
-/// Of `count` points found from `first` on: gaps to the planes of their triangles.
+/// For `count` points found from `first` on: gaps to the planes of their triangles.
 void find_gaps(const PointBlocks& points, const EdgeFunctions* all_functions, const Pose& X_FM,
                const FoundPoints& found, std::size_t first, std::size_t count, GapColumns& out) {
   constexpr std::size_t ahead = 16;
@@ -106,7 +106,7 @@ class Answers {
         scan_(table.mesh, table.winding_at_centre),
         candidates_(table.map, table.entries) {}
 
-  /// Depths in double. `functions` are not read where all are uncertain.
+  /// Depths in double. `functions` are not read if all are uncertain.
   void add(const FoundPoints& found, const EdgeFunctions* functions) {
     std::size_t count = out_.size();
     out_.resize(count + found.count);
@@ -139,7 +139,7 @@ class Answers {
     out_.direction[to] = at.away_from_centre ? RayDirection::away_from_centre : RayDirection::towards_centre;
   }
 
-  /// The uncertain point i; 0 where it is outside, else 1.
+  /// The uncertain point i; 0 if it is outside, else 1.
   std::size_t decide(const FoundPoints& found, std::size_t i, std::size_t to) {
     if (next_ == gathered_) gather(found, i);
     const Vec3& v = position_[next_];
@@ -182,7 +182,7 @@ void decide_one_by_one(const PointBlocks& points, PenetrationScratch& scratch, A
   }
 }
 
-/// What becomes of the near points found.
+/// Decides the near points that were found.
 void decide(const Search& search, PenetrationScratch& scratch, Answers& answers, PenetrationWork* work) {
   const NearPoints& near = scratch.near;
   if (near.count == 0) return;

@@ -7,8 +7,8 @@
 
 namespace condyle::radial {
 
-/// What the passes of a penetration query write: 230 kB, on the heap; a table keeps one between queries. What is
-/// left on the stack stays below 16 kB.
+/// Scratch of the passes of a penetration query: 230 kB, on the heap; a table keeps one between queries. The rest, on
+/// the stack, stays below 16 kB.
 struct PenetrationScratch {
   NearPoints near;
   FoundPoints found;

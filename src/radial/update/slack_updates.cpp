@@ -36,11 +36,11 @@ std::vector<Triangle> corners_of(const TriMesh& mesh, const CubeTable& table,
   return corners;
 }
 
-/// What a vertex that moves on is given beyond its projection, in cells: more would make rows longer,
-/// less would soon be left again.
+/// Slack of a vertex that moves on, beyond its projection, in cells: more would make rows longer, less would soon be
+/// left again.
 constexpr float slack_around = 1.0f / 16;
-/// What moves further than this is not expected back where it was. With one cell, a ball of 130000 triangles
-/// whose vertices go to and fro by 0.8 cells left their slack at each update, which took twice as long.
+/// A vertex that moves further than this is not expected back at its old position. With one cell, a ball of 130000
+/// triangles whose vertices go to and fro by 0.8 cells left their slack at each update, which took twice as long.
 constexpr float widest_slack = 1.5f;
 
 struct FacePosition {

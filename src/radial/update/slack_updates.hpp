@@ -7,7 +7,7 @@
 namespace condyle::radial {
 
 /// A slack rectangle for each vertex that holds it where it is, no more. To be called before vertices move;
-/// does nothing where there is slack.
+/// does nothing if there is slack.
 void init_slack(const TriMesh& mesh, CubeTable& table);
 
 /// The vertices of a mesh have moved. Rows stay as they are where all three vertices of a triangle are in

@@ -94,7 +94,7 @@ namespace {
 /// four times that, and the smallest number that counts.
 BoxScale::Axis axis_of(double from, double cells_per_mm, Index cells, double units_per_mm) noexcept {
   const double parts = 256.0 * cells, per_unit = 256 * cells_per_mm / units_per_mm;
-  // Cells that floats cannot tell apart, as of a mesh that lies in the axis: every box meets all of them.
+  // Cells that floats cannot distinguish, as of a mesh that lies in the axis: every box meets all of them.
   if (per_unit > std::numeric_limits<float>::max())
     return {.origin = 0,
             .per_unit = 0,

@@ -46,9 +46,9 @@ struct BoxCells {
     Slots in_use;  ///< Slots of the triangles that have this cell, ascending.
     std::size_t count;
   };
-  /// Of boxes of at most two by two cells: the first, that beside it, that above it, and that above both.
+  /// For boxes of at most two by two cells: the first, that beside it, that above it, and that above both.
   std::array<Corner, 4> corner;
-  Slots large;  ///< Of boxes that meet more cells: these have none of the above.
+  Slots large;  ///< Boxes that meet more cells: these have none of the above.
   std::size_t large_count;
 };
 

@@ -69,7 +69,7 @@ class Patches {
     }
   }
 
-  /// The patch of a cell, by its root; none where the direction is taken.
+  /// The patch of a cell, by its root; none if the direction is taken.
   Index of(std::size_t cell) const noexcept {
     return patch_of_[cell] == no_index ? no_index : root(patch_of_[cell]);
   }

@@ -39,7 +39,7 @@ class FreeDirections {
   /// Eighths of a turn between the directions, sector k from direction k to the next: one bit each.
   using Sectors = std::uint8_t;
   /// The same, of a triangle whose corners keep the clearance from all directions and lie in these sectors:
-  /// those inside the narrowest angle around them. None where that is half a turn or more, for the triangle
+  /// those inside the narrowest angle around them. None if that is half a turn or more, for the triangle
   /// may then go round the axis on either side.
   static std::optional<Directions> between(Sectors sectors) noexcept;
 

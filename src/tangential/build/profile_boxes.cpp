@@ -106,7 +106,7 @@ HWY_INLINE Extents extents_of(const ProfileVertex* vertices, const Triangle* tri
   constexpr hn::CappedTag<float, 4> d4;
   alignas(64) std::array<float, 4 * most_lanes> low, high;
   for (std::size_t i = 0; i < most_lanes; ++i) {
-    // What is beyond the last triangle repeats it.
+    // Lanes beyond the last triangle repeat it.
     const auto& [a, b, c] = triangles[std::min(i, count - 1)];
     for (std::size_t k = 0; k < 4; k += hn::Lanes(d4)) {
       const auto at = [&](Index v) { return hn::Load(d4, &vertices[v].x + k); };

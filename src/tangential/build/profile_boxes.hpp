@@ -8,8 +8,7 @@
 #include "condyle/mesh.hpp"
 #include "core/uninitialised.hpp"
 
-/// What sorts triangles into rings: each in a box of radii and heights, in single precision, rounded
-/// outwards.
+/// Sorts triangles into rings: each in a box of radii and heights, in single precision, rounded outwards.
 
 namespace condyle::tangential {
 
@@ -28,7 +27,7 @@ struct alignas(32) AxisVertex {
 struct AxisVertices {
   core::UninitialisedVector<AxisVertex> exact;
   core::UninitialisedVector<ProfileVertex> rounded;
-  /// Eighth of a turn in which the vertex lies, as a bit, counter-clockwise from +x; none where it is near a
+  /// Eighth of a turn in which the vertex lies, as a bit, counter-clockwise from +x; none if it is near a
   /// border (FreeDirections::clearance).
   core::UninitialisedVector<std::uint8_t> sector;
   /// Units of the rounded values in a millimetre: a power of two, so that no square of a float overflows and

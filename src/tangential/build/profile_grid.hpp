@@ -50,7 +50,7 @@ struct ProfileGrid {
     return static_cast<std::size_t>(row) * columns + column;
   }
 
-  /// Cell of a circle; none where it lies beyond the grid.
+  /// Cell of a circle; none if it lies beyond the grid.
   std::optional<std::size_t> cell_of(double rho, double z) const noexcept {
     if (!(rho >= rho_min && rho <= rho_max && z >= z_min && z <= z_max)) return std::nullopt;
     return cell(row_at(z), column_at(rho));

@@ -18,8 +18,8 @@ struct RadiusInterval {
   double low, high;
 };
 
-/// A convex planar figure, or what is left of it between two heights: a triangle's three corners and one more
-/// for each cut, with two to spare.
+/// A convex planar figure, or its part between two heights: a triangle's three corners and one more for each cut,
+/// with two in reserve.
 struct ProfilePolygon {
   std::array<Vec3, 7> corner;
   int count = 0;
@@ -32,7 +32,7 @@ struct ProfilePolygon {
 ProfilePolygon clipped_to_heights(const ProfilePolygon& polygon, double low, double high) noexcept;
 
 /// Radii of the circles about z that meet the polygon, widened so that no exact answer lies outside: the
-/// largest is at a corner, **the smallest may be inside an edge or the face** (0 where the axis pierces it).
+/// largest is at a corner, **the smallest may be inside an edge or the face** (0 if the axis pierces it).
 ///
 /// M being the largest |x|, |y|: corners carry 24u M, the foot of the axis on an edge 8u M, a circle's own
 /// computed radius 3u * sqrt(2) M. A figure of which no edge has a certain sense about the axis, and which is

@@ -14,7 +14,7 @@
 
 namespace condyle::tangential {
 
-/// What a ring table holds. Everything is in the axis frame.
+/// Data of a ring table. Everything is in the axis frame.
 struct Rings {
   AxisFrame frame;
   core::UninitialisedVector<AxisVertex> vertices;
@@ -34,7 +34,7 @@ struct Rings {
   }
 };
 
-/// Of a closed mesh, with about `cells` cells. Linear.
+/// Rings of a closed mesh, with about `cells` cells. Linear.
 Rings build_rings(const TriMesh& mesh, const AxisFrame& frame, std::size_t cells);
 
 RingTableSize size_of(const Rings& rings) noexcept;

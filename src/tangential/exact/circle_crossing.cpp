@@ -18,7 +18,7 @@ CircleCut::End cut_end(const Vec3& lower, const Vec3& upper, double height) noex
   return {&lower, &upper, lower.x() + t * (upper.x() - lower.x()), lower.y() + t * (upper.y() - lower.y())};
 }
 
-/// The triangle cut at the circle's height; none where it lies above or below.
+/// The triangle cut at the circle's height; none if it lies above or below.
 ///
 /// Corner k, the apex, is the only one on its side; counter-clockwise seen from outside k + 1 and k + 2 follow
 /// it. With the apex above, the cut from edge (k, k + 1) to edge (k, k + 2) has the outside on its right; with

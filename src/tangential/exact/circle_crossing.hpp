@@ -14,7 +14,7 @@
 
 namespace condyle::tangential {
 
-/// What happens to the solid where a circle, walked counter-clockwise seen from +z, crosses its surface.
+/// Change of the solid at a point where a circle, walked counter-clockwise seen from +z, crosses its surface.
 enum class Passage : signed char { leaves = -1, enters = 1 };
 
 /// One crossing of a point's circle with a triangle.
@@ -87,7 +87,7 @@ void add_crossings(const Circle& circle, const TriangleRef& triangle, Index numb
                    std::vector<CircleCrossing>& out, TangentialWork& work);
 
 /// How the ray from the point away from the axis, at its height, crosses this triangle: +1 where it leaves the
-/// solid there, -1 where it enters, 0 where they do not meet. Summed over all
+/// solid there, -1 where it enters, 0 if they do not meet. Summed over all
 /// triangles: the winding number of the infinitely little shifted point, also where the point itself is on
 /// the surface.
 int outward_crossing(const Circle& circle, const TriangleRef& triangle, TangentialWork& work);

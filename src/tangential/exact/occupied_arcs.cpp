@@ -15,7 +15,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr OccupiedArc whole_circle{Angle(), Angle::radians(two_pi), no_index, no_index};
 
-/// Where an arc begins: less than a turn ahead, also for a crossing behind the point by less than rounding tells from a turn.
+/// Start of an arc: less than a turn ahead, also for a crossing that is behind the point by less than rounding
+/// resolves.
 double begin_of(const CircleCrossing& enters) noexcept {
   constexpr double last = two_pi - 0x1p-50;  // the double before it
   return std::min(enters.ahead(), last);

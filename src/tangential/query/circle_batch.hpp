@@ -40,7 +40,7 @@ class CircleBatch {
   };
   Classified classify(std::size_t circle);
 
-  /// Of one circle, in order.
+  /// Crossings of one circle, in order.
   std::span<const CircleCrossing> crossings_of(std::size_t circle);
 
   /// At least as many as the circles have arcs: one for two crossings, or a whole turn.

@@ -22,7 +22,7 @@ struct Coordinate {
   V cell, part;
 };
 
-/// Of values in cells from the grid's border.
+/// Cells of values that are measured in cells from the grid's border.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Coordinate<V> coordinate(D d, V cells, Index count) {
   const auto zero = hn::Zero(d);
@@ -31,7 +31,7 @@ HWY_INLINE Coordinate<V> coordinate(D d, V cells, Index count) {
   return {cell, hn::Min(hn::Max(part, zero), hn::Set(d, 255.0))};
 }
 
-/// Of as many points as there are lanes, from `first` on; returns how many circles there are then.
+/// Cells of as many points as there are lanes, from `first` on; returns how many circles there are then.
 template <class D>
 HWY_INLINE std::size_t locate_some(D d, const AxisFrame& frame, const ProfileGrid& grid,
                                    const PointsView& points, std::size_t first, std::size_t circles,

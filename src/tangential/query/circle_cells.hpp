@@ -20,7 +20,7 @@ struct alignas(32) CirclePoint {
 struct LocatedCircles {
   core::UninitialisedVector<CirclePoint> point;
   core::UninitialisedVector<CircleCell> cell;
-  core::UninitialisedVector<Index> number;  ///< Of the point, ascending.
+  core::UninitialisedVector<Index> number;  ///< Number of the point, ascending.
 
   std::size_t size() const noexcept { return number.size(); }
 };

@@ -82,8 +82,8 @@ struct Cuts {
   hn::Mask<D> missed, touches;
 };
 
-/// Of corners 0, 1 and 2 one, the apex, is the only one on its side of the height; the others follow it in the
-/// order 1, 2 or 0, 1 or, where 1 is the apex, the other way round.
+/// Among corners 0, 1 and 2 one, the apex, is the only one on its side of the height; the others follow it in the
+/// order 1, 2 or 0, 1 or, if 1 is the apex, reversed.
 HWY_INLINE Cuts cuts_of(const Staged& staged, Doubles height, std::size_t i) {
   const auto corner = [&](std::size_t c) {
     Points3 at;
@@ -119,7 +119,7 @@ HWY_INLINE Doubles value(CrossingClass crossing_class) {
   return hn::Set(d, static_cast<double>(crossing_class));
 }
 
-/// Of rounding, in units of the scale M, as circle_predicates.cpp derives them.
+/// Error bounds of rounding, in units of the scale M, as circle_predicates.cpp derives them.
 struct Bounds {
   Doubles end, dot, discriminant;
 };
@@ -131,7 +131,7 @@ HWY_INLINE Bounds bounds_of(double scale) {
           .discriminant = hn::Set(d, 1024 * core::rounding_unit * scale2 * scale2)};
 }
 
-/// Of cuts with both ends beyond the circle, and (dx, dy) from q to p: certainly no chord of it.
+/// For cuts with both ends beyond the circle, and (dx, dy) from q to p: certainly no chord of it.
 HWY_INLINE hn::Mask<D> no_chord(const Ends& p, const Ends& q, Doubles dx, Doubles dy, Doubles squared_radius,
                                 const Bounds& bounds) {
   const auto at_p = hn::Add(hn::Mul(p.x, dx), hn::Mul(p.y, dy));

@@ -10,26 +10,26 @@
 
 namespace condyle::tangential {
 
-/// What vectors of doubles decide about a circle and a triangle that may cross.
+/// Decision of vectors of doubles about a circle and a triangle that may cross.
 enum class CrossingClass : signed char {
   leaves = static_cast<signed char>(Passage::leaves),  ///< One crossing, where the circle leaves the solid.
   enters = static_cast<signed char>(Passage::enters),  ///< One crossing, where it enters.
   uncertain = 0  ///< The filter could not decide, or there are two crossings: left to `add_crossings`.
 };
 
-/// Of some pairs of a circle and a triangle those that may cross, in their order.
+/// Those of some pairs of a circle and a triangle that may cross, in their order.
 struct ClassifiedPairs {
   static constexpr std::size_t most = 64;
 
   std::size_t count = 0;
-  /// Of the crossing, where there is one: as in CircleCrossing.
+  /// Values of the crossing, if there is one: as in CircleCrossing.
   alignas(64) std::array<double, most> angle;
   /// A CrossingClass as a number.
   alignas(64) std::array<double, most> crossing_class;
   std::array<std::size_t, most> pair;  ///< Slot in the lists.
 };
 
-/// What circles are intersected with.
+/// Triangles that circles are intersected with.
 struct CircleTriangles {
   const AxisVertex* vertices;
   const Triangle* triangles;
