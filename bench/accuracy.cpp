@@ -31,25 +31,26 @@ void compare(std::vector<InsideVertex>& answer, Reference& reference, std::size_
   std::sort(answer.begin(), answer.end(), [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
   const auto& truth = reference.inside(pose);
   const auto& depths = reference.depths(pose, kind);
-  auto told = answer.begin();
+  auto reported = answer.begin();
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    for (; told != answer.end() && told->vertex < truth[i].vertex; ++told) ++accuracy.false_inside;
-    const bool is_told = told != answer.end() && told->vertex == truth[i].vertex;
+    for (; reported != answer.end() && reported->vertex < truth[i].vertex; ++reported)
+      ++accuracy.false_inside;
+    const bool is_reported = reported != answer.end() && reported->vertex == truth[i].vertex;
     if (!truth[i].is_on_surface) {
       ++accuracy.inside;
-      if (!is_told) ++accuracy.false_outside;
+      if (!is_reported) ++accuracy.false_outside;
     }
-    if (!is_told) continue;
-    if (kind != DepthKind::none && !std::isnan(told->depth_mm)) {
+    if (!is_reported) continue;
+    if (kind != DepthKind::none && !std::isnan(reported->depth_mm)) {
       // An endless depth (a circle that is solid all round) is right where the true one is endless too.
-      const double error = told->depth_mm == depths[i] ? 0 : std::abs(told->depth_mm - depths[i]);
+      const double error = reported->depth_mm == depths[i] ? 0 : std::abs(reported->depth_mm - depths[i]);
       ++accuracy.depths;
       accuracy.depth_error_sum_mm += error;
       accuracy.depth_error_max_mm = std::max(accuracy.depth_error_max_mm, error);
     }
-    ++told;
+    ++reported;
   }
-  accuracy.false_inside += answer.end() - told;
+  accuracy.false_inside += answer.end() - reported;
 }
 
 void compare(std::vector<condyle::TrianglePair>& answer, Reference& reference, std::size_t pose,

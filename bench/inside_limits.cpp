@@ -38,18 +38,18 @@ const TableHead limits_head{"inside_limits",
 
 /// Which vertices are inside at a pose, and the triangles that they leave through: the answer but for its
 /// numbers.
-struct Told {
+struct Reported {
   Pose X_FM;
   std::vector<InsideVertex> inside;
 };
 
-std::vector<Told> all_told(const Scene& scene, Method& ours) {
-  std::vector<Told> told;
+std::vector<Reported> all_reported(const Scene& scene, Method& ours) {
+  std::vector<Reported> reported;
   for (const ScenePose& pose : scene.poses) {
-    told.push_back({pose.X_FM, {}});
-    ours.find_inside(pose.X_FM, told.back().inside);
+    reported.push_back({pose.X_FM, {}});
+    ours.find_inside(pose.X_FM, reported.back().inside);
   }
-  return told;
+  return reported;
 }
 
 /// Planes of all triangles, as depths are taken from.
@@ -62,13 +62,13 @@ std::vector<Vec3> all_planes(const condyle::TriMesh& mesh) {
 
 /// The answer of one that is told it: each vertex is read and posed, its triangle's plane read, the depth
 /// computed, everything written.
-void write_told(const Told& told, const std::vector<Vec3>& vertices, const std::vector<Vec3>& planes,
-                std::vector<InsideVertex>& out) {
-  out.resize(told.inside.size());
+void write_reported(const Reported& reported, const std::vector<Vec3>& vertices,
+                    const std::vector<Vec3>& planes, std::vector<InsideVertex>& out) {
+  out.resize(reported.inside.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto [vertex, triangle, depth] = told.inside[i];
+    const auto [vertex, triangle, depth] = reported.inside[i];
     const double gap =
-        condyle::radial::gap_to_plane(condyle::posed(told.X_FM, vertices[vertex]), planes[triangle]);
+        condyle::radial::gap_to_plane(condyle::posed(reported.X_FM, vertices[vertex]), planes[triangle]);
     out[i] = {vertex, triangle, std::isnan(gap) ? depth : std::abs(gap)};
   }
 }
@@ -87,49 +87,50 @@ void ask_inside_limits(const Scene& scene, Effort effort, Report& report) {
   const auto ours = method_named("radial")->make(bodies);
   const auto robust = robust_kind ? robust_kind->make(bodies) : nullptr;
   const auto culled = culled_kind ? culled_kind->make(bodies) : nullptr;
-  const std::vector<Told> told = all_told(scene, *ours);
+  const std::vector<Reported> reported = all_reported(scene, *ours);
   const std::vector<Vec3> vertices = as_vectors(bodies.mobile.vertices), planes = all_planes(bodies.fixed);
   const condyle::SortedPoints sorted(bodies.mobile.vertices);
   std::vector<InsideVertex> out;
   volatile float kept = 0;
   const auto at_all_poses = [&](Method* method) {
-    for (const Told& pose : told)
+    for (const Reported& pose : reported)
       if (method) method->find_inside(pose.X_FM, out);
   };
   // What is quick is done several times over: its first time finds what the others left in the caches.
   constexpr int times = 20;
   std::vector<std::vector<double>> samples;
   tbb::task_arena(1).execute([&] {
-    samples = interleaved(effort == Effort::full ? 5 : 1, {
-                                                              [&] {
-                                                                for (int i = 0; i < times; ++i)
-                                                                  for (const Told& pose : told)
-                                                                    kept = greatest_turned(sorted, pose.X_FM);
-                                                              },
-                                                              [&] {
-                                                                for (int i = 0; i < times; ++i)
-                                                                  for (const Told& pose : told)
-                                                                    write_told(pose, vertices, planes, out);
-                                                              },
-                                                              [&] {
-                                                                for (int i = 0; i < times; ++i)
-                                                                  at_all_poses(ours.get());
-                                                              },
-                                                              [&] { at_all_poses(robust.get()); },
-                                                              [&] { at_all_poses(culled.get()); },
-                                                          });
+    samples =
+        interleaved(effort == Effort::full ? 5 : 1, {
+                                                        [&] {
+                                                          for (int i = 0; i < times; ++i)
+                                                            for (const Reported& pose : reported)
+                                                              kept = greatest_turned(sorted, pose.X_FM);
+                                                        },
+                                                        [&] {
+                                                          for (int i = 0; i < times; ++i)
+                                                            for (const Reported& pose : reported)
+                                                              write_reported(pose, vertices, planes, out);
+                                                        },
+                                                        [&] {
+                                                          for (int i = 0; i < times; ++i)
+                                                            at_all_poses(ours.get());
+                                                        },
+                                                        [&] { at_all_poses(robust.get()); },
+                                                        [&] { at_all_poses(culled.get()); },
+                                                    });
   });
   std::size_t inside = 0;
-  for (const Told& pose : told) inside += pose.inside.size();
+  for (const Reported& pose : reported) inside += pose.inside.size();
   const auto us = [&](std::size_t way, int repeats) {
-    return median(samples[way]) * 1e6 / repeats / static_cast<double>(told.size());
+    return median(samples[way]) * 1e6 / repeats / static_cast<double>(reported.size());
   };
   const double turned = us(0, times), written = us(1, times), ours_us = us(2, times);
   const double robust_us = us(3, 1), culled_us = us(4, 1);
   const auto measured = [](const auto& method, double value) { return method ? Cell(value) : Cell("-"); };
   report.table(limits_head)
       .add({scene.joint.name, static_cast<std::int64_t>(vertices.size()),
-            static_cast<double>(inside) / static_cast<double>(told.size()), turned, written, ours_us,
+            static_cast<double>(inside) / static_cast<double>(reported.size()), turned, written, ours_us,
             ours_us / written, measured(robust, robust_us), measured(robust, robust_us / written),
             measured(culled, culled_us), measured(culled, culled_us / written)});
 }

@@ -41,7 +41,7 @@ constexpr PoseKind kind_of(int i) {
 
 std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const condyle::TriMesh& mobile) {
   const condyle::motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
-  condyle::motion::TurningBody turning(mobile_tree);
+  condyle::motion::RotatingBody turning(mobile_tree);
   const int axes = (poses_per_scene + 2) / 3;
   const condyle::RotationRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
 

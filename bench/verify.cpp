@@ -53,17 +53,17 @@ struct Truth {
   /// How many points are told otherwise, in any of what is told.
   std::int64_t wrong(const Penetrations& found) const {
     std::int64_t wrong = 0;
-    std::size_t told_inside = 0;
+    std::size_t reported_inside = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
       const condyle::Index p = found.point[i];
-      told_inside += hits.state[p] != PointState::outside;
+      reported_inside += hits.state[p] != PointState::outside;
       const bool is_right = found.state[i] == hits.state[p] && found.winding[i] == hits.winding[p] &&
                             found.triangle[i] == hits.triangle[p] &&
                             found.depth_mm[i] == -hits.radial_gap_mm[p] &&
                             found.direction[i] == hits.direction[p];
       wrong += !is_right;
     }
-    return wrong + static_cast<std::int64_t>(inside - told_inside);
+    return wrong + static_cast<std::int64_t>(inside - reported_inside);
   }
 };
 

@@ -29,7 +29,7 @@ struct SphereFit {
 SphereFit fit_sphere(PointsView points, std::span<const Index> vertices);
 SphereFit fit_sphere(PointsView points);
 
-/// Which side of the sphere the solid is on: inside (a head) or outside (a socket). Told by the winding: in a
+/// Which side of the sphere the solid is on: inside (a head) or outside (a socket). Inferred from the winding: in a
 /// mesh of inverted orientation, heads are sockets.
 enum class SphericalPart { head, socket };
 

@@ -229,10 +229,10 @@ const ElasticContactOptions& ElasticContact::options() const noexcept {
 
 ElasticContactResults ElasticContact::at(const Pose& X_FM) const {
   core::require_in_range(X_FM);
-  auto answers = parts_->spare.take();
+  auto answers = parts_->pool.take();
   parts_->answer(X_FM, *answers);
   ElasticContactResults results = parts_->results_of(*answers, parts_->load_of(*answers, X_FM));
-  parts_->spare.put_back(std::move(answers));
+  parts_->pool.put_back(std::move(answers));
   return results;
 }
 
@@ -280,7 +280,7 @@ std::optional<Vec3> ElasticContact::refined_force_n(const Pose& X_FM) const {
   core::require_in_range(X_FM);
   const Parts& p = *parts_;
   if (p.options.rays.rule == FaceRule::face_centre) return std::nullopt;
-  auto answers = p.spare.take();
+  auto answers = p.pool.take();
   try {
     if (p.from_fixed) p.from_fixed->answer_by_parts(X_FM, answers->of_fixed);
     if (p.from_mobile) p.from_mobile->answer_by_parts(inverted(X_FM), answers->of_mobile);
@@ -288,7 +288,7 @@ std::optional<Vec3> ElasticContact::refined_force_n(const Pose& X_FM) const {
     return std::nullopt;
   }
   const Vec3 force = p.load_of(*answers, X_FM).wrench.head<3>();
-  p.spare.put_back(std::move(answers));
+  p.pool.put_back(std::move(answers));
   return force;
 }
 

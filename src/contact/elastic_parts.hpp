@@ -5,7 +5,7 @@
 #include "condyle/pressure.hpp"
 #include "contact/layer_law.hpp"
 #include "contact/overlap_sampler.hpp"
-#include "core/spare.hpp"
+#include "core/pool.hpp"
 
 namespace condyle {
 
@@ -71,7 +71,7 @@ struct ElasticContact::Parts {
   void for_each_cast(const Answers& answers, const Pose& X_FM, const auto& take) const;
   ElasticContactResults results_of(const Answers& answers, const contact::MobileLoad& load) const;
 
-  mutable core::Spare<Answers> spare;
+  mutable core::Pool<Answers> pool;
 };
 
 }  // namespace condyle

@@ -95,10 +95,10 @@ class Search {
   }
 
   BalancedPose run() {
-    answers_ = contact_.parts().spare.take(), tried_ = contact_.parts().spare.take();
+    answers_ = contact_.parts().pool.take(), tried_ = contact_.parts().pool.take();
     out_.outcome = explained(find());
     out_.contact = contact_.parts().results_of(*answers_, now_);
-    contact_.parts().spare.put_back(std::move(answers_));
+    contact_.parts().pool.put_back(std::move(answers_));
     out_.residual = {residual_.head<3>(), residual_.tail<3>()};
     return std::move(out_);
   }

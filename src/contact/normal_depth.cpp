@@ -32,10 +32,10 @@ SurfaceContact NormalDepth::at(const Pose& X_CT) const {
 
 void NormalDepth::at(const Pose& X_CT, SurfaceContact& out) const {
   core::require_in_range(X_CT);
-  auto found = sampler_->spare_found().take();
+  auto found = sampler_->found_pool().take();
   sampler_->sample(X_CT, contact::Quadrature::of_degree_2, {}, *found);
   contact::add_up(*sampler_, *found, std::nullopt, out);
-  sampler_->spare_found().put_back(std::move(found));
+  sampler_->found_pool().put_back(std::move(found));
 }
 
 std::size_t NormalDepth::cut_off_by_reach(const Pose& X_CT) const {

@@ -8,7 +8,7 @@
 
 #include "condyle/normal_depth.hpp"
 #include "contact/points_inside.hpp"
-#include "core/spare.hpp"
+#include "core/pool.hpp"
 #include "mesh/ray_hits.hpp"
 
 namespace condyle::contact {
@@ -74,7 +74,7 @@ class OverlapSampler {
   std::size_t cut_off_by_reach(const Pose& X_CT) const;
 
   /// Memory for samples, kept between queries.
-  core::Spare<Found>& spare_found() const noexcept { return found_; }
+  core::Pool<Found>& found_pool() const noexcept { return found_; }
 
   const Mesh& casting() const noexcept { return casting_; }
   const Mesh& target() const noexcept { return target_; }
@@ -201,8 +201,8 @@ class OverlapSampler {
   /// smooth about it, and one for each side of a crease.
   std::vector<Vec3> ray_normal_;
   std::vector<std::array<Index, 3>> corner_ray_;
-  mutable core::Spare<Scratch> scratch_;
-  mutable core::Spare<Found> found_;
+  mutable core::Pool<Scratch> scratch_;
+  mutable core::Pool<Found> found_;
 };
 
 /// MPa, of the samples and of the corners.

@@ -7,16 +7,16 @@
 namespace condyle::core {
 
 ArcSet::ArcSet(const std::vector<Arc>& arcs) {
-  std::vector<Stretch> stretches;
-  for (const Arc& arc : arcs) append(arc, stretches);
-  stretches_ = merged(std::move(stretches));
+  std::vector<Interval> intervals;
+  for (const Arc& arc : arcs) append(arc, intervals);
+  intervals_ = merged(std::move(intervals));
 }
 
 ArcSet ArcSet::full_turn() {
   return ArcSet({{Angle(), Angle::radians(two_pi)}});
 }
 
-void ArcSet::append(const Arc& arc, std::vector<Stretch>& to) {
+void ArcSet::append(const Arc& arc, std::vector<Interval>& to) {
   const double width = arc.width.radians();
   if (width >= two_pi) {
     to.push_back({0, two_pi});
@@ -27,10 +27,10 @@ void ArcSet::append(const Arc& arc, std::vector<Stretch>& to) {
   if (high >= two_pi) to.push_back({0, high - two_pi});
 }
 
-std::vector<ArcSet::Stretch> ArcSet::merged(std::vector<Stretch> stretches) {
-  std::sort(stretches.begin(), stretches.end());
-  std::vector<Stretch> out;
-  for (const Stretch& s : stretches) {
+std::vector<ArcSet::Interval> ArcSet::merged(std::vector<Interval> intervals) {
+  std::sort(intervals.begin(), intervals.end());
+  std::vector<Interval> out;
+  for (const Interval& s : intervals) {
     if (!out.empty() && s.low <= out.back().high) {
       out.back().high = std::max(out.back().high, s.high);
     } else {
@@ -44,34 +44,34 @@ std::vector<ArcSet::Stretch> ArcSet::merged(std::vector<Stretch> stretches) {
 }
 
 bool ArcSet::is_full_turn() const noexcept {
-  return stretches_.size() == 1 && stretches_[0] == Stretch{0, two_pi};
+  return intervals_.size() == 1 && intervals_[0] == Interval{0, two_pi};
 }
 
 Angle ArcSet::measure() const noexcept {
   double sum = 0;
-  for (const auto& [low, high] : stretches_) sum += high - low;
+  for (const auto& [low, high] : intervals_) sum += high - low;
   return Angle::radians(sum);
 }
 
 std::vector<Arc> ArcSet::arcs() const {
   std::vector<Arc> out;
-  const bool across_zero = stretches_.size() > 1 && stretches_.front().low == 0;
-  for (std::size_t i = across_zero ? 1 : 0; i < stretches_.size(); ++i) {
-    const auto& [low, high] = stretches_[i];
+  const bool across_zero = intervals_.size() > 1 && intervals_.front().low == 0;
+  for (std::size_t i = across_zero ? 1 : 0; i < intervals_.size(); ++i) {
+    const auto& [low, high] = intervals_[i];
     out.push_back({Angle::radians(low), Angle::radians(high - low)});
   }
   if (across_zero) {
     Arc& last = out.back();
-    last.width = last.width + Angle::radians(stretches_.front().high);
+    last.width = last.width + Angle::radians(intervals_.front().high);
     if (last.start.radians() == two_pi) last.start = Angle();
   }
   return out;
 }
 
-bool ArcSet::holds(const Stretch& stretch) const noexcept {
-  const auto after = std::upper_bound(stretches_.begin(), stretches_.end(), stretch.low,
-                                      [](double low, const Stretch& s) { return low < s.low; });
-  return after != stretches_.begin() && stretch.high <= std::prev(after)->high;
+bool ArcSet::holds(const Interval& interval) const noexcept {
+  const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), interval.low,
+                                      [](double low, const Interval& s) { return low < s.low; });
+  return after != intervals_.begin() && interval.high <= std::prev(after)->high;
 }
 
 bool ArcSet::contains(Angle direction) const noexcept {
@@ -87,22 +87,22 @@ bool ArcSet::contains(const Arc& arc) const noexcept {
 
 ArcSet ArcSet::united(const ArcSet& other) const {
   ArcSet out;
-  std::vector<Stretch> all = stretches_;
-  all.insert(all.end(), other.stretches_.begin(), other.stretches_.end());
-  out.stretches_ = merged(std::move(all));
+  std::vector<Interval> all = intervals_;
+  all.insert(all.end(), other.intervals_.begin(), other.intervals_.end());
+  out.intervals_ = merged(std::move(all));
   return out;
 }
 
 ArcSet ArcSet::complement() const {
-  std::vector<Stretch> between;
+  std::vector<Interval> between;
   double from = 0;
-  for (const auto& [low, high] : stretches_) {
+  for (const auto& [low, high] : intervals_) {
     if (low > from) between.push_back({from, low});
     from = high;
   }
   if (from < two_pi) between.push_back({from, two_pi});
   ArcSet out;
-  out.stretches_ = merged(std::move(between));
+  out.intervals_ = merged(std::move(between));
   return out;
 }
 

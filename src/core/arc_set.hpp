@@ -15,7 +15,7 @@ struct Arc {
 
 /// A set of directions: closed arcs on the circle.
 ///
-///   0 |----[====]-------[==========]--| 2 pi      kept as disjoint stretches, ascending;
+///   0 |----[====]-------[==========]--| 2 pi      kept as disjoint intervals, ascending;
 ///     |==]----------------------[=====|           an arc across 0 is kept as two, of which arcs() makes one again
 ///
 /// Ends are compared as they are, with no tolerance, and no operation computes new ones: the union of many
@@ -28,7 +28,7 @@ class ArcSet {
   explicit ArcSet(const std::vector<Arc>& arcs);
   static ArcSet full_turn();
 
-  bool empty() const noexcept { return stretches_.empty(); }
+  bool empty() const noexcept { return intervals_.empty(); }
   bool is_full_turn() const noexcept;
   /// Sum of all widths.
   Angle measure() const noexcept;
@@ -47,16 +47,16 @@ class ArcSet {
 
  private:
   /// Radians, 0 <= low <= high <= 2 pi.
-  struct Stretch {
+  struct Interval {
     double low, high;
-    friend auto operator<=>(const Stretch&, const Stretch&) = default;
+    friend auto operator<=>(const Interval&, const Interval&) = default;
   };
-  /// The one or two stretches of an arc.
-  static void append(const Arc& arc, std::vector<Stretch>& to);
-  static std::vector<Stretch> merged(std::vector<Stretch> stretches);
-  bool holds(const Stretch& stretch) const noexcept;
+  /// The one or two intervals of an arc.
+  static void append(const Arc& arc, std::vector<Interval>& to);
+  static std::vector<Interval> merged(std::vector<Interval> intervals);
+  bool holds(const Interval& interval) const noexcept;
 
-  std::vector<Stretch> stretches_;
+  std::vector<Interval> intervals_;
 };
 
 }  // namespace condyle::core

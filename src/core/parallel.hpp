@@ -6,7 +6,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "core/told_order.hpp"
+#include "core/sanitizer_order.hpp"
 #endif
 
 namespace condyle::core {
@@ -19,7 +19,7 @@ void parallel_chunks(std::size_t count, [[maybe_unused]] std::size_t grain, cons
 #ifdef CONDYLE_SERIAL
   if (count > 0) body(std::size_t{0}, count);
 #else
-  ToldOrder begun, done;
+  SanitizerOrder begun, done;
   begun.before();
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
                     [&](const tbb::blocked_range<std::size_t>& range) {

@@ -10,7 +10,7 @@
 #include <atomic>
 #include <cstddef>
 
-#include "core/told_order.hpp"
+#include "core/sanitizer_order.hpp"
 
 namespace condyle::core {
 
@@ -26,7 +26,7 @@ void parallel_tasks(std::size_t count, const Body& body) {
       std::min(allowed, static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()));
   const std::size_t workers = std::min(count, threads);
   std::atomic<std::size_t> next = 0;
-  ToldOrder begun, done;
+  SanitizerOrder begun, done;
   begun.before();
   // A range each for as many as there are workers.
   tbb::parallel_for(

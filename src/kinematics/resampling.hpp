@@ -36,9 +36,9 @@ Resamples resampled(const std::vector<Index>& vertices, std::size_t count, std::
   for (const Index v : vertices) by_number[block_of(v)].push_back(v);
   std::vector<const std::vector<Index>*> blocks;
   for (const auto& numbered : by_number) blocks.push_back(&numbered.second);
-  const std::size_t spare = blocks.size() > unknowns ? blocks.size() - unknowns : 1;
+  const std::size_t redundant = blocks.size() > unknowns ? blocks.size() - unknowns : 1;
   Resamples out{std::vector<std::vector<Index>>(count),
-                std::sqrt(static_cast<double>(blocks.size()) / static_cast<double>(spare))};
+                std::sqrt(static_cast<double>(blocks.size()) / static_cast<double>(redundant))};
   std::mt19937_64 random(resampling_seed);
   for (std::vector<Index>& drawn : out.draws)
     for (std::size_t k = 0; k < blocks.size(); ++k) {

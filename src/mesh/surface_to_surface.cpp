@@ -82,7 +82,7 @@ class Search {
     const Eigen::Matrix3d R = X_AB.linear();
     to_a_size_ = R.cwiseAbs();
     origins_apart_ = X_AB.translation().norm();
-    stretch_ = 3 * (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() + rounding;
+    scale_error_ = 3 * (R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() + rounding;
   }
 
   std::optional<ClosestPoints> run() {
@@ -134,7 +134,8 @@ class Search {
   double shells_apart(const Node& na, const Node& nb) const noexcept {
     const double between =
         std::max(double{na.nearest} - double{nb.farthest}, double{nb.nearest} - double{na.farthest});
-    return between - origins_apart_ - stretch_ * (double{na.farthest} + double{nb.farthest} + origins_apart_);
+    return between - origins_apart_ -
+           scale_error_ * (double{na.farthest} + double{nb.farthest} + origins_apart_);
   }
 
   void push(Index a, Index b) {
@@ -181,9 +182,9 @@ class Search {
   const Pose& X_AB_;
   Eigen::Matrix3d to_a_size_;
   double origins_apart_;
-  /// Scale of distances from B's origin if the pose is not quite a rotation: |R p|^2 is |p|^2 and p.(R^T R - 1)p, at
+  /// Relative error of distances from B's origin if the pose is not quite a rotation: |R p|^2 is |p|^2 and p.(R^T R - 1)p, at
   /// most three times the largest entry.
-  double stretch_;
+  double scale_error_;
   std::vector<Pair> open_;
   Index leaf_a_ = no_index;
   std::array<PlacedTriangle, TriangleTree::leaf_triangles> of_a_;  ///< of that leaf

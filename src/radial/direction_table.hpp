@@ -5,7 +5,7 @@
 
 #include "condyle/radial.hpp"
 #include "core/lazy.hpp"
-#include "core/spare.hpp"
+#include "core/pool.hpp"
 #include "mesh/vertex_triangles.hpp"
 #include "radial/build/cell_radii.hpp"
 #include "radial/build/direction_pyramid.hpp"
@@ -67,7 +67,7 @@ class DirectionTable {
   std::optional<int> winding_at_centre_;
   mesh::VertexTriangles triangles_at_;  // from the first update of some vertices on
   core::Lazy<RejectionParts> rejection_;
-  mutable core::Spare<PenetrationScratch> scratch_;
+  mutable core::Pool<PenetrationScratch> scratch_;
 };
 
 }  // namespace condyle::radial

@@ -55,8 +55,8 @@ TEST_F(BoxInCorner, TheReferenceFindsTheOneCornerAndItsWayOut) {
 
 TEST_F(BoxInCorner, AVertexNotToldAndOnesFalselyToldAreCounted) {
   InsideAccuracy accuracy;
-  std::vector<InsideVertex> told = {{6, 0, 1.0}, {3, 0, 1.0}};
-  compare(told, reference_, touching, DepthKind::nearest_surface, accuracy);
+  std::vector<InsideVertex> reported = {{6, 0, 1.0}, {3, 0, 1.0}};
+  compare(reported, reference_, touching, DepthKind::nearest_surface, accuracy);
   EXPECT_EQ(accuracy.inside, 1);
   EXPECT_EQ(accuracy.false_outside, 1);
   EXPECT_EQ(accuracy.false_inside, 2);
@@ -66,10 +66,10 @@ TEST_F(BoxInCorner, AVertexNotToldAndOnesFalselyToldAreCounted) {
 
 TEST_F(BoxInCorner, ADepthIsHeldAgainstTheTrueOneOfItsKind) {
   InsideAccuracy accuracy;
-  std::vector<InsideVertex> told = {{corner_inside, 0, 3.609375}};
-  compare(told, reference_, touching, DepthKind::nearest_surface, accuracy);
-  told = {};
-  compare(told, reference_, apart, DepthKind::nearest_surface, accuracy);
+  std::vector<InsideVertex> reported = {{corner_inside, 0, 3.609375}};
+  compare(reported, reference_, touching, DepthKind::nearest_surface, accuracy);
+  reported = {};
+  compare(reported, reference_, apart, DepthKind::nearest_surface, accuracy);
   EXPECT_TRUE(accuracy.agrees());
   EXPECT_EQ(accuracy.depths, 1);
   EXPECT_EQ(accuracy.depth_error_max_mm, 0.5);
@@ -78,26 +78,26 @@ TEST_F(BoxInCorner, ADepthIsHeldAgainstTheTrueOneOfItsKind) {
 
 TEST_F(BoxInCorner, ADepthThatIsNotToldIsNotCompared) {
   InsideAccuracy accuracy;
-  std::vector<InsideVertex> told = {{corner_inside}};
-  compare(told, reference_, touching, DepthKind::along_ray, accuracy);
+  std::vector<InsideVertex> reported = {{corner_inside}};
+  compare(reported, reference_, touching, DepthKind::along_ray, accuracy);
   EXPECT_TRUE(accuracy.agrees());
   EXPECT_EQ(accuracy.depths, 0);
 }
 
 TEST_F(BoxInCorner, PairsAreComparedAsSets) {
-  std::vector<condyle::TrianglePair> told = reference_.pairs(touching);
-  const auto all = static_cast<std::int64_t>(told.size());
-  std::reverse(told.begin(), told.end());
-  told.push_back(told.front());
+  std::vector<condyle::TrianglePair> reported = reference_.pairs(touching);
+  const auto all = static_cast<std::int64_t>(reported.size());
+  std::reverse(reported.begin(), reported.end());
+  reported.push_back(reported.front());
   PairAccuracy right;
-  compare(told, reference_, touching, right);
+  compare(reported, reference_, touching, right);
   EXPECT_TRUE(right.agrees());
   EXPECT_EQ(right.pairs, all);
 
-  told = reference_.pairs(touching);
-  told.front() = {99, 99};
+  reported = reference_.pairs(touching);
+  reported.front() = {99, 99};
   PairAccuracy wrong;
-  compare(told, reference_, touching, wrong);
+  compare(reported, reference_, touching, wrong);
   EXPECT_EQ(wrong.missed, 1);
   EXPECT_EQ(wrong.invented, 1);
 }

@@ -55,10 +55,10 @@ class BallInSlab : public ::testing::TestWithParam<MethodKind> {
   static constexpr double sample_mm = 0.31;
 
   std::map<Index, InsideVertex> inside_of(Method& method, const Pose& X = Pose::Identity()) const {
-    std::vector<InsideVertex> told;
-    method.find_inside(X, told);
+    std::vector<InsideVertex> reported;
+    method.find_inside(X, reported);
     std::map<Index, InsideVertex> inside;
-    for (const InsideVertex& vertex : told) {
+    for (const InsideVertex& vertex : reported) {
       const bool is_new = inside.emplace(vertex.vertex, vertex).second;
       EXPECT_TRUE(is_new) << "vertex " << vertex.vertex << " told twice";
     }
@@ -71,13 +71,13 @@ class BallInSlab : public ::testing::TestWithParam<MethodKind> {
     for (Index v = 0; v < ball_.vertices.size(); ++v) {
       const Vec3 p = ball_.vertices[v];
       if (std::abs(p.x() - begin) <= margin) continue;
-      const auto told = inside.find(v);
-      ASSERT_EQ(told != inside.end(), p.x() > begin) << "vertex " << v << " at x = " << p.x();
-      if (told == inside.end()) continue;
+      const auto reported = inside.find(v);
+      ASSERT_EQ(reported != inside.end(), p.x() > begin) << "vertex " << v << " at x = " << p.x();
+      if (reported == inside.end()) continue;
       ++beyond;
       if (GetParam().depth == DepthKind::none) continue;
       const bool is_along_ray = GetParam().depth == DepthKind::along_ray;
-      EXPECT_NEAR(told->second.depth_mm, is_along_ray ? p.norm() * (1 - begin / p.x()) : p.x() - begin,
+      EXPECT_NEAR(reported->second.depth_mm, is_along_ray ? p.norm() * (1 - begin / p.x()) : p.x() - begin,
                   margin);
     }
     EXPECT_GT(beyond, 20);
@@ -101,9 +101,9 @@ TEST_P(BallInSlab, TheTriangleToldIsOneOfTheFace) {
   const auto method = GetParam().make(bodies_);
   const auto inside = inside_of(*method);
   EXPECT_GT(inside.size(), 20u);
-  for (const auto& [v, told] : inside) {
-    if (told.triangle == condyle::no_index) continue;
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(slab_.corner(told.triangle, k).x(), begin_mm);
+  for (const auto& [v, reported] : inside) {
+    if (reported.triangle == condyle::no_index) continue;
+    for (int k = 0; k < 3; ++k) EXPECT_EQ(slab_.corner(reported.triangle, k).x(), begin_mm);
   }
 }
 
@@ -120,9 +120,9 @@ TEST_P(BallInSlab, AskedAgainItAnswersAlikeAndSoDoesACopyForAnotherThread) {
   const auto expect_alike = [&](Method& other) {
     const auto again = inside_of(other);
     ASSERT_EQ(inside.size(), again.size());
-    for (const auto& [v, told] : inside) {
+    for (const auto& [v, reported] : inside) {
       ASSERT_TRUE(again.contains(v));
-      EXPECT_EQ(again.at(v).triangle, told.triangle);
+      EXPECT_EQ(again.at(v).triangle, reported.triangle);
     }
   };
   expect_alike(*method);

@@ -193,9 +193,9 @@ TEST_F(FreeJoint, AnAnklesResultsHaveItsNames) {
     if (!line.starts_with('#')) lines += line + '\n';
   expect_nothing_of_a_hip(lines, "limits.csv");
   EXPECT_EQ(std::count(lines.begin(), lines.end(), ',') % 2, 0) << "two lines of as many fields";
-  const Ran told = run("rom ankle.toml --motion plantarflexion --past 5");
-  EXPECT_NE(told.out.find("every contact counts"), std::string::npos) << told.out;
-  expect_nothing_of_a_hip(told.out, "the text");
+  const Ran reported = run("rom ankle.toml --motion plantarflexion --past 5");
+  EXPECT_NE(reported.out.find("every contact counts"), std::string::npos) << reported.out;
+  expect_nothing_of_a_hip(reported.out, "the text");
   EXPECT_NE(text.find("start_dorsiflexion_deg,start_inversion_deg,start_internal_rotation_deg"),
             std::string::npos);
   const Ran map = run("rom ankle.toml --map inversion=-5:5:5 internal_rotation=0:10:5 --out map");

@@ -58,11 +58,11 @@ LoadChange measured_change(const ElasticContact& contact, const Pose& X_FM, doub
   }
   return change;
 }
-void expect_near(const LoadChange& told, const LoadChange& measured, double share) {
+void expect_near(const LoadChange& reported, const LoadChange& measured, double share) {
   for (int i = 0; i < 6; ++i) {
-    const Vector6 apart = measured.col(i) - told.col(i);
-    EXPECT_LE(apart.head<3>().norm(), share * told.col(i).head<3>().norm()) << i;
-    EXPECT_LE(apart.tail<3>().norm(), share * told.col(i).tail<3>().norm()) << i;
+    const Vector6 apart = measured.col(i) - reported.col(i);
+    EXPECT_LE(apart.head<3>().norm(), share * reported.col(i).head<3>().norm()) << i;
+    EXPECT_LE(apart.tail<3>().norm(), share * reported.col(i).tail<3>().norm()) << i;
   }
 }
 

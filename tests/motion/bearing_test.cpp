@@ -172,7 +172,7 @@ TEST(BearingSurface, HoldsAVertexOrEdgeWhenItHoldsAllItsTriangles) {
 }
 
 TEST(BearingContact, DoesNotEndAMotionAndStandsBesideItsLimit) {
-  // Off by more than the joint space, out of the socket: turning back brings the head's centre round to its wall.
+  // Off by more than the joint space, out of the socket: rotating back brings the head's centre round to its wall.
   const Joint joint = head_and_post_joint({0, -3.5, 0});
   const RangeOfMotion range(joint), all(joint, {.bearing = {.rule = BearingRule::count}});
   Motion back = flexion();

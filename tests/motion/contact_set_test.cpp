@@ -16,12 +16,12 @@ using namespace test;
 using std::numbers::pi;
 
 core::ArcSet contact_set_of(const RotationScene& scene) {
-  const motion::FeatureTree resting(scene.resting), turning(scene.turning);
-  motion::TurningBody at_rest(resting), moving(turning);
+  const motion::FeatureTree stationary(scene.stationary), rotating(scene.rotating);
+  motion::RotatingBody at_rest(stationary), moving(rotating);
   at_rest.start_at(scene.axis, Pose::Identity());
   moving.start_at(scene.axis, Pose::Identity());
   const core::ArcSet found = motion::contact_set(at_rest, moving);
-  EXPECT_EQ(motion::contact_set(motion::RotationTable(resting, scene.axis), moving), found)
+  EXPECT_EQ(motion::contact_set(motion::RotationTable(stationary, scene.axis), moving), found)
       << "the same features, all made ready before";
   return found;
 }

@@ -25,7 +25,7 @@ namespace {
 struct Defect {
   std::string name;
   std::function<void(TriMesh&)> make;
-  std::function<bool(const MeshReport&)> is_told;
+  std::function<bool(const MeshReport&)> is_reported;
 };
 
 void add_triangle(TriMesh& mesh, Index a, Index b, Index c) {
@@ -181,7 +181,7 @@ void check(const TriMesh& dirty, const std::vector<const Defect*>& made) {
   const Mesh fixed(dirty);
   const MeshReport report = inspect(fixed);
   if (made.size() == 1) {
-    EXPECT_TRUE(made[0]->is_told(report));
+    EXPECT_TRUE(made[0]->is_reported(report));
   }
   const TriMesh mobile = arm();
   const JointContact joint(fixed, Mesh(mobile)), exchanged(Mesh(mobile), fixed);

@@ -51,10 +51,10 @@ TEST(FeatureTree, HasEveryCornerOfANodeInItsBall) {
   }
 }
 
-TEST(TurningBody, HasNodeBoxesAroundItsVerticesAboutAnyAxis) {
+TEST(RotatingBody, HasNodeBoxesAroundItsVerticesAboutAnyAxis) {
   const TriMesh mesh = sphere({0, 0, 0}, 2, 3);
   const motion::FeatureTree tree(mesh);
-  motion::TurningBody body(tree);
+  motion::RotatingBody body(tree);
   for (const Vec3& axis_point : {Vec3(0, 0, 0), Vec3(0.3, -0.2, 0.1), Vec3(40, 5, -7)}) {
     for (const Vec3& shift : {Vec3(0, 0, 0), Vec3(0.5, 0.25, -1), Vec3(40, 5, -7)}) {
       Pose X_RT = Pose::Identity();
@@ -112,7 +112,7 @@ TEST(WindingNumber, ThroughTheTableEqualsBruteForce) {
   const motion::FeatureTree tree(mesh);
   const AxisFrame axis(Vec3::Zero(), Vec3::UnitZ());
   const motion::RotationTable table(tree, axis);
-  motion::TurningBody body(tree);
+  motion::RotatingBody body(tree);
   body.start_at(axis, Pose::Identity());
   int inside = 0;
   for (double x = -4; x <= 4; x += 0.5) {

@@ -34,8 +34,8 @@ void expect_brute_force_agrees(const RotationScene& scene) {
       continue;
     }
     RC_ASSERT(limit.turned.radians() == truth->size);
-    RC_ASSERT(limit.contact->mobile_feature == truth->features.turning);
-    RC_ASSERT(limit.contact->fixed_feature == truth->features.resting);
+    RC_ASSERT(limit.contact->mobile_feature == truth->features.rotating);
+    RC_ASSERT(limit.contact->fixed_feature == truth->features.stationary);
     RC_ASSERT(limit.error_bound.radians() <= 4e-12);
     RC_ASSERT(limit.error_bound.radians() >= 0);
   }
@@ -58,7 +58,7 @@ RC_GTEST_PROP(FirstContactRandom, EqualsTheFirstOfAllPairsOfFeaturesOnALattice, 
   auto random = any_random();
   for (int i = 0; i < 20; ++i) {
     RotationScene scene = random_scene(random);
-    for (auto* mesh : {&scene.turning, &scene.resting}) {
+    for (auto* mesh : {&scene.rotating, &scene.stationary}) {
       for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
         const Vec3 p = 2 * mesh->vertices[v];
         mesh->vertices.set(v, p.array().round());
@@ -93,15 +93,15 @@ RC_GTEST_PROP(FirstContactRandom, StartsInContactExactlyWhereSurfacesTouchOrOneI
   auto random = any_random();
   for (int i = 0; i < 5; ++i) {
     RotationScene scene = random_scene(random);
-    const Vec3 c = scene.resting.vertices[0];
-    for (std::size_t v = 0; v < scene.turning.vertices.size(); ++v) {
-      const Vec3 p = scene.turning.vertices[v], centre = scene.turning.vertices[1];
-      scene.turning.vertices.set(v, 0.9 * c + 0.1 * centre + 0.2 * (p - centre));
+    const Vec3 c = scene.stationary.vertices[0];
+    for (std::size_t v = 0; v < scene.rotating.vertices.size(); ++v) {
+      const Vec3 p = scene.rotating.vertices[v], centre = scene.rotating.vertices[1];
+      scene.rotating.vertices.set(v, 0.9 * c + 0.1 * centre + 0.2 * (p - centre));
     }
-    const TriMesh turning = in_axis_frame(scene.axis, scene.turning);
-    const TriMesh resting = in_axis_frame(scene.axis, scene.resting);
-    const bool inside = winding_number(resting, turning.vertices[0]).winding > 0 ||
-                        winding_number(turning, resting.vertices[0]).winding > 0;
+    const TriMesh rotating = in_axis_frame(scene.axis, scene.rotating);
+    const TriMesh stationary = in_axis_frame(scene.axis, scene.stationary);
+    const bool inside = winding_number(stationary, rotating.vertices[0]).winding > 0 ||
+                        winding_number(rotating, stationary.vertices[0]).winding > 0;
     const bool touching = brute_contact_at(scene, 0);
     const auto found = limits(scene).positive;
     RC_ASSERT((found.reason == LimitReason::contact_at_start) == (inside || touching));
@@ -132,7 +132,7 @@ RC_GTEST_PROP(FirstContactRandom, SplittingEveryTriangleInPlaceChangesNothing, (
   auto random = any_random();
   for (int i = 0; i < 5; ++i) {
     const RotationScene scene = random_scene(random);
-    const RotationScene finer{split_in_four(split_in_four(scene.turning)), split_in_four(scene.resting),
+    const RotationScene finer{split_in_four(split_in_four(scene.rotating)), split_in_four(scene.stationary),
                               scene.axis};
     const auto coarse = limits(scene), fine = limits(finer);
     for (const auto& [a, b] :

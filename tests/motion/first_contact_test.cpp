@@ -53,7 +53,7 @@ TEST(Door, StopsAtThePostWhereTheArctangentSays) {
     expect_limit(found.positive, pi / 4);
     EXPECT_EQ(found.positive.contact->mobile_feature.kind, FeatureKind::face);
     EXPECT_EQ(found.positive.contact->fixed_feature, (Feature{FeatureKind::vertex, 0}));
-    EXPECT_LT((found.positive.contact->fixed_point - scene.resting.vertices[0]).norm(), 1e-10);
+    EXPECT_LT((found.positive.contact->fixed_point - scene.stationary.vertices[0]).norm(), 1e-10);
     // Backwards the rear face y = -0.5 arrives at the corner, 2 sqrt 2 from the axis, from the other side...
     // of the post's farthest corners first: held against brute force, not by hand.
     const auto truth = brute_first_contact(scene, RotationSense::negative);
@@ -67,7 +67,7 @@ TEST(Door, AndPostWithExchangedRolesTurnAFaceOnVertexIntoAVertexOnFace) {
     expect_limit(found.negative, pi / 4);
     EXPECT_EQ(found.negative.contact->mobile_feature, (Feature{FeatureKind::vertex, 0}));
     EXPECT_EQ(found.negative.contact->fixed_feature.kind, FeatureKind::face);
-    EXPECT_LT((found.negative.contact->mobile_point - scene.resting.vertices[0]).norm(), 1e-10);
+    EXPECT_LT((found.negative.contact->mobile_point - scene.stationary.vertices[0]).norm(), 1e-10);
   }
 }
 
@@ -86,7 +86,7 @@ TEST(Door, StopsAtTheEndOfARangeThatEndsBeforeThePostAndAtThePostOtherwise) {
 
 TEST(Door, AlreadyAtThePostIsInContactAtTheStart) {
   RotationScene scene = door_on_post();
-  scene.resting = posed(Pose(Eigen::Translation3d(0, -2, 0)), scene.resting);
+  scene.stationary = posed(Pose(Eigen::Translation3d(0, -2, 0)), scene.stationary);
   const auto found = limits(scene);
   for (const Limit& limit : {found.negative, found.positive}) {
     EXPECT_EQ(limit.reason, LimitReason::contact_at_start);
@@ -99,8 +99,8 @@ TEST(Door, AlreadyAtThePostIsInContactAtTheStart) {
 TEST(Door, FreeByLessThanAnyRoundingOfItsAngleStillTurnsAway) {
   RotationScene scene = door_on_post();
   const double gap = 0x1p-60;
-  scene.resting = posed(Pose(Eigen::Translation3d(0, -2, 0)), scene.resting);
-  scene.resting.vertices.y[0] = gap;
+  scene.stationary = posed(Pose(Eigen::Translation3d(0, -2, 0)), scene.stationary);
+  scene.stationary.vertices.y[0] = gap;
   const auto found = limits(scene);
   EXPECT_EQ(found.positive.reason, LimitReason::contact);
   EXPECT_LE(found.positive.turned.radians(), gap);
@@ -139,7 +139,7 @@ bool any_vertex_ever_touches(const RotationScene& scene) {
     }
     return false;
   };
-  return meets(scene.turning, scene.resting) || meets(scene.resting, scene.turning);
+  return meets(scene.rotating, scene.stationary) || meets(scene.stationary, scene.rotating);
 }
 
 TEST(CrossedPrisms, MeetRidgeOnRidgeWhichNoVertexEverSees) {
@@ -255,7 +255,7 @@ TEST(FirstContact, FromManyPosesOnManyThreadsGivesTheBytesOfOne) {
   const motion::FeatureTree fixed(ring), mobile(ball);
   const motion::RotationTable table(fixed, axis);
   for (int i = 0; i < poses; i += 10) {
-    motion::TurningBody fresh(mobile);
+    motion::RotatingBody fresh(mobile);
     fresh.start_at(axis, pose(i));
     EXPECT_EQ(bytes(motion::first_contact(table, fresh)), one[i]) << i;
   }

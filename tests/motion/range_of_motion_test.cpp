@@ -94,7 +94,7 @@ TEST_P(EachAngle, ARangeThatEndsBeforeContactSaysSo) {
 }
 
 TEST_P(EachAngle, AnglesHeldBesidesCarryTheAxisWithThem) {
-  // Whatever the other angles are, turning F as they turn the axis' own body leaves the scene as it was: F by
+  // Whatever the other angles are, rotating F as they turn the axis' own body leaves the scene as it was: F by
   // all rotations before the varied one, M by the inverse of those after it.
   const PostJoint scene = post_joint(vary(), side());
   const JointAngles held = [&] {

@@ -88,7 +88,7 @@ TEST_P(RealHipLimits, HaveZonesThatGrowFromTheContactPoint) {
     EXPECT_LT((*small->fixed.centroid_mm - limit.end.contact->fixed_point).norm(), 40);
     EXPECT_EQ(large->fixed.radial_depth_mm.size(), joint_.fixed.mesh.vertices().size());
     EXPECT_EQ(large->mobile.tangential_depth_mm.size(), joint_.mobile.mesh.vertices().size());
-    // No vertex is deeper along the arc than the motion went past the limit: turning back by that frees it.
+    // No vertex is deeper along the arc than the motion went past the limit: rotating back by that frees it.
     for (const double depth : large->mobile.tangential_depth_deg) EXPECT_LE(depth, 5 + 1e-9);
     for (const double depth : large->fixed.tangential_depth_deg) EXPECT_LE(depth, 5 + 1e-9);
   }

@@ -54,7 +54,7 @@ std::vector<RealRotation> real_roots(const Real& A, const Real& B, const Real& C
   return roots;
 }
 
-/// The plain reading of "a turning point is on a triangle": solve for the plane, then look at the three
+/// The plain reading of "a rotating point is on a triangle": solve for the plane, then look at the three
 /// sides.
 std::vector<RealRotation> real_vertex_face(const Point& vertex, const Corners& face) {
   const auto p = real(vertex);

@@ -44,20 +44,20 @@ Vec3 random_direction(std::mt19937& random) {
 }  // namespace
 
 RotationLimits limits(const RotationScene& scene, const RotationRange& range) {
-  return FirstContact(scene.resting, scene.turning, scene.axis).limits(Pose::Identity(), range);
+  return FirstContact(scene.stationary, scene.rotating, scene.axis).limits(Pose::Identity(), range);
 }
 
 RotationScene moved(const Pose& X, const RotationScene& scene) {
-  return {posed(X, scene.turning), posed(X, scene.resting),
+  return {posed(X, scene.rotating), posed(X, scene.stationary),
           AxisFrame(X * scene.axis.point(), X.linear() * scene.axis.direction())};
 }
 
 RotationScene exchanged(const RotationScene& scene) {
-  return {scene.resting, scene.turning, scene.axis};
+  return {scene.stationary, scene.rotating, scene.axis};
 }
 
 TriMesh turned(const RotationScene& scene, double angle) {
-  TriMesh mesh = in_axis_frame(scene.axis, scene.turning);
+  TriMesh mesh = in_axis_frame(scene.axis, scene.rotating);
   const double c = std::cos(angle), s = std::sin(angle);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     const Vec3 p = mesh.vertices[v];
@@ -67,14 +67,14 @@ TriMesh turned(const RotationScene& scene, double angle) {
 }
 
 std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, RotationSense sense) {
-  const auto m = points_about_axis(scene.turning, scene.axis),
-             f = points_about_axis(scene.resting, scene.axis);
+  const auto m = points_about_axis(scene.rotating, scene.axis),
+             f = points_about_axis(scene.stationary, scene.axis);
   std::optional<BruteLimit> best;
-  const auto record = [&](const motion::ContactEvents& events, const Feature& turning,
-                          const Feature& resting) {
+  const auto record = [&](const motion::ContactEvents& events, const Feature& rotating,
+                          const Feature& stationary) {
     for (const motion::ContactEvent& event : events) {
       const double size = sense == RotationSense::positive ? event.angle : two_pi - event.angle;
-      const BruteLimit found{std::max(0.0, size - event.error), {turning, resting}};
+      const BruteLimit found{std::max(0.0, size - event.error), {rotating, stationary}};
       if (!best || std::tie(found.size, found.features) < std::tie(best->size, best->features)) best = found;
     }
   };
@@ -83,20 +83,20 @@ std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, Rotati
     return motion::Corners{points[a], points[b], points[c]};
   };
   for (Index v = 0; v < m.size(); ++v) {
-    for (Index t = 0; t < scene.resting.triangles.size(); ++t) {
-      record(motion::vertex_meets_face(m[v], face(scene.resting, f, t)), {FeatureKind::vertex, v},
+    for (Index t = 0; t < scene.stationary.triangles.size(); ++t) {
+      record(motion::vertex_meets_face(m[v], face(scene.stationary, f, t)), {FeatureKind::vertex, v},
              {FeatureKind::face, t});
     }
   }
-  for (Index t = 0; t < scene.turning.triangles.size(); ++t) {
+  for (Index t = 0; t < scene.rotating.triangles.size(); ++t) {
     for (Index v = 0; v < f.size(); ++v) {
-      record(motion::face_meets_vertex(face(scene.turning, m, t), f[v]), {FeatureKind::face, t},
+      record(motion::face_meets_vertex(face(scene.rotating, m, t), f[v]), {FeatureKind::face, t},
              {FeatureKind::vertex, v});
     }
   }
-  const auto resting_edges = edges_of(scene.resting);
-  for (const auto& [a, b] : edges_of(scene.turning)) {
-    for (const auto& [c, d] : resting_edges) {
+  const auto stationary_edges = edges_of(scene.stationary);
+  for (const auto& [a, b] : edges_of(scene.rotating)) {
+    for (const auto& [c, d] : stationary_edges) {
       record(motion::edges_meet(m[a], m[b], f[c], f[d]), {FeatureKind::edge, a, b},
              {FeatureKind::edge, c, d});
     }
@@ -105,7 +105,7 @@ std::optional<BruteLimit> brute_first_contact(const RotationScene& scene, Rotati
 }
 
 bool brute_contact_at(const RotationScene& scene, double angle) {
-  const TriMesh m = turned(scene, angle), f = in_axis_frame(scene.axis, scene.resting);
+  const TriMesh m = turned(scene, angle), f = in_axis_frame(scene.axis, scene.stationary);
   const auto box_of = [](const TriMesh& mesh, std::size_t t) {
     Eigen::AlignedBox3d box;
     for (int k = 0; k < 3; ++k) box.extend(mesh.corner(t, k));
@@ -146,8 +146,8 @@ RotationScene random_scene(std::mt19937& random) {
     const Vec3 centre(rho * std::cos(theta), rho * std::sin(theta), uniform(random, -1, 1));
     return random_solid(random, centre, uniform(random, 0.3, 1.5));
   };
-  TriMesh turning = solid(0, two_pi), resting = solid(0, two_pi);
-  return {std::move(turning), std::move(resting)};
+  TriMesh rotating = solid(0, two_pi), stationary = solid(0, two_pi);
+  return {std::move(rotating), std::move(stationary)};
 }
 
 Pose far_away(std::mt19937& random) {

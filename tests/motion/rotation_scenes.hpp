@@ -5,14 +5,14 @@
 
 #include "motion/search/first_contact.hpp"
 
-/// Scenes for turning meshes, and the obvious first contact: every pair of features, no tree, no box, no
+/// Scenes for rotating meshes, and the obvious first contact: every pair of features, no tree, no box, no
 /// early exit.
 
 namespace condyle::test {
 
-/// One body resting, one turning, in one common frame, about the axis.
+/// One body stationary, one rotating, in one common frame, about the axis.
 struct RotationScene {
-  TriMesh turning, resting;
+  TriMesh rotating, stationary;
   AxisFrame axis{Vec3::Zero(), Vec3::UnitZ()};
 };
 
@@ -24,7 +24,7 @@ RotationScene moved(const Pose& X, const RotationScene& scene);
 /// The two bodies' roles exchanged.
 RotationScene exchanged(const RotationScene& scene);
 
-/// The turning body after a rotation by the angle (rad), rounded once more.
+/// The rotating body after a rotation by the angle (rad), rounded once more.
 TriMesh turned(const RotationScene& scene, double angle);
 
 struct BruteLimit {

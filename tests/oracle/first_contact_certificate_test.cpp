@@ -58,7 +58,7 @@ class FirstContactOfRealHips : public testing::TestWithParam<HipFiles> {
 TEST_P(FirstContactOfRealHips, StopsAtTheLimitFreeAMicrodegreeBeforeAndTouchingAMicrodegreeAfter) {
   const CgalOracle oracle(fixed);
   const motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
-  motion::TurningBody body(mobile_tree);
+  motion::RotatingBody body(mobile_tree);
   int contacts = 0;
   for (const Start& start : starts()) {
     SCOPED_TRACE(start.name);
@@ -95,10 +95,10 @@ TEST_P(FirstContactOfRealHips, TouchesThroughAFullTurnExactlyInItsContactSet) {
   for (const Start& start : starts()) {
     SCOPED_TRACE(start.name);
     const AxisFrame frame(Vec3::Zero(), start.axis);
-    motion::TurningBody resting(fixed_tree), turning(mobile_tree);
-    resting.start_at(frame, Pose::Identity());
-    turning.start_at(frame, start.X_FM);
-    const auto set = motion::contact_set(resting, turning);
+    motion::RotatingBody stationary(fixed_tree), rotating(mobile_tree);
+    stationary.start_at(frame, Pose::Identity());
+    rotating.start_at(frame, start.X_FM);
+    const auto set = motion::contact_set(stationary, rotating);
     std::vector<double> angles;
     for (const core::Arc& arc : set.arcs()) {
       const double from = arc.start.degrees(), to = from + arc.width.degrees();

@@ -38,7 +38,7 @@ namespace {
 using io::Json;
 
 /// In mm, by what their sizes say.
-LengthUnit told_unit(const TriMesh& fixed, const TriMesh& mobile) {
+LengthUnit inferred_unit(const TriMesh& fixed, const TriMesh& mobile) {
   const LikelyUnit of_fixed = likely_unit(fixed), of_mobile = likely_unit(mobile);
   if (!of_mobile.unit || of_fixed.unit != of_mobile.unit)
     throw UsageError("units: the sizes of the meshes do not speak for one unit");
@@ -51,35 +51,35 @@ TriMesh in_mm(TriMesh mesh, LengthUnit unit) {
 }
 
 /// Refuses with the votes, one line in all.
-kinematics::AgreeingAxes told_axes(const kinematics::HipAxes& axes) {
+kinematics::AgreeingAxes inferred_axes(const kinematics::HipAxes& axes) {
   if (axes.agreeing.size() == 1) return axes.agreeing[0];
   throw UsageError(fmt::format("axes: {}; {}", axes.why_none, fmt::join(axes.evidence, "; ")));
 }
 
 CondyleJoint* proposed_joint(const CondyleMesh& fixed, const CondyleMesh& mobile,
                              const std::optional<Side>& side) {
-  const LengthUnit unit = told_unit(fixed.mesh, mobile.mesh);
+  const LengthUnit unit = inferred_unit(fixed.mesh, mobile.mesh);
   const TriMesh hip_bone = in_mm(fixed.mesh, unit);
   const auto hip = kinematics::hip_anatomy(hip_bone, in_mm(mobile.mesh, unit));
   if (!hip)
     throw UsageError("no head was found on the mobile body near the fixed one: the page proposes hips");
   const auto hip_axes = kinematics::hip_axes(hip_bone, *hip, side);
-  const auto [axes, told_side] = told_axes(hip_axes);
-  JointDescription description{.name = "dropped joint", .side = told_side, .units = unit};
+  const auto [axes, inferred_side] = inferred_axes(hip_axes);
+  JointDescription description{.name = "dropped joint", .side = inferred_side, .units = unit};
   description.frame.centre = CentreFit{};
   description.frame.axes = axes->directions;
   PlacedJoint placed = make_joint(description, {"fixed body", fixed.mesh}, {"mobile body", mobile.mesh});
   PageProposal proposal;
   const auto& [head, rms] = std::pair(hip->head.fit.sphere, hip->head.fit.rms_residual);
-  proposal.told = {
+  proposal.inferred = {
       fmt::format("a head of radius {:.2f} mm, {:.0f} % of a sphere", head.radius, 100 * hip->head.coverage),
       fmt::format("centre: the head's, {} mm in the frame of the meshes, rms {:.2f} mm",
                   core::rounded(head.centre, 2), rms),
-      fmt::format("side: {}{}", told_side == Side::right ? "right" : "left", side ? ", given" : ""),
+      fmt::format("side: {}{}", inferred_side == Side::right ? "right" : "left", side ? ", given" : ""),
       fmt::format("axes: {}", axes->name),
       fmt::format("units: {}", unit == LengthUnit::metres ? "m" : "mm"),
   };
-  proposal.told.insert(proposal.told.end(), hip_axes.evidence.begin(), hip_axes.evidence.end());
+  proposal.inferred.insert(proposal.inferred.end(), hip_axes.evidence.begin(), hip_axes.evidence.end());
   proposal.notes = check_joint(placed.joint, placed.placement);
   proposal.fixed = fixed.file, proposal.mobile = mobile.file;
   JointContact bodies(placed.joint);
@@ -221,7 +221,7 @@ const char* condyle_description(CondyleJoint* joint) {
                    {"motions", std::move(motions)},
                    {"notes", io::notes_json(proposal.notes, {},
                                             range_notes(joint->joint, hip_motions(), {}, range.bearing()))},
-                   {"caveats", proposal.told},
+                   {"caveats", proposal.inferred},
                    {"normal_range_source", normal_hip_range_source},
                    {"scope", scope_text(named)},
                    {"bearing", bearing_json(range.bearing())},

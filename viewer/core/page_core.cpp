@@ -57,15 +57,16 @@ void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, Pen
 }
 
 /// tell(DeepestVertex) for each vertex found inside the other body, which X brings it to.
-template <class Tell>
-void tell_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetrations& found, const Tell& tell) {
+template <class Visit>
+void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetrations& found,
+                  const Visit& visit) {
   const Points& vertices = vertices_of(joint, of_fixed);
   other_table(joint, of_fixed).add_ray_to_normal(vertices, X, found);
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found.state[i] != PointState::inside) continue;
     const Index v = found.point[i];
-    tell(DeepestVertex{v, found.depth_mm[i], other_surface(joint, of_fixed)(X * vertices[v]),
-                       found.ray_to_normal[i]});
+    visit(DeepestVertex{v, found.depth_mm[i], other_surface(joint, of_fixed)(X * vertices[v]),
+                        found.ray_to_normal[i]});
   }
 }
 
@@ -252,7 +253,7 @@ int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_
       }
       case Shown::depth:
         if (!has_inside) break;
-        tell_inside(*joint, X, of_fixed, inside, [&](const DeepestVertex& vertex) {
+        visit_inside(*joint, X, of_fixed, inside, [&](const DeepestVertex& vertex) {
           if (vertex.applies() == DepthKind::radial)
             shown.set(vertex.vertex, vertex.depth_mm);
           else

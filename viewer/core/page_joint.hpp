@@ -36,7 +36,7 @@ struct PageFile {
 
 /// What a joint was proposed by.
 struct PageProposal {
-  std::vector<std::string> told;
+  std::vector<std::string> inferred;
   std::vector<condyle::JointNote> notes;
   PageFile fixed, mobile;
 };

@@ -241,8 +241,8 @@ std::string rom_text(const RomResult& result) {
     point.cells.push_back(limit.end.contact
                               ? core::rounded(frame_of(result).fixed_point(limit.end.contact->fixed_point), 2)
                               : "-");
-    const auto& sliding = limit.end.bearing_contact;
-    bearing.cells.push_back(sliding ? fmt::format("{:.2f}", sliding->turned.degrees()) : "-");
+    const auto& bearing_contact = limit.end.bearing_contact;
+    bearing.cells.push_back(bearing_contact ? fmt::format("{:.2f}", bearing_contact->turned.degrees()) : "-");
     const auto hour = io::clock_hour(result, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }

@@ -52,9 +52,9 @@ inline double gap_to(const CylinderBox& behind, const CylinderBox& ahead) noexce
 }
 
 /// Lower bound on the size of any rotation in the given sense that makes the two meet.
-inline double gap_in_sense(const CylinderBox& turning, const CylinderBox& resting,
+inline double gap_in_sense(const CylinderBox& rotating, const CylinderBox& stationary,
                            RotationSense sense) noexcept {
-  return sense == RotationSense::positive ? gap_to(turning, resting) : gap_to(resting, turning);
+  return sense == RotationSense::positive ? gap_to(rotating, stationary) : gap_to(stationary, rotating);
 }
 
 /// A point's cylinder coordinates but for the height, and its distance from the origin.

@@ -129,10 +129,10 @@ Point integer_direction(const Triple<double>& d) {
   return {static_cast<long long>(s.x), static_cast<long long>(s.y), static_cast<long long>(s.z)};
 }
 
-enum class Turning { end, edge };
+enum class Rotating { end, edge };
 
 /// End p passing the edge from c to d, all in one plane across the axis.
-void add_passes(const Point& p, const Point& c, const Point& d, Turning turning, ContactEvents& events) {
+void add_passes(const Point& p, const Point& c, const Point& d, Rotating rotating, ContactEvents& events) {
   const Point w = d - c, across{-w.y, w.x, 0};
   for (const Branch branch : {Branch::plus, Branch::minus}) {
     const Root root(height_over_plane(across, c, p), branch);
@@ -142,7 +142,7 @@ void add_passes(const Point& p, const Point& c, const Point& d, Turning turning,
     const core::Sign after_d = root.sign_of_other(height_over_plane(w, d, p));
     if (after_c == core::Sign::negative || after_d == core::Sign::positive) continue;
     ContactEvent event = root.event();
-    if (turning == Turning::edge && event.angle != 0) event.angle = two_pi - event.angle;
+    if (rotating == Rotating::edge && event.angle != 0) event.angle = two_pi - event.angle;
     events.add(event);
   }
 }
@@ -167,7 +167,7 @@ ContactEvents vertex_meets_face(const Triple<double>& vertex, const Corners& fac
 }
 
 ContactEvents edges_meet(const std::array<Triple<double>, 4>& ends, const Triple<double>& across,
-                         const Triple<double>& across_turning, Branch branch) {
+                         const Triple<double>& across_rotating, Branch branch) {
   const auto points = integers<4>(ends);
   const Point &a = points[0], &b = points[1], &c = points[2], &d = points[3];
   const Point u = b - a, w = d - c;
@@ -175,18 +175,18 @@ ContactEvents edges_meet(const std::array<Triple<double>, 4>& ends, const Triple
   events.exact_decisions = 1;
   const Root root(volume_of_edges(a, u, c, w), branch);
   if (!root.exists()) return events;
-  const Sides turning_ends = sides_of_line(root, integer_direction(across), [&](const Point& direction) {
+  const Sides rotating_ends = sides_of_line(root, integer_direction(across), [&](const Point& direction) {
     const Point normal = cross(w, direction);
     return std::pair{height_over_plane(normal, c, a), height_over_plane(normal, c, b)};
   });
-  if (turning_ends != Sides::apart) return events;
-  const Sides resting_ends =
-      sides_of_line(root, integer_direction(across_turning), [&](const Point& direction) {
+  if (rotating_ends != Sides::apart) return events;
+  const Sides stationary_ends =
+      sides_of_line(root, integer_direction(across_rotating), [&](const Point& direction) {
         const Point normal = cross(u, direction);
         return std::pair{reversed(height_over_plane(normal, a, c)),
                          reversed(height_over_plane(normal, a, d))};
       });
-  if (resting_ends == Sides::apart) events.add(root.event());
+  if (stationary_ends == Sides::apart) events.add(root.event());
   return events;
 }
 
@@ -194,10 +194,10 @@ ContactEvents edges_meet_in_plane(const std::array<Triple<double>, 4>& ends) {
   const auto points = integers<4>(ends);
   const Point &a = points[0], &b = points[1], &c = points[2], &d = points[3];
   ContactEvents events;
-  add_passes(a, c, d, Turning::end, events);
-  add_passes(b, c, d, Turning::end, events);
-  add_passes(c, a, b, Turning::edge, events);
-  add_passes(d, a, b, Turning::edge, events);
+  add_passes(a, c, d, Rotating::end, events);
+  add_passes(b, c, d, Rotating::end, events);
+  add_passes(c, a, b, Rotating::edge, events);
+  add_passes(d, a, b, Rotating::edge, events);
   return events;
 }
 

@@ -12,10 +12,10 @@ enum class Branch : int { plus = 1, minus = -1 };
 
 ContactEvents vertex_meets_face(const Triple<double>& p, const Corners& face, Branch branch);
 
-/// `across` is any direction, best one across both edges at the root, in the frame at t = 0 of the resting
-/// edge; `across_turning` the same for the turning edge. They steer speed, not the answer.
+/// `across` is any direction, best one across both edges at the root, in the frame at t = 0 of the stationary
+/// edge; `across_rotating` the same for the rotating edge. They steer speed, not the answer.
 ContactEvents edges_meet(const std::array<Triple<double>, 4>& ends, const Triple<double>& across,
-                         const Triple<double>& across_turning, Branch branch);
+                         const Triple<double>& across_rotating, Branch branch);
 
 /// Edges a b and c d that lie in one plane across the axis: every end passing the other edge.
 ContactEvents edges_meet_in_plane(const std::array<Triple<double>, 4>& ends);

@@ -173,7 +173,7 @@ ContactEvents edges_meet(const Point& a, const Point& b, const Point& c, const P
   const auto across_at = [&](const Direction& root) { return cross(turned(u, root), w); };
   const auto inside = [&](const Direction& root, double error) {
     const Direction back{root.cosine, -root.sine};
-    const Point across = across_at(root), across_turning = turned(across, back);
+    const Point across = across_at(root), across_rotating = turned(across, back);
     const double slip = error + 4 * core::rounding_unit;
     const auto apart = [&](const Point& along, const Point& beside, const Point& origin, const Point& p,
                            const Point& q) {
@@ -185,11 +185,11 @@ ContactEvents edges_meet(const Point& a, const Point& b, const Point& c, const P
       if (std::abs(at_p) <= bound_p || std::abs(at_q) <= bound_q) return Decision::unclear;
       return (at_p > 0) != (at_q > 0) ? Decision::yes : Decision::no;
     };
-    const Decision turning_ends = apart(w, across, c, turned(a, root), turned(b, root));
-    if (turning_ends == Decision::no) return Decision::no;
-    const Decision resting_ends = apart(u, across_turning, a, turned(c, back), turned(d, back));
-    if (resting_ends == Decision::no) return Decision::no;
-    return turning_ends == resting_ends ? turning_ends : Decision::unclear;
+    const Decision rotating_ends = apart(w, across, c, turned(a, root), turned(b, root));
+    if (rotating_ends == Decision::no) return Decision::no;
+    const Decision stationary_ends = apart(u, across_rotating, a, turned(c, back), turned(d, back));
+    if (stationary_ends == Decision::no) return Decision::no;
+    return rotating_ends == stationary_ends ? rotating_ends : Decision::unclear;
   };
   const auto decide = [&](Branch branch, const Direction& root) {
     const Point across = across_at(root);

@@ -7,7 +7,7 @@
 #include "condyle/points.hpp"
 #include "motion/events/rotation_function.hpp"
 
-/// Contact events: the angles at which features of a turning body meet features of a resting one
+/// Contact events: the angles at which features of a rotating body meet features of a stationary one
 /// (docs/mathematics/05-contact-under-rotation.md).
 ///
 /// Everything here is in the axis frame: the axis is z, the rotation is R(t) about it, coordinates at t = 0.

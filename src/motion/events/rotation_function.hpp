@@ -21,7 +21,7 @@ Number dot(const Triple<Number>& a, const Triple<Number>& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
 
-/// T(t) = A cos t + B sin t + C: any quantity linear in the coordinates of a turning point. Its roots are
+/// T(t) = A cos t + B sin t + C: any quantity linear in the coordinates of a rotating point. Its roots are
 ///
 ///     t = atan2(B, A) +- atan2(S, -C),     S = sqrt(r^2 - C^2) = |T'|,     r = hypot(A, B)
 ///
@@ -37,7 +37,7 @@ RotationFunction<Number> reversed(const RotationFunction<Number>& T) {
   return {T.A, -T.B, T.C};
 }
 
-/// Height of the turning point p over the plane through a with normal n, times |n|:
+/// Height of the rotating point p over the plane through a with normal n, times |n|:
 ///
 ///            x(t)
 ///         . - o ~ ~ ~ ~ ~   plane  n . (x - a) = 0
@@ -48,7 +48,7 @@ RotationFunction<Number> reversed(const RotationFunction<Number>& T) {
 ///     T(t) = n . (R(t) p - a)
 ///
 /// With R p = (p_x cos t - p_y sin t, p_x sin t + p_y cos t, p_z) the coefficients read off. C is formed from
-/// p_z - a_z, so that a long way along the axis costs no digits. For a turning plane and a resting point take
+/// p_z - a_z, so that a long way along the axis costs no digits. For a rotating plane and a stationary point take
 /// `reversed`.
 template <class Number>
 RotationFunction<Number> height_over_plane(const Triple<Number>& n, const Triple<Number>& a,
@@ -56,12 +56,12 @@ RotationFunction<Number> height_over_plane(const Triple<Number>& n, const Triple
   return {n.x * p.x + n.y * p.y, n.y * p.x - n.x * p.y, n.z * (p.z - a.z) - (n.x * a.x + n.y * a.y)};
 }
 
-/// Six times the volume spanned by the turning edge from a along u and the resting edge from c along w; zero
+/// Six times the volume spanned by the rotating edge from a along u and the stationary edge from c along w; zero
 /// where their lines meet or are parallel:
 ///
 ///     T(t) = R m . w + R u . m',      m = a x u,  m' = c x w      (docs/mathematics/05-contact-under-rotation.md)
 ///
-/// Both moments are taken about the axis point at a's height: turning about z commutes with shifting along z,
+/// Both moments are taken about the axis point at a's height: rotating about z commutes with shifting along z,
 /// and the coefficients then carry no product with the distance along the axis.
 template <class Number>
 RotationFunction<Number> volume_of_edges(const Triple<Number>& a, const Triple<Number>& u,

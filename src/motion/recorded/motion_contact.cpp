@@ -14,9 +14,9 @@ namespace condyle {
 namespace {
 
 /// Counts frames done and reports them, one thread at a time.
-class Followed {
+class ProgressCount {
  public:
-  Followed(const Control& control, std::size_t total) : control_(control), total_(total) {}
+  ProgressCount(const Control& control, std::size_t total) : control_(control), total_(total) {}
 
   bool stopped() const { return control_.stop.stop_requested(); }
   void one_done() {
@@ -103,11 +103,11 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
     BodyRole casting, const Control& control) {
   const mesh::TriangleTree fixed(joint.fixed()), mobile(joint.mobile());
   std::vector<std::optional<FrameContact>> frames(X_FM.size());
-  Followed followed(control, frames.size());
+  ProgressCount progress(control, frames.size());
   core::PerThread<SmallestGap> gaps([&] { return SmallestGap(fixed, mobile); });
   core::parallel_chunks(frames.size(), 1, [&](std::size_t first, std::size_t last) {
     SmallestGap& gap = gaps.local();
-    for (std::size_t i = first; i < last && !followed.stopped(); ++i) {
+    for (std::size_t i = first; i < last && !progress.stopped(); ++i) {
       if (X_FM[i]) {
         FrameContact& frame = frames[i].emplace(FrameContact{.X_FM = *X_FM[i]});
         frame.intersecting_pairs = joint.pairs(frame.X_FM).size();
@@ -116,10 +116,10 @@ std::optional<std::vector<std::optional<FrameContact>>> contact_along(
           if (const auto smallest = gap.at(frame.X_FM)) frame.smallest_gap_mm = *smallest;
         named(i, [&] { std::visit([&](const auto* of) { ask(*of, casting, frame); }, surfaces); });
       }
-      followed.one_done();
+      progress.one_done();
     }
   });
-  if (followed.stopped()) return std::nullopt;
+  if (progress.stopped()) return std::nullopt;
   return frames;
 }
 
@@ -129,12 +129,12 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
   if (loads.size() != 1 && loads.size() != X_FM.size())
     throw UsageError(std::to_string(loads.size()) + " loads for " + std::to_string(X_FM.size()) + " frames");
   std::vector<std::optional<BalancedPose>> frames(X_FM.size());
-  Followed followed(control, frames.size());
+  ProgressCount progress(control, frames.size());
   // How the load moved the body at the last frame, and how that changes from frame to frame where it does so smoothly.
   Vec3 moved = Vec3::Zero(), change = Vec3::Zero();
   bool was_balanced = false;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (followed.stopped()) return std::nullopt;
+    if (progress.stopped()) return std::nullopt;
     if (X_FM[i]) {
       Pose start = *X_FM[i];
       start.translation() += moved + change;
@@ -148,7 +148,7 @@ std::optional<std::vector<std::optional<BalancedPose>>> balance_along(
       moved = here;
     }
     was_balanced = balanced;
-    followed.one_done();
+    progress.one_done();
   }
   return frames;
 }

@@ -15,8 +15,8 @@
 namespace condyle {
 namespace {
 
-using motion::ContactStretch;
-using motion::ContactStretches;
+using motion::ContactPart;
+using motion::ContactParts;
 using motion::ScrewMotion;
 
 /// Entries of R^T R - 1 up to this: what is farther from a rotation was not meant as one.
@@ -59,7 +59,7 @@ double reach_of(const Mesh& mesh) {
 struct Way {
   BetweenSamples searched = BetweenSamples::exact;
   Angle rotation = {};
-  ContactStretches contacts = {};
+  ContactParts contacts = {};
   std::size_t poses = 0;
 };
 
@@ -72,7 +72,7 @@ class WaySearch {
         fixed_(bodies.fixed()),
         mobile_(bodies.mobile()),
         workers_([this] {
-          return Worker{motion::TurningBody(fixed_), motion::TurningBody(mobile_)};
+          return Worker{motion::RotatingBody(fixed_), motion::RotatingBody(mobile_)};
         }) {}
 
   ScrewMotion motion(const Pose& from, const Pose& to) const { return {from, to, reach_mm_}; }
@@ -81,7 +81,7 @@ class WaySearch {
   Way search(const ScrewMotion& motion, double resolution) {
     Way way{BetweenSamples::exact, motion.rotation(), {}, 0};
     if (motion.is_still()) {
-      if (bodies_.in_contact(motion.at(0))) way.contacts = {{0, 1, ContactStretch::Proven{0, 1}}};
+      if (bodies_.in_contact(motion.at(0))) way.contacts = {{0, 1, ContactPart::Proven{0, 1}}};
     } else if (motion.holds_origin()) {
       Worker& worker = workers_.local();
       way.contacts = motion::rotation_contacts(worker.fixed, worker.mobile, motion);
@@ -95,7 +95,7 @@ class WaySearch {
 
  private:
   struct Worker {
-    motion::TurningBody fixed, mobile;
+    motion::RotatingBody fixed, mobile;
   };
 
   const JointContact& bodies_;
@@ -132,7 +132,7 @@ struct Run {
 std::vector<Run> runs_of(std::span<const double> time_s, std::span<const Way> ways) {
   std::vector<Run> runs;
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    for (const ContactStretch& s : ways[i].contacts) {
+    for (const ContactPart& s : ways[i].contacts) {
       Run run{{i, s.entry}, {i, s.exit}, {}, s.undecided * (time_s[i + 1] - time_s[i]),
               s.at_entry,   s.at_exit};
       if (s.proven) run.proven = Run::Proven{{i, s.proven->first}, {i, s.proven->last}};

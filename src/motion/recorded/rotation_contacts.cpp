@@ -35,7 +35,7 @@ struct FreeGap {
 /// Bodies of a rotation, the mobile one at any angle of it.
 class Rotation {
  public:
-  Rotation(TurningBody& fixed, TurningBody& mobile, const ScrewMotion& motion)
+  Rotation(RotatingBody& fixed, RotatingBody& mobile, const ScrewMotion& motion)
       : fixed_(fixed), mobile_(mobile), motion_(motion), axis_(Vec3::Zero(), motion.axis()) {
     Pose X_MF = Pose::Identity();
     X_MF.translation() = -motion.at(0).translation();
@@ -62,7 +62,7 @@ class Rotation {
     mobile_.start_at(axis_, turned);
   }
 
-  TurningBody &fixed_, &mobile_;
+  RotatingBody &fixed_, &mobile_;
   const ScrewMotion& motion_;
   AxisFrame axis_;
 };
@@ -106,18 +106,18 @@ std::vector<FreeGap> free_gaps(Rotation& rotation) {
 
 }  // namespace
 
-ContactStretches rotation_contacts(TurningBody& fixed, TurningBody& mobile, const ScrewMotion& motion) {
+ContactParts rotation_contacts(RotatingBody& fixed, RotatingBody& mobile, const ScrewMotion& motion) {
   assert(motion.holds_origin() && motion.rotation() > Angle());
   Rotation rotation(fixed, mobile, motion);
   const double whole = rotation.whole();
   const std::vector<FreeGap> free = free_gaps(rotation);
-  ContactStretches contacts;
+  ContactParts contacts;
   // Between the gap before and the one behind; at the ends of the way between a sample and a gap.
   const auto add = [&](const GapEnd& from, const GapEnd& to) {
     const double entry = from.angle, exit = std::max(from.angle, to.angle);
-    const ContactStretch::Proven proven{std::min(entry + from.error, exit), std::max(exit - to.error, entry)};
+    const ContactPart::Proven proven{std::min(entry + from.error, exit), std::max(exit - to.error, entry)};
     contacts.push_back({entry / whole, exit / whole,
-                        ContactStretch::Proven{proven.first / whole, proven.last / whole}, 0, from.contact,
+                        ContactPart::Proven{proven.first / whole, proven.last / whole}, 0, from.contact,
                         to.contact});
   };
   const GapEnd first_sample{0, true, 0}, last_sample{whole, true, 0};

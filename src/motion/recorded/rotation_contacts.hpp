@@ -1,6 +1,6 @@
 #pragma once
 
-#include "motion/recorded/contact_stretch.hpp"
+#include "motion/recorded/contact_part.hpp"
 #include "motion/recorded/screw_motion.hpp"
 #include "motion/search/rotation_table.hpp"
 
@@ -10,8 +10,8 @@ namespace condyle::motion {
 /// (docs/mathematics/05-contact-under-rotation.md). The axis goes through M's origin, so the fixed body is placed as seen
 /// from there, shifted by -t.
 ///
-/// An end errs by at most the difference to the nearest proven contact, below 4e-12 rad of rotation. Free stretches
+/// An end errs by at most the difference to the nearest proven contact, below 4e-12 rad of rotation. Free parts
 /// below 1e-9 rad between contacts count as contact. The motion must hold its origin and turn by less than half a turn.
-ContactStretches rotation_contacts(TurningBody& fixed, TurningBody& mobile, const ScrewMotion& motion);
+ContactParts rotation_contacts(RotatingBody& fixed, RotatingBody& mobile, const ScrewMotion& motion);
 
 }  // namespace condyle::motion

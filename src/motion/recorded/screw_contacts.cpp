@@ -51,15 +51,15 @@ class Search {
   }
 
   void add_undecided(double from, double to) {
-    ContactStretch& stretch = stretch_from(from);
-    stretch.undecided += to - from, stretch.exit = to;
+    ContactPart& part = part_from(from);
+    part.undecided += to - from, part.exit = to;
   }
 
   void add_contact(double from, double to, std::optional<ContactWitness> contact) {
-    ContactStretch& stretch = stretch_from(from);
-    if (!stretch.proven) stretch.proven = ContactStretch::Proven{from, to}, stretch.at_entry = contact;
-    stretch.proven->last = stretch.exit = to;
-    stretch.at_exit = std::move(contact);
+    ContactPart& part = part_from(from);
+    if (!part.proven) part.proven = ContactPart::Proven{from, to}, part.at_entry = contact;
+    part.proven->last = part.exit = to;
+    part.at_exit = std::move(contact);
   }
 
   Known at(double s) {
@@ -85,7 +85,7 @@ class Search {
 
   /// The last interval if it reaches to here or nearly so, else a new one. A part that is free for less than the
   /// resolution counts as undecided: near a contact it alternates with undecided parts.
-  ContactStretch& stretch_from(double from) {
+  ContactPart& part_from(double from) {
     auto& contacts = found_.contacts;
     if (contacts.empty() || from - contacts.back().exit >= resolution_) {
       contacts.emplace_back().entry = from;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "motion/recorded/contact_stretch.hpp"
+#include "motion/recorded/contact_part.hpp"
 #include "motion/recorded/screw_motion.hpp"
 
 namespace condyle {
@@ -16,7 +16,7 @@ struct PosedBodies {
 };
 
 struct ScrewContacts {
-  ContactStretches contacts;
+  ContactParts contacts;
   std::size_t poses = 0;  ///< looked at
 };
 

@@ -98,7 +98,8 @@ struct DisplacedJoint::Parts {
     if (d.mobile_surface != 0) moved_mobile.emplace(mobile_.moved_by(d.mobile_surface));
     const auto &fixed = moved_fixed ? *moved_fixed : fixed_.tree(),
                &mobile = moved_mobile ? *moved_mobile : mobile_.tree();
-    TurningBody resting_fixed(fixed), resting_mobile(mobile), turning_fixed(fixed), turning_mobile(mobile);
+    RotatingBody stationary_fixed(fixed), stationary_mobile(mobile), rotating_fixed(fixed),
+        rotating_mobile(mobile);
 
     Pose X_FG = Pose::Identity();
     X_FG.translation() = d.centre;
@@ -110,16 +111,16 @@ struct DisplacedJoint::Parts {
     for (const Group& group : groups_) {
       const Pose X_FM = X_FG * pose_at(system_, group.start) * inverted(A);
       const bool turns_fixed = group.vary == JointAngle::internal_rotation;
-      TurningBody& resting = turns_fixed ? resting_mobile : resting_fixed;
-      TurningBody& turning = turns_fixed ? turning_fixed : turning_mobile;
+      RotatingBody& stationary = turns_fixed ? stationary_mobile : stationary_fixed;
+      RotatingBody& rotating = turns_fixed ? rotating_fixed : rotating_mobile;
       const AxisFrame axis =
           turns_fixed
               ? AxisFrame(A.translation(), A.linear() * -axis_of(group.vary, system_, {}))
               : AxisFrame(X_FG.translation(), X_FG.linear() * axis_of(group.vary, system_, group.start));
-      if (!before || !before->shares_axis(group)) resting.start_at(axis, Pose::Identity());
+      if (!before || !before->shares_axis(group)) stationary.start_at(axis, Pose::Identity());
       before = &group;
-      turning.start_at(axis, turns_fixed ? inverted(X_FM) : X_FM);
-      const RotationLimits both = first_contact(resting, turning, group.range);
+      rotating.start_at(axis, turns_fixed ? inverted(X_FM) : X_FM);
+      const RotationLimits both = first_contact(stationary, rotating, group.range);
       for (const std::size_t i : group.motions) {
         const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
         const bool reaches_end = end.turned >= motions_[i].range;

@@ -47,10 +47,10 @@ void take_triangles(const TriMesh& mesh, std::vector<Index> triangles, BodyZone&
 }
 
 /// Which triangles and vertices of the mobile body slide and do not count; none where bearing contact counts.
-struct Sliding {
+struct BearingParts {
   std::vector<std::uint8_t> triangles, vertices;
 
-  Sliding(const TriMesh& mobile, const std::optional<BearingSurface>& bearing, BearingRule rule)
+  BearingParts(const TriMesh& mobile, const std::optional<BearingSurface>& bearing, BearingRule rule)
       : triangles(mobile.triangles.size()), vertices(mobile.vertices.size()) {
     if (!bearing || rule == BearingRule::count) return;
     triangles = bearing->triangles;
@@ -70,7 +70,7 @@ struct ZoneFinder::Parts {
   ClockFace socket_clock;
   std::optional<BearingSurface> bearing;
   std::optional<NeckAxis> neck;
-  Sliding sliding;
+  BearingParts bearing_parts;
   JointContact contact;
 };
 
@@ -83,7 +83,7 @@ ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   parts_ = std::make_unique<Parts>(
       Parts{joint.coordinates(), joint.is_hip(), options.past,
             options.socket_clock ? *options.socket_clock : sagittal_clock(), bearing, neck,
-            Sliding(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
+            BearingParts(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -96,7 +96,7 @@ const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;
-  const auto& [system, has_socket, past, socket_clock, bearing, neck, sliding, contact] = *parts_;
+  const auto& [system, has_socket, past, socket_clock, bearing, neck, bearing_parts, contact] = *parts_;
   ImpingementZone zone{limit, past, {}, {}, {}, {}, {}, {}};
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
@@ -106,7 +106,7 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   const TangentialContact tangential =
       both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, system, at)) : TangentialContact{};
   // clang 14 does not let a lambda have a structured binding.
-  const Sliding& slides = sliding;
+  const BearingParts& slides = bearing_parts;
   const auto leaves_through_bearing = [&](const std::vector<Index>& exits, std::size_t v) {
     return exits[v] != no_index && slides.triangles[exits[v]];
   };
@@ -122,7 +122,7 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
       zone.fixed);
   std::vector<Index> of_fixed, of_mobile;
   for (const TrianglePair& pair : radial.pairs) {
-    if (sliding.triangles[pair.mobile]) continue;
+    if (bearing_parts.triangles[pair.mobile]) continue;
     of_fixed.push_back(pair.fixed);
     of_mobile.push_back(pair.mobile);
   }

@@ -29,7 +29,7 @@ std::optional<PartOfMesh> part_of(const Mesh& mesh, const Marks& wanted) {
   return PartOfMesh{std::move(part), std::move(triangle_in_whole)};
 }
 
-PartOfMesh counting_part(const Body& body, const Marks& wanted) {
+PartOfMesh included_part(const Body& body, const Marks& wanted) {
   if (auto part = part_of(body.mesh, wanted)) return std::move(*part);
   throw MeshError(body.name + ": every triangle is left out: nothing remains that could meet the other body");
 }
@@ -88,7 +88,7 @@ PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
     }
     of_bearing = part_of(mobile, slides);
   }
-  return {counting_part(joint.fixed, of_fixed), counting_part(joint.mobile, of_mobile), std::move(of_bearing),
+  return {included_part(joint.fixed, of_fixed), included_part(joint.mobile, of_mobile), std::move(of_bearing),
           left_out};
 }
 
@@ -110,8 +110,8 @@ std::string explain_overlap(const Joint& joint, const JointAngles& at) {
     text += "; " + deepest(joint.fixed, joint.mobile, fixed);
   } else if (!contact.pairs.empty()) {
     const Vec3 p = joint.fixed.mesh.corner(contact.pairs.front().fixed, 0);
-    const bool told = contact.mobile_in_fixed && contact.fixed_in_mobile;
-    text += (told ? "; no vertex is inside, first at " : "; an open mesh has no depth, first at ") +
+    const bool has_depths = contact.mobile_in_fixed && contact.fixed_in_mobile;
+    text += (has_depths ? "; no vertex is inside, first at " : "; an open mesh has no depth, first at ") +
             joint.fixed.name + " triangle " + std::to_string(contact.pairs.front().fixed) + " at (" +
             number(p.x()) + ", " + number(p.y()) + ", " + number(p.z()) + ") mm";
   }

@@ -54,21 +54,21 @@ double most_rotation(const JointAngles& from, const JointAngles& to) noexcept {
 
 struct PathFinder::Parts {
   RangeOfMotion range;
-  motion::PartsOfJoint counting;
+  motion::PartsOfJoint included;
   Mesh whole_mobile;
   motion::FeatureTree fixed, mobile;
 
   Parts(const Joint& joint, const RangeOptions& options)
       : range(joint, options),
-        counting(
+        included(
             motion::parts_that_count(joint, options.overlap, range.bearing().surface, range.bearing_rule())),
         whole_mobile(joint.mobile.mesh),
-        fixed(counting.fixed.mesh),
-        mobile(counting.mobile.mesh) {}
+        fixed(included.fixed.mesh),
+        mobile(included.mobile.mesh) {}
 
   ContactWitness witness(const motion::Clearance& nearest, const Pose& X_FM) const {
-    const Index f = counting.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
-    const Index m = counting.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
+    const Index f = included.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
+    const Index m = included.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
     const Feature face{FeatureKind::face, m};
     return {{FeatureKind::face, f},
             face,

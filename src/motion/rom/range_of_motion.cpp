@@ -18,12 +18,12 @@ namespace condyle {
 namespace {
 
 /// One body as it counts: its features, and the numbers its triangles have in the whole mesh.
-struct CountingBody {
+struct IncludedBody {
   Mesh mesh;
   motion::FeatureTree tree;
   std::vector<Index> triangle_in_whole;
 
-  explicit CountingBody(motion::PartOfMesh part)
+  explicit IncludedBody(motion::PartOfMesh part)
       : mesh(std::move(part.mesh)), tree(mesh), triangle_in_whole(std::move(part.triangle_in_whole)) {}
 
   /// Vertices that its triangles use, spread over all of it: neighbours in the tree are neighbours in space.
@@ -48,10 +48,10 @@ constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees
 
 /// Vertices whose contact angles are computed before pairs of triangles are evaluated: more vertices add little to
 /// these.
-constexpr std::size_t told_vertices = 512;
+constexpr std::size_t probed_vertices = 512;
 
 /// The body that turned in a search.
-enum class Turning { fixed, mobile };
+enum class Rotating { fixed, mobile };
 
 /// Coarser than usual: such a table is asked once.
 constexpr RingTableOptions coarse_rings{.cells_per_triangle = 0.03};
@@ -62,7 +62,7 @@ ContactWitness exchanged(const ContactWitness& contact) {
           contact.kind};
 }
 
-/// The axis of internal rotation as seen in M, for F turning about it: adding d to the angle turns M by d
+/// The axis of internal rotation as seen in M, for F rotating about it: adding d to the angle turns M by d
 /// about e3, and so F, seen from M, by -d about e3, which is d about -e3.
 AxisFrame rotation_axis_in_M(CoordinateSystem system) {
   return {Vec3::Zero(), -axis_of(JointAngle::internal_rotation, system, {})};
@@ -77,14 +77,14 @@ AxisFrame flexion_axis(CoordinateSystem system) {
 struct RangeOfMotion::Parts {
   /// A part of the mobile body.
   struct MobilePart {
-    CountingBody body;
+    IncludedBody body;
     AxisFrame rotation_axis;
     core::Lazy<std::optional<motion::RotationTable>> table = {};
 
     MobilePart(motion::PartOfMesh part, CoordinateSystem system)
         : body(std::move(part)), rotation_axis(rotation_axis_in_M(system)) {}
 
-    /// The part resting about the axis of internal rotation.
+    /// The part stationary about the axis of internal rotation.
     const motion::RotationTable& rotation_table() const {
       return *table.get([&](auto& made) { made.emplace(body.tree, rotation_axis); });
     }
@@ -96,39 +96,39 @@ struct RangeOfMotion::Parts {
   BearingRule bearing_rule;
   BearingFinding bearing;
   LeftOut left_out;
-  CountingBody fixed;
-  MobilePart ending;  ///< what ends motions
-  Points ending_vertices;
-  std::unique_ptr<MobilePart> sliding;  ///< the bearing surface, where it does not count
+  IncludedBody fixed;
+  MobilePart impinging;  ///< the part whose contact ends motions
+  Points impinging_vertices;
+  std::unique_ptr<MobilePart> bearing_part;  ///< the bearing surface, if it does not count
   motion::RotationTable flexion_table;
 
   /// Storage of one thread: bodies ready to rotate, and the table of the flexion of its last adduction.
   struct Worker {
-    motion::TurningBody fixed, ending;
-    std::optional<motion::TurningBody> sliding;
+    motion::RotatingBody fixed, impinging;
+    std::optional<motion::RotatingBody> bearing_part;
     std::optional<Angle> flexion;
     std::unique_ptr<motion::RotationTable> adduction_table;
     /// The fixed body's about the axis whose contacts it last collected.
     std::optional<RingTable> rings;
 
-    explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), ending(parts.ending.body.tree) {
-      if (parts.sliding) sliding.emplace(parts.sliding->body.tree);
+    explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), impinging(parts.impinging.body.tree) {
+      if (parts.bearing_part) bearing_part.emplace(parts.bearing_part->body.tree);
     }
   };
   mutable core::PerThread<Worker> workers;
 
-  Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint counting)
+  Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint included)
       : kind(joint.kind),
         system(joint.coordinates()),
         whole_mobile(joint.mobile.mesh),
         bearing_rule(rule),
         bearing(std::move(found)),
-        left_out(counting.left_out),
-        fixed(std::move(counting.fixed)),
-        ending(std::move(counting.mobile), system),
-        ending_vertices(ending.body.spread_vertices(told_vertices)),
-        sliding(counting.bearing ? std::make_unique<MobilePart>(std::move(*counting.bearing), system)
-                                 : nullptr),
+        left_out(included.left_out),
+        fixed(std::move(included.fixed)),
+        impinging(std::move(included.mobile), system),
+        impinging_vertices(impinging.body.spread_vertices(probed_vertices)),
+        bearing_part(included.bearing ? std::make_unique<MobilePart>(std::move(*included.bearing), system)
+                                      : nullptr),
         flexion_table(fixed.tree, flexion_axis(system)),
         workers([this] { return Worker(*this); }) {}
 
@@ -144,47 +144,47 @@ struct RangeOfMotion::Parts {
   /// The fixed body and one part of the mobile one, ready to turn by an angle from its start: whichever has the axis at rest
   /// has its table.
   struct Rotation {
-    const motion::RotationTable& resting;
-    motion::TurningBody& turning;
+    const motion::RotationTable& stationary;
+    motion::RotatingBody& rotating;
   };
-  Rotation rotation_of(Worker& worker, const MobilePart& part, motion::TurningBody& turning, JointAngle vary,
-                       const JointAngles& start) const {
+  Rotation rotation_of(Worker& worker, const MobilePart& part, motion::RotatingBody& rotating,
+                       JointAngle vary, const JointAngles& start) const {
     const Pose X_FM = pose_at(system, start);
-    const auto started = [&](const motion::RotationTable& table, motion::TurningBody& body, const Pose& X) {
+    const auto started = [&](const motion::RotationTable& table, motion::RotatingBody& body, const Pose& X) {
       body.start_at(table.frame(), X);
       return Rotation{table, body};
     };
     return vary == JointAngle::internal_rotation
                ? started(part.rotation_table(), worker.fixed, inverted(X_FM))
-           : vary == JointAngle::adduction ? started(adduction_table(worker, start), turning, X_FM)
-                                           : started(flexion_table, turning, X_FM);
+           : vary == JointAngle::adduction ? started(adduction_table(worker, start), rotating, X_FM)
+                                           : started(flexion_table, rotating, X_FM);
   }
 
   /// First contact of the fixed body and one part of the mobile one.
-  RotationLimits first_contact(Worker& worker, const MobilePart& part, motion::TurningBody& turning,
+  RotationLimits first_contact(Worker& worker, const MobilePart& part, motion::RotatingBody& rotating,
                                JointAngle vary, const JointAngles& start, const RotationRange& range) const {
-    const Rotation rotation = rotation_of(worker, part, turning, vary, start);
-    RotationLimits limits = motion::first_contact(rotation.resting, rotation.turning, range);
+    const Rotation rotation = rotation_of(worker, part, rotating, vary, start);
+    RotationLimits limits = motion::first_contact(rotation.stationary, rotation.rotating, range);
     for (Limit* limit : {&limits.negative, &limits.positive})
       if (limit->contact)
         finish(*limit->contact, part,
-               vary == JointAngle::internal_rotation ? Turning::fixed : Turning::mobile);
+               vary == JointAngle::internal_rotation ? Rotating::fixed : Rotating::mobile);
     return limits;
   }
 
   /// As the search reports it, in terms of the whole bodies and labelled.
-  void finish(ContactWitness& contact, const MobilePart& part, Turning turning) const {
-    if (turning == Turning::fixed) contact = exchanged(contact);
+  void finish(ContactWitness& contact, const MobilePart& part, Rotating rotating) const {
+    if (rotating == Rotating::fixed) contact = exchanged(contact);
     contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
     contact.mobile_feature = part.body.in_whole(contact.mobile_feature);
     // With its parts searched apart, a contact is of the kind of its part.
     contact.kind = bearing_rule == BearingRule::count ? bearing.kind_of(whole_mobile, contact.mobile_feature)
-                   : &part == sliding.get()           ? ContactKind::bearing
+                   : &part == bearing_part.get()      ? ContactKind::bearing
                                                       : ContactKind::impingement;
   }
 
-  /// Angles at which what ends motions meets the fixed body's surface, over a full turn, and those at which one of its
-  /// vertices is inside. What is in `known` is not looked at and is in the answer.
+  /// Angles at which the impinging part meets the fixed body's surface, over a full turn, and those at which one of its
+  /// vertices is inside. Angles in `known` are not evaluated and are in the answer.
   core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
                               std::vector<core::Arc> known) const {
     const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
@@ -194,15 +194,15 @@ struct RangeOfMotion::Parts {
     // contact, without a pair of triangles; the ends of intervals remain.
     if (worker.rings) {
       const OccupiedArcs arcs =
-          worker.rings->occupied_arcs(posed(pose_at(system, start), ending_vertices.view()));
+          worker.rings->occupied_arcs(posed(pose_at(system, start), impinging_vertices.view()));
       for (std::size_t v = 0; v < arcs.size(); ++v)
         for (const OccupiedArc& arc : arcs.of(v)) {
           const Angle width = arc.end - arc.begin - arc_slack * 2;
           if (width > narrowest_arc) known.push_back({arc.begin + arc_slack, width});
         }
     }
-    const Rotation rotation = rotation_of(worker, ending, worker.ending, vary, start);
-    return motion::contact_set(rotation.resting, rotation.turning, core::ArcSet(known));
+    const Rotation rotation = rotation_of(worker, impinging, worker.impinging, vary, start);
+    return motion::contact_set(rotation.stationary, rotation.rotating, core::ArcSet(known));
   }
 
   HeadAtLimit head_at(const JointAngles& angles) const {
@@ -211,9 +211,9 @@ struct RangeOfMotion::Parts {
     HeadAtLimit head;
     if (surface.socket)
       head.centre_distance_mm = (posed(X_FM, surface.head.centre) - surface.socket->centre).norm();
-    if (!sliding) return head;
+    if (!bearing_part) return head;
     if (const auto nearest =
-            mesh::closest_points(fixed.tree.triangle_tree(), sliding->body.tree.triangle_tree(), X_FM))
+            mesh::closest_points(fixed.tree.triangle_tree(), bearing_part->body.tree.triangle_tree(), X_FM))
       head.joint_space_mm = nearest->distance_mm;
     return head;
   }
@@ -232,8 +232,8 @@ std::optional<BearingContact> before(const Limit& limit, const Limit& bearing) {
 RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
   BearingFinding bearing = find_bearing_surface(joint, options.bearing);
   const BearingRule rule = bearing.surface ? options.bearing.rule : BearingRule::count;
-  motion::PartsOfJoint counting = motion::parts_that_count(joint, options.overlap, bearing.surface, rule);
-  parts_ = std::make_unique<Parts>(joint, std::move(bearing), rule, std::move(counting));
+  motion::PartsOfJoint included = motion::parts_that_count(joint, options.overlap, bearing.surface, rule);
+  parts_ = std::make_unique<Parts>(joint, std::move(bearing), rule, std::move(included));
   const OverlapOptions& overlap = options.overlap;
   if (overlap.reference_contact == ReferenceContact::accept) return;
   if (!both_limits(JointAngle::flexion, overlap.reference_pose, {Angle(), Angle()}).free_at_start())
@@ -246,10 +246,12 @@ RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& st
                                           const RotationRange& range) const {
   assert(kind() != JointKind::hinge || vary == JointAngle::flexion);
   Parts::Worker& worker = parts_->workers.local();
-  RotationLimits limits = parts_->first_contact(worker, parts_->ending, worker.ending, vary, start, range);
-  if (!worker.sliding || !limits.free_at_start()) return limits;
-  const RotationLimits bearing = parts_->first_contact(worker, *parts_->sliding, *worker.sliding, vary, start,
-                                                       {-limits.negative.turned, limits.positive.turned});
+  RotationLimits limits =
+      parts_->first_contact(worker, parts_->impinging, worker.impinging, vary, start, range);
+  if (!worker.bearing_part || !limits.free_at_start()) return limits;
+  const RotationLimits bearing =
+      parts_->first_contact(worker, *parts_->bearing_part, *worker.bearing_part, vary, start,
+                            {-limits.negative.turned, limits.positive.turned});
   limits.negative.bearing_contact = before(limits.negative, bearing.negative);
   limits.positive.bearing_contact = before(limits.positive, bearing.positive);
   limits.work += bearing.work;
@@ -279,9 +281,9 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
       if (!(high - low > narrowest_interval)) continue;
       // The gap is free or, one body inside the other, all contact; its ends are computed as limits are.
       const Angle middle = low + (high - low) * 0.5;
-      const RotationLimits both =
-          parts_->first_contact(worker, parts_->ending, worker.ending, vary, turned_by(start, vary, middle),
-                                {range.negative - middle, range.positive - middle});
+      const RotationLimits both = parts_->first_contact(worker, parts_->impinging, worker.impinging, vary,
+                                                        turned_by(start, vary, middle),
+                                                        {range.negative - middle, range.positive - middle});
       if (both.free_at_start())
         free.intervals.push_back(
             {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});

@@ -26,37 +26,38 @@ Vec3 turned(const Triple<double>& p, double cosine, double sine) {
   return {p.x * cosine - p.y * sine, p.x * sine + p.y * cosine, p.z};
 }
 
-bool in_contact_at(const Corners& turning, const Corners& resting, double angle) {
+bool in_contact_at(const Corners& rotating, const Corners& stationary, double angle) {
   const auto [s, c] = core::sine_cosine(angle);
   mesh::TriangleCorners a, b;
-  for (std::size_t k = 0; k < 3; ++k) a[k] = turned(turning[k], c, s), b[k] = turned(resting[k], 1, 0);
+  for (std::size_t k = 0; k < 3; ++k) a[k] = turned(rotating[k], c, s), b[k] = turned(stationary[k], 1, 0);
   return mesh::triangles_intersect(a, b);
 }
 
 /// Angles at which the two may meet: those that make their arcs meet.
-core::Arc window(const CylinderBox& turning, const CylinderBox& resting) {
-  const double from = resting.theta - (turning.theta + turning.theta_width);
-  return arc(from, from + turning.theta_width + resting.theta_width);
+core::Arc window(const CylinderBox& rotating, const CylinderBox& stationary) {
+  const double from = stationary.theta - (rotating.theta + rotating.theta_width);
+  return arc(from, from + rotating.theta_width + stationary.theta_width);
 }
 
-/// The angles at which the two surfaces meet. Resting is TurningBody or const RotationTable.
-template <class Resting>
+/// The angles at which the two surfaces meet. Stationary is RotatingBody or const RotationTable.
+template <class Stationary>
 class Collector {
  public:
-  Collector(Resting& resting, TurningBody& turning, core::ArcSet known)
-      : resting_(resting), turning_(turning), found_(std::move(known)) {}
+  Collector(Stationary& stationary, RotatingBody& rotating, core::ArcSet known)
+      : stationary_(stationary), rotating_(rotating), found_(std::move(known)) {}
 
   core::ArcSet run() {
     push(0, 0);
     while (!open_.empty()) {
       const NodePair pair = open_.back();
       open_.pop_back();
-      const auto &m = turning_.tree().nodes()[pair.turning], &f = resting_.tree().nodes()[pair.resting];
+      const auto &m = rotating_.tree().nodes()[pair.rotating],
+                 &f = stationary_.tree().nodes()[pair.stationary];
       if (m.is_leaf() && f.is_leaf()) {
-        turning_.leaf_features(pair.turning), resting_.leaf_features(pair.resting);
+        rotating_.leaf_features(pair.rotating), stationary_.leaf_features(pair.stationary);
         compare({m.first, m.last}, {f.first, f.last});
       } else {
-        split(turning_.tree(), resting_.tree(), pair, [&](Index a, Index b) { push(a, b); });
+        split(rotating_.tree(), stationary_.tree(), pair, [&](Index a, Index b) { push(a, b); });
       }
     }
     unite();
@@ -65,31 +66,32 @@ class Collector {
 
  private:
   /// A feature wholly in the angles already found has nothing to add.
-  bool may_add(const CylinderBox& turning, const CylinderBox& resting) const {
-    return turning.overlaps_profile(resting) && !found_.contains(window(turning, resting));
+  bool may_add(const CylinderBox& rotating, const CylinderBox& stationary) const {
+    return rotating.overlaps_profile(stationary) && !found_.contains(window(rotating, stationary));
   }
 
-  void push(Index turning, Index resting) {
-    if (may_add(turning_.node_box(turning), resting_.node_box(resting)))
-      open_.push_back({turning, resting, 0});
+  void push(Index rotating, Index stationary) {
+    if (may_add(rotating_.node_box(rotating), stationary_.node_box(stationary)))
+      open_.push_back({rotating, stationary, 0});
   }
 
-  void compare(const FeatureTree::Range& turning, const FeatureTree::Range& resting) {
-    for (Index s = turning.first; s < turning.last; ++s) {
-      const auto& box = turning_.features().triangle_boxes[s];
-      for (Index t = resting.first; t < resting.last; ++t) {
-        if (may_add(box, resting_.features().triangle_boxes[t])) compare_triangles(s, t);
+  void compare(const FeatureTree::Range& rotating, const FeatureTree::Range& stationary) {
+    for (Index s = rotating.first; s < rotating.last; ++s) {
+      const auto& box = rotating_.features().triangle_boxes[s];
+      for (Index t = stationary.first; t < stationary.last; ++t) {
+        if (may_add(box, stationary_.features().triangle_boxes[t])) compare_triangles(s, t);
       }
     }
   }
 
   void compare_triangles(Index s, Index t) {
-    const Corners a = turning_.features().corners(turning_.tree(), s);
-    const Corners b = resting_.features().corners(resting_.tree(), t);
-    find_events(PlacedTriangle(a, turning_, s), PlacedTriangle(b, resting_, t));
+    const Corners a = rotating_.features().corners(rotating_.tree(), s);
+    const Corners b = stationary_.features().corners(stationary_.tree(), t);
+    find_events(PlacedTriangle(a, rotating_, s), PlacedTriangle(b, stationary_, t));
     if (events_.empty()) {
       // Without an event the state never changes; a pair away from the axis is apart at some angle.
-      const auto all = window(turning_.features().triangle_boxes[s], resting_.features().triangle_boxes[t]);
+      const auto all =
+          window(rotating_.features().triangle_boxes[s], stationary_.features().triangle_boxes[t]);
       if (all.width.radians() >= two_pi && in_contact_at(a, b, 0)) add(arc(0, two_pi));
       return;
     }
@@ -149,27 +151,27 @@ class Collector {
     fresh_.clear();
   }
 
-  Resting& resting_;
-  TurningBody& turning_;
+  Stationary& stationary_;
+  RotatingBody& rotating_;
   std::vector<NodePair> open_;
   std::vector<ContactEvent> events_;
   std::vector<core::Arc> fresh_;
   core::ArcSet found_;
 };
 
-template <class Resting>
-core::ArcSet contact_set_of(Resting& resting, TurningBody& turning, const core::ArcSet& known) {
-  if (resting.tree().empty() || turning.tree().empty()) return known;
-  return Collector<Resting>(resting, turning, known).run();
+template <class Stationary>
+core::ArcSet contact_set_of(Stationary& stationary, RotatingBody& rotating, const core::ArcSet& known) {
+  if (stationary.tree().empty() || rotating.tree().empty()) return known;
+  return Collector<Stationary>(stationary, rotating, known).run();
 }
 
 }  // namespace
 
-core::ArcSet contact_set(const RotationTable& resting, TurningBody& turning, const core::ArcSet& known) {
-  return contact_set_of(resting, turning, known);
+core::ArcSet contact_set(const RotationTable& stationary, RotatingBody& rotating, const core::ArcSet& known) {
+  return contact_set_of(stationary, rotating, known);
 }
-core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known) {
-  return contact_set_of(resting, turning, known);
+core::ArcSet contact_set(RotatingBody& stationary, RotatingBody& rotating, const core::ArcSet& known) {
+  return contact_set_of(stationary, rotating, known);
 }
 
 }  // namespace condyle::motion

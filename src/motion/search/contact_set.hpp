@@ -11,7 +11,7 @@ namespace condyle::motion {
 ///     --------(=============)----------------(=====)-------   one pair of triangles: its state changes
 ///     --------(=====================)--------(=====)-------   at events only; the union over all pairs
 ///
-/// Both bodies are placed in one frame; the turning one is at angle 0 there. Ends are events of
+/// Both bodies are placed in one frame; the rotating one is at angle 0 there. Ends are events of
 /// docs/mathematics/05-contact-under-rotation.md, widened by their error bound (below 1e-12 rad): the set holds every angle
 /// of contact. Between two events of a pair one exact test of the turned and rounded triangles decides. Gaps
 /// between events of a pair below 1e-9 rad count as contact.
@@ -23,7 +23,8 @@ namespace condyle::motion {
 ///
 /// Angles in `known` are certainly in contact, or irrelevant: they are in the answer and are not evaluated. Bodies
 /// that are not ready are prepared only as far as they are evaluated.
-core::ArcSet contact_set(const RotationTable& resting, TurningBody& turning, const core::ArcSet& known = {});
-core::ArcSet contact_set(TurningBody& resting, TurningBody& turning, const core::ArcSet& known = {});
+core::ArcSet contact_set(const RotationTable& stationary, RotatingBody& rotating,
+                         const core::ArcSet& known = {});
+core::ArcSet contact_set(RotatingBody& stationary, RotatingBody& rotating, const core::ArcSet& known = {});
 
 }  // namespace condyle::motion

@@ -33,8 +33,8 @@ struct Found {
   double angle;  ///< size of the rotation, less its error: never past the true one
   double error;
   FeaturePair features;
-  FeatureKind turning_kind, resting_kind;
-  Index turning, resting;
+  FeatureKind rotating_kind, stationary_kind;
+  Index rotating, stationary;
 };
 
 /// The feature in this slot, by its numbers in the mesh.
@@ -52,13 +52,13 @@ Feature feature(const FeatureTree& tree, FeatureKind kind, Index slot) {
   return {FeatureKind::face, tree.mesh_triangle(slot)};
 }
 
-/// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest. Resting is
-/// const RotationTable or TurningBody.
-template <class Resting>
+/// Depth first, nearest first: the first contact found is usually the true one, and bounds the rest. Stationary is
+/// const RotationTable or RotatingBody.
+template <class Stationary>
 class Search {
  public:
-  Search(Resting& resting, TurningBody& turning, RotationSense sense, double range, SearchWork& work)
-      : resting_(resting), turning_(turning), sense_(sense), best_angle_(range), work_(work) {
+  Search(Stationary& stationary, RotatingBody& rotating, RotationSense sense, double range, SearchWork& work)
+      : stationary_(stationary), rotating_(rotating), sense_(sense), best_angle_(range), work_(work) {
     narrow_window();
   }
 
@@ -68,12 +68,13 @@ class Search {
       const NodePair pair = open_.back();
       open_.pop_back();
       if (pair.gap > reach_) continue;
-      const Node &m = turning_.tree().nodes()[pair.turning], &f = resting_.tree().nodes()[pair.resting];
+      const Node &m = rotating_.tree().nodes()[pair.rotating],
+                 &f = stationary_.tree().nodes()[pair.stationary];
       if (m.is_leaf() && f.is_leaf()) {
         compare_leaves(pair, m, f);
       } else {
         const std::size_t before = open_.size();
-        split(turning_.tree(), resting_.tree(), pair, [&](Index a, Index b) { push(a, b); });
+        split(rotating_.tree(), stationary_.tree(), pair, [&](Index a, Index b) { push(a, b); });
         if (open_.size() == before + 2 && open_[before].gap < open_[before + 1].gap) {
           std::swap(open_[before], open_[before + 1]);
         }
@@ -83,16 +84,16 @@ class Search {
   }
 
  private:
-  void push(Index turning, Index resting) {
+  void push(Index rotating, Index stationary) {
     ++work_.node_pairs;
-    const CylinderBox &m = turning_.node_box(turning), &f = resting_.node_box(resting);
+    const CylinderBox &m = rotating_.node_box(rotating), &f = stationary_.node_box(stationary);
     if (!m.overlaps_profile(f)) return;
     const double gap = gap_in_sense(m, f, sense_);
-    if (gap <= reach_) open_.push_back({turning, resting, gap});
+    if (gap <= reach_) open_.push_back({rotating, stationary, gap});
   }
 
-  bool within_reach(const CylinderBox& turning, const CylinderBox& resting) const noexcept {
-    return turning.overlaps_profile(resting) && gap_in_sense(turning, resting, sense_) <= reach_;
+  bool within_reach(const CylinderBox& rotating, const CylinderBox& stationary) const noexcept {
+    return rotating.overlaps_profile(stationary) && gap_in_sense(rotating, stationary, sense_) <= reach_;
   }
 
   /// A feature is in the box of the triangle that it belongs to: most triangles of a leaf are out of reach of
@@ -100,9 +101,10 @@ class Search {
   /// compared one by one.
   void compare_leaves(const NodePair& pair, const Node& m, const Node& f) {
     ++work_.leaf_pairs;
-    const CylinderBox &m_leaf = turning_.node_box(pair.turning), &f_leaf = resting_.node_box(pair.resting);
-    const CylinderFeatures &mf = turning_.leaf_features(pair.turning),
-                           &ff = resting_.leaf_features(pair.resting);
+    const CylinderBox &m_leaf = rotating_.node_box(pair.rotating),
+                      &f_leaf = stationary_.node_box(pair.stationary);
+    const CylinderFeatures &mf = rotating_.leaf_features(pair.rotating),
+                           &ff = stationary_.leaf_features(pair.stationary);
     std::array<Index, mesh::TriangleTree::leaf_triangles> near{};
     std::size_t count = 0;
     for (Index t = f.first; t < f.last; ++t) {
@@ -118,8 +120,8 @@ class Search {
 
   /// The two faces, and the vertices and edges that belong to them.
   void compare_triangles(Index s, Index t) {
-    const FeatureTree &mt = turning_.tree(), &ft = resting_.tree();
-    const CylinderFeatures &mf = turning_.features(), &ff = resting_.features();
+    const FeatureTree &mt = rotating_.tree(), &ft = stationary_.tree();
+    const CylinderFeatures &mf = rotating_.features(), &ff = stationary_.features();
     const auto m_vertices = mt.vertices_of(s), f_vertices = ft.vertices_of(t);
     for (Index v = m_vertices.first; v < m_vertices.last; ++v) {
       if (!within_reach(mf.vertex_box(v), ff.triangle_boxes[t])) continue;
@@ -145,18 +147,18 @@ class Search {
     }
   }
 
-  void record(const ContactEvents& events, FeatureKind turning_kind, Index turning, FeatureKind resting_kind,
-              Index resting) {
+  void record(const ContactEvents& events, FeatureKind rotating_kind, Index rotating,
+              FeatureKind stationary_kind, Index stationary) {
     ++work_.events;
     work_.exact_decisions += events.exact_decisions;
     for (const ContactEvent& event : events) {
       const double size = sense_ == RotationSense::positive ? event.angle : two_pi - event.angle;
       const double angle = std::max(0.0, size - event.error);
       if (angle > best_angle_) continue;
-      const FeaturePair features{feature(turning_.tree(), turning_kind, turning),
-                                 feature(resting_.tree(), resting_kind, resting)};
+      const FeaturePair features{feature(rotating_.tree(), rotating_kind, rotating),
+                                 feature(stationary_.tree(), stationary_kind, stationary)};
       if (found_ && std::tie(found_->angle, found_->features) <= std::tie(angle, features)) continue;
-      found_ = Found{angle, event.error, features, turning_kind, resting_kind, turning, resting};
+      found_ = Found{angle, event.error, features, rotating_kind, stationary_kind, rotating, stationary};
       best_angle_ = angle;
       narrow_window();
     }
@@ -168,8 +170,8 @@ class Search {
         sense_ == RotationSense::positive ? AngleWindow::forward(reach_) : AngleWindow::backward(reach_);
   }
 
-  Resting& resting_;
-  TurningBody& turning_;
+  Stationary& stationary_;
+  RotatingBody& rotating_;
   RotationSense sense_;
   double best_angle_;
   double reach_ = 0;
@@ -193,23 +195,23 @@ Vec3 nearest_to_line(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 }
 
 /// Where the two features meet after the rotation: as a point of either body in its own frame.
-template <class Resting>
-ContactWitness witness(Resting& resting, TurningBody& turning, const Found& found, double rotation) {
-  const auto on_turning = [&](Index v) { return about_axis(vec3(turning.placed_vertex(v)), rotation); };
-  const auto on_resting = [&](Index v) { return vec3(resting.placed_vertex(v)); };
+template <class Stationary>
+ContactWitness witness(Stationary& stationary, RotatingBody& rotating, const Found& found, double rotation) {
+  const auto on_rotating = [&](Index v) { return about_axis(vec3(rotating.placed_vertex(v)), rotation); };
+  const auto on_stationary = [&](Index v) { return vec3(stationary.placed_vertex(v)); };
   Vec3 m, f;
-  if (found.turning_kind == FeatureKind::vertex) {
-    m = f = on_turning(found.turning);
-  } else if (found.resting_kind == FeatureKind::vertex) {
-    m = f = on_resting(found.resting);
+  if (found.rotating_kind == FeatureKind::vertex) {
+    m = f = on_rotating(found.rotating);
+  } else if (found.stationary_kind == FeatureKind::vertex) {
+    m = f = on_stationary(found.stationary);
   } else {
-    const auto [pa, pb] = turning.tree().edges()[found.turning];
-    const auto [pc, pd] = resting.tree().edges()[found.resting];
-    const Vec3 a = on_turning(pa), b = on_turning(pb), c = on_resting(pc), d = on_resting(pd);
+    const auto [pa, pb] = rotating.tree().edges()[found.rotating];
+    const auto [pc, pd] = stationary.tree().edges()[found.stationary];
+    const Vec3 a = on_rotating(pa), b = on_rotating(pb), c = on_stationary(pc), d = on_stationary(pd);
     m = nearest_to_line(a, b, c, d), f = nearest_to_line(c, d, a, b);
   }
-  return {found.features.resting, found.features.turning, resting.to_own(f),
-          turning.to_own(about_axis(m, -rotation))};
+  return {found.features.stationary, found.features.rotating, stationary.to_own(f),
+          rotating.to_own(about_axis(m, -rotation))};
 }
 
 /// Without a sign, that of a zero included.
@@ -217,14 +219,16 @@ Angle size_of(Angle range) noexcept {
   return Angle::radians(std::abs(range.radians()));
 }
 
-template <class Resting>
-Limit limit_in(RotationSense sense, Angle range, Resting& resting, TurningBody& turning, SearchWork& work) {
+template <class Stationary>
+Limit limit_in(RotationSense sense, Angle range, Stationary& stationary, RotatingBody& rotating,
+               SearchWork& work) {
   const Angle size = size_of(range);
   std::optional<Found> found;
-  if (size > Angle()) found = Search<Resting>(resting, turning, sense, size.radians(), work).run();
+  if (size > Angle()) found = Search<Stationary>(stationary, rotating, sense, size.radians(), work).run();
   if (!found) return {size};
   return {Angle::radians(found->angle), LimitReason::contact,
-          witness(resting, turning, *found, sign_of(sense) * found->angle), Angle::radians(2 * found->error)};
+          witness(stationary, rotating, *found, sign_of(sense) * found->angle),
+          Angle::radians(2 * found->error)};
 }
 
 RotationLimits in_contact_at_start(const std::optional<ContactWitness>& contact, const SearchWork& work) {
@@ -232,29 +236,30 @@ RotationLimits in_contact_at_start(const std::optional<ContactWitness>& contact,
   return {limit, limit, work};
 }
 
-template <class Resting>
-RotationLimits first_contact_of(Resting& resting, TurningBody& turning, const RotationRange& range) {
+template <class Stationary>
+RotationLimits first_contact_of(Stationary& stationary, RotatingBody& rotating, const RotationRange& range) {
   assert(range.negative.radians() <= 0 && range.positive.radians() >= 0);
   assert(range.negative.radians() >= -two_pi && range.positive.radians() <= two_pi);
   SearchWork work;
-  if (resting.tree().empty() || turning.tree().empty())
+  if (stationary.tree().empty() || rotating.tree().empty())
     return {{size_of(range.negative)}, {size_of(range.positive)}, work};
-  if (const auto faces = faces_in_contact_at_start(resting, turning, work))
+  if (const auto faces = faces_in_contact_at_start(stationary, rotating, work))
     return in_contact_at_start(faces, work);
-  if (one_inside_other_at_start(resting, turning)) return in_contact_at_start(std::nullopt, work);
-  const Limit negative = limit_in(RotationSense::negative, range.negative, resting, turning, work);
-  const Limit positive = limit_in(RotationSense::positive, range.positive, resting, turning, work);
+  if (one_inside_other_at_start(stationary, rotating)) return in_contact_at_start(std::nullopt, work);
+  const Limit negative = limit_in(RotationSense::negative, range.negative, stationary, rotating, work);
+  const Limit positive = limit_in(RotationSense::positive, range.positive, stationary, rotating, work);
   return {negative, positive, work};
 }
 
 }  // namespace
 
-RotationLimits first_contact(const RotationTable& resting, TurningBody& turning, const RotationRange& range) {
-  return first_contact_of(resting, turning, range);
+RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rotating,
+                             const RotationRange& range) {
+  return first_contact_of(stationary, rotating, range);
 }
 
-RotationLimits first_contact(TurningBody& resting, TurningBody& turning, const RotationRange& range) {
-  return first_contact_of(resting, turning, range);
+RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating, const RotationRange& range) {
+  return first_contact_of(stationary, rotating, range);
 }
 
 }  // namespace condyle::motion
@@ -273,13 +278,13 @@ SearchWork& SearchWork::operator+=(const SearchWork& more) noexcept {
 struct FirstContact::Parts {
   motion::FeatureTree fixed, mobile;
   motion::RotationTable table;
-  mutable core::PerThread<motion::TurningBody> turning;
+  mutable core::PerThread<motion::RotatingBody> rotating;
 
   Parts(const Mesh& fixed_mesh, const Mesh& mobile_mesh, const AxisFrame& axis_F)
       : fixed(fixed_mesh),
         mobile(mobile_mesh),
         table(fixed, axis_F),
-        turning([this] { return motion::TurningBody(mobile); }) {}
+        rotating([this] { return motion::RotatingBody(mobile); }) {}
 };
 
 FirstContact::FirstContact(const Mesh& fixed, const Mesh& mobile, const AxisFrame& axis_F)
@@ -294,9 +299,9 @@ RotationLimits FirstContact::limits(const Pose& X_FM, const RotationRange& range
   const double low = range.negative.radians(), high = range.positive.radians();
   if (!(low <= 0 && low >= -two_pi && high >= 0 && high <= two_pi))
     throw UsageError("first contact: a range goes from at most a full turn back over 0 to a full turn on");
-  motion::TurningBody& turning = parts_->turning.local();
-  turning.start_at(parts_->table.frame(), X_FM);
-  return motion::first_contact(parts_->table, turning, range);
+  motion::RotatingBody& rotating = parts_->rotating.local();
+  rotating.start_at(parts_->table.frame(), X_FM);
+  return motion::first_contact(parts_->table, rotating, range);
 }
 
 }  // namespace condyle

@@ -9,18 +9,19 @@ namespace condyle::motion {
 
 /// Features of the two bodies of a rotation, whichever of F and M turns.
 struct FeaturePair {
-  Feature turning, resting;
+  Feature rotating, stationary;
   friend auto operator<=>(const FeaturePair&, const FeaturePair&) = default;
 };
 
-/// How far the turning body rotates about the axis either way from its start, until the surfaces meet or the
-/// range ends; guarantee as of FirstContact. In witnesses the resting body is called fixed, the turning one
+/// How far the rotating body rotates about the axis either way from its start, until the surfaces meet or the
+/// range ends; guarantee as of FirstContact. In witnesses the stationary body is called fixed, the rotating one
 /// mobile. The range must be as RotationRange says.
 ///
 /// Deterministic: the same input gives the same bits on any thread.
-RotationLimits first_contact(const RotationTable& resting, TurningBody& turning,
+RotationLimits first_contact(const RotationTable& stationary, RotatingBody& rotating,
                              const RotationRange& range = {});
 /// The same for a body that rests for a few searches only, at the pose where it starts: made ready as far as they look.
-RotationLimits first_contact(TurningBody& resting, TurningBody& turning, const RotationRange& range = {});
+RotationLimits first_contact(RotatingBody& stationary, RotatingBody& rotating,
+                             const RotationRange& range = {});
 
 }  // namespace condyle::motion

@@ -55,7 +55,7 @@ class Search {
       const NodePair pair = open_.back();
       open_.pop_back();
       if (pair.gap >= free_for_) continue;
-      const auto &m = mobile_.nodes()[pair.turning], &f = fixed_.nodes()[pair.resting];
+      const auto &m = mobile_.nodes()[pair.rotating], &f = fixed_.nodes()[pair.stationary];
       if (m.is_leaf() && f.is_leaf()) {
         compare_leaves(m, f);
         continue;

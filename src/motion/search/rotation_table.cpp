@@ -24,7 +24,7 @@ mesh::TriangleCorners corners_of(const CylinderFeatures& features, const Feature
   return out;
 }
 
-/// Nodes of the turning body with at most so many triangles get their box from their triangles, the others
+/// Nodes of the rotating body with at most so many triangles get their box from their triangles, the others
 /// from their box in the body's own frame. That costs one point and is loose, triangles cost all of theirs.
 /// On a hip of 30 000 and 15 000 triangles six limits take 0.78 ms in all with 8, 0.97 ms with 16 and 1.5 ms
 /// with 32; on one of 156 000 and 99 000 triangles 3.6, 3.9 and 4.3 ms.
@@ -62,7 +62,7 @@ RotationTable::RotationTable(const FeatureTree& tree, const AxisFrame& frame, co
   }
 }
 
-TurningBody::TurningBody(const FeatureTree& tree)
+RotatingBody::RotatingBody(const FeatureTree& tree)
     : tree_(&tree),
       frame_(Vec3::Zero(), Vec3::UnitZ()),
       features_(tree),
@@ -72,7 +72,7 @@ TurningBody::TurningBody(const FeatureTree& tree)
   for (const Vec3& p : tree.vertices()) extent_ = std::max(extent_, p.cwiseAbs().maxCoeff());
 }
 
-void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
+void RotatingBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
   const bool as_before = pose_number_ > 0 && frame_R.rotation() == frame_.rotation() &&
                          frame_R.point() == frame_.point() && X_RT.matrix() == X_RT_.matrix();
   if (as_before) return;
@@ -90,7 +90,7 @@ void TurningBody::start_at(const AxisFrame& frame_R, const Pose& X_RT) {
   }
 }
 
-void TurningBody::place_vertex(Index vertex) {
+void RotatingBody::place_vertex(Index vertex) {
   if (vertex_mark_[vertex] == pose_number_) return;
   vertex_mark_[vertex] = pose_number_;
   const Point p = triple(frame_.to_axis(posed(X_RT_, tree_->vertices()[vertex])));
@@ -98,7 +98,7 @@ void TurningBody::place_vertex(Index vertex) {
   features_.at[vertex] = cylinder_point(p);
 }
 
-const CylinderBox& TurningBody::node_box(Index i) {
+const CylinderBox& RotatingBody::node_box(Index i) {
   auto& box = features_.node_boxes[i];
   if (node_mark_[i] == pose_number_) return box;
   node_mark_[i] = pose_number_;
@@ -119,7 +119,7 @@ const CylinderBox& TurningBody::node_box(Index i) {
   return box;
 }
 
-const CylinderFeatures& TurningBody::leaf_features(Index i) {
+const CylinderFeatures& RotatingBody::leaf_features(Index i) {
   if (leaf_mark_[i] != pose_number_) {
     leaf_mark_[i] = pose_number_;
     const Node& leaf = tree_->nodes()[i];
@@ -160,6 +160,6 @@ int winding_number(Body& body, const Triple<double>& point) {
 }
 
 template int winding_number<const RotationTable>(const RotationTable&, const Triple<double>&);
-template int winding_number<TurningBody>(TurningBody&, const Triple<double>&);
+template int winding_number<RotatingBody>(RotatingBody&, const Triple<double>&);
 
 }  // namespace condyle::motion

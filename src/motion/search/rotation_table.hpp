@@ -59,7 +59,7 @@ class RotationTable {
   Vec3 to_own(const Vec3& p) const noexcept { return frame_.from_axis(p); }
   const CylinderBox& node_box(Index node) const noexcept { return features_.node_boxes[node]; }
   const CylinderFeatures& features() const noexcept { return features_; }
-  /// As TurningBody's: here everything is ready.
+  /// As RotatingBody's: here everything is ready.
   const CylinderFeatures& leaf_features(Index) const noexcept { return features_; }
   const Triple<double>& placed_vertex(Index vertex) const noexcept { return features_.points[vertex]; }
 
@@ -71,12 +71,12 @@ class RotationTable {
 
 /// The body that turns, at the pose from which it starts. Boxes are made when first needed, so that a new
 /// pose costs only what the search looks at. One per thread.
-class TurningBody {
+class RotatingBody {
  public:
   /// The tree must outlive this.
-  explicit TurningBody(const FeatureTree& tree);
+  explicit RotatingBody(const FeatureTree& tree);
 
-  /// Starts at X_RT, the pose of the turning body T measured in the resting body R, about the axis given in
+  /// Starts at X_RT, the pose of the rotating body T measured in the stationary body R, about the axis given in
   /// R. Prepared parts stay ready if it starts there already.
   void start_at(const AxisFrame& frame_R, const Pose& X_RT);
 
@@ -116,7 +116,7 @@ class TurningBody {
 };
 
 /// Winding number of a closed body about the point, which is not on its surface; the point and the body at
-/// the angle 0. Exact. Body is RotationTable or TurningBody.
+/// the angle 0. Exact. Body is RotationTable or RotatingBody.
 template <class Body>
 int winding_number(Body& body, const Triple<double>& point);
 

@@ -62,29 +62,29 @@ mesh::TriangleCorners corners_of(const FeatureTree& tree, const CylinderFeatures
 
 }  // namespace
 
-template <class Resting>
-std::optional<ContactWitness> faces_in_contact_at_start(Resting& resting, TurningBody& turning,
+template <class Stationary>
+std::optional<ContactWitness> faces_in_contact_at_start(Stationary& stationary, RotatingBody& rotating,
                                                         SearchWork& work) {
-  const FeatureTree &mt = turning.tree(), &ft = resting.tree();
+  const FeatureTree &mt = rotating.tree(), &ft = stationary.tree();
   const auto near_now = [](const CylinderBox& a, const CylinderBox& b) {
     return a.overlaps_profile(b) && arcs_meet(a, b);
   };
   std::vector<NodePair> open;
   const auto push = [&](Index m, Index f) {
     ++work.node_pairs;
-    if (near_now(turning.node_box(m), resting.node_box(f))) open.push_back({m, f, 0});
+    if (near_now(rotating.node_box(m), stationary.node_box(f))) open.push_back({m, f, 0});
   };
   push(0, 0);
   while (!open.empty()) {
     const NodePair pair = open.back();
     open.pop_back();
-    const auto &m = mt.nodes()[pair.turning], &f = ft.nodes()[pair.resting];
+    const auto &m = mt.nodes()[pair.rotating], &f = ft.nodes()[pair.stationary];
     if (!m.is_leaf() || !f.is_leaf()) {
       split(mt, ft, pair, push);
       continue;
     }
-    const CylinderFeatures &mf = turning.leaf_features(pair.turning),
-                           &ff = resting.leaf_features(pair.resting);
+    const CylinderFeatures &mf = rotating.leaf_features(pair.rotating),
+                           &ff = stationary.leaf_features(pair.stationary);
     for (Index s = m.first; s < m.last; ++s) {
       for (Index t = f.first; t < f.last; ++t) {
         if (!near_now(mf.triangle_boxes[s], ff.triangle_boxes[t])) continue;
@@ -94,29 +94,33 @@ std::optional<ContactWitness> faces_in_contact_at_start(Resting& resting, Turnin
         const Vec3 p = common_point(a, b);
         return ContactWitness{{FeatureKind::face, ft.mesh_triangle(t)},
                               {FeatureKind::face, mt.mesh_triangle(s)},
-                              resting.to_own(p),
-                              turning.to_own(p)};
+                              stationary.to_own(p),
+                              rotating.to_own(p)};
       }
     }
   }
   return std::nullopt;
 }
 
-template <class Resting>
-bool one_inside_other_at_start(Resting& resting, TurningBody& turning) {
-  const FeatureTree &mt = turning.tree(), &ft = resting.tree();
-  const auto inside_resting = [&](Index v) { return winding_number(resting, turning.placed_vertex(v)) > 0; };
-  const auto inside_turning = [&](Index v) { return winding_number(turning, resting.placed_vertex(v)) > 0; };
+template <class Stationary>
+bool one_inside_other_at_start(Stationary& stationary, RotatingBody& rotating) {
+  const FeatureTree &mt = rotating.tree(), &ft = stationary.tree();
+  const auto inside_stationary = [&](Index v) {
+    return winding_number(stationary, rotating.placed_vertex(v)) > 0;
+  };
+  const auto inside_rotating = [&](Index v) {
+    return winding_number(rotating, stationary.placed_vertex(v)) > 0;
+  };
   return (ft.is_closed() &&
-          std::any_of(mt.component_vertices().begin(), mt.component_vertices().end(), inside_resting)) ||
+          std::any_of(mt.component_vertices().begin(), mt.component_vertices().end(), inside_stationary)) ||
          (mt.is_closed() &&
-          std::any_of(ft.component_vertices().begin(), ft.component_vertices().end(), inside_turning));
+          std::any_of(ft.component_vertices().begin(), ft.component_vertices().end(), inside_rotating));
 }
 
-template std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable&, TurningBody&,
+template std::optional<ContactWitness> faces_in_contact_at_start(const RotationTable&, RotatingBody&,
                                                                  SearchWork&);
-template std::optional<ContactWitness> faces_in_contact_at_start(TurningBody&, TurningBody&, SearchWork&);
-template bool one_inside_other_at_start(const RotationTable&, TurningBody&);
-template bool one_inside_other_at_start(TurningBody&, TurningBody&);
+template std::optional<ContactWitness> faces_in_contact_at_start(RotatingBody&, RotatingBody&, SearchWork&);
+template bool one_inside_other_at_start(const RotationTable&, RotatingBody&);
+template bool one_inside_other_at_start(RotatingBody&, RotatingBody&);
 
 }  // namespace condyle::motion

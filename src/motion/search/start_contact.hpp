@@ -9,15 +9,15 @@
 
 namespace condyle::motion {
 
-/// A pair of faces that have a point in common at the start, or nothing. Exact. Resting is const RotationTable or
-/// TurningBody.
-template <class Resting>
-std::optional<ContactWitness> faces_in_contact_at_start(Resting& resting, TurningBody& turning,
+/// A pair of faces that have a point in common at the start, or nothing. Exact. Stationary is const RotationTable or
+/// RotatingBody.
+template <class Stationary>
+std::optional<ContactWitness> faces_in_contact_at_start(Stationary& stationary, RotatingBody& rotating,
                                                         SearchWork& work);
 
 /// Whether a connected component of one body is inside the other's solid, for surfaces that do not meet: a
 /// component is then inside with every vertex or with none.
-template <class Resting>
-bool one_inside_other_at_start(Resting& resting, TurningBody& turning);
+template <class Stationary>
+bool one_inside_other_at_start(Stationary& stationary, RotatingBody& rotating);
 
 }  // namespace condyle::motion

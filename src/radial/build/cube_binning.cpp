@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t triangles_per_chunk = 1024;
 
 /// See Binning.
-constexpr std::size_t spare_cells = 4;
+constexpr std::size_t padding_cells = 4;
 
 constexpr CellDop whole_cell{packed_range(0, 255, 0, 255), packed_range(0, 255, 0, 255)};
 
@@ -98,7 +98,7 @@ CubeBinning::CubeBinning(PointsView vertices, std::span<const Triangle> triangle
       map_(map),
       placed_(placed),
       n_(map.cells_per_side()),
-      length_(map.cell_count() + spare_cells, 0) {}
+      length_(map.cell_count() + padding_cells, 0) {}
 
 void CubeBinning::bin() {
   const std::size_t triangles = triangles_.size();

@@ -90,8 +90,8 @@ RayAnswer answer_of(RayScan& scan, const ExactView& table, const Vec3& v, std::s
 }
 
 /// report(i, point, answer) for each point, on all threads.
-template <class Tell>
-void answer_each(const ExactView& table, PointsView points, const Tell& tell) {
+template <class Report>
+void answer_each(const ExactView& table, PointsView points, const Report& report) {
   core::parallel_chunks(points.size(), points_per_chunk, [&](std::size_t first, std::size_t last) {
     RayScan scan(table.mesh, table.winding_at_centre);
     Candidates candidates(table.map, table.entries);
@@ -101,7 +101,7 @@ void answer_each(const ExactView& table, PointsView points, const Tell& tell) {
       for (std::size_t k = 0; k < count; ++k) gathered[k] = points[i + k];
       candidates.gather({gathered.data(), count});
       for (std::size_t k = 0; k < count; ++k)
-        tell(i + k, gathered[k], answer_of(scan, table, gathered[k], candidates.of(k)));
+        report(i + k, gathered[k], answer_of(scan, table, gathered[k], candidates.of(k)));
     }
   });
 }

@@ -31,11 +31,11 @@ SurfaceContact contact_below(const Mesh& ball) {
   return contact;
 }
 
-struct Told {
+struct Reported {
   JamContact contact;
   std::vector<JamCoordinate> coordinates;
 };
-Told told_of(const Mesh& casting, std::vector<std::optional<FrameContact>> frames) {
+Reported reported_for(const Mesh& casting, std::vector<std::optional<FrameContact>> frames) {
   const LoadedJoint loaded{.joint = {.name = "left hip",
                                      .kind = JointKind::ball,
                                      .side = Side::left,
@@ -55,7 +55,7 @@ Told told_of(const Mesh& casting, std::vector<std::optional<FrameContact>> frame
 TEST(JamContact, RegionsAreTheHalvesAlongEachAxis) {
   const Mesh ball(test::sphere({1, 0, -2}, 20, 4));
   const JamContact contact =
-      told_of(ball, {FrameContact{.X_FM = Pose::Identity(), .surface = contact_below(ball)}}).contact;
+      reported_for(ball, {FrameContact{.X_FM = Pose::Identity(), .surface = contact_below(ball)}}).contact;
   EXPECT_EQ(contact.name, "left_hip");
   EXPECT_EQ(contact.casting.mesh, "head");
   EXPECT_EQ(contact.target.mesh, "socket");
@@ -99,14 +99,14 @@ TEST(JamContact, ATriangleAtTheOriginIsNotBelowIt) {
       {.face = 0, .area_mm2 = 3, .max_depth_mm = 1, .overlap_mm3 = 3, .overlap_moment = Vec3::Zero()});
   contact.totals = totals_of(contact.faces, mesh, FaceRule::face_centre);
   const auto frames =
-      told_of(mesh, {FrameContact{.X_FM = Pose::Identity(), .surface = contact}}).contact.casting.frames;
+      reported_for(mesh, {FrameContact{.X_FM = Pose::Identity(), .surface = contact}}).contact.casting.frames;
   for (std::size_t r = 0; r < jam_regions; ++r)
     EXPECT_EQ(frames[0].regional[r].contact_area_m2, r % 2 == 0 ? 0 : 3e-6) << r;
 }
 
 TEST(JamContact, AGapHasNumbersNowhere) {
   const Mesh ball(test::sphere(Vec3::Zero(), 20, 2));
-  const auto frames = told_of(ball, {std::nullopt}).contact.casting.frames;
+  const auto frames = reported_for(ball, {std::nullopt}).contact.casting.frames;
   ASSERT_EQ(frames.size(), 1u);
   ASSERT_EQ(frames[0].regional.size(), jam_regions);
   for (const JamTotals& totals : {frames[0].total, frames[0].regional[0], frames[0].regional[5]}) {
@@ -122,7 +122,7 @@ TEST(JamContact, CoordinatesHaveTheNamesOfTheJoint) {
   const Mesh ball(test::sphere(Vec3::Zero(), 20, 2));
   const CoordinateSystem hip{Anatomy::hip, Side::left};
   const Pose bent = pose_at(hip, JointAngles{Angle::degrees(30), Angle::degrees(-10), Angle::degrees(5)});
-  const auto coordinates = told_of(ball, {FrameContact{.X_FM = bent}, std::nullopt}).coordinates;
+  const auto coordinates = reported_for(ball, {FrameContact{.X_FM = bent}, std::nullopt}).coordinates;
   ASSERT_EQ(coordinates.size(), 3u);
   const std::array<std::pair<const char*, double>, 3> expected = {
       {{"flexion", 30}, {"adduction", -10}, {"internal_rotation", 5}}};

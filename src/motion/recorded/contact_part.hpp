@@ -7,9 +7,9 @@
 
 namespace condyle::motion {
 
-/// A part of the way from one sample to the next on which contact is not excluded; all other parts are free. Ends and
-/// proofs are fractions of the way.
-struct ContactStretch {
+/// A part of the segment from one sample to the next on which contact is not excluded; all other parts are free. Ends and
+/// proofs are fractions of the segment.
+struct ContactPart {
   double entry = 0, exit = 0;  ///< entry <= exit
   /// The bodies are in contact somewhere from entry to `first` and somewhere from `last` to exit.
   struct Proven {
@@ -22,6 +22,6 @@ struct ContactStretch {
 };
 
 /// Ascending and apart.
-using ContactStretches = std::vector<ContactStretch>;
+using ContactParts = std::vector<ContactPart>;
 
 }  // namespace condyle::motion

@@ -9,9 +9,9 @@
 
 namespace condyle::core {
 
-/// Tells the thread sanitizer what it cannot see, because it happens in oneTBB's library, which is not instrumented: what was done
-/// in front of a before() is done when a later after() returns, on whichever threads. Nothing in any other build.
-class ToldOrder {
+/// Reports to the thread sanitizer an order that it cannot see, because oneTBB's library is not instrumented: everything
+/// before a before() happens before a later after() returns, on whichever threads. Nothing in any other build.
+class SanitizerOrder {
  public:
 #ifdef CONDYLE_THREAD_SANITIZER
   void before() noexcept {

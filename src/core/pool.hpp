@@ -5,15 +5,15 @@
 
 namespace condyle::core {
 
-/// Keeps one object between its uses, so that what is needed again and again is allocated once. Any number of
-/// threads: whoever finds nothing kept makes one, and of two that are put back one goes. A copy starts without.
+/// Keeps one object between its uses, so that scratch is allocated once. Any number of threads: a thread that takes
+/// from an empty pool makes an object, and of two that are put back one is deleted. A copy starts empty.
 template <class T>
-class Spare {
+class Pool {
  public:
-  Spare() = default;
-  Spare(const Spare&) noexcept {}
-  Spare& operator=(const Spare&) noexcept { return *this; }
-  ~Spare() { delete kept_.load(std::memory_order_relaxed); }
+  Pool() = default;
+  Pool(const Pool&) noexcept {}
+  Pool& operator=(const Pool&) noexcept { return *this; }
+  ~Pool() { delete kept_.load(std::memory_order_relaxed); }
 
   /// The one kept, as it was left, or a new one without values.
   std::unique_ptr<T> take() {
