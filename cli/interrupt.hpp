@@ -17,8 +17,8 @@ class Interrupted : public std::runtime_error {
 /// file that would grow past what the process may write is an error of writing like a full disk, and no signal.
 void say_when_interrupted() noexcept;
 
-/// While it lives, the first of these signals is noted instead of ending the process, so that it can end with
-/// nothing half-written; a second one ends it as ever. One at a time.
+/// During its lifetime, the first of these signals is noted instead of ending the process, so that it can end with no
+/// half-written file; a second one ends it as ever. One at a time.
 class InterruptWatch {
  public:
   static constexpr std::array<int, 3> signals = {SIGINT, SIGTERM, SIGHUP};

@@ -41,7 +41,7 @@ StudyDone stopped_promptly(
     while (!ended.stop_requested() && !watch.interrupted()) std::this_thread::sleep_for(between_looks);
     if (ended.stop_requested()) return;
     stop.request_stop();
-    // What is being written is done in moments, and then it is whole.
+    // A file that is being written is complete within moments.
     for (auto waited = 0ms; waited < patience || io::temporary_folders_live(); waited += between_looks) {
       if (ended.stop_requested()) return;
       std::this_thread::sleep_for(between_looks);

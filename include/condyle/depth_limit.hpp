@@ -35,9 +35,9 @@ struct DepthLimit {
 };
 
 /// Depth is the radial depth (docs/mathematics/02-radial-method.md) of the deepest vertex of either body in the
-/// other, whatever the angle between its ray and the surface. Where surfaces slide, that is the depth. Where
-/// a neck runs into a rim the ray grazes the wall and the radial depth reads many times the true one, so
-/// there a motion ends almost as soon as a vertex is inside: what is allowed is allowed to sliding surfaces.
+/// other, whatever the angle between its ray and the surface. For surfaces that slide on each other, that is the
+/// depth. Where a neck runs into a rim the ray grazes the wall and the radial depth is many times the true one, so
+/// there a motion ends almost as soon as a vertex is inside: the allowed depth applies to bearing surfaces.
 ///
 /// Not exact, unlike RangeOfMotion: depth is computed at poses one step apart, and only of vertices. Contact that
 /// comes and goes between two poses of the search, or of edges and faces without a vertex, is not seen. The first

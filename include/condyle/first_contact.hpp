@@ -30,7 +30,7 @@ struct Feature {
 /// Kind of a joint's contact: see BearingSurface.
 enum class ContactKind : std::uint8_t {
   unknown,      ///< No bearing surface is known.
-  bearing,      ///< The sliding surfaces touch: the centre or the segmentation is off.
+  bearing,      ///< The bearing surfaces touch: the centre or the segmentation is off.
   impingement,  ///< Something else meets.
 };
 

@@ -67,8 +67,9 @@ struct RayHits {
 };
 
 /// The nearest hit of each ray, given in R, with the target, at 0 <= distance <= reach; X_TR is the pose of the rays' frame in
-/// the target's. Of triangles met at one distance the one of the lowest number counts. Fast where rays that
-/// follow each other start near each other and run alike: eight together are told what they may meet.
+/// the target's. If several triangles are met at one distance the one of the lowest number counts. Fast if rays that
+/// follow each other start near each other and run alike: eight rays share one search for the triangles that they may
+/// meet.
 ///
 /// A ray sees the mesh as a plane figure: each vertex is turned into two coordinates, rounded, the same ones in all its
 /// triangles; and of the areas that decide on which side of an edge the ray passes none has a wrong sign, and zero counts as

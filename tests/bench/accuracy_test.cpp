@@ -13,8 +13,8 @@ using condyle::Pose;
 using condyle::TriMesh;
 using condyle::Vec3;
 
-/// Of the eight corners of a box of 4 mm, those at -1 and 3 mm, one stands in a box of 10 mm that begins at
-/// the centre of the first, 3 mm from three faces.
+/// One of the eight corners of a box of 4 mm, those at -1 and 3 mm, stands in a box of 10 mm that begins at the
+/// centre of the first, 3 mm from three faces.
 class BoxInCorner : public ::testing::Test {
  protected:
   const TriMesh fixed_ = condyle::test::box({0, 0, 0}, {10, 10, 10});

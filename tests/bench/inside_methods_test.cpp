@@ -8,8 +8,8 @@
 #include "method.hpp"
 #include "support/test_meshes.hpp"
 
-/// What the published and the library methods that find vertices inside must answer where the answer is known
-/// in closed form. How far they are off on bones, the experiment tells.
+/// Results of the published and the library methods that find vertices inside, on shapes with answers known in closed
+/// form. The experiment measures how far they are off on bones.
 
 namespace bench {
 
@@ -35,7 +35,7 @@ std::vector<MethodKind> looking_up() {
   return kinds;
 }
 
-/// Of those the ones that follow a deformed body; the others are made anew.
+/// The methods among them that update for a deformed body; the others are made anew.
 std::vector<MethodKind> following() {
   std::vector<MethodKind> kinds = looking_up();
   std::erase_if(kinds, [](const MethodKind& kind) { return !kind.answers.deforms; });

@@ -95,7 +95,7 @@ class FailingAllocations : public ::testing::TestWithParam<Failing> {
     const std::string log = (folder / "log").string() + fmt::format(".{}.", one.number);
     const std::string out = io::read_whole_file(log + "out"), err = io::read_whole_file(log + "err");
     if (one.exit_code == 0) {
-      // What failed was memory that could be done without, or nothing did.
+      // The failed memory was dispensable, or nothing failed.
       EXPECT_EQ(out, whole_.out) << what;
       EXPECT_EQ(err, whole_.err) << what;
       EXPECT_EQ(one.folder, as_after) << what;

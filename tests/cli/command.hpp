@@ -6,7 +6,7 @@
 
 namespace condyle::test {
 
-/// What a run of the command left behind.
+/// Output of a run of the command.
 struct Ran {
   int exit_code;  ///< -1 where it was killed
   std::string out, err;
@@ -17,7 +17,7 @@ struct Ran {
 Ran run_condyle(const std::filesystem::path& folder, const std::string& arguments,
                 const std::string& redirections = "");
 
-/// What is left of standard error besides notes on a joint, which may come before an error.
+/// Standard error without notes on a joint, which may come before an error.
 std::string without_notes(const std::string& text);
 
 /// Whether a text is one line "condyle: ..." and nothing else.

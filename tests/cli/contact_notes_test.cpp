@@ -4,7 +4,7 @@
 
 #include "motion_scene.hpp"
 
-/// What looks wrong with layers, loads and motions, in the command's text, its JSON and under --strict.
+/// Notes on layers, loads and motions, in the command's text, its JSON and under --strict.
 
 namespace condyle::test {
 namespace {

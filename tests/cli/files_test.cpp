@@ -24,7 +24,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
-/// What the command does to files that it was not asked to replace, and what strangers' names and files do to it.
+/// The command's effects on files that it was not requested to replace, and its reaction to unusual names and files.
 
 namespace condyle::test {
 namespace {

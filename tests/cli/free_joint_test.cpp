@@ -155,7 +155,7 @@ TEST_F(FreeJoint, MotionsOfAKneeAreListedByItsNames) {
   EXPECT_EQ(ran.out.find("fadir"), std::string::npos);
 }
 
-/// What says something: members that are null do not.
+/// The members that say something: not those that are null.
 Json said(const Json& json) {
   if (!json.is_structured()) return json;
   Json out = json.is_array() ? Json::array() : Json::object();

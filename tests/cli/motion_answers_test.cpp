@@ -7,7 +7,7 @@
 #include "motion_scene.hpp"
 #include "support/shared_data.hpp"
 
-/// What answers on recorded motions say beside their curves.
+/// Further contents of answers on recorded motions, beside their curves.
 
 namespace condyle::test {
 namespace {
@@ -169,7 +169,7 @@ TEST_F(Motion, FramesWithoutALoadAreLeftUnanswered) {
   EXPECT_NE(text.find("balanced in 2 of 3 frames"), text.npos) << text;
   EXPECT_NE(text.find("0.1 s: the load is zero along what is free"), text.npos) << text;
 
-  // Of a load across the only free direction nothing is left either.
+  // A load across the only free direction leaves no residual either.
   const Json across =
       Json::parse(run("motion cup.toml --motion rock.csv --loads loads.csv --along 1 0 0 --json").out);
   EXPECT_EQ(across["frames_balanced"], 0);
@@ -195,7 +195,7 @@ TEST_F(Motion, LoadsThatNothingWouldAskAreRefused) {
   refused("--loads two.csv --free-rotations", 3, "two.csv: has no column 'moment_z_nmm'");
 }
 
-/// A body of two meshes: the one that touches is named wherever contact is told.
+/// A body of two meshes: wherever contact is reported, the mesh that touches is named.
 TEST_F(Motion, AnswersNameThePartThatTouches) {
   const TriMesh bone = box({-5, 100, -5}, {5, 110, 5});
   write_mesh(folder / "bone.ply", bone);

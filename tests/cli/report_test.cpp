@@ -50,7 +50,8 @@ class ReportCommand : public ::testing::Test {
   const TemporaryFolder folder;
 };
 
-/// What both say but for the command line, and the intervals of the map, which a report has in a place of their own.
+/// The common part of both without the command line, and the intervals of the map, which have their own place in a
+/// report.
 Json without_command(Json rom) {
   rom["provenance"].erase("command");
   if (rom.contains("map")) rom["map"].erase("intervals");

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// What `condyle rom` says of a hip with a head: its bearing surface, bands and maps.
+/// Answers of `condyle rom` for a hip with a head: its bearing surface, bands and maps.
 class RomOfSampleHip : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_EQ(run("sample hip --out .").exit_code, 0); }

@@ -57,8 +57,8 @@ class RomCommand : public ::testing::Test {
   }
 
   static constexpr const char* small_map = " --map adduction=-10:10:5 internal_rotation=-20:20:10";
-  /// Of fine meshes more than a million points take many minutes on any machine: never finished here, however
-  /// late the interruption comes on a busy one.
+  /// With fine meshes more than a million points take many minutes on any machine: never finished here, however late
+  /// the interruption comes on a busy one.
   static constexpr const char* long_map = " --map adduction=-30:30:0.05 internal_rotation=-30:30:0.05";
 
   const TemporaryFolder folder;

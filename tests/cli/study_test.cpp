@@ -125,7 +125,7 @@ int exit_code_of(pid_t process) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// Of a folder that a killed run left: every file is whole, or not there.
+/// Checks a folder that a killed run left: every file is whole, or not there.
 void expect_no_half_file(const fs::path& left, const fs::path& whole) {
   for (const char* name : tables) {
     if (!fs::exists(left / name)) continue;

@@ -119,7 +119,7 @@ TEST(BodyPair, ABodyInsideTheSolidOfTheOtherTouchesIt) {
     EXPECT_TRUE(contact::BodyPair(large, small).touch(X));
     EXPECT_TRUE(contact::BodyPair(small, large).touch(X));
   }
-  // Of two pieces the second is inside.
+  // The second of two components is inside.
   const TriMesh beside_and_inside = test::joined(box({30, 30, 30}, {31, 31, 31}), small);
   EXPECT_TRUE(contact::BodyPair(large, beside_and_inside).touch(Pose::Identity()));
   EXPECT_TRUE(contact::BodyPair(beside_and_inside, large).touch(Pose::Identity()));
@@ -168,7 +168,7 @@ TEST(BodyPair, TheLastHitIsAPairThatMeetsAndChangesNoAnswer) {
   EXPECT_LT(hits, 90u);
 }
 
-/// Single precision tells such bodies apart no longer, or has no such numbers: slower, and as right.
+/// Single precision no longer separates such bodies, or has no such numbers: slower, and as right.
 TEST(BodyPair, IsRightFarFromTheOriginAndBeyondSinglePrecision) {
   for (const double size : {1e9, 4e29, 1e-29}) {
     const TriMesh fixed = box({1 * size, -size, -size}, {2 * size, size, size});

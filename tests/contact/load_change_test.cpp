@@ -5,7 +5,7 @@
 #include "contact/elastic_parts.hpp"
 #include "support/cup.hpp"
 
-/// What the balance steps by, against differences of the load.
+/// The derivatives that the balance steps by, against differences of the load.
 
 namespace condyle {
 namespace {
@@ -70,8 +70,9 @@ class LoadChangeOf : public testing::TestWithParam<FaceRule> {};
 
 TEST_P(LoadChangeOf, IsThatOfDifferences) {
   const ElasticContact contact = ball_in_cup(Casting::fixed, GetParam());
-  // Steps of a hundred-thousandth of a millimetre: few rays pass from one triangle of the ball to the next, where depth has a
-  // kink. A ray runs along the mean of normals, and the place it meets is told by its face's: 0.01 rad over 0.2 mm.
+  // Steps of a hundred-thousandth of a millimetre: few rays pass from one triangle of the ball to the next, where
+  // depth has a kink. A ray runs along the mean of normals, and the normal of the face that it meets gives the place:
+  // 0.01 rad over 0.2 mm.
   expect_near(change_of(contact, pose_of_ball(), Motions::all),
               measured_change(contact, pose_of_ball(), 1e-5, 4e-7), 1e-4);
 }

@@ -4,7 +4,7 @@
 
 #include "support/test_meshes.hpp"
 
-/// Rays of closed targets: those that begin outside are left out where a radial table tells them.
+/// Rays of closed targets: those that begin outside are left out if a radial table finds them.
 
 namespace condyle::contact {
 namespace {

@@ -90,7 +90,7 @@ TriMesh shell(int levels, double inner, double outer, const Vec3& centre = Vec3:
 /// stands for.
 double volume_by_columns(const TriMesh& a, const TriMesh& b, int axis, int across) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  // What only the smaller body's bounds can hold.
+  // A box that only the smaller body's bounds can hold.
   Vec3 low = Vec3::Constant(-1e300), high = Vec3::Constant(1e300);
   for (const TriMesh* mesh : {&a, &b}) {
     Vec3 l = Vec3::Constant(1e300), h = -l;
@@ -312,7 +312,7 @@ TEST(Overlap, WithABodyThatCoversSpaceTwiceSaysSo) {
   EXPECT_NEAR(in_nested.mobile_covered_again_mm3, 2 * 27, 1e-9);
 }
 
-/// What of a ball lies below a plane, triangle by triangle, and the section of the ball there.
+/// The part of a ball below a plane, triangle by triangle, and the section of the ball there.
 struct Cap {
   double area = 0, section = 0;
 };
@@ -360,7 +360,7 @@ TEST(Overlap, OfABallOnAPlateHasTheAreasOfTheBallsSection) {
   }
 }
 
-/// Values that exact integration in another program gave, and areas by counting.
+/// Values of an exact integration in another program, and areas by a count.
 TEST(Overlap, OfARealHipIsWhatExactIntegrationGives) {
   const auto hip = hip_vhf_right();
   if (!hip) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";

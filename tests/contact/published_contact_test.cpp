@@ -13,7 +13,7 @@ namespace {
 
 /// Published numbers have 8 decimals, of SI units; the joint coordinates they follow from have all their digits.
 constexpr double half_a_digit = 0.5000001e-8;
-/// What single precision somewhere on OpenSim-JAM's way leaves open, of a number or of a vector's length.
+/// Uncertainty from single precision somewhere in OpenSim-JAM's computation, for a number or a vector's length.
 constexpr double relative = 2e-5;
 
 const ElasticLayer cartilage{10, 0.45, 3.0};

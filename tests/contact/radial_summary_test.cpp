@@ -22,7 +22,7 @@ TEST(RadialSummary, CountsStatesAndFindsTheDeepestVertexAndTheSmallestGap) {
   EXPECT_EQ(summary.vertices_on_surface, 1u);
   ASSERT_TRUE(summary.deepest);
   EXPECT_EQ(summary.deepest->vertex, 3u);
-  // What RadialTable promises: 1e-12 of the radius.
+  // The error that RadialTable guarantees: 1e-12 of the radius.
   EXPECT_NEAR(summary.deepest->depth_mm, 0.5, 5.5e-12);
   EXPECT_EQ(summary.deepest->applies(), DepthKind::radial);
   EXPECT_NEAR(summary.deepest->shortest_exit_mm, 0.5, 1e-15);

@@ -12,7 +12,7 @@ namespace condyle::test {
 namespace {
 
 /// A wall in front of the joint, x = 40, and an arm that hangs from the centre along -y and is flexed into it. Rays to
-/// the arm's end run along the wall; turning back frees it.
+/// the arm's end run along the wall; rotating back frees it.
 class ArmIntoWall : public ::testing::Test {
  protected:
   const JointContact joint{box({40, -120, -50}, {60, -20, 50}), box({-1, -100, -2}, {1, -10, 2})};

@@ -30,7 +30,7 @@ Pose translated(double x) {
   return X;
 }
 
-/// What a UsageError says; empty if none is thrown.
+/// Message of a UsageError; empty if none is thrown.
 std::string refusal(const std::function<void()>& ask) {
   try {
     ask();

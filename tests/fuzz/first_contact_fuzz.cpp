@@ -48,7 +48,7 @@ std::string fault_of(const Limit& limit, double most, const Mesh& fixed, const M
   return {};
 }
 
-/// Half of the way that is free has to be free, and to be told so where the range ends there.
+/// Half of the free rotation must be free, and must be reported as free if the range ends there.
 std::string fault_of_half(const FirstContact& bodies, const Pose& X, const RotationLimits& whole) {
   const RotationRange half{whole.negative.turned * -0.5, whole.positive.turned * 0.5};
   const RotationLimits again = bodies.limits(X, half);

@@ -5,7 +5,7 @@
 
 namespace condyle::test {
 
-/// What is wrong with the message of an error, empty if nothing is: it begins as told, and is one line of plain characters
+/// The fault of an error message, empty if there is none: it must begin as given, and be one line of plain characters
 /// that a person reads, however much of an input it quotes.
 std::string fault_of_message(std::string_view message, std::string_view begins_with = {});
 

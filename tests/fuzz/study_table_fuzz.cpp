@@ -46,7 +46,7 @@ StudyOptions options_of(unsigned char byte) {
   return options;
 }
 
-/// Of a table of results; a row of another length than the header is a fault.
+/// Reads a table of results; a row of another length than the header is a fault.
 struct Ids {
   std::vector<std::string> ids;
   std::string fault;

@@ -3,9 +3,9 @@
 #include <string>
 #include <string_view>
 
-/// What is fuzzed. Each target takes any bytes at all, does with them what a user could, and holds the outcome against what is
-/// promised: an answer that is right where a plain oracle knows it and finite where it must be, or an error of one line. It
-/// gives what was broken, in words; the empty text where nothing was. Other exceptions go through.
+/// Fuzz targets. Each target takes any bytes at all, does with them what a user could, and compares the outcome with
+/// the guarantee: an answer that is right if a plain oracle knows it and finite if it must be, or an error of one
+/// line. It returns the fault in words; the empty text if there was none. Other exceptions go through.
 ///
 /// libFuzzer runs a target by entry.cpp; the ordinary tests run it on the inputs kept in corpus/.
 

@@ -14,7 +14,7 @@
 namespace condyle {
 namespace {
 
-/// What reading complains about; "read" where it does not.
+/// Message of the reader's error; "read" if there is none.
 std::string complaint(std::string_view bytes, MeshFormat format, std::string_view name = "bone") {
   try {
     read_mesh(bytes, format, name);

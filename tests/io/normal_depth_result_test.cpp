@@ -11,7 +11,7 @@
 #include "support/temporary_folder.hpp"
 #include "support/test_meshes.hpp"
 
-/// What `condyle depth --method normal` answers, on a ball that stands in a flat sheet.
+/// Answers of `condyle depth --method normal` for a ball that stands in a flat sheet.
 ///
 ///          ___
 ///        /     \                  ball of radius R, its centre h above the sheet: at the distance r from the

@@ -143,7 +143,8 @@ TEST(PictureColours, AreThoseOfTheScale) {
   // The front of the plate at x = 107 is 5 mm from the other's front at x = 102.
   expect(coloured(plate_before_plate(), PictureColour::nearest), PictureColour::nearest, 8, 5);
   expect(coloured(plate_before_plate(), PictureColour::nearest, 20), PictureColour::nearest, 20, 5);
-  // Of the plate behind, seen alone, the ray along X goes on from x = 102 to the other one's back at x = 106.
+  // For the plate behind, seen without the other, the ray along X goes on from x = 102 to the other one's back at x =
+  // 106.
   expect(coloured(plate_before_plate(), PictureColour::gap, std::nullopt, Hidden::mobile), PictureColour::gap,
          8, 4);
   for (const PictureColour colour : {PictureColour::nearest, PictureColour::gap})

@@ -107,7 +107,7 @@ TEST(MapIntervals, AreThoseOfEveryPointInItsOrder) {
     EXPECT_EQ(json[column].size(), k) << column;
 }
 
-/// What stands between the tags of an array of a VTP file of text.
+/// Numbers between the tags of an array of a VTP file of text.
 std::vector<double> numbers_of(const std::string& vtp, const std::string& name) {
   const auto at = vtp.find("Name=\"" + name + "\"");
   EXPECT_NE(at, vtp.npos) << name;

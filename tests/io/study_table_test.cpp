@@ -10,7 +10,7 @@
 #include "io/result/sample_files.hpp"
 #include "study_of_arms.hpp"
 
-/// What a study's table may say, and what is refused of it.
+/// Contents that a study's table may have, and those that are refused.
 
 namespace condyle::test {
 namespace {

@@ -86,7 +86,7 @@ TriMesh without_some_triangles(TriMesh mesh) {
   return mesh;
 }
 
-/// What a scanner's axes x, y, z are in the hip frame (X anterior, Y superior, Z right), as rows.
+/// A scanner's axes x, y, z in the hip frame (X anterior, Y superior, Z right), as rows.
 Eigen::Matrix3d to_lps() {
   Eigen::Matrix3d M;
   M << 0, 0, -1, -1, 0, 0, 0, 1, 0;

@@ -238,7 +238,7 @@ Vec3 moved_by(CoordinateSystem system, const JointAngles& angles, const Vec3& p)
   return posed(pose_at(system, angles), p);
 }
 
-/// Of the point p of the mobile body, on either side, where a right joint has it and a left one mirrored.
+/// Checks the point p of the mobile body on either side, at its place in a right joint and mirrored in a left one.
 void expect_on_both_sides(Anatomy anatomy, const JointAngles& angles, const Vec3& p, const Vec3& moved) {
   const Eigen::DiagonalMatrix<double, 3> mirror(1, 1, -1);
   EXPECT_EQ(moved_by({anatomy, Side::right}, angles, p), moved);

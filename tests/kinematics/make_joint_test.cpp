@@ -33,7 +33,7 @@ Body scaled(const Body& body, double scale) {
   return {body.name, mesh};
 }
 
-/// What the error says, or "accepted".
+/// Message of the error, or "accepted".
 template <class Error>
 std::string refusal(const JointDescription& description, const Body& fixed, const Body& mobile) {
   try {

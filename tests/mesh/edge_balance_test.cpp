@@ -25,7 +25,7 @@ TEST(EdgeBalance, TheFirstBoundaryEdgeIsNamedInItsDirection) {
   mesh.triangles.pop_back();
   const auto edge = mesh::first_unbalanced_edge(mesh);
   ASSERT_TRUE(edge);
-  // What is left uses each edge of the hole once, against the direction of the triangle that is gone.
+  // The other triangles use each edge of the hole once, against the direction of the removed triangle.
   const auto has = [&](Index from, Index to) {
     for (int k = 0; k < 3; ++k) {
       if (removed[k] == from && removed[(k + 1) % 3] == to) return true;

@@ -21,7 +21,7 @@ TriMesh box() {
   return test::box({0, 0, 0}, {1, 1, 1});
 }
 
-/// What the door says of arrays that it refuses; empty if it lets them in.
+/// Message of the constructor for arrays that it refuses; empty if it accepts them.
 std::string refusal_of(TriMesh arrays) {
   try {
     const Mesh mesh(std::move(arrays));

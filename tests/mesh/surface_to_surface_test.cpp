@@ -108,7 +108,8 @@ TEST(ClosestPoints, AreTheSameWhereAnUpperBoundIsKnown) {
 }
 
 TEST(ClosestPoints, AreWhereTheyAreWhateverTheOrigins) {
-  // Shells about an origin far off tell nothing, those about the centres all: what they leave out is no part of the answer.
+  // Shells about an origin far off separate nothing, those about the centres everything: what they leave out is no
+  // part of the answer.
   const TriMesh socket = test::socket({0, 0, 0}, 23, 28, 3), ball = sphere({0, 0, 0}, 20, 3);
   const Vec3 off(300, -200, 100);
   TriMesh far_socket = socket;

@@ -145,7 +145,7 @@ TEST(WindingNumber, OfAMeshWithoutTrianglesOrHeightOrWidth) {
   TriMesh flat;
   flat.vertices.push_back({0, 0, 0}), flat.vertices.push_back({1, 0, 0}), flat.vertices.push_back({0, 1, 0});
   flat.triangles = {{0, 1, 2}, {0, 2, 1}};
-  // Of the lattice, (0, 1/4, 1/2)^2 lies on them.
+  // The lattice points (0, 1/4, 1/2)^2 lie on them.
   EXPECT_EQ(expect_same_as_brute_force(flat, lattice(2, 0.25)), 9);
   for (std::size_t i = 0; i < 3; ++i) {
     flat.vertices.set(i, {0, flat.vertices[i].x(), flat.vertices[i].y()});

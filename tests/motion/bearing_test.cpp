@@ -12,7 +12,7 @@
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
 
-/// What slides is told from what impinges, and only impingement ends motions.
+/// Bearing contact is distinguished from impingement, and only impingement ends motions.
 
 namespace condyle {
 namespace {
@@ -40,7 +40,7 @@ TEST(BearingSurface, IsTheHeadWithinTheMarginOfItsSphere) {
   EXPECT_EQ(surface->count(), joint.mobile.mesh.triangles().size() - 12);
 }
 
-/// A head and its arm as two meshes of one body, one or both told to be bearing.
+/// A head and its arm as two meshes of one body, one or both declared to be bearing.
 Joint of_two_meshes(const Vec3& offset, bool head_is_bearing, bool arm_is_bearing) {
   Joint joint = head_and_post_joint(offset);
   const std::size_t vertices = joint.mobile.mesh.vertices().size();

@@ -4,7 +4,7 @@
 
 #include "support/cup.hpp"
 
-/// What looks wrong with layers, loads and motions.
+/// Checks of layers, loads and motions.
 
 namespace condyle {
 namespace {

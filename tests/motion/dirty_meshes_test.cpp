@@ -16,8 +16,8 @@
 #include "support/brute_force.hpp"
 #include "support/test_meshes.hpp"
 
-/// Meshes as the world has them: each defect that inspect() tells, alone and with every other one. An answer is that of brute
-/// force on the very triangles, or it is refused in one line, and then the mesh is open.
+/// Meshes as the world has them: each defect that inspect() reports, by itself and with every other one. An answer is
+/// that of brute force on the very triangles, or it is refused in one line, and then the mesh is open.
 
 namespace condyle::test {
 namespace {
@@ -119,7 +119,7 @@ Pose turned(double degrees) {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
 
-/// What is in one of the two and not in the other.
+/// Elements of one of the two that are not in the other.
 Pairs differing(const Pairs& a, const Pairs& b) {
   Pairs either;
   std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(either));

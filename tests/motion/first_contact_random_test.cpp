@@ -160,7 +160,7 @@ RC_GTEST_PROP(FirstContactRandom, TouchesAtOnePointOfBothBodies, ()) {
   }
 }
 
-/// What the properties above compare: scenes that end in contact, that start in it, and that are free.
+/// Scenes that the properties above compare: some end in contact, some start in it, and some are free.
 TEST(FirstContactRandom, RandomScenesEndInContactStartInItAndStayFreeOften) {
   std::mt19937 random(1);
   int contact = 0, at_start = 0, free = 0;

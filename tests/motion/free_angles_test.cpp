@@ -33,7 +33,7 @@ TEST(FreeAngles, OfAnArmBesideAPostAreTheTwoSidesOfThePost) {
             RangeOfMotion(scene.joint)
                 .free_angles(vary, turned_by({}, vary, Angle::radians(start)), half_turns);
         ASSERT_TRUE(free.from_start.free_at_start());
-        // Of the full turn the post takes [limit, far_side]; the range begins and ends opposite to the start.
+        // The post takes [limit, far_side] of the full turn; the range begins and ends opposite to the start.
         double total = 0;
         for (const FreeInterval& interval : free.intervals) {
           total += (interval.high - interval.low).radians();
@@ -155,7 +155,7 @@ struct Thoroughness {
   double fine_step_deg = 0.01;
 };
 
-/// What was found on the way.
+/// Results found during the search.
 struct Seen {
   std::size_t islands = 0, in_contact = 0, free_elsewhere = 0;
 };

@@ -35,7 +35,8 @@ void expect_band_of_the_centre(const LimitBand& band, Angle reference) {
   const double gx = (limit_at(h, 0) - limit_at(-h, 0)) / (2 * h),
                gy = (limit_at(0, h) - limit_at(0, -h)) / (2 * h);
   const double sigma = std::hypot(gx, gy), limit = post_limit() * 180 / std::numbers::pi;
-  // Of 2000 samples an unstratified 5 % quantile has a deviation of 0.047 sigma, a median 0.028: twice that, rounded.
+  // With 2000 samples an unstratified 5 % quantile has a deviation of 0.047 sigma, a median 0.028: twice that,
+  // rounded.
   EXPECT_NEAR(band.median.degrees(), limit, 0.05 * sigma);
   EXPECT_NEAR(band.p5.degrees(), limit - 1.645 * sigma, 0.1 * sigma);
   EXPECT_NEAR(band.p95.degrees(), limit + 1.645 * sigma, 0.1 * sigma);

@@ -5,7 +5,7 @@
 #include "condyle/contact.hpp"
 #include "support/cup.hpp"
 
-/// Frames of a motion tell what single poses do.
+/// Frames of a motion give the results of single poses.
 
 namespace condyle {
 namespace {
@@ -63,7 +63,7 @@ TEST(MotionContact, ASheetWhollyBeyondTheReachIsCutOff) {
 /// A block on a plane carries 300 N at 0.5 mm: 100 mm^2 at 6 MPa per mm.
 class BlockInBalance {
  public:
-  /// Of each frame, where it was found and in how many steps; no step where it started in balance.
+  /// Balanced pose of each frame, with its number of steps; no step if it started in balance.
   std::vector<BalancedPose> along(std::span<const std::optional<Pose>> X_FM) const {
     std::vector<BalancedPose> poses;
     const auto frames = balance_along(contact_, X_FM, std::span(&load_, 1), along_y_);

@@ -63,7 +63,7 @@ TEST_P(RealHipLimits, AreFreeAMicrodegreeBeforeAndInContactAMicrodegreeAfter) {
     ++contacts;
     const auto pairs = exact.pairs(pose_past(limit, microdegree));
     ASSERT_FALSE(pairs.empty());
-    // What the limit names is one place on both bones, within the error_bound and the rounding of a pose.
+    // The limit names one place on both bones, within the error_bound and the rounding of a pose.
     const Vec3 seen_from_F = pose_past(limit, Angle()) * limit.end.contact->mobile_point;
     EXPECT_LT((seen_from_F - limit.end.contact->fixed_point).norm(), 1e-9);
   }

@@ -41,7 +41,7 @@ TEST(NearestDistance, IsWhatCgalFindsForEveryVertex) {
   }
 }
 
-/// Of real bones, posed, and where edges are nearer to each other than any vertex is to a triangle.
+/// Checks real bones, posed, and surfaces whose edges are nearer to each other than any vertex is to a triangle.
 TEST(NearestDistance, OfTwoSurfacesIsWhatCgalFinds) {
   const auto data = shared_data();
   if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";

@@ -120,7 +120,7 @@ const LoadedJoint* load(const JointFiles& files) {
 }
 
 /// Parity is blind to how often a self-overlapping mesh is wound about a point; where the two differ,
-/// rational arithmetic tells the winding number, and it must be one that parity cannot express.
+/// rational arithmetic computes the winding number, and it must be one that parity cannot express.
 void expect_same_states(const RadialResults& ours, const std::vector<PointState>& oracle, const TriMesh& mesh,
                         PointsView points, std::size_t& overlapping) {
   ASSERT_EQ(ours.size(), oracle.size());
@@ -135,7 +135,7 @@ void expect_same_states(const RadialResults& ours, const std::vector<PointState>
   }
 }
 
-/// The fast path tells the same points inside, as deep.
+/// The fast path finds the same points inside, as deep.
 void expect_same_penetrations(const RadialTable& table, const SortedPoints& points, const Pose& X,
                               const RadialResults& hits) {
   Penetrations found;

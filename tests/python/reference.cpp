@@ -13,7 +13,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/normal_contact.hpp"
 
-/// What C++ answers at the poses of a file, as doubles, for the tests of the Python module to compare with:
+/// Answers of C++ at the poses of a file, as doubles, for the tests of the Python module to compare with:
 ///
 ///     python_reference JOINT POSES ANSWERS      POSES: 16 doubles each, row by row
 ///     python_reference --times JOINT POSES      median seconds of all poses, one after the other on one core, without and with

@@ -15,7 +15,7 @@ RadialTable reference_of(const RadialTable& table) {
   return RadialTable(table.mesh(), {DirectionMapKind::cartesian, 24});
 }
 
-/// What the plain query says of the posed points that are not outside, in the order of the sorted ones.
+/// Results of the plain query for the posed points that are not outside, in the order of the sorted ones.
 Penetrations plain(const RadialTable& table, PointsView points, const SortedPoints& sorted, const Pose& X) {
   const RadialResults hits = table.query(posed(X, points));
   Penetrations out;

@@ -69,7 +69,7 @@ TEST(QueryStack, APenetrationQueryStaysBelow16kBOfStack) {
       const simd::InstructionSetInUse in_use(set);
       Penetrations found;
       const std::function<void()> query = [&] { table.penetrations(points, X_FM, found, &work); };
-      // What the first call does once, finding symbols, is none of the query's.
+      // The first call resolves symbols once, which is no work of the query.
       query();
       EXPECT_GT(found.size(), 100u);
       const std::size_t own = stack_touched_by([] {}), with_query = stack_touched_by(query);

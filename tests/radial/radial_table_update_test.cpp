@@ -173,7 +173,7 @@ TEST(RadialTableUpdate, AfterARefusedUpdateTheTableIsWhatItWasBefore) {
     expect_as_before();
     EXPECT_THROW(table.update(moved, positions), MeshError);
     expect_as_before();
-    // What follows after that counts again.
+    // Updates after that count again.
     table.update(jiggled(mesh.vertices, 0.01, 1));
     EXPECT_THROW(table.update(moved, positions), MeshError);
     table.update(mesh.vertices);

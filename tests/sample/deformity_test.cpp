@@ -14,8 +14,8 @@
 namespace condyle {
 namespace {
 
-/// Internal rotation at 90 degrees of flexion. On the way it sees that neither that nor FADIR depends on whether bearing
-/// contact counts: what slides is told apart without a deformity being taken for it.
+/// Internal rotation at 90 degrees of flexion. It also checks that neither that nor FADIR depends on whether bearing
+/// contact counts: bearing contact is distinguished without mistaking a deformity for it.
 double internal_rotation_at_90_flexion_deg(const HipParameters& parameters,
                                            Scenario scenario = Scenario::three) {
   const SampleHip& hip = test::made_hip(scenario, parameters);
@@ -34,7 +34,7 @@ double internal_rotation_at_90_flexion_deg(const HipParameters& parameters,
   return limit_deg;
 }
 
-/// What meshing may change in a limit where the solids' own limit does not change: every hip is meshed anew.
+/// Effect of meshing on a limit if the solids' own limit does not change: every hip is meshed anew.
 /// Where the bones meet, triangles with edges e up to 2.3 mm on curvatures of r >= 9 mm sag by up to e^2 / (8
 /// r) = 0.07 mm, on both bones, at 40 mm or more from the axis of the turn: 0.14 / 40 rad = 0.2 degrees. On a
 /// cam edges are half as long, and r is 13 mm, at 26 mm from the axis: less.

@@ -127,7 +127,7 @@ TEST(FineSocket, OfALabelMapIsThatOfTheMesh) {
        {Vec3::Zero(), 26.158},
        {{0.0886, 0.7681, 0.7361}, 27.828}}};
   constexpr double spacing = 1.5, half = 51;
-  // What counts as inside moves a surface by less than half a voxel, all of it the same way at worst.
+  // The inside rule moves a surface by less than half a voxel, in the worst case all of it in one direction.
   constexpr double tolerance = spacing / 2;
   for (const Published& hip : hips)
     for (const double deviation : {0.0, 0.5, 1.2}) {

@@ -36,7 +36,7 @@ TriMesh cut(const TriMesh& mesh, double radius, double lowest) {
   return kept;
 }
 
-/// What of the bones is there; lengths in mm.
+/// The part of the bones that is present; lengths in mm.
 struct Cut {
   const char* name;
   double hip_bone, femur, lowest;

@@ -16,7 +16,7 @@
 #include "sample/projection.hpp"
 #include "sample/section.hpp"
 
-/// What a clinician measures, measured on the meshes.
+/// Clinical measures, measured on the meshes.
 
 namespace condyle {
 namespace {

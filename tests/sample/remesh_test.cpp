@@ -81,7 +81,7 @@ TEST(EdgeQueue, TheShortestIsFirstWhateverWasPushedInBetween) {
   int taken = 0;
   for (Index i = 0; i < 20000 || !waiting.empty(); ++i) {
     if (i < 20000 && i % 3 != 2) {
-      // Few lengths in the first range: equal ones are told apart by their vertices.
+      // Few lengths in the first range: equal ones are distinguished by their vertices.
       const EdgeQueue::Edge edge = {i % 2 ? length(random) : 0.25 * (i % 5), i % 7, i};
       waiting.insert(edge), queue.push(edge);
       continue;

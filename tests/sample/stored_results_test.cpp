@@ -19,8 +19,8 @@
 /// Answers on the sample hip as they have always been: a change of the code that is not meant to change them
 /// shows here at the first bit. A change that is meant to: store the new hashes, and say in the commit why.
 ///
-/// What comes out of the C library's functions of angles may differ by the last bit between machines. It is
-/// kept out: the meshes whose answers are hashed have vertices rounded to 2^-16 mm, poses are made without
+/// Results of the C library's functions of angles may differ by the last bit between machines. They are kept out: the
+/// meshes whose answers are hashed have vertices rounded to 2^-16 mm, poses are made without
 /// functions of angles, `ray_to_normal` is left out, and the limits of motions are rounded to 1e-8 degrees
 /// and their contact points to 1e-6 mm. Everything else is hashed by its bits.
 

@@ -6,7 +6,7 @@
 
 namespace condyle::test {
 
-/// What a test asks of a mesh before anything else; every count is plain and independent of the library.
+/// Basic checks of a mesh before any other test; every count is plain and independent of the library.
 struct Topology {
   bool is_closed_and_consistent;  ///< every directed edge once, and once in the other direction
   bool has_manifold_vertices;     ///< the triangles at each vertex form one ring

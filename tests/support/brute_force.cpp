@@ -12,7 +12,7 @@ namespace condyle::test {
 namespace {
 
 namespace mp = boost::multiprecision;
-/// Of any size; up to these bits without asking for memory.
+/// Integers of any size; up to these bits without allocation.
 using Integer = mp::number<mp::cpp_int_backend<512, 0>, mp::et_off>;
 using Exact3 = std::array<Integer, 3>;
 

@@ -20,7 +20,7 @@ struct NumberTable {
 
   std::size_t column(const std::string& name) const;
 };
-/// What stands behind `endheader`.
+/// Reads the table after `endheader`.
 NumberTable read_sto(const std::filesystem::path& path);
 
 struct Knee {

@@ -29,7 +29,7 @@ std::vector<MeshBytes> legacy_vtk_files(const TriMesh& mesh);
 /// All of these.
 std::vector<MeshBytes> all_files(const TriMesh& mesh);
 
-/// What VTK's own reader makes of a .vtp or .vtk file.
+/// The mesh that VTK's own reader makes of a .vtp or .vtk file.
 TriMesh as_vtk_reads(const MeshBytes& file);
 
 }  // namespace condyle::test

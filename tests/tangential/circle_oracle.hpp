@@ -12,7 +12,7 @@ namespace condyle::test {
 /// its middle.
 struct CirclePiece {
   double begin, end;  ///< Radians from the point, 0 <= begin < end.
-  int winding;        ///< Of the middle, in rational arithmetic.
+  int winding;        ///< Winding number of the middle, in rational arithmetic.
 };
 
 /// The circle of a point about z, cut where it meets a plane of any triangle within 1e-6 of that triangle.

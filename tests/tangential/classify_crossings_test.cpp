@@ -42,7 +42,7 @@ struct Outcome {
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 
-/// Of those pairs that may cross.
+/// Outcomes of the pairs that may cross.
 std::map<std::size_t, Outcome> classified(const Pairs& pairs) {
   std::map<std::size_t, Outcome> all;
   tangential::ClassifiedPairs found;

@@ -34,7 +34,7 @@ Listed listed(const TriMesh& mesh, std::size_t cells) {
   return out;
 }
 
-/// Cells that floats cannot tell apart: of a needle about the axis, and of points in it.
+/// Cells that floats cannot distinguish: of a needle about the axis, and of points in it.
 TEST(RingLists, ABoxIsWithinTheGridWhereItsCellsAreNoFloats) {
   const TriMesh needle = test::box({-1e-29, -3e-29, -1e10}, {5e-29, 6e-29, 1e10});
   const TriMesh in_the_axis = test::box({0, 0, -1e-30}, {0, 0, 1e-30});

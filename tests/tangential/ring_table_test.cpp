@@ -79,7 +79,7 @@ TEST(RingTable, AnyAxisGivesWhatRotatingEverythingToZGives) {
   }
 }
 
-/// Beside its length floats cannot tell its radii from zero.
+/// Beside its length floats cannot distinguish its radii from zero.
 TEST(RingTable, OfAnEndlesslyThinNeedleHasTheStatesOfBruteForce) {
   const double thin = 1e-29, length = 1e10;
   const TriMesh needle = test::box({-thin, -3 * thin, -length}, {5 * thin, 6 * thin, length});

@@ -139,7 +139,7 @@ void answer_pose(CondyleJoint* joint, const double* question, double X[16], std:
   answers << '\n';
 }
 
-/// What `condyle depth` answers there; the question's angles come first.
+/// The answer of `condyle depth` there; the query's angles come first.
 void answer_depth(CondyleJoint* joint, const double* question, const double X[16], std::ostream& answers) {
   double depth[16];
   checked(condyle_depth(joint, X, question, depth));
@@ -148,7 +148,7 @@ void answer_depth(CondyleJoint* joint, const double* question, const double X[16
   answers << '\n';
 }
 
-/// What all vertices show at a pose, byte by byte.
+/// Values of all vertices at a pose, byte by byte.
 void answer_shown(CondyleJoint* joint, const double X[16], const std::size_t (&vertices)[2],
                   std::ofstream& shown) {
   constexpr int pressure = 3;  // after the quantities of condyle_shown()

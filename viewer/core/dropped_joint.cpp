@@ -153,7 +153,7 @@ EM_JS(int, page_unzip, (const char* from, int size, char* to, int capacity), {
 
 namespace condyle::io {
 
-/// What compressed a file that the page cannot undo.
+/// Thrown for a file compressed by a method that the page cannot undo.
 struct UnknownCompression {};
 
 bool uncompress(Compressor compressor, const std::string& block, std::span<char> out) {

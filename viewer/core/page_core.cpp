@@ -56,7 +56,7 @@ void find_inside(const CondyleJoint& joint, const Pose& X_FM, bool of_fixed, Pen
     joint.bodies.mobile_in_fixed(X_FM, found);
 }
 
-/// tell(DeepestVertex) for each vertex found inside the other body, which X brings it to.
+/// visit(DeepestVertex) for each vertex found inside the other body, which X brings it to.
 template <class Visit>
 void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetrations& found,
                   const Visit& visit) {
@@ -73,7 +73,7 @@ void visit_inside(CondyleJoint& joint, const Pose& X, bool of_fixed, Penetration
 /// About the axes in their order.
 constexpr std::array ways_about{DepthWay::flexion, DepthWay::adduction, DepthWay::internal_rotation};
 
-/// What is shown of each vertex of a body.
+/// Values shown at each vertex of a body.
 struct ShownValues {
   float* mm;
   std::uint8_t* marks;

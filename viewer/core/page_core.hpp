@@ -2,11 +2,11 @@
 
 #include <cstdint>
 
-/// What the page asks of the core, as functions that JavaScript can call: numbers and arrays in, numbers and arrays out. The
-/// same source is compiled to WebAssembly for the page and natively for the test that holds the two against each other.
+/// The core's queries for the page, as functions that JavaScript can call: numbers and arrays in, numbers and arrays
+/// out. The same source is compiled to WebAssembly for the page and natively for the test that compares the two.
 ///
-/// Lengths in mm, angles in degrees, poses as the 16 numbers of X_FM row by row. A function that fails returns -1 or null and
-/// leaves its line in condyle_error(). Arrays that are answered belong to the joint and last until it is asked again.
+/// Lengths in mm, angles in degrees, poses as the 16 numbers of X_FM row by row. A function that fails returns -1 or
+/// null and leaves its line in condyle_error(). Returned arrays belong to the joint and last until its next query.
 
 extern "C" {
 
@@ -37,22 +37,23 @@ int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const doub
 int condyle_can_penetrate(const CondyleJoint* joint, int of_fixed);
 /// How many vertices of the mobile body are in the fixed one (`of_fixed` 0), or the other way (1); fails where none can be.
 int condyle_penetrations(CondyleJoint* joint, const double* pose, int of_fixed);
-/// Of the last answer: numbers of vertices, and their radial depths.
+/// Vertices of the last answer, by number, and their radial depths.
 const std::uint32_t* condyle_penetrating_vertices(const CondyleJoint* joint);
 const double* condyle_depths(const CondyleJoint* joint);
 
-/// What `condyle depth` answers at a pose, which these angles made: in `answer` 1 if the bodies are in contact, else 0; along which way
-/// the deepest vertex is a depth (0 no vertex has one, 1 the ray, 2 to 4 the arcs about the joint's axes); its depth in mm; its body (0
-/// mobile, 1 fixed), number and place in F; the distance to its nearest surface; the arc's angle in degrees; how many vertices inside
-/// have no depth; the areas of the mobile and of the fixed body in contact, mm^2; the volume, mm^3, a bound on its error, and how much
-/// of the overlap's surroundings a body covers more than once. NaN for what there is none of. Takes far longer than the vertices inside.
+/// The answer of `condyle depth` at a pose, which these angles made: in `answer` 1 if the bodies are in contact, else
+/// 0; the kind of the deepest vertex's depth (0 no vertex has one, 1 the ray, 2 to 4 the arcs about the joint's
+/// axes); its depth in mm; its body (0 mobile, 1 fixed), number and place in F; the distance to its nearest surface;
+/// the arc's angle in degrees; how many vertices inside have no depth; the areas of the mobile and of the fixed body
+/// in contact, mm^2; the volume, mm^3, a bound on its error, and how much of the overlap's surroundings a body covers
+/// more than once. NaN for values that do not exist. Takes far longer than the vertices inside.
 int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_deg, double answer[16]);
 
-/// What every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) shows at a pose, for colours: in `values` mm, in
-/// `marks` 0 for nothing, 1 for the value, 2 for a value that is no more than a bound. `quantity`: 0 the gap along its ray,
-/// negative inside; 1 of vertices inside the depth to read without rotations, their nearest distance marked 2 where the ray's
-/// is none; 2 the distance to the nearest point of the other body, negative inside: of an open one only that. Both arrays have an
-/// element per vertex.
+/// Values of every vertex of the mobile body (`of_fixed` 0) or of the fixed one (1) at a pose, for colours: in
+/// `values` mm, in `marks` 0 for nothing, 1 for the value, 2 for a value that is only a bound. `quantity`: 0 the gap
+/// along its ray, negative inside; 1 for vertices inside the depth to read without rotations, their nearest distance
+/// marked 2 if the ray's is none; 2 the distance to the nearest point of the other body, negative inside: for an open
+/// one only that. Both arrays have an element per vertex.
 int condyle_shown(CondyleJoint* joint, const double* pose, int quantity, int of_fixed, float* values,
                   std::uint8_t* marks);
 

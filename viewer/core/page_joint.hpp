@@ -13,7 +13,7 @@
 #include "condyle/range_of_motion.hpp"
 #include "mesh/surface_distance.hpp"
 
-/// What of a body carries load: a run of its vertices from `first_vertex`, as a mesh of its own.
+/// The part of a body that carries load: a run of its vertices from `first_vertex`, as a mesh of its own.
 struct PageSurface {
   std::size_t first_vertex = 0;
   std::optional<condyle::Mesh> mesh = {};
@@ -34,7 +34,7 @@ struct PageFile {
   condyle::FileDigest digest;
 };
 
-/// What a joint was proposed by.
+/// Evidence and input of a proposed joint.
 struct PageProposal {
   std::vector<std::string> inferred;
   std::vector<condyle::JointNote> notes;
@@ -57,7 +57,7 @@ struct CondyleJoint {
   std::string description = {};
 };
 
-/// Of 16 numbers, row by row.
+/// Pose from 16 numbers, row by row.
 condyle::Pose pose_of(const double* rows);
 
 /// Made ready for rotations of a body that keeps this translation, in F: at the first call and whenever it is another one.
@@ -67,7 +67,7 @@ const condyle::RangeOfMotion& range_of(CondyleJoint& joint,
 /// The line that condyle_error() gives.
 std::string& last_error();
 
-/// What `answer` returns, or `failed` with the error's line kept.
+/// Result of `answer`, or `failed` with the error's line kept.
 template <class Result, class Answer>
 Result guarded(Result failed, const Answer& answer) {
   try {

@@ -25,7 +25,7 @@ double area_mm2(const Mesh& mesh, std::size_t triangle) {
   return (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a).norm() / 2;
 }
 
-/// Of each vertex what its triangles carry, and how large they are.
+/// Loads and areas of the triangles at each vertex.
 struct VertexLoads {
   std::vector<double> load_n, around_mm2;
   std::vector<bool> is_loaded;

@@ -133,7 +133,7 @@ namespace {
 using Main = int (*)(int, char**, char**);
 Main program = nullptr;
 
-/// What a run and the loop around it share.
+/// State that a run and the loop around it share.
 struct Seen {
   long asked, live;
 };

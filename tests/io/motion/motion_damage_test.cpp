@@ -10,7 +10,7 @@
 #include "io/motion/load_table.hpp"
 #include "io/motion/motion_text.hpp"
 
-/// What is wrong with a damaged file is one line that names the place. Each kind of file is damaged in turn.
+/// The error for a damaged file is one line that names the place. Each kind of file is damaged in turn.
 
 namespace condyle {
 namespace {

@@ -26,7 +26,8 @@ inline MotionTable read_table(std::string_view name, std::string_view text) {
   return read_motion_table(folder.file(name, text));
 }
 
-/// What `question` complains about after the file's name; "accepted" where it does not. One line, with that name first.
+/// Message of the error of `question` after the file's name; "accepted" if there is none. One line, with that name
+/// first.
 template <class Question>
 std::string refusal(std::string_view name, std::string_view text, const Question& question) {
   const TemporaryFolder folder;

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the C++20 library of emscripten 3.1.6 (libc++ 13) lacks and the core uses. Read before every source of the core.
+/// Parts of the C++20 library that emscripten 3.1.6 (libc++ 13) lacks and the core uses. Read before every source of
+/// the core.
 
 #include <array>
 #include <cerrno>
