@@ -29,7 +29,7 @@ class Angle {
 /// A full turn in radians.
 inline constexpr double two_pi = 2 * std::numbers::pi;
 
-/// Which way an angle changes. Joint angles: flexion, adduction and internal rotation are positive. About an
+/// Sense in which an angle changes. Joint angles: flexion, adduction and internal rotation are positive. About an
 /// axis: counter-clockwise seen from the tip of its direction is positive.
 enum class RotationSense : signed char { negative = -1, none = 0, positive = 1 };
 

@@ -48,7 +48,7 @@ enum class LimitReason : std::uint8_t {
   contact_at_start,  ///< The surfaces meet at the start already, or one body is inside the other.
 };
 
-/// Contact of bearing surfaces on the way to a limit.
+/// Contact of bearing surfaces before a limit.
 struct BearingContact {
   Angle turned = {};  ///< from the start, >= 0; 0 if they are in contact there already
   /// Empty if one surface is inside the other body and they do not meet.
@@ -89,7 +89,7 @@ struct RotationLimits {
   bool free_at_start() const noexcept { return positive.reason != LimitReason::contact_at_start; }
 };
 
-/// From `negative` <= 0 to `positive` >= 0, at most a full turn each way.
+/// From `negative` <= 0 to `positive` >= 0, at most a full turn in each sense.
 struct RotationRange {
   Angle negative = Angle::radians(-two_pi);
   Angle positive = Angle::radians(two_pi);
@@ -98,14 +98,14 @@ struct RotationRange {
 /// Two bodies made ready for rotations of the mobile one about one axis that stays in the fixed one.
 ///
 ///         fixed            The axis is given in the frame of the fixed body F. The mobile body M starts at
-///        +-----+           X_FM and turns about the axis either way, until the surfaces meet or the range
+///        +-----+           X_FM and turns about the axis in either sense, until the surfaces meet or the range
 ///        |     |  M        ends.
 ///     o  +-----+ /
 ///    axis  . - ~ '
 ///
 /// Guarantee, for the meshes as placed in the frame of the axis (where placing rounds, each coordinate by some
 /// 2^-52 of its size): no contact is missed, so a limit is never past one; and it is short of one by at most
-/// `error_bound`, itself below 4e-12 rad. Every decision on the way is exact.
+/// `error_bound`, itself below 4e-12 rad. Every decision of the search is exact.
 ///
 /// A body inside the other whose surfaces do not meet counts as contact at the start where the outer one is
 /// closed; an open mesh has no inside.
@@ -120,7 +120,7 @@ class FirstContact {
   FirstContact& operator=(FirstContact&&) noexcept;
 
   /// Both limits from the start pose. Throws UsageError if the range does not hold 0, is more than a full
-  /// turn either way, or is not finite, and for a pose that is not finite or translates beyond 1e30 mm. May be called from any thread; the same bits on each.
+  /// turn in either sense, or is not finite, and for a pose that is not finite or translates beyond 1e30 mm. May be called from any thread; the same bits on each.
   RotationLimits limits(const Pose& X_FM = Pose::Identity(), const RotationRange& range = {}) const;
 
  private:

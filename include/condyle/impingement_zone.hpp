@@ -57,9 +57,9 @@ class ZoneFinder {
   ZoneFinder(ZoneFinder&&) noexcept;
   ZoneFinder& operator=(ZoneFinder&&) noexcept;
 
-  /// Empty for motions that did not end by contact on their way. What bearing contact overlaps is no zone unless it
-  /// counts: neither the mobile body's bearing surface nor what of the fixed body lies inside behind it. Triangles that
-  /// overlap options left out are part of zones.
+  /// Empty for motions that contact did not end. The overlap of bearing contact is no zone unless it counts: neither
+  /// the mobile body's bearing surface nor the part of the fixed body inside behind it. Triangles that overlap
+  /// options left out are part of zones.
   std::optional<ImpingementZone> zone(const MotionLimit& limit) const;
 
   /// In M; empty if it was not given and no neck was found.

@@ -153,23 +153,23 @@ class RadialTable {
   /// takes 1.1 to 1.5 times as long; a new table is without.
   void update(PointsView vertices);
 
-  /// New positions of some vertices, each named once. The same otherwise; UsageError also where a number is no
-  /// vertex's.
+  /// New positions of some vertices, each named once. The same otherwise; UsageError also if a number is no vertex's.
   ///
-  /// Cost: the triangles at those vertices, the rows of the cells they are in, and a look at the radii of all
-  /// cells. The first such update also finds which triangles each vertex has, and the radii of each triangle
-  /// in each of its cells, which takes some 30 bytes per triangle.
+  /// Cost: the triangles at those vertices, the rows of the cells they are in, and a scan of the radii of all cells.
+  /// The first such update also finds which triangles each vertex has, and the radii of each triangle in each of its
+  /// cells, which takes some 30 bytes per triangle.
   void update(std::span<const Index> moved, PointsView positions);
 
-  /// State, winding number, gap or depth, triangle of every point, given in the table's frame, mm. Which gap:
-  /// a point outside reaches the surface away from the centre where the centre is outside (ball seen from the
-  /// socket: the joint space), and towards it where the centre is inside the solid (socket seen from the
-  /// ball). A point inside leaves by the nearer way. A point exactly at the centre has no ray: its gap is
-  /// infinite, negative where it is inside.
+  /// State, winding number, gap or depth, triangle of every point, given in the table's frame, mm. The gap's
+  /// direction: a point outside reaches the surface away from the centre if the centre is outside (ball seen from the
+  /// socket: the joint space), and towards it if the centre is inside the solid (socket seen from the ball). A point
+  /// inside leaves by its nearer exit. A point exactly at the centre has no ray: its gap is infinite, negative if it
+  /// is inside.
   ///
-  /// Raises MeshError for an open mesh, naming an edge of its boundary: without an inside there is no answer. UsageError for a
-  /// coordinate that is not finite or beyond 1e30 mm. Linear in points; a point costs a look at its cell's list, sixteen triangles at a time, and the few of
-  /// them that its ray comes near. On all threads of the calling oneTBB arena.
+  /// Raises MeshError for an open mesh, naming an edge of its boundary: without an inside there is no answer.
+  /// UsageError for a coordinate that is not finite or beyond 1e30 mm. Linear in points; a point costs a scan of its
+  /// cell's list, sixteen triangles at a time, and the few of them that its ray comes near. On all threads of the
+  /// calling oneTBB arena.
   void query(PointsView points, RadialResults& out) const;
   RadialResults query(PointsView points) const;
 

@@ -41,8 +41,9 @@ struct Motion {
 /// here so that they can be cited and, under the same names, replaced.
 std::vector<Motion> hip_motions();
 
-/// The built-in motions of a joint that is no hinge: hip_motions(), and elsewhere each of its angles either way (an angle of
-/// which nothing is known turns by 90 or 120 degrees at most), rotation again _at_90_flexion where it flexes.
+/// The built-in motions of a joint that is no hinge: hip_motions(), and for other joints each of its angles in both
+/// senses (an angle without known range turns by 90 or 120 degrees at most), rotation again _at_90_flexion if it
+/// flexes.
 ///
 ///     knee      flexion 0 to 180, extension, adduction, abduction, internal_rotation, external_rotation
 ///     ankle     dorsiflexion, plantarflexion, inversion, eversion, internal_rotation, external_rotation
@@ -147,14 +148,14 @@ class RangeOfMotion {
   /// The same for many, in their order, on all threads.
   std::vector<MotionLimit> limits(std::span<const Motion> motions) const;
 
-  /// How far one angle changes from this start either way. The start must be finite, the range as
-  /// RotationRange says, and on a hinge flexion is the only angle. May be called from any thread.
+  /// How far one angle changes from this start in either sense. The start must be finite, the range as RotationRange
+  /// says, and on a hinge flexion is the only angle. May be called from any thread.
   RotationLimits both_limits(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
 
-  /// All intervals of one angle that are free within the range: the one that holds the start, if the start is free, has
-  /// the limits of both_limits(); others lie beyond contact. Intervals below 1e-9 rad are none. Some milliseconds where
-  /// the fixed mesh is closed, else more. Throws UsageError for a range of more than half a turn either way. May be
-  /// called from any thread.
+  /// All intervals of one angle that are free within the range: the one that holds the start, if the start is free,
+  /// has the limits of both_limits(); others lie beyond contact. Intervals below 1e-9 rad are none. Some milliseconds
+  /// if the fixed mesh is closed, else more. Throws UsageError for a range of more than half a turn in either sense.
+  /// May be called from any thread.
   FreeAngles free_angles(JointAngle vary, const JointAngles& start, const RotationRange& range) const;
 
   JointKind kind() const noexcept;

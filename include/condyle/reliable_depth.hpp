@@ -12,7 +12,7 @@
 
 namespace condyle {
 
-/// Along which way a depth is measured.
+/// Kind of a depth: the line or arc along which it is measured.
 enum class DepthWay : std::uint8_t {
   none,               ///< not inside: 0
   radial,             ///< along the ray from the joint centre
@@ -36,7 +36,7 @@ struct DeepestReliable {
   double nearest_distance_mm;
   double radial_depth_mm;  ///< whether or not it is a depth
   Angle ray_to_normal;
-  /// About the axes of flexion, adduction and internal rotation; empty if none sets it free, or none was asked for.
+  /// About the axes of flexion, adduction and internal rotation; empty if none sets it free, or none was requested.
   std::array<std::optional<WayOut>, 3> rotations;
 };
 

@@ -60,7 +60,7 @@ struct TangentialResults {
   std::vector<Angle> angular_gap;
   std::vector<double> arc_gap_mm;  ///< The same as a length at the point's own radius.
   std::vector<Index> triangle;     ///< The triangle reached; no_index if there is none.
-  /// Which way to rotate the point to reach it: inside, the nearer exit.
+  /// Sense in which to rotate the point to reach it: inside, the nearer exit.
   std::vector<RotationSense> rotation_sense;
   TangentialWork work;
 
@@ -84,7 +84,7 @@ struct AngularGap {
   /// angle to the nearer end of the arc, -infinity where the whole circle is solid.
   Angle angle = Angle::radians(std::numeric_limits<double>::infinity());
   Index triangle = no_index;  ///< The triangle reached.
-  /// Which way to rotate to reach it; positive where both are as near.
+  /// Sense in which to rotate to reach it; positive if both are as near.
   RotationSense rotation_sense = RotationSense::none;
 
   friend bool operator==(const AngularGap&, const AngularGap&) = default;

@@ -25,8 +25,8 @@ int condyle_vertex_count(const CondyleJoint* joint, int of_fixed);
 int condyle_triangle_count(const CondyleJoint* joint, int of_fixed);
 void condyle_mesh(const CondyleJoint* joint, int of_fixed, double* vertices, std::uint32_t* triangles);
 
-/// Description of a joint that was proposed: the evidence for its side, centre, unit and axes, and notes on it; and
-/// the ends of all its motions. As JSON: {"caveats": [line, ...], "notes": [{"code", "text"}, ...], "motions": [as in
-/// `condyle rom --json`, ...]}.
+/// Description of a joint that was proposed, as JSON in the form of `condyle rom --json` with these of its keys: motions
+/// (all of the joint's, with their ends), notes, caveats (lines of evidence for side, centre, unit and axes), clock_plane,
+/// normal_range_source, scope, bearing and provenance.
 const char* condyle_description(CondyleJoint* joint);
 }

@@ -57,7 +57,7 @@ class Page {
   private mapPlot: MapPlot | null = null;
   private zones: ZonePanel | null = null;
   private fragmentTimer = 0;
-  /// Of those that the report holds, where the page cannot compute.
+  /// One of the report's poses, if the page cannot compute.
   private storedPose: StoredPose | null = null;
   private poseChoice: HTMLSelectElement | null = null;
 

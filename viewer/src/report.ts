@@ -4,7 +4,7 @@ import type { Part } from "./scene/body";
 import { checkedText, ReportError } from "./report_shape";
 import { words } from "./words";
 
-/// What `condyle report` puts into the page; docs/report.md has every key.
+/// Data that `condyle report` puts into the page; docs/report.md has every key.
 
 export interface ArrayPlace {
   type: "f64" | "u32" | "i16" | "u8";
@@ -37,7 +37,7 @@ export interface MotionAnswer {
   caveats?: MotionCaveat[];
 }
 
-/// What to know before a limit is compared with a living joint.
+/// Caveat to read before a limit is compared with a living joint.
 export interface MotionCaveat {
   code: string;
   text: string;
@@ -72,7 +72,7 @@ export interface RomAnswer {
   scope: string;
   provenance?: {
     version: string;
-    /// Of a report; a joint of files dropped on the page has neither.
+    /// Set by a report; a joint of files dropped on the page has neither.
     command?: string[];
     joint_file?: MeshSource;
     fixed_mesh: MeshSource | { files: MeshSource[] };
@@ -191,7 +191,7 @@ export async function inflated(bytes: Uint8Array<ArrayBuffer>, format: Compressi
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream(format))).arrayBuffer();
 }
 
-/// What the joint's answers cover, and what not.
+/// Scope: what the joint's answers cover, and what not.
 export function scopeOf({ scope, rom }: ReportText): string | null {
   return scope ?? rom?.scope ?? null;
 }

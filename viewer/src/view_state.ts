@@ -1,6 +1,6 @@
 import { bodyNames, type BodyName, type ClipAxis } from "./scene/scene";
 
-/// What the scene shows and how.
+/// State of the scene's display.
 export interface DisplayState {
   colour: string | null;
   /// End of the colour scale; null for the usual one of that quantity.
@@ -12,7 +12,8 @@ export interface DisplayState {
   clipAt_mm: number;
 }
 
-/// What a shared link brings back: coordinates of the joint, what is shown of it and the camera, as the fragment of the address.
+/// State that a shared link restores: coordinates of the joint, its display and the camera, as the fragment of the
+/// address.
 export interface ViewState {
   /// Those that are not the reference pose's.
   coordinates: Record<string, number>;
@@ -53,7 +54,8 @@ export function readViewState(fragment: string, names: readonly string[]): ViewS
   };
 }
 
-/// What is as usual is left out. Coordinates keep all of their digits: the end of a motion is free, a hair beyond it is not.
+/// Default values are left out. Coordinates keep all of their digits: the end of a motion is free, a hair beyond it
+/// is not.
 export function writeViewState({ coordinates, display, zone, camera }: ViewState): string {
   const fields = new URLSearchParams();
   for (const [name, value] of Object.entries(coordinates)) fields.set(name, String(value));

@@ -14,7 +14,7 @@ export const words = {
   sides: { right: "right", left: "left" },
   anatomies: { hip: "hip", knee: "knee", ankle: "ankle", elbow: "elbow", shoulder: "shoulder" },
   kinds: { ball: "ball joint", hinge: "hinge", free: "free joint" },
-  /// What the joint's answers cover, as the core says it; null: the page has no joint.
+  /// Coverage of the joint's answers, as the core words it; null: the page has no joint.
   scope: (said: string | null) =>
     `${said === null ? "Research software, not a medical device" : said.charAt(0).toUpperCase() + said.slice(1)}. ` +
     "Everything is computed in this page: no data leaves this computer.",

@@ -58,9 +58,8 @@ struct Picture {
 /// of the scale. `at` names the pose for depths along arcs, as reliable_depths() takes them where the mobile
 /// body's centre is held.
 ///
-/// Throws UsageError for options out of their domain, MeshError if a depth or a gap is asked of an open mesh.
-/// The same bytes whatever the threads. About half a second for a picture of the usual size, and what the values
-/// cost.
+/// Throws UsageError for options out of their domain, MeshError if a depth or a gap is requested of an open mesh. The
+/// same bytes whatever the threads. About half a second for a picture of the usual size, and the cost of the values.
 Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
                    const PictureOptions& options = {});
 

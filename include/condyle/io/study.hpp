@@ -34,8 +34,9 @@ struct StudyBands {
   StudyUncertainty sigma = {};
 };
 
-/// A pose that is asked of every joint, read as parse_pose() reads it. Whether a joint reaches it is decided joint by joint, as
-/// `condyle depth` decides it: one that a hinge does not turn to ends the study. Throws UsageError; a matrix is refused too.
+/// A pose at which every joint is queried, read as parse_pose() reads it. Whether a joint reaches it is decided joint
+/// by joint, as `condyle depth` decides it: a pose that a hinge cannot reach ends the study. Throws UsageError; a
+/// matrix is refused too.
 PoseDegrees study_pose(std::string_view text, Anatomy joint);
 
 /// Contact pressure in one pose, or in the place nearby where the contact carries a force.

@@ -71,7 +71,7 @@ export class CoreClient {
     this.answers = answers;
   }
 
-  /// `ranges`: how far each angle is followed back and forth for its limits; null for none.
+  /// `ranges`: how far each angle is searched back and forth for its limits; null for none.
   ask(at: Coordinates, quantity: Quantity, ranges: [number, number][] | null): void {
     this.waiting = { at, quantity, ranges };
     if (!this.underWay) this.send();

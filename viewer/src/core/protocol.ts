@@ -1,9 +1,9 @@
 import type { RomAnswer } from "../report";
 
-/// What page and worker say to each other.
+/// Messages between page and worker.
 
 export type Quantity = "gap" | "depth" | "nearest" | "pressure" | "none";
-/// Of those that condyle_shown() gives.
+/// Numbers of the quantities that condyle_shown() gives.
 export const quantityNumber = { gap: 0, depth: 1, nearest: 2 } as const;
 
 export interface Surface {
@@ -18,7 +18,8 @@ export interface JointArrays {
   translationFrame: number;
   fixed: Surface;
   mobile: Surface;
-  /// What ends motions: "found" by the core, every contact, or all but that of these mobile triangles, marked 1.
+  /// Contact that ends motions: "found" by the core, every contact, or all but that of these mobile triangles, marked
+  /// 1.
   bearing: "found" | "count" | Uint8Array;
   layers: Layers | null;
 }
@@ -42,7 +43,7 @@ export interface Layers {
   mobile: LoadedSurface;
 }
 
-/// Of a body's vertices, for colours: mm or MPa, and per vertex 0 nothing, 1 the value, 2 a bound.
+/// Values of a body's vertices, for colours: mm or MPa, and per vertex 0 nothing, 1 the value, 2 a bound.
 export interface Values {
   shown: Float32Array;
   marks: Uint8Array;
@@ -63,7 +64,8 @@ export interface Inside {
   count: number;
 }
 
-/// What `condyle depth` answers at a pose. `about`: the axis, in the joint's order, whose arc is the depth; null along the ray.
+/// Answer of `condyle depth` at a pose. `about`: the axis, in the joint's order, whose arc is the depth; null along
+/// the ray.
 export interface Depth {
   inContact: boolean;
   deepest: {
@@ -82,7 +84,7 @@ export interface Depth {
   coveredAgain_mm3: number | null;
 }
 
-/// What one pose shows.
+/// Results at one pose.
 export interface Shown {
   pose: Float64Array;
   inContact: boolean;
@@ -142,7 +144,7 @@ export type Query =
   /// 16 numbers, row by row.
   | { of: "poseMatrix"; X_FM: number[] }
   | { of: "depth"; at: Coordinates }
-  /// Both bodies' vertices inside, without what else a pose tells.
+  /// Both bodies' vertices inside, without the other results of a pose.
   | { of: "penetrations"; at: Coordinates }
   | { of: "values"; at: Coordinates; quantity: Exclude<Quantity, "none"> }
   | { of: "limit"; limit: LimitQuestion }
@@ -151,19 +153,19 @@ export type Query =
   | { of: "memory" };
 export type QueryAnswer = number | Details | Depth | BothPenetrations | BothValues | LiveLimit | [number, number, number, number][];
 
-/// A mesh file and its name, whose ending tells the format.
+/// A mesh file and its name, whose extension gives the format.
 export interface DroppedFile {
   name: string;
   bytes: ArrayBuffer;
 }
 
-/// Which side's joint two files are: as their bones tell, or as given.
+/// The side of the joint of two files: inferred from their bones, or given.
 export type GivenSide = "told" | "right" | "left";
 
 /// The joint that was proposed for two files.
 export interface Proposal {
   joint: JointArrays;
-  /// What a report would have of its limits; `caveats` are what the joint was inferred from.
+  /// Limits in a report's form; `caveats` are the evidence that the joint was inferred from.
   rom: RomAnswer;
 }
 

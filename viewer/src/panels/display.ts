@@ -9,10 +9,10 @@ import { words } from "../words";
 const usualEnd = { gap: 8, depth: 4, nearest: 8, pressure: 5 };
 const clipRange_mm = 150;
 
-/// What of a joint can be shown.
+/// Parts of a joint that can be shown.
 export interface Showable {
   names: Record<BodyName, string>;
-  /// Of a body that is one mesh: none.
+  /// None for a body that is one mesh.
   parts: Record<BodyName, readonly Part[]>;
   quantities: readonly Quantity[];
   marks: readonly Exclude<Marked, "zone">[];
@@ -24,7 +24,7 @@ interface Shown {
   set: (on: boolean) => void;
 }
 
-/// What the scene shows and how; the colour scale with it.
+/// Controls of the scene's display; the colour scale with it.
 export class DisplayPanel {
   readonly element: HTMLElement;
   readonly legend = html("div", { id: "legend" });

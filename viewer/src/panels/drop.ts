@@ -11,7 +11,7 @@ export class DropPanel {
   /// One pair is read at a time, and after one that makes a joint the page shows that.
   private state: "open" | "busy" | "done" = "open";
 
-  /// `take` answers whether the files made a joint; `refuse` is told why files are not taken.
+  /// `take` returns whether the files made a joint; `refuse` is called with the reason why files are not taken.
   constructor(
     private readonly take: (fixed: DroppedFile, mobile: DroppedFile, side: GivenSide) => Promise<boolean>,
     private readonly refuse: (why: string) => void) {

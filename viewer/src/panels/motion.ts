@@ -93,7 +93,7 @@ export class MotionPanel {
     step();
   }
 
-  /// How far each angle is followed for its limits, back and forth.
+  /// How far each angle is searched for its limits, back and forth.
   ranges(): [number, number][] {
     return this.sliders.map(() => [farthest_deg, farthest_deg]);
   }

@@ -4,7 +4,7 @@ import { words } from "../words";
 
 const clickTolerance_px = 4;
 
-/// What the pointer tells, or a vertex's number: the vertex and its value, and the distance between two vertices.
+/// Values at the pointer, or at a vertex's number: the vertex and its value, and the distance between two vertices.
 export class PointerPanel {
   readonly element: HTMLElement;
   private readonly told = html("p", { id: "hover", "aria-live": "polite" });

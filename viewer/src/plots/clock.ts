@@ -4,7 +4,7 @@ import { words } from "../words";
 import { pressable, type Drawing } from "./figure";
 
 const width = 320, radius = 92, labelRadius = radius + 26, lineHeight = 15, height = 2 * (labelRadius + lineHeight);
-/// Of the dial; names stand beside it, so that the picture is wider than high.
+/// Centre of the dial; names stand beside it, so that the picture is wider than high.
 const middle = { x: width / 2, y: height / 2 };
 
 /// The end of each motion at its hour on the clock face; null where none has one.

@@ -7,7 +7,7 @@ import type { Drawing } from "./figure";
 
 const width = 460, height = 140, left = 52, right = 18, top = 18, bottom = 36;
 
-/// What a curve shows at a glance.
+/// Kind of a curve at a glance.
 export type CurveKind = "changes" | "zero" | "empty";
 
 /// A curve over the frames of a motion, with a cursor that mouse and arrow keys move.

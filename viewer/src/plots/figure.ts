@@ -23,7 +23,7 @@ export function figure({ name, caption, picture, role, data }: Drawing): HTMLEle
       button(words.saveData, () => save(`${name}.csv`, "text/csv", csv(data())))));
 }
 
-/// What a browser calls transparent, other programs show as black.
+/// Other programs show a browser's `transparent` as black.
 const transparent = "rgba(0, 0, 0, 0)";
 
 /// The SVG with the styles that the page gives it on paper.

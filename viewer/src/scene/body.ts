@@ -2,7 +2,7 @@ import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Mesh, type Plane } f
 import type { Surface, Values } from "../core/protocol";
 import { BodyMaterial } from "./body_material";
 
-/// What vertices are marked with, as the components of an attribute.
+/// Marks of vertices, as the components of an attribute.
 const marked = { bearing: 0, contact: 1, zone: 2 } as const;
 export type Marked = keyof typeof marked;
 
@@ -25,7 +25,7 @@ export class SceneBody {
   private readonly markedVertices: Record<Marked, number[]> = { bearing: [], contact: [], zone: [] };
   private readonly showsMarked: Record<Marked, boolean> = { bearing: false, contact: true, zone: true };
 
-  /// Of a body of several meshes, what is not bone has a colour of its own.
+  /// In a body of several meshes, those that are not bone have a colour of their own.
   constructor(readonly surface: Surface, bone: string, cartilage: string, parts: readonly Part[]) {
     const count = surface.vertices.length / 3;
     const geometry = new BufferGeometry();
@@ -85,7 +85,7 @@ export class SceneBody {
     this.mesh.material.clippingPlanes = planes;
   }
 
-  /// What a vertex shows.
+  /// Value shown at a vertex.
   valueOf(vertex: number): { amount: number; isBound: boolean } | null {
     const mark = this.values?.marks[vertex] ?? 0;
     return mark === 0 ? null : { amount: this.values!.shown[vertex]!, isBound: mark === 2 };

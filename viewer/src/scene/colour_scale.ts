@@ -1,7 +1,7 @@
 import { interpolateInferno, interpolateOrRd, interpolateYlGnBu } from "d3-scale-chromatic";
 import type { Quantity } from "../core/protocol";
 
-/// Colours of a quantity over mm or MPa, made of sequential scales that the colour blind tell apart.
+/// Colours of a quantity over mm or MPa, made of sequential scales that the colour blind can distinguish.
 ///
 ///     gap, distance   -end  dark red ... orange | 0 | dark blue ... pale  end, beyond it plain bone
 ///     depth, pressure    0  light ... dark  end

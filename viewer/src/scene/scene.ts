@@ -192,7 +192,7 @@ export class JointScene {
     return null;
   }
 
-  /// Of a vertex, in F.
+  /// Position of a vertex, in F.
   vertexPoint({ body, vertex }: Picked): Vector3 {
     const { mesh, surface } = this.bodies[body];
     return new Vector3().fromArray(surface.vertices, 3 * vertex).applyMatrix4(mesh.matrixWorld);
