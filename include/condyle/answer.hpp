@@ -150,7 +150,7 @@ LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& reques
 enum class BetweenFrames : std::uint8_t {
   never,
   if_exact,  ///< If the mobile body's origin stays in one place, times are known and poses are as recorded: exact and cheap.
-  always,    ///< Also where the origin moves: bounded. Needs times, and poses as recorded.
+  always,    ///< Also if the origin moves: bounded. Needs times, and poses as recorded.
 };
 
 /// Options of a query about a recorded motion, with their defaults.

@@ -107,7 +107,7 @@ struct RotationRange {
 /// 2^-52 of its size): no contact is missed, so a limit is never past one; and it is short of one by at most
 /// `error_bound`, itself below 4e-12 rad. Every decision of the search is exact.
 ///
-/// A body inside the other whose surfaces do not meet counts as contact at the start where the outer one is
+/// A body inside the other whose surfaces do not meet counts as contact at the start if the outer one is
 /// closed; an open mesh has no inside.
 ///
 /// Building costs a few microseconds per triangle of the fixed body, a query some hundred microseconds. Each

@@ -76,7 +76,7 @@ struct AngleNames {
 const std::array<AngleNames, 3>& coordinate_names(Anatomy joint) noexcept;
 
 /// X_FM at these angles: a rotation about the joint centre. Any finite angles. Exactly the identity at zero,
-/// and every entry exactly 0, 1 or -1 where all three are multiples of 90 degrees.
+/// and every entry exactly 0, 1 or -1 if all three are multiples of 90 degrees.
 Pose pose_at(CoordinateSystem system, const JointAngles& angles) noexcept;
 
 /// The angles of a pose; only the rotation is read. The first and the third are in (-180, 180] degrees, the second in

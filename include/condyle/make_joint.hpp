@@ -59,7 +59,7 @@ struct JointDescription {
   Side side = Side::right;
   LengthUnit units = LengthUnit::millimetres;  ///< of both meshes
   FrameDescription frame = {};
-  /// The pose in which the mobile mesh is given; zero where the frame has mobile_axes.
+  /// The pose in which the mobile mesh is given; zero if the frame has mobile_axes.
   JointCoordinates reference_pose = {};
   Anatomy anatomy = Anatomy::hip;  ///< of a hinge: the hip stands for any joint that flexes forwards
   TranslationFrame translation_frame = TranslationFrame::fixed;  ///< of a free joint

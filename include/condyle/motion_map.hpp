@@ -18,7 +18,7 @@ struct GridAxis {
   JointAngle angle = JointAngle::flexion;
   double first_deg = 0, last_deg = 0, step_deg = 1;
 
-  /// Values on the axis; the last one counts where it is a whole number of steps away to a millionth of one.
+  /// Values on the axis; the last one counts if it is a whole number of steps away to a millionth of one.
   std::size_t count() const;
   double value_deg(std::size_t i) const noexcept { return first_deg + static_cast<double>(i) * step_deg; }
 };

@@ -47,7 +47,7 @@ struct RadialResults {
   std::vector<PointState> state;
   /// Winding number; for a point on the surface that of the side facing the centre.
   std::vector<int> winding;
-  /// Signed, mm, along the ray: > 0 apart, < 0 penetrating, 0 on the surface; +infinity where the ray meets
+  /// Signed, mm, along the ray: > 0 apart, < 0 penetrating, 0 on the surface; +infinity if the ray meets
   /// nothing.
   std::vector<double> radial_gap_mm;
   /// Triangle that the gap or depth is measured to; no_index if there is none.

@@ -69,7 +69,7 @@ void check_motion(const Motion& motion, JointKind kind);
 /// Angles between which nothing meets.
 struct FreeInterval {
   Angle low, high;  ///< of the varied angle less its start: low <= high, both in the range
-  /// `turned` of either is measured from `start` in its sense where the start is in the interval, else from the
+  /// `turned` of either is measured from `start` in its sense if the start is in the interval, else from the
   /// interval's middle. Either ends by contact or at the end of the range.
   Limit at_low, at_high;
 

@@ -54,9 +54,9 @@ struct ReliableContact {
   std::optional<ReliableDepths> mobile, fixed;
 };
 
-/// A vertex's radial depth where that is a depth (DeepestVertex::applies); else the shortest arc about one of the
+/// A vertex's radial depth if that is a depth (DeepestVertex::applies); else the shortest arc about one of the
 /// joint's axes at this pose, of those that set it free; else its nearest distance. `contact` and `distances` are those
-/// of the same pose. Asks for ring tables only where a vertex needs them.
+/// of the same pose. Builds ring tables only if a vertex needs them.
 ReliableContact reliable_depths(const JointContact& joint, JointKind kind, CoordinateSystem system,
                                 const JointAngles& pose, const RadialContact& contact,
                                 const NearestDistances& distances);

@@ -23,7 +23,7 @@ struct Rings;
 enum class TangentialRule {
   /// All crossings in their order, anchored by the exact winding number at the point. Always right.
   alternating,
-  /// The published rule: the nearest crossing along the arc, inside where the point is behind that
+  /// The published rule: the nearest crossing along the arc, inside if the point is behind that
   /// triangle's plane. Right while the circle does not meet that plane a second time on the way, and away
   /// from shared edges; a face seen from beyond its own plane fails at 75 degrees already (see the tests).
   /// Kept to reproduce published figures.
@@ -54,8 +54,8 @@ struct TangentialWork {
 struct TangentialResults {
   std::vector<PointState> state;
   std::vector<int> winding;  ///< Winding number; on the surface, that just ahead of the point on its circle.
-  /// Signed, along the circle: > 0 apart, to the nearest occupied arc, +infinity where the circle meets no
-  /// solid; < 0 inside, minus the angle to the nearer end of the point's arc, -infinity where the whole
+  /// Signed, along the circle: > 0 apart, to the nearest occupied arc, +infinity if the circle meets no
+  /// solid; < 0 inside, minus the angle to the nearer end of the point's arc, -infinity if the whole
   /// circle is solid (also for a point on the axis, which no rotation moves). 0 on the surface.
   std::vector<Angle> angular_gap;
   std::vector<double> arc_gap_mm;  ///< The same as a length at the point's own radius.
@@ -80,8 +80,8 @@ struct OccupiedArc {
 
 /// From an angle on a circle to the nearest end of an arc.
 struct AngularGap {
-  /// > 0 apart: to the nearest occupied arc, +infinity where the circle meets no solid. < 0 inside: minus the
-  /// angle to the nearer end of the arc, -infinity where the whole circle is solid.
+  /// > 0 apart: to the nearest occupied arc, +infinity if the circle meets no solid. < 0 inside: minus the
+  /// angle to the nearer end of the arc, -infinity if the whole circle is solid.
   Angle angle = Angle::radians(std::numeric_limits<double>::infinity());
   Index triangle = no_index;  ///< The triangle reached.
   /// Sense in which to rotate to reach it; positive if both are as near.

@@ -6,7 +6,7 @@
 namespace condyle::sample {
 namespace {
 
-/// Unit vector, or zero where there is no direction: on the skeleton itself, far from any surface.
+/// Unit vector, or zero if there is no direction: on the skeleton itself, far from any surface.
 Vec3 direction(const Vec3& v) noexcept {
   const double length = v.norm();
   return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());

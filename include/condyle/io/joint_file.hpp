@@ -39,7 +39,7 @@ struct JointFile {
   JointDescription joint;
   BodyEntry fixed, mobile;
   std::vector<Motion> motions;      ///< of the [[motion]] tables, in their order, each name once
-  Uncertainty uncertainty = {};     ///< of the [uncertainty] table; what is usual where it says nothing
+  Uncertainty uncertainty = {};     ///< of the [uncertainty] table; default values if it has no entry
   std::uint64_t band_seed = 1;      ///< of the same table
   PoseDegrees reference_pose = {};  ///< digit by digit as the file gives it
   std::optional<ContactEntry> contact = {};                   ///< of the [contact] table

@@ -25,7 +25,7 @@ struct JointMotion {
 /// By the joint file's [recorded_motion]. Without one the table must have columns named after the joint's coordinates and
 /// their units: flexion_deg, internal_rotation_rad, x_mm, z_m; coordinates without a column are 0, and a note says so.
 /// Columns of poses are of the frames of the mesh files. FileError as for recorded_coordinates() and recorded_poses(), and
-/// for a joint that does not translate where its poses do by more than 1e-6 mm.
+/// for a joint that does not translate if its poses do by more than 1e-6 mm.
 JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
 
 }  // namespace condyle

@@ -55,7 +55,7 @@ struct Picture {
 
 /// Both bodies at a pose in parallel projection on white, smoothly shaded with the light at the viewer, 16
 /// samples a pixel; under them the scale of the colours. The colours of a surface that faces the viewer are those
-/// of the scale. `at` names the pose for depths along arcs, as reliable_depths() takes them where the mobile
+/// of the scale. `at` names the pose for depths along arcs, as reliable_depths() takes them if the mobile
 /// body's centre is held.
 ///
 /// Throws UsageError for options out of their domain, MeshError if a depth or a gap is requested of an open mesh. The
@@ -63,7 +63,7 @@ struct Picture {
 Picture draw_joint(const Joint& joint, const JointAngles& at, const Pose& X_FM,
                    const PictureOptions& options = {});
 
-/// Writes PNG, with the provenance as texts; whole or not at all, in a folder that is made where it is missing. Throws
+/// Writes PNG, with the provenance as texts; whole or not at all, in a folder that is made if it is missing. Throws
 /// FileError.
 void write_png(const std::filesystem::path& path, const Picture& picture, const Provenance* from = nullptr);
 

@@ -48,7 +48,7 @@ bool is_matrix(std::string_view text) noexcept;
 /// A pose of this joint, by its coordinates as parse_pose() reads them or as the matrix X_FM (p_F = X_FM p_M, lengths in mm):
 /// 16 numbers row by row, separated by blanks, commas or line ends, the last four 0 0 0 1. Its rotation must be orthonormal
 /// within 1e-6; where it is not to rounding the nearest rotation is used, and a note says so. Throws UsageError for
-/// anything else, for a matrix with a translation where the joint does not translate, and for one that turns a hinge out of
+/// anything else, for a matrix with a translation if the joint does not translate, and for one that turns a hinge out of
 /// its axis.
 GivenPose given_pose(std::string_view text, const Joint& joint);
 

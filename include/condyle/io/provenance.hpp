@@ -18,7 +18,7 @@ namespace condyle {
 /// The frame in which an answer gives points and meshes.
 enum class AnswerFrameName {
   joint,  ///< joint frame: the fixed body's, and for what is fixed to the mobile body the mobile one's
-  source  ///< that of the mesh files; each body's own where they have frames of their own
+  source  ///< that of the mesh files; each body's own if they have frames of their own
 };
 
 /// "joint", "source".

@@ -117,7 +117,7 @@ struct StudyDone {
 /// fit a joint. Memory: some kB a row, and the joints at work, one per thread. Empty if it was stopped: nothing is written.
 std::optional<StudyDone> run_study(const Study& study, const Control& control = {});
 
-/// Throws where no joint was answered, which is no result: the error of the first failure, naming `table`.
+/// Throws if no joint was answered, which is no result: the error of the first failure, naming `table`.
 void require_answered(const StudyDone& done, const std::filesystem::path& table);
 
 /// Puts the shards below the folder together: the tables are those of a run of all rows, byte for byte. Throws FileError if

@@ -18,7 +18,7 @@ struct HipMeasure {
 /// All measures of HipParameters, in their order.
 std::span<const HipMeasure> hip_measures() noexcept;
 
-/// Null where no measure has this name.
+/// Null if no measure has this name.
 const HipMeasure* hip_measure_named(std::string_view name) noexcept;
 
 }  // namespace condyle

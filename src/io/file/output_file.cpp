@@ -20,7 +20,7 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// Throws where no file can have this name.
+/// Throws if no file can have this name.
 NameTaken checked(const fs::path& path) {
   if (path.empty()) throw FileError("output file: no name given");
   // Links in a circle, or a name that is too long: later the name of a temporary file would be what fails.

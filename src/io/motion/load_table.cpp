@@ -17,7 +17,7 @@ using Column = const std::vector<double>*;
 constexpr std::array forces = {"force_x_n", "force_y_n", "force_z_n"};
 constexpr std::array moments = {"moment_x_nmm", "moment_y_nmm", "moment_z_nmm"};
 
-/// Null where there is none of this name.
+/// Null if there is none of this name.
 Column column_of(const MotionTable& table, const char* name) {
   const auto found = std::find(table.columns.begin(), table.columns.end(), name);
   return found == table.columns.end()

@@ -48,7 +48,7 @@ struct RomResult {
   std::span<const DepthLimit> depths = {};
   /// One per limit where zones were computed, none if not.
   std::span<const std::optional<ImpingementZone>> zones = {};
-  /// Null where none was computed.
+  /// Null if none was computed.
   const MotionMap* map = nullptr;
   /// One per limit where bands were computed, none if not, and what they were computed with.
   std::span<const LimitBand> bands = {};

@@ -15,7 +15,7 @@ struct StudyAnswer {
   std::string inputs_sha256;
 };
 
-/// The lines of an answer. Throws where there is none, and where a joint looks wrong and bad ones end the run; empty if it
+/// The lines of an answer. Throws if there is none, and where a joint looks wrong and bad ones end the run; empty if it
 /// was stopped.
 std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
                                      std::stop_token stop);

@@ -48,7 +48,7 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
   return groups;
 }
 
-/// Mean of the triangles around each vertex weighted by area; zero where no triangle uses it.
+/// Mean of the triangles around each vertex weighted by area; zero if no triangle uses it.
 Points unit_normals(const TriMesh& mesh) {
   Points normals = mesh::area_normals(mesh);
   for (std::size_t v = 0; v < normals.size(); ++v) {
