@@ -41,7 +41,7 @@ constexpr PoseKind kind_of(int i) {
 
 std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const condyle::TriMesh& mobile) {
   const condyle::motion::FeatureTree fixed_tree(fixed), mobile_tree(mobile);
-  condyle::motion::RotatingBody turning(mobile_tree);
+  condyle::motion::RotatingBody rotating(mobile_tree);
   const int axes = (poses_per_scene + 2) / 3;
   const condyle::RotationRange range{.negative = Angle::radians(0), .positive = Angle::degrees(180)};
 
@@ -53,9 +53,9 @@ std::vector<ScenePose> poses_to_contact(const condyle::TriMesh& fixed, const con
     if (i % 3 == 0) {
       axis = spiral_direction(k, axes, Angle::degrees(180));
       const condyle::AxisFrame frame({0, 0, 0}, axis);
-      const condyle::motion::RotationTable resting(fixed_tree, frame);
-      turning.start_at(frame, Pose::Identity());
-      limit = first_contact(resting, turning, range).positive.turned;
+      const condyle::motion::RotationTable stationary(fixed_tree, frame);
+      rotating.start_at(frame, Pose::Identity());
+      limit = first_contact(stationary, rotating, range).positive.turned;
     }
     const PoseKind kind = kind_of(i);
     const Angle angle = kind == PoseKind::free      ? limit * (0.2 + 0.75 * spread(k))
