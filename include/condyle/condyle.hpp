@@ -11,6 +11,7 @@
 #include "condyle/angle.hpp"
 #include "condyle/pose.hpp"
 #include "condyle/error.hpp"
+#include "condyle/control.hpp"
 
 // Surfaces.
 #include "condyle/mesh.hpp"
