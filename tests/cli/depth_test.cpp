@@ -384,7 +384,8 @@ TEST_F(SampleJointCommand, WrongUsageEndsWithTwo) {
   expect_refused(2, "depth sample/hip.toml --method shortest", "--method");
   expect_refused(2, "depth sample/hip.toml --method tangential --about twist", "unknown angle 'twist'");
   expect_refused(2, "depth sample/hip.toml --about flexion", "about: is for method tangential");
-  expect_refused(2, "depth sample/hip.toml --method radial --about adduction", "about: is for method tangential");
+  expect_refused(2, "depth sample/hip.toml --method radial --about adduction",
+                 "about: is for method tangential");
   expect_refused(2, "depth sample/hip.toml --csv", "--csv requires --out");
   expect_refused(2, "depth sample/hip.toml --frame world", "unknown frame 'world'");
   expect_refused(2, "depth", "JOINT is required");
