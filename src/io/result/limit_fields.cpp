@@ -205,7 +205,7 @@ constexpr auto rom = LimitTables::rom, studies = LimitTables::studies,
                with_bands = LimitTables::studies_with_bands;
 
 /// Value, and in tables: columns, their name, unit, kind, meaning, and whose they are.
-constexpr LimitField fields[] = {
+constexpr LimitField every_field[] = {
     {"name", "of the motion", &name, one, "motion", "", text, "by its name", studies},
     {"limit_deg", "how far it turned from its start; ≥ 0 whatever the sense", &limit_deg, one, "limit_deg",
      "deg", number, "how far the joint turns from the motion's start", studies},
@@ -325,7 +325,7 @@ void append(std::vector<std::string>& texts, const Json& json) {
 }  // namespace
 
 std::span<const LimitField> limit_fields() noexcept {
-  return fields;
+  return every_field;
 }
 
 Json left_out() {
