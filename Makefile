@@ -72,7 +72,7 @@ fuzz: clang_dependencies
 	@cmake --build --preset fuzz --target fuzz_programs
 	@scripts/fuzz.sh $(FUZZ_SECONDS) $(FUZZ_TARGETS)
 
-# Condyle beside other libraries; bench/tables gets the figures of this run, and ratios worse than the stored ones are told.
+# Condyle beside other libraries; bench/tables gets the figures of this run, and ratios worse than the stored ones are reported.
 bench: bench_dependencies
 	@$(configure_all)
 	@cmake --build --preset release --target condyle_bench condyle_python

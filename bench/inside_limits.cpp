@@ -28,13 +28,13 @@ const TableHead limits_head{"inside_limits",
                              {"mobile_vertices", "mobile vertices"},
                              {"inside", "inside"},
                              {"turned_us", "all vertices turned"},
-                             {"told_us", "answers told, written"},
+                             {"told_us", "answers given, written"},
                              {"condyle_us", "Condyle"},
-                             {"over_told", "over told"},
+                             {"over_told", "over given"},
                              {"robust_us", "Embree robust"},
-                             {"robust_limit", "over told"},
+                             {"robust_limit", "over given"},
                              {"culled_us", "Embree culled"},
-                             {"culled_limit", "over told"}}};
+                             {"culled_limit", "over given"}}};
 
 /// Which vertices are inside at a pose, and the triangles that they leave through: the answer but for its
 /// numbers.
@@ -60,7 +60,7 @@ std::vector<Vec3> all_planes(const condyle::TriMesh& mesh) {
   return planes;
 }
 
-/// The answer of one that is told it: each vertex is read and posed, its triangle's plane read, the depth
+/// The answer of a method that is given it: each vertex is read and posed, its triangle's plane read, the depth
 /// computed, everything written.
 void write_reported(const Reported& reported, const std::vector<Vec3>& vertices,
                     const std::vector<Vec3>& planes, std::vector<InsideVertex>& out) {

@@ -50,7 +50,7 @@ struct Truth {
     for (const PointState state : hits.state) inside += state != PointState::outside;
   }
 
-  /// How many points are told otherwise, in any of what is told.
+  /// How many points have another answer, in any value of it.
   std::int64_t wrong(const Penetrations& found) const {
     std::int64_t wrong = 0;
     std::size_t reported_inside = 0;

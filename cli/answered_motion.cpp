@@ -13,27 +13,23 @@ ContactEntry motion_contact_of(const ContactChanges& options, const JointFile& f
   return contact;
 }
 
-MotionAnswer answered_motion(const MotionQuestion& question, MotionRequest request) {
+MotionAnswer answered_motion(const MotionQuestion& question, MotionRequest request, Strictness strictness) {
   const Body &fixed = question.surfaces.fixed, &mobile = question.surfaces.mobile;
   request.names = {fixed.name, mobile.name};
   request.casting = question.contact.casting == Casting::fixed ? BodyRole::fixed : BodyRole::mobile;
-  const auto answer_by = [&](const SurfaceQuestion& surfaces) {
-    const JointContact bodies(fixed.mesh, mobile.mesh);
-    return followed_by_stage(
-        [&](const AnswerControl& control) { return answer_motion(bodies, surfaces, request, control); });
-  };
-  MotionAnswer answer = [&] {
-    if (question.with_pressure) {
-      const ElasticContact elastic(fixed.mesh, mobile.mesh,
-                                   elastic_options(question.contact, question.surfaces, question.joint));
-      return answer_by(&elastic);
-    }
-    const bool fixed_casts = request.casting == BodyRole::fixed;
-    const NormalDepth depth(fixed_casts ? fixed.mesh : mobile.mesh, fixed_casts ? mobile.mesh : fixed.mesh,
-                            question.contact.rays);
-    return answer_by(&depth);
-  }();
+  request.rays = question.contact.rays;
+  std::optional<ElasticContact> elastic;
+  if (question.with_pressure)
+    elastic.emplace(fixed.mesh, mobile.mesh,
+                    elastic_options(question.contact, question.surfaces, question.joint));
+  const ElasticContact* layers = elastic ? &*elastic : nullptr;
   std::vector<ContactNote> notes = question.motion.notes;
+  add_new(notes, motion_request_notes(layers, request));
+  // Frames take long: notes that are errors end the command before them.
+  if (strictness == Strictness::errors) note_contact(notes, question.joint, strictness);
+  const JointContact bodies(fixed.mesh, mobile.mesh);
+  MotionAnswer answer = followed_by_stage(
+      [&](const AnswerControl& control) { return answer_motion(bodies, layers, request, control); });
   add_new(notes, std::move(answer.notes));
   answer.notes = std::move(notes);
   return answer;

@@ -124,7 +124,6 @@ Load load_of(const BalanceGiven& given) {
 }
 
 BalanceOptions balance_options_of(const BalanceGiven& given) {
-  if (!given.moment.empty() && !given.rotations) throw UsageError("--moment: needs --free-rotations");
   BalanceOptions options;
   options.free_directions = directions_of(given.along);
   options.free_rotations = given.rotations;

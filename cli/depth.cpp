@@ -44,7 +44,7 @@ struct Options {
 
 DepthRequest request_of(const Options& options, const GivenPose& given, const ContactEntry& entry,
                         Anatomy joint) {
-  DepthRequest request{.pose = given.pose.angles(), .X_FM = given.X_FM, .method = options.method};
+  DepthRequest request{.X_FM = given.X_FM, .pose = given.pose.angles(), .method = options.method};
   if (options.about) request.about = joint_angle_named(*options.about, joint);
   if (options.method == DepthMethod::normal) request.casting = entry.casting, request.rays = entry.rays;
   // Files have the nearest distance of every vertex.
@@ -105,7 +105,7 @@ void run(const Options& options, const CLI::App& command) {
   const Joint joint = by_normals ? joint_of_surfaces(entry, loaded.joint) : loaded.joint;
   const GivenPose given = pose_of(options, joint);
   const DepthRequest request = request_of(options, given, entry, joint.anatomy);
-  check_depth_request(request);
+  check_depth_request(joint, request);
   for (const std::string& remark : given.notes) note("pose: " + remark);
   require_meshes(loaded, options);
   Provenance from = provenance_of(loaded, words_of(command), options.where->frame);

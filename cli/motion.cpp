@@ -15,7 +15,6 @@
 #include "commands.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/joint_motion.hpp"
 #include "contact_options.hpp"
 #include "help_formatter.hpp"
 #include "io/joint/name_joint_file.hpp"
@@ -78,8 +77,8 @@ void run(const Options& options, const CLI::App& command) {
   const ContactSurfaces surfaces = surfaces_of(contact, loaded.joint);
   const MotionQuestion question{
       loaded, motion, surfaces, contact, with_pressure, noted(loaded, options.strictness), &from};
-  const MotionAnswer answer =
-      io::name_joint_file(options.joint, [&] { return answered_motion(question, std::move(request)); });
+  const MotionAnswer answer = io::name_joint_file(
+      options.joint, [&] { return answered_motion(question, std::move(request), options.strictness); });
   note_contact(answer.notes, loaded, options.strictness);
   if (!options.out.empty()) {
     MotionFiles files = options.files;

@@ -15,9 +15,8 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
-#include "condyle/held_translation.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/io/joint_motion.hpp"
+#include "condyle/joint.hpp"
 #include "help_formatter.hpp"
 #include "io/report/report.hpp"
 #include "notes.hpp"
@@ -97,7 +96,8 @@ void run(const Options& options, const CLI::App& command) {
   std::vector<ContactNote> contact_notes;
   if (recorded) {
     recorded->answer =
-        answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never});
+        answered_motion(recorded->question, {.X_FM = recorded->motion.X_FM, .between = BetweenFrames::never},
+                        options.strictness);
     contact_notes = recorded->answer.notes;
   }
   ContactEntry contact;

@@ -11,24 +11,22 @@
 #include <vector>
 
 #include "condyle/bearing.hpp"
-#include "condyle/clock_face.hpp"
-#include "condyle/contact_checks.hpp"
-#include "condyle/depth_limit.hpp"
+#include "condyle/contact_measures.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/motion_map.hpp"
-#include "condyle/normal_contact.hpp"
+#include "condyle/normal_depth.hpp"
+#include "condyle/pressure.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/recorded_contact.hpp"
-#include "condyle/reliable_depth.hpp"
 
 /// One function per question: a request in, an owning result out. The command, the Python module, studies, reports and the page
 /// all ask here, so that they say the same bits, notes included.
 ///
-///     const auto depth = answer_depth(joint, {.pose = flexed, .X_FM = X_FM});
+///     const auto depth = answer_depth(joint, {.X_FM = X_FM});
 ///     const auto range = answer_range(joint, placement, {.motions = hip_motions()});
 ///     const auto load  = answer_load(cartilages, {.X_FM = X_FM, .load = stance});
 ///     const auto gait  = answer_motion(bodies, &cartilages, {.X_FM = frames, .time_s = times});
@@ -60,8 +58,9 @@ enum class MeasuresOf : std::uint8_t {
 
 /// Options of a query at one pose, with their defaults.
 struct DepthRequest {
-  JointAngles pose = {};  ///< the angles of X_FM: arcs are about the joint's axes there
   Pose X_FM = Pose::Identity();
+  /// The angles that X_FM was made of, about whose axes arcs go; default: those that it has, which rounding may change.
+  std::optional<JointAngles> pose = {};
   DepthMethod method = DepthMethod::reliable;
   /// With DepthMethod::tangential the angle about whose axis arcs go; default: flexion.
   std::optional<JointAngle> about = {};
@@ -100,8 +99,8 @@ struct DepthAnswer {
   bool in_contact() const noexcept;
 };
 
-/// Throws UsageError for options of another method, for arcs at a pose that translates, and for a reach that is not above 0.
-void check_depth_request(const DepthRequest& request);
+/// Throws UsageError for options of another method, arcs at a pose that translates, and angles that are not those of X_FM.
+void check_depth_request(const Joint& joint, const DepthRequest& request);
 
 /// Depths at one pose. `bodies` are those of `joint`, and keep their tables for the next pose: the first call builds them, later
 /// ones take some milliseconds in contact, arcs more.
@@ -164,8 +163,10 @@ struct MotionRequest {
   std::vector<std::optional<Load>> loads = {};
   BalanceOptions balance = {};
   BetweenFrames between = BetweenFrames::if_exact;
-  BodyRole casting = BodyRole::mobile;  ///< of a NormalDepth, which does not know
-  BodyNames names = {};                 ///< as notes call the bodies
+  /// Without layers: whose triangles cast, and how. An ElasticContact knows.
+  BodyRole casting = BodyRole::mobile;
+  NormalDepthOptions rays = {};
+  BodyNames names = {};  ///< as notes call the bodies
 
   bool has_load() const noexcept { return load || !loads.empty(); }
 };
@@ -189,13 +190,16 @@ struct MotionAnswer {
 /// BetweenFrames::always without times or with a load.
 void check_motion_request(const MotionRequest& request);
 
-/// Contact along a motion; empty if it was stopped. Stages: "balanced frames", "ways between samples", "frames".
+/// Contact along a motion, with pressure if there are layers; empty if it was stopped. Stages: "balanced frames", "ways between samples", "frames".
 ///
 /// Throws UsageError as check_motion_request(), balance_along() and contact_between(), MeshError as contact_along().
-std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const ElasticContact* layers,
                                           const MotionRequest& request, const AnswerControl& control);
-MotionAnswer answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+MotionAnswer answer_motion(const JointContact& bodies, const ElasticContact* layers,
                            const MotionRequest& request);
+
+/// The notes of answer_motion() on layers and loads, which are known before its work is done.
+std::vector<ContactNote> motion_request_notes(const ElasticContact* layers, const MotionRequest& request);
 
 /// The frame with the largest force on the mobile body; empty if none is above 0.
 std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);

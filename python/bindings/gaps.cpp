@@ -41,7 +41,7 @@ py::tuple radial_gaps(const JointHandle& handle, const py::object& pose) {
 
 py::tuple tangential_gaps(const JointHandle& handle, const py::object& pose, std::size_t about) {
   const Pose X_FM = one_pose(pose, "pose");
-  require_at_centre(X_FM, "method tangential", "method radial");
+  check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential});
   TangentialContact contact = [&] {
     const py::gil_scoped_release released;
     const CoordinateSystem system = handle.joint().coordinates();
@@ -59,7 +59,7 @@ py::object patch_dict(const std::optional<ContactPatch>& patch) {
   return dict;
 }
 
-py::dict dict_of(ContactMeasures&& found, const RadialContact& contact) {
+py::dict measures_dict(ContactMeasures&& found, const RadialContact& contact) {
   py::dict dict;
   dict["in_contact"] = contact.in_contact;
   dict["intersecting_pairs"] = contact.pairs.size();
@@ -78,12 +78,11 @@ py::dict dict_of(ContactMeasures&& found, const RadialContact& contact) {
   return dict;
 }
 
-/// answer_depth() at each of the poses, whose angles they have, as `wrap` gives it to Python: whether it was one pose, and a list.
+/// answer_depth() at each of the poses, as `wrap` gives it to Python: whether it was one pose, and a list.
 template <class Wrap>
 py::tuple answers(const JointHandle& handle, const py::object& given, const py::object& progress,
                   const DepthRequest& request, const Wrap& wrap) {
   const PosesIn in = poses_in(given, "pose");
-  const CoordinateSystem system = handle.joint().coordinates();
   Follower follower(progress, in.poses.size());
   py::list list;
   for (std::size_t n = 0; n < in.poses.size(); ++n) {
@@ -91,7 +90,6 @@ py::tuple answers(const JointHandle& handle, const py::object& given, const py::
       const py::gil_scoped_release released;
       DepthRequest here = request;
       here.X_FM = in.poses[n];
-      here.pose = angles_at(system, here.X_FM);
       DepthAnswer found = answer_depth(handle.contact, handle.joint(), here);
       follower.look(n + 1);
       return found;
@@ -102,11 +100,11 @@ py::tuple answers(const JointHandle& handle, const py::object& given, const py::
 }
 
 py::tuple measures(const JointHandle& handle, const py::object& poses, const py::object& progress) {
-  return answers(handle, poses, progress,
-                 {.method = DepthMethod::radial, .distances = DistancesOf::all_vertices},
-                 [](DepthAnswer&& answer) {
-                   return dict_of(std::move(answer.measures), std::get<RayDepths>(answer.depths).contact);
-                 });
+  return answers(
+      handle, poses, progress, {.method = DepthMethod::radial, .distances = DistancesOf::all_vertices},
+      [](DepthAnswer&& answer) {
+        return measures_dict(std::move(answer.measures), std::get<RayDepths>(answer.depths).contact);
+      });
 }
 
 /// As `condyle depth` answers by default: of each pose both bodies, and the caveats.

@@ -85,19 +85,17 @@ py::tuple along(const JointHandle& handle, const py::object& poses, const Elasti
   const Mesh &fixed = handle.contact.fixed(), &mobile = handle.contact.mobile();
   const bool fixed_casts = casting_in(casting) == Casting::fixed;
   const NormalDepthOptions rays = elastic ? elastic->options().rays : rays_in(rule, reach_mm);
+  if (!elastic) {
+    mesh::require_oriented(fixed, handle.joint().fixed.name);
+    mesh::require_oriented(mobile, handle.joint().mobile.name);
+  }
   const MotionRequest request{.X_FM = X_FM,
                               .between = BetweenFrames::never,
-                              .casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile};
+                              .casting = fixed_casts ? BodyRole::fixed : BodyRole::mobile,
+                              .rays = rays};
   const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
-    std::optional<NormalDepth> depths;
-    if (!elastic) {
-      mesh::require_oriented(fixed, handle.joint().fixed.name);
-      mesh::require_oriented(mobile, handle.joint().mobile.name);
-      depths.emplace(fixed_casts ? fixed : mobile, fixed_casts ? mobile : fixed, rays);
-    }
-    const SurfaceQuestion question = elastic ? SurfaceQuestion(elastic) : SurfaceQuestion(&*depths);
     const auto follow = [&](std::string_view, std::size_t done, std::size_t total) { report(done, total); };
-    return answer_motion(handle.contact, question, request, {follow, stop});
+    return answer_motion(handle.contact, elastic, request, {follow, stop});
   });
   const bool casts_fixed = elastic ? elastic->options().casting == Casting::fixed : fixed_casts;
   const Mesh& caster =

@@ -2,7 +2,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/io/pose_text.hpp"
+#include "condyle/answer.hpp"
 #include "core/parallel.hpp"
 #include "interrupts.hpp"
 #include "joint.hpp"
@@ -56,7 +56,7 @@ struct VertexLists {
 };
 
 /// Columns that keep the lists alive.
-py::object dict_of(bool is_asked, VertexLists&& lists, bool with_angles) {
+py::object vertices_dict(bool is_asked, VertexLists&& lists, bool with_angles) {
   if (!is_asked) return py::none();
   auto kept = std::make_unique<VertexLists>(std::move(lists));
   const VertexLists& of = *kept;
@@ -108,8 +108,8 @@ py::tuple radial(const JointHandle& handle, const py::object& given, bool of_mob
       if (in.poses.size() > 1) follower.look(first + count);
     }
   }
-  return py::make_tuple(in.is_one, dict_of(of_mobile, std::move(mobile), false),
-                        dict_of(of_fixed, std::move(fixed), false));
+  return py::make_tuple(in.is_one, vertices_dict(of_mobile, std::move(mobile), false),
+                        vertices_dict(of_fixed, std::move(fixed), false));
 }
 
 py::tuple tangential(const JointHandle& handle, const py::object& given, std::size_t about,
@@ -123,7 +123,7 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
     const py::gil_scoped_release released;
     for (std::size_t n = 0; n < in.poses.size(); ++n) {
       const Pose& X_FM = in.poses[n];
-      require_at_centre(X_FM, "method tangential", "method radial");
+      check_depth_request(handle.joint(), {.X_FM = X_FM, .method = DepthMethod::tangential});
       const TangentialContact contact =
           handle.contact.tangential(X_FM, axis_of(angle_numbered(about), system, angles_at(system, X_FM)));
       if (of_mobile) mobile.append(*contact.mobile_in_fixed);
@@ -131,8 +131,8 @@ py::tuple tangential(const JointHandle& handle, const py::object& given, std::si
       follower.look(n + 1);
     }
   }
-  return py::make_tuple(in.is_one, dict_of(of_mobile, std::move(mobile), true),
-                        dict_of(of_fixed, std::move(fixed), true));
+  return py::make_tuple(in.is_one, vertices_dict(of_mobile, std::move(mobile), true),
+                        vertices_dict(of_fixed, std::move(fixed), true));
 }
 
 /// (K, 2) pairs of all poses, pose n owning [offset[n], offset[n + 1]).

@@ -5,6 +5,9 @@
 namespace condyle {
 namespace {
 
+/// Elements of a rotation that its angles give again differ by no more, whatever the angles are rounded by.
+constexpr double same_rotation = 1e-9;
+
 bool translates(const DepthRequest& request) {
   return request.X_FM.translation() != Vec3::Zero();
 }
@@ -24,7 +27,7 @@ void add_ray_depths(DepthAnswer& answer, const JointContact& bodies, const Joint
   add_measures(answer, bodies, MeasuredContact(depths.contact));
   // About which axis a body that is translated would turn depends on how it got there.
   depths.reliable = request.method == DepthMethod::reliable && !translates(request)
-                        ? reliable_depths(bodies, joint.kind, joint.coordinates(), request.pose,
+                        ? reliable_depths(bodies, joint.kind, joint.coordinates(), *request.pose,
                                           depths.contact, answer.measures.distances)
                         : reliable_radial_depths(depths.contact, answer.measures.distances);
   answer.depths = std::move(depths);
@@ -33,7 +36,7 @@ void add_ray_depths(DepthAnswer& answer, const JointContact& bodies, const Joint
 void add_arc_depths(DepthAnswer& answer, const JointContact& bodies, const Joint& joint) {
   const DepthRequest& request = answer.request;
   const JointAngle about = request.about.value_or(JointAngle::flexion);
-  ArcDepths depths{{about, axis_of(about, joint.coordinates(), request.pose)}, {}};
+  ArcDepths depths{{about, axis_of(about, joint.coordinates(), *request.pose)}, {}};
   depths.contact = bodies.tangential(request.X_FM, depths.axis.direction_F);
   add_measures(answer, bodies, MeasuredContact(depths.contact));
   answer.depths = std::move(depths);
@@ -49,9 +52,8 @@ void add_normal_depths(DepthAnswer& answer, const JointContact& bodies) {
 std::vector<std::string> caveats_of(const DepthRequest& request) {
   if (request.method == DepthMethod::normal)
     return {
-        "depths along normals compare with those of the same casting surface and rule only, not with radial "
-        "or "
-        "tangential ones"};
+        "depths along normals compare with those of the same casting surface and rule only, not with "
+        "radial or tangential ones"};
   if (!translates(request)) return {};
   return {core::formatted(
       "the mobile body's centre is %.3f mm from the fixed body's: rays of mobile vertices start at the fixed "
@@ -71,7 +73,7 @@ bool DepthAnswer::in_contact() const noexcept {
   return std::visit(read, depths);
 }
 
-void check_depth_request(const DepthRequest& request) {
+void check_depth_request(const Joint& joint, const DepthRequest& request) {
   if (request.about && request.method != DepthMethod::tangential)
     throw UsageError("about: is for method tangential");
   if ((request.casting || request.rays) && request.method != DepthMethod::normal)
@@ -81,11 +83,17 @@ void check_depth_request(const DepthRequest& request) {
         "method tangential: turns about the joint centre, and the pose is translated from it by %.3f mm; "
         "method radial answers there",
         request.X_FM.translation().norm()));
+  if (!request.pose) return;
+  const Eigen::Matrix3d difference =
+      pose_at(joint.coordinates(), *request.pose).linear() - request.X_FM.linear();
+  if (!(difference.cwiseAbs().maxCoeff() <= same_rotation))
+    throw UsageError("pose: its angles are not those of X_FM");
 }
 
 DepthAnswer answer_depth(const JointContact& bodies, const Joint& joint, const DepthRequest& request) {
-  check_depth_request(request);
+  check_depth_request(joint, request);
   DepthAnswer answer{.request = request, .measures = {}, .depths = {}, .caveats = caveats_of(request)};
+  if (!request.pose) answer.request.pose = angles_at(joint.coordinates(), request.X_FM);
   switch (request.method) {
     case DepthMethod::reliable:
     case DepthMethod::radial:

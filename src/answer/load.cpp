@@ -6,7 +6,7 @@ namespace condyle {
 
 void check_load_request(const LoadRequest& request) {
   if (request.load && !request.load->on_mobile.moment_nmm.isZero(0) && !request.balance.free_rotations)
-    throw UsageError("moment: needs free rotations, or nothing balances it");
+    throw UsageError("moment: needs free rotations: nothing else balances it");
 }
 
 LoadAnswer answer_load(const ElasticContact& surfaces, const LoadRequest& request) {

@@ -13,11 +13,6 @@ namespace {
 
 using Frames = std::vector<std::optional<Pose>>;
 
-const ElasticContact* elastic_of(const SurfaceQuestion& surfaces) {
-  const auto* elastic = std::get_if<const ElasticContact*>(&surfaces);
-  return elastic ? *elastic : nullptr;
-}
-
 /// Whether the mobile body's origin is in one place in all frames.
 bool holds_centre(const Frames& X_FM) {
   std::optional<Vec3> centre;
@@ -129,41 +124,50 @@ void check_motion_request(const MotionRequest& request) {
   if (request.has_load()) throw UsageError("between: is for poses as recorded, not for balanced ones");
 }
 
-std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+std::vector<ContactNote> motion_request_notes(const ElasticContact* layers, const MotionRequest& request) {
+  std::vector<ContactNote> notes;
+  if (layers) notes = check_layers(*layers, request.names);
+  if (const auto load = largest_load(request)) add_new(notes, check_load(*load));
+  return notes;
+}
+
+std::optional<MotionAnswer> answer_motion(const JointContact& bodies, const ElasticContact* layers,
                                           const MotionRequest& request, const AnswerControl& control) {
   check_motion_request(request);
-  const ElasticContact* elastic = elastic_of(surfaces);
-  MotionAnswer answer;
-  if (elastic) {
-    answer.notes = check_layers(*elastic, request.names);
-    answer.caveats.emplace_back(answer::foundation_caveat);
-  }
-  if (const auto load = largest_load(request)) add_new(answer.notes, check_load(*load));
+  MotionAnswer answer{.notes = motion_request_notes(layers, request)};
+  if (layers) answer.caveats.emplace_back(answer::foundation_caveat);
 
   Frames X_FM = request.X_FM;
   if (request.has_load()) {
-    if (!elastic) throw UsageError("load: needs layers that carry it");
-    if (!balance_frames(*elastic, request, X_FM, answer, control)) return std::nullopt;
+    if (!layers) throw UsageError("load: needs layers that carry it");
+    if (!balance_frames(*layers, request, X_FM, answer, control)) return std::nullopt;
   }
   if (is_between_searched(request, X_FM)) {
     answer.between =
         contact_between_frames(bodies, X_FM, request.time_s, answer::staged(control, "ways between samples"));
     if (!answer.between) return std::nullopt;
   }
-  auto frames = contact_along(bodies, surfaces, X_FM, request.casting, answer::staged(control, "frames"));
+  std::optional<NormalDepth> depths;
+  if (!layers) {
+    const bool fixed_casts = request.casting == BodyRole::fixed;
+    depths.emplace(fixed_casts ? bodies.fixed() : bodies.mobile(),
+                   fixed_casts ? bodies.mobile() : bodies.fixed(), request.rays);
+  }
+  auto frames = contact_along(bodies, layers ? SurfaceQuestion(layers) : SurfaceQuestion(&*depths), X_FM,
+                              request.casting, answer::staged(control, "frames"));
   if (!frames) return std::nullopt;
   answer.frames = std::move(*frames);
   add_new(answer.notes, check_motion(answer.frames, request.names));
-  if (elastic)
+  if (layers)
     if (const auto largest = frame_of_largest_force(answer))
-      if (const auto refined = elastic->refined_force_n(answer.frames[*largest]->X_FM))
+      if (const auto refined = layers->refined_force_n(answer.frames[*largest]->X_FM))
         answer.refined_largest_force_n = refined->norm();
   return answer;
 }
 
-MotionAnswer answer_motion(const JointContact& bodies, const SurfaceQuestion& surfaces,
+MotionAnswer answer_motion(const JointContact& bodies, const ElasticContact* layers,
                            const MotionRequest& request) {
-  return *answer_motion(bodies, surfaces, request, {});
+  return *answer_motion(bodies, layers, request, {});
 }
 
 std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer) {

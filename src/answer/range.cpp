@@ -3,7 +3,7 @@
 #include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/held_translation.hpp"
+#include "condyle/joint.hpp"
 #include "core/formatted.hpp"
 
 namespace condyle {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -34,7 +34,7 @@ TEST_F(DepthAnswers, AreThoseOfTheirOwnFunctions) {
   const ReliableContact expected =
       reliable_depths(bodies, joint.kind, joint.coordinates(), pose, contact, measures.distances);
 
-  const DepthAnswer answer = answer_depth(bodies, joint, {.pose = pose, .X_FM = X_FM});
+  const DepthAnswer answer = answer_depth(bodies, joint, {.X_FM = X_FM, .pose = pose});
   const auto& rays = std::get<RayDepths>(answer.depths);
   EXPECT_TRUE(answer.in_contact());
   EXPECT_EQ(rays.reliable.mobile->depth_mm, expected.mobile->depth_mm);
@@ -42,14 +42,14 @@ TEST_F(DepthAnswers, AreThoseOfTheirOwnFunctions) {
   EXPECT_EQ(answer.measures.volume_mm3, measures.volume_mm3);
   EXPECT_TRUE(answer.caveats.empty());
 
-  const DepthAnswer by_joint = answer_depth(joint, {.pose = pose, .X_FM = X_FM});
+  const DepthAnswer by_joint = answer_depth(joint, {.X_FM = X_FM, .pose = pose});
   EXPECT_EQ(std::get<RayDepths>(by_joint.depths).reliable.mobile->depth_mm, expected.mobile->depth_mm);
 }
 
 TEST_F(DepthAnswers, WithoutMeasuresHaveTheSameDepths) {
-  const DepthAnswer whole = answer_depth(bodies, joint, {.pose = pose, .X_FM = X_FM});
+  const DepthAnswer whole = answer_depth(bodies, joint, {.X_FM = X_FM, .pose = pose});
   const DepthAnswer quick =
-      answer_depth(bodies, joint, {.pose = pose, .X_FM = X_FM, .measures = MeasuresOf::distances_only});
+      answer_depth(bodies, joint, {.X_FM = X_FM, .pose = pose, .measures = MeasuresOf::distances_only});
   EXPECT_EQ(std::get<RayDepths>(quick.depths).reliable.mobile->depth_mm,
             std::get<RayDepths>(whole.depths).reliable.mobile->depth_mm);
   EXPECT_EQ(std::get<RayDepths>(quick.depths).reliable.fixed->depth_mm,
@@ -73,7 +73,7 @@ TEST_F(DepthAnswers, SummariesWithKnownDistancesAreTheSame) {
 TEST_F(DepthAnswers, AlongArcsAreAboutTheAxisRequested) {
   const auto about = [&](std::optional<JointAngle> angle) {
     const DepthAnswer answer = answer_depth(
-        bodies, joint, {.pose = pose, .X_FM = X_FM, .method = DepthMethod::tangential, .about = angle});
+        bodies, joint, {.X_FM = X_FM, .pose = pose, .method = DepthMethod::tangential, .about = angle});
     return std::get<ArcDepths>(answer.depths);
   };
   EXPECT_EQ(about({}).axis.about, JointAngle::flexion);
@@ -105,7 +105,7 @@ TEST_F(DepthAnswers, SayThatABodyWasTranslated) {
   Pose moved = X_FM;
   moved.translation() = Vec3(0, 0.3, -0.4);
   const auto caveats = [&](DepthMethod method) {
-    return answer_depth(bodies, joint, {.pose = pose, .X_FM = moved, .method = method}).caveats;
+    return answer_depth(bodies, joint, {.X_FM = moved, .pose = pose, .method = method}).caveats;
   };
   ASSERT_EQ(caveats(DepthMethod::reliable).size(), 1u);
   EXPECT_NE(caveats(DepthMethod::reliable).front().find("centre is 0.500 mm from"), std::string::npos);
@@ -115,11 +115,31 @@ TEST_F(DepthAnswers, SayThatABodyWasTranslated) {
 }
 
 TEST_F(DepthAnswers, RefuseOptionsOfAnotherMethod) {
-  EXPECT_THROW(check_depth_request({.about = JointAngle::flexion}), UsageError);
-  EXPECT_THROW(check_depth_request({.casting = Casting::both}), UsageError);
-  EXPECT_THROW(check_depth_request({.method = DepthMethod::tangential, .rays = NormalDepthOptions{}}),
+  EXPECT_THROW(check_depth_request(joint, {.about = JointAngle::flexion}), UsageError);
+  EXPECT_THROW(check_depth_request(joint, {.casting = Casting::both}), UsageError);
+  EXPECT_THROW(check_depth_request(joint, {.method = DepthMethod::tangential, .rays = NormalDepthOptions{}}),
                UsageError);
-  check_depth_request({.method = DepthMethod::tangential, .about = JointAngle::adduction});
+  check_depth_request(joint, {.method = DepthMethod::tangential, .about = JointAngle::adduction});
+}
+
+TEST_F(DepthAnswers, AreThoseOfThePoseWithoutItsAngles) {
+  const auto depths = [&](const DepthRequest& request) {
+    return std::get<RayDepths>(answer_depth(bodies, joint, request).depths).reliable.mobile->depth_mm;
+  };
+  const std::vector<double> given = depths({.X_FM = X_FM, .pose = pose}), found = depths({.X_FM = X_FM});
+  ASSERT_EQ(found.size(), given.size());
+  // Angles that a rotation is split into are off by some 2^-52, at arms of 120 mm.
+  for (std::size_t v = 0; v < given.size(); ++v) EXPECT_NEAR(found[v], given[v], 120 * 0x1p-48);
+  EXPECT_GT(*std::max_element(found.begin(), found.end()), 1);
+}
+
+TEST_F(DepthAnswers, RefuseAnglesOfAnotherPose) {
+  EXPECT_THROW(answer_depth(bodies, joint, {.X_FM = X_FM, .pose = JointAngles{}}), UsageError);
+  JointAngles nearly = pose;
+  nearly.flexion = Angle::radians(pose.flexion.radians() + 1e-8);
+  EXPECT_THROW(answer_depth(bodies, joint, {.X_FM = X_FM, .pose = nearly}), UsageError);
+  nearly.flexion = Angle::radians(pose.flexion.radians() + 1e-10);
+  answer_depth(bodies, joint, {.X_FM = X_FM, .pose = nearly});
 }
 
 TEST(DepthAnswer, OfAnOpenBodyHasNothingInsideIt) {

@@ -97,6 +97,39 @@ TEST_F(MotionAnswers, AreThoseOfEachFrame) {
   EXPECT_FALSE(answer.between) << "times are not known";
 }
 
+TEST_F(MotionAnswers, WithoutLayersHaveTheDepthsOfTheBodyThatCasts) {
+  const auto X_FM = lowered({0.25, 0.5});
+  for (const BodyRole casting : {BodyRole::fixed, BodyRole::mobile}) {
+    const bool fixed_casts = casting == BodyRole::fixed;
+    const NormalDepth depths(fixed_casts ? table : block, fixed_casts ? block : table,
+                             {FaceRule::cut_faces, 3});
+    const auto expected = contact_along(bodies, &depths, X_FM, casting);
+    const MotionAnswer answer =
+        answer_motion(bodies, nullptr, {.X_FM = X_FM, .casting = casting, .rays = {FaceRule::cut_faces, 3}});
+    for (std::size_t i = 0; i < X_FM.size(); ++i) {
+      EXPECT_EQ(answer.frames[i]->surface.totals.area_mm2, (*expected)[i]->surface.totals.area_mm2);
+      // No ray of the table, which has two large triangles, meets the block.
+      EXPECT_NEAR(answer.frames[i]->surface.totals.max_depth_mm,
+                  fixed_casts ? 0
+                  : i == 0    ? 0.25
+                              : 0.5,
+                  1e-12);
+    }
+    EXPECT_TRUE(answer.caveats.empty() && !answer.refined_largest_force_n);
+  }
+}
+
+TEST_F(MotionAnswers, NoteLayersAndLoadsBeforeTheirFrames) {
+  const ElasticContact stiff(table, block,
+                             {.casting = Casting::mobile, .mobile = ElasticLayer{6e9, 0.45, 1.0}});
+  const Load heavy{.on_mobile = {.force_n = {0, -1e6, 0}}};
+  const MotionRequest request{.X_FM = lowered({0.01}), .loads = {heavy}, .balance = along_y};
+  const auto before = codes(motion_request_notes(&stiff, request));
+  EXPECT_EQ(before, (std::vector<std::string>{"unlikely_modulus", "unlikely_load"}));
+  const auto all = codes(answer_motion(bodies, &stiff, request).notes);
+  EXPECT_EQ(std::vector<std::string>(all.begin(), all.begin() + 2), before);
+}
+
 TEST_F(MotionAnswers, CarryTheSameLoadInEveryFrame) {
   const MotionAnswer answer = answer_motion(
       bodies, &layers, {.X_FM = lowered({0.1, 0.7}), .time_s = {0, 1}, .load = down, .balance = along_y});
@@ -172,8 +205,7 @@ TEST_F(MotionAnswers, RefuseWhatContradictsItself) {
   refused({.X_FM = lowered({0.1, 0.2}), .time_s = {0, 1}, .load = down, .between = BetweenFrames::always});
   refused(
       {.X_FM = lowered({0.1}), .load = Load{.on_mobile = {.force_n = {0, -1, 0}, .moment_nmm = {1, 0, 0}}}});
-  const NormalDepth depths(block, table);
-  EXPECT_THROW(answer_motion(bodies, &depths, {.X_FM = lowered({0.1}), .load = down}), UsageError)
+  EXPECT_THROW(answer_motion(bodies, nullptr, {.X_FM = lowered({0.1}), .load = down}), UsageError)
       << "no layers";
 }
 

@@ -251,7 +251,8 @@ TEST_F(Motion, BadInputGetsOneLine) {
   refused("motion shank.toml --motion good.csv --cycle 0 9 --out out", 2, "cycle");
   refused("motion shank.toml --motion frames.csv --cycle 0 1 --out out", 2, "times");
   refused("motion shank.toml --motion good.csv --e 10", 2, "a layer needs all three");
-  refused("motion cup.toml --motion good.csv --force 0 -100 0 --moment 1 0 0", 2, "--free-rotations");
+  refused("motion cup.toml --motion good.csv --force 0 -100 0 --moment 1 0 0", 2,
+          "moment: needs free rotations");
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 

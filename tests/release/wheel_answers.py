@@ -28,7 +28,7 @@ with tempfile.TemporaryDirectory() as folder:
     print(*(hashlib.sha256((Path(folder) / "out" / name).read_bytes()).hexdigest() for name in ("limits.csv", "study.h5")))
 print(condyle.__version__)
 
-# The rest is told apart from answers: where the module comes from, what is loaded, and whether figures can be drawn.
+# Lines that are no answers are kept apart: where the module comes from, what is loaded, and whether figures can be drawn.
 print("module", condyle.__file__, file=sys.stderr)
 try:
     print("installed", importlib.metadata.version("condyle"), file=sys.stderr)

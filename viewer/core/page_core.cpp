@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/held_translation.hpp"
+#include "condyle/joint.hpp"
 #include "page_joint.hpp"
 
 using namespace condyle;
@@ -200,7 +200,7 @@ int condyle_depth(CondyleJoint* joint, const double* pose, const double* angles_
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     const Pose X_FM = pose_of(pose);
     const DepthAnswer depth =
-        answer_depth(joint->bodies, joint->joint, {.pose = angles_of(angles_deg), .X_FM = X_FM});
+        answer_depth(joint->bodies, joint->joint, {.X_FM = X_FM, .pose = angles_of(angles_deg)});
     const ContactMeasures& measures = depth.measures;
     const ReliableContact& reliable = std::get<RayDepths>(depth.depths).reliable;
     std::fill_n(answer, 16, none);

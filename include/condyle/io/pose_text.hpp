@@ -52,10 +52,6 @@ bool is_matrix(std::string_view text) noexcept;
 /// its axis.
 GivenPose given_pose(std::string_view text, const Joint& joint);
 
-/// Arcs are about the joint centre: throws UsageError for a pose that is translated from it. The message begins with `asked`,
-/// what asks for arcs, and names `instead`, what answers there.
-void require_at_centre(const Pose& X_FM, std::string_view asked, std::string_view instead);
-
 /// The pose as parse_pose() reads it, every digit of it: "flexion=90 adduction=-10 internal_rotation=20".
 std::string to_text(const PoseDegrees& pose, Anatomy joint);
 

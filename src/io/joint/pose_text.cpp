@@ -161,14 +161,6 @@ GivenPose given_pose(std::string_view text, const Joint& joint) {
   return given;
 }
 
-void require_at_centre(const Pose& X_FM, std::string_view asked, std::string_view instead) {
-  if (const double moved = X_FM.translation().norm(); moved > 0)
-    throw UsageError(
-        fmt::format("{}: turns about the joint centre, and the pose is translated from it by {:.3f} mm; {} "
-                    "answers there",
-                    asked, moved, instead));
-}
-
 std::string to_text(const PoseDegrees& pose, Anatomy joint) {
   std::string text;
   for (const JointAngle angle : all_joint_angles)

@@ -41,8 +41,8 @@ BothValues surface_values(PictureColour colour, const Joint& joint, const JointA
   }
   const DepthMethod method = colour == PictureColour::nearest ? DepthMethod::radial : DepthMethod::reliable;
   DepthAnswer answer = answer_depth(bodies, joint,
-                                    {.pose = at,
-                                     .X_FM = X_FM,
+                                    {.X_FM = X_FM,
+                                     .pose = at,
                                      .method = method,
                                      .distances = DistancesOf::all_vertices,
                                      .measures = MeasuresOf::distances_only});

@@ -116,7 +116,7 @@ PoseDegrees pose_of(const StudyTable& table, const StudyRow& row, const Joint& j
 
 void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {
   const DepthAnswer answer =
-      answer_depth(joint, {.pose = at.angles(), .X_FM = pose_at(joint.coordinates(), at.angles())});
+      answer_depth(joint, {.X_FM = pose_at(joint.coordinates(), at.angles()), .pose = at.angles()});
   const ContactMeasures& measures = answer.measures;
   const auto deepest = deepest_of(std::get<RayDepths>(answer.depths).reliable);
   fields.push_back(answer.in_contact() ? "1" : "0");
