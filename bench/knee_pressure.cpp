@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "contact/elastic_parts.hpp"
 #include "goals.hpp"
 #include "questions.hpp"

@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"

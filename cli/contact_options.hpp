@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/contact_changes.hpp"
+#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/load_balance.hpp"
+#include "condyle/pressure.hpp"
 
 namespace CLI {
 class App;

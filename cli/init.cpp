@@ -10,7 +10,7 @@
 #include "answer.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
-#include "condyle/io/propose_joint.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "io/file/output_file.hpp"
 
 namespace condyle::cli {

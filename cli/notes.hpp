@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "condyle/contact_checks.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/joint_checks.hpp"
+#include "condyle/motion_contact.hpp"
 
 namespace CLI {
 class App;

@@ -19,15 +19,15 @@ set(sample_uses core mesh)
 set(io_uses core mesh kinematics contact motion answer sample)
 
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
-set(core_headers angle axis_frame control error points pose version)
+set(core_headers angle control error points pose version)
 set(simd_headers)
-set(mesh_headers inspect length_unit mesh point_state repair)
-set(kinematics_headers fit held_translation joint joint_checks joint_coordinates joint_frame make_joint)
+set(mesh_headers inspect mesh voxel_mask)
+set(kinematics_headers fit joint joint_checks joint_coordinates joint_frame make_joint)
 set(radial_headers radial)
 set(tangential_headers tangential)
-set(contact_headers contact contact_measures load_balance normal_contact normal_depth pressure reliable_depth)
-set(motion_headers bearing clock_face contact_checks depth_limit first_contact impingement_zone limit_band motion_contact motion_map
-                   overlap_options path_limit range_of_motion recorded_contact)
+set(contact_headers contact contact_measures normal_depth pressure)
+set(motion_headers bearing first_contact impingement_zone limit_band motion_contact motion_map
+                   range_of_motion recorded_contact)
 set(answer_headers answer)
 set(sample_headers)
 set(io_headers)

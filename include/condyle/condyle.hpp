@@ -15,9 +15,7 @@
 
 // Surfaces.
 #include "condyle/mesh.hpp"
-#include "condyle/length_unit.hpp"
 #include "condyle/inspect.hpp"
-#include "condyle/repair.hpp"
 
 // Joints.
 #include "condyle/joint_coordinates.hpp"
@@ -25,36 +23,25 @@
 #include "condyle/joint.hpp"
 #include "condyle/fit.hpp"
 #include "condyle/make_joint.hpp"
-#include "condyle/held_translation.hpp"
 #include "condyle/joint_checks.hpp"
 
 // One pose.
-#include "condyle/point_state.hpp"
 #include "condyle/radial.hpp"
-#include "condyle/axis_frame.hpp"
 #include "condyle/tangential.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/contact_measures.hpp"
-#include "condyle/reliable_depth.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
-#include "condyle/normal_contact.hpp"
-#include "condyle/load_balance.hpp"
 
 // Motions.
 #include "condyle/first_contact.hpp"
 #include "condyle/bearing.hpp"
-#include "condyle/overlap_options.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/limit_band.hpp"
-#include "condyle/clock_face.hpp"
 #include "condyle/motion_map.hpp"
-#include "condyle/depth_limit.hpp"
-#include "condyle/path_limit.hpp"
 #include "condyle/motion_contact.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/recorded_contact.hpp"
-#include "condyle/contact_checks.hpp"
 #include "condyle/answer.hpp"
 
 #include "condyle/version.hpp"

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "condyle/angle.hpp"
-#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/points.hpp"
 #include "condyle/pose.hpp"

@@ -10,7 +10,7 @@
 #include "condyle/inspect.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_frame.hpp"
-#include "condyle/length_unit.hpp"
+#include "condyle/mesh.hpp"
 
 /// A joint from two meshes in one unit, both in one frame W as a segmentation gives them, or each in a frame of its own that
 /// lies in W. Where the joint frame F lies in W is given by directions, landmarks or a fit, and both meshes are placed in it.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "condyle/points.hpp"
 
 namespace condyle {
@@ -31,5 +33,41 @@ inline Pose inverted(const Pose& X) noexcept {
 /// Many points moved by a pose; out may hold any size before.
 void posed(const Pose& X, PointsView points, Points& out);
 Points posed(const Pose& X, PointsView points);
+
+struct TriMesh;
+
+/// Coordinates in which a joint axis is +z: the axis point becomes the origin, the axis direction +z, and a
+/// positive angle about the axis is counter-clockwise seen from +z.
+///
+/// An axis through the origin along a coordinate axis (either sense) only permutes and negates coordinates:
+/// nothing is rounded, and every exact decision made in the frame is exact for the points given. Any other
+/// axis rounds each coordinate once on conversion into the frame (to about 4 * 2^-53 of the point's distance from the
+/// axis point): decisions are then exact for the rounded points. One vertex always gets the same bits, so a closed
+/// mesh stays closed.
+class AxisFrame {
+ public:
+  /// The direction may have any length but zero. UsageError if it is zero, a value is not finite, or the point is beyond
+  /// 1e30 mm.
+  AxisFrame(const Vec3& point, const Vec3& direction);
+
+  const Vec3& point() const noexcept { return point_; }
+  /// Unit length.
+  Vec3 direction() const noexcept { return rotation_.row(2).transpose(); }
+
+  /// Rows: the frame's x, y and z.
+  const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
+
+  /// From mesh coordinates to the frame's, and back; millimetres.
+  Vec3 to_axis(const Vec3& p) const noexcept {
+    const double x = p.x() - point_.x(), y = p.y() - point_.y(), z = p.z() - point_.z();
+    const auto row = [&](int i) { return (rotation_(i, 0) * x + rotation_(i, 1) * y) + rotation_(i, 2) * z; };
+    return {row(0), row(1), row(2)};
+  }
+  Vec3 from_axis(const Vec3& p) const noexcept { return rotation_.transpose() * p + point_; }
+
+ private:
+  Vec3 point_;
+  Eigen::Matrix3d rotation_;
+};
 
 }  // namespace condyle

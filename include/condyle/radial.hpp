@@ -9,7 +9,6 @@
 
 #include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/point_state.hpp"
 #include "condyle/points.hpp"
 #include "condyle/pose.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -8,14 +9,52 @@
 #include <vector>
 
 #include "condyle/bearing.hpp"
+#include "condyle/error.hpp"
 #include "condyle/first_contact.hpp"
 #include "condyle/joint.hpp"
-#include "condyle/overlap_options.hpp"
 
 /// Range of motion: how far a joint turns in each clinical direction before bone meets bone, where, and why.
 /// docs/mathematics/06-range-of-motion.md.
 
 namespace condyle {
+
+// Meshes that are in contact in the reference pose, as segmented ones often are, and what can be done about
+// it. Never done silently, and never by moving a mesh.
+
+/// Treatment of two bodies that are in contact in the reference pose.
+enum class ReferenceContact : std::uint8_t {
+  refuse,  ///< ReferenceContactError: what can be done, and the place of greatest depth
+  accept,  ///< motions that start in contact say so
+};
+
+/// Leaves out the triangles of each body that meet the other body in the reference pose, and with them `rings`
+/// rings of neighbours: triangles that share a vertex with one left out, then with one of those, and so on.
+/// With no ring only the crossing triangles go, and their neighbours, which barely clear each other, end most
+/// motions at once.
+struct LeaveOutReferenceContacts {
+  int rings = 2;
+};
+
+/// Triangles excluded from contact. Triangles left out leave open meshes, and an open mesh has no inside: a body
+/// wholly swallowed by the other one is then not noticed at the start of a motion, and a vertex deep in the hole
+/// meets nothing. Everything else about the limits stays exact.
+struct OverlapOptions {
+  /// The pose in which the meshes are known: checked for contact, and the pose in which contacts are left out.
+  JointAngles reference_pose = {};
+  ReferenceContact reference_contact = ReferenceContact::refuse;
+  std::optional<LeaveOutReferenceContacts> leave_out_reference_contacts = {};
+};
+
+/// How many triangles of each body the overlap options leave out.
+struct LeftOut {
+  std::size_t fixed_triangles = 0, mobile_triangles = 0;
+};
+
+/// Bodies in contact in the reference pose although the options do not cover it.
+class ReferenceContactError : public MeshError {
+ public:
+  using MeshError::MeshError;
+};
 
 /// A motion as a clinician names it: one joint angle changes from where `start` has it, the other two are held.
 struct Motion {
@@ -165,6 +204,110 @@ class RangeOfMotion {
   BearingRule bearing_rule() const noexcept;
   /// How much of each body the overlap options leave out.
   const LeftOut& left_out() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// How far a joint follows a path on which several angles change at once.
+
+/// Where a path ends.
+struct PathLimit {
+  std::size_t segment = 0;  ///< from waypoint `segment` to the next one
+  double fraction = 0;      ///< of that segment, in [0, 1]
+  JointAngles at = {};
+  LimitReason reason = LimitReason::end_of_range;
+  /// For `contact`, the two faces that are nearest to meeting and their nearest points.
+  std::optional<ContactWitness> contact = {};
+  double distance_mm = 0;  ///< between these points
+  std::size_t poses = 0;   ///< evaluated along the path
+};
+
+/// Follows paths of straight segments in the joint's angles. Several angles that change at once are a rotation
+/// about no fixed axis, so there is no closed form; instead every step is as long as is certain to be free.
+///
+///     angle b          o waypoint 2
+///       |     .  .   .
+///       |   o  waypoint 1         steps shorten where surfaces come near:   o--------+---+--+-|
+///       | .
+///       o waypoint 0
+///
+/// On one segment the angles change by df, da, dr. With e1 and e3 at a right angle to e2, M turns by at most
+/// W = sqrt(da^2 + (|df| + |dr|)^2) over the segment, so from a pose from which no rotation below c brings
+/// anything together the next c / W of the segment are free.
+///
+/// Guarantee: the path is free up to the limit, whatever the surfaces do between two poses. The search ends if c
+/// falls below the tolerance: a rotation by no more than that, about some axis, might then bring the surfaces
+/// together, though not always the path itself: surfaces that pass that close count as in contact. A path along only
+/// one angle is better computed as a motion, which is exact.
+class PathFinder {
+ public:
+  /// Throws as RangeOfMotion does.
+  explicit PathFinder(const Joint& joint, const RangeOptions& options = {});
+  ~PathFinder();
+  PathFinder(const PathFinder&) = delete;
+  PathFinder& operator=(const PathFinder&) = delete;
+
+  /// Throws UsageError for fewer than two waypoints, angles that are not finite, segments of more than a full
+  /// turn, other angles than flexion on a hinge, or a tolerance below 1e-6 degrees.
+  PathLimit limit(std::span<const JointAngles> waypoints, Angle tolerance = Angle::degrees(1e-3)) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Limits of joints whose meshes overlap a little in every pose: a motion ends if the deepest radial depth exceeds an
+// allowed one. For such joints only; if the meshes are clean, RangeOfMotion is exact.
+
+struct AllowedDepth {
+  double depth_mm = 0;
+  Angle step = Angle::degrees(1);          ///< of the search along the motion
+  Angle tolerance = Angle::degrees(1e-3);  ///< of the limit, once bracketed
+};
+
+/// The deepest place of two bodies at one pose.
+struct DeepestPlace {
+  double depth_mm = 0;                         ///< 0 if no vertex is inside
+  std::optional<ContactWitness> contact = {};  ///< that vertex, and the face that its ray leaves through
+  Angle ray_to_normal = {};                    ///< at that face; beyond 60 degrees the radial depth grazes
+};
+
+struct DepthLimit {
+  MotionLimit limit = {};      ///< its error bound is here the tolerance of the search
+  DeepestPlace at_limit = {};  ///< at the reported angle, where the depth is still allowed
+  double start_depth_mm = 0;
+  /// Whether every pose tried inside the last step was as deep as the allowed ones before it: if not, the surfaces
+  /// are rough at this scale and a limit a little further on would be as good.
+  bool depth_grows = true;
+};
+
+/// Depth is the radial depth (docs/mathematics/02-radial-method.md) of the deepest vertex of either body in the
+/// other, whatever the angle between its ray and the surface. For surfaces that slide on each other, that is the
+/// depth. Where a neck runs into a rim the ray grazes the wall and the radial depth is many times the true one, so
+/// there a motion ends almost as soon as a vertex is inside: the allowed depth applies to bearing surfaces.
+///
+/// Not exact, unlike RangeOfMotion: depth is computed at poses one step apart, and only of vertices. Contact that
+/// comes and goes between two poses of the search, or of edges and faces without a vertex, is not seen. The first
+/// step whose end is too deep is divided into ten parts, and the first too deep part is halved until the tolerance:
+/// the reported angle is allowed, and within the tolerance after it the depth is too large.
+class DepthRange {
+ public:
+  /// Throws UsageError for an allowed depth below 0, steps or tolerances that are not above 0, a tolerance
+  /// above the step; MeshError if a mesh is open, for depth needs an inside.
+  DepthRange(const Joint& joint, const AllowedDepth& allowed);
+  ~DepthRange();
+  DepthRange(const DepthRange&) = delete;
+  DepthRange& operator=(const DepthRange&) = delete;
+
+  DeepestPlace deepest(const JointAngles& at) const;
+  /// `contact_at_start` if the depth at the start is too large already.
+  DepthLimit limit(const Motion& motion) const;
+  std::vector<DepthLimit> limits(std::span<const Motion> motions) const;
+
+  /// The bearing surface that labels contacts: all of them count.
+  const BearingFinding& bearing() const noexcept;
 
  private:
   struct Parts;

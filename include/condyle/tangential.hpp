@@ -7,10 +7,9 @@
 #include <vector>
 
 #include "condyle/angle.hpp"
-#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/point_state.hpp"
 #include "condyle/points.hpp"
+#include "condyle/pose.hpp"
 
 /// The tangential method: circles about one axis. docs/mathematics/04-tangential-method.md; Arbabi et al. 2009.
 

@@ -1,4 +1,4 @@
-#include "condyle/clock_face.hpp"
+#include "condyle/impingement_zone.hpp"
 
 #include "arrays.hpp"
 #include "bindings.hpp"
@@ -8,7 +8,7 @@
 namespace condyle::python {
 namespace {
 
-py::tuple tuple_of(const ClockFace& face) {
+py::tuple clock_tuple(const ClockFace& face) {
   return py::make_tuple(array_of(face.twelve), array_of(face.three));
 }
 
@@ -18,7 +18,7 @@ py::object rim_clock(const Mesh& fixed, const py::object& centre, double radius_
     const py::gil_scoped_release released;
     return find_rim_clock(fixed, head);
   }();
-  return face ? py::object(tuple_of(*face)) : py::none();
+  return face ? py::object(clock_tuple(*face)) : py::none();
 }
 
 py::object neck_axis(const Mesh& mobile, double head_radius_mm) {
@@ -50,12 +50,12 @@ py::array hours(const py::object& twelve, const py::object& three, const py::obj
 
 void bind_clock_face(py::module_& module) {
   module.def("clock_face",
-             [](const py::object& normal) { return tuple_of(clock_face(vector_in(normal, "normal"))); });
-  module.def("sagittal_clock", [] { return tuple_of(sagittal_clock()); });
+             [](const py::object& normal) { return clock_tuple(clock_face(vector_in(normal, "normal"))); });
+  module.def("sagittal_clock", [] { return clock_tuple(sagittal_clock()); });
   module.def("find_rim_clock", &rim_clock);
   module.def("find_neck_axis", &neck_axis);
   module.def("neck_clock", [](const py::object& direction) {
-    return tuple_of(neck_clock({vector_in(direction, "direction")}));
+    return clock_tuple(neck_clock({vector_in(direction, "direction")}));
   });
   module.def("clock_angles_deg", &angles);
   module.def("clock_hours", &hours);

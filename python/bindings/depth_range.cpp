@@ -2,7 +2,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/depth_limit.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "interrupts.hpp"
 #include "motion.hpp"
 
@@ -32,7 +32,7 @@ py::dict deepest(const DepthRange& range, const py::object& angles_deg) {
   }());
 }
 
-py::list limits(const DepthRange& range, const py::list& given, const py::object& progress) {
+py::list limits_by_depth(const DepthRange& range, const py::list& given, const py::object& progress) {
   const std::vector<Motion> motions = motions_in(given);
   const auto found = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     std::vector<DepthLimit> done;
@@ -61,7 +61,7 @@ void bind_depth_range(py::module_& module) {
   py::class_<DepthRange>(module, "DepthRange")
       .def(py::init(&depth_range))
       .def("deepest", &deepest)
-      .def("limits", &limits);
+      .def("limits", &limits_by_depth);
 }
 
 }  // namespace condyle::python

@@ -1,7 +1,7 @@
 #include "errors.hpp"
 
 #include "condyle/error.hpp"
-#include "condyle/overlap_options.hpp"
+#include "condyle/range_of_motion.hpp"
 
 namespace condyle::python {
 namespace {

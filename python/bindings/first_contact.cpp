@@ -15,8 +15,8 @@ std::unique_ptr<FirstContact> first_contact(const Mesh& fixed, const Mesh& mobil
 }
 
 /// Negative and positive.
-py::tuple limits(const FirstContact& contact, const py::object& pose, double negative_deg,
-                 double positive_deg) {
+py::tuple first_limits(const FirstContact& contact, const py::object& pose, double negative_deg,
+                       double positive_deg) {
   const Pose X_FM = one_pose(pose, "pose");
   const RotationLimits found = [&] {
     const py::gil_scoped_release released;
@@ -28,7 +28,7 @@ py::tuple limits(const FirstContact& contact, const py::object& pose, double neg
 }  // namespace
 
 void bind_first_contact(py::module_& module) {
-  py::class_<FirstContact>(module, "FirstContact").def(py::init(&first_contact)).def("limits", &limits);
+  py::class_<FirstContact>(module, "FirstContact").def(py::init(&first_contact)).def("limits", &first_limits);
 }
 
 }  // namespace condyle::python

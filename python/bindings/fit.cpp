@@ -11,7 +11,7 @@
 namespace condyle::python {
 namespace {
 
-py::dict dict_of(SphereFit fit) {
+py::dict fit_dict(SphereFit fit) {
   py::dict dict;
   dict["centre"] = array_of(fit.sphere.centre);
   dict["radius"] = fit.sphere.radius;
@@ -23,7 +23,7 @@ py::dict dict_of(SphereFit fit) {
 
 py::dict fit_points(const py::object& given) {
   const PointsIn points(given, "points");
-  return dict_of([&] {
+  return fit_dict([&] {
     const py::gil_scoped_release released;
     return fit_sphere(points.view());
   }());
@@ -46,13 +46,13 @@ py::dict find_in(const Mesh& mesh, bool is_head, double smallest_radius, double 
     return find_sphere(mesh, search);
   }();
   const double coverage = patch.coverage;
-  py::dict dict = dict_of(std::move(patch.fit));
+  py::dict dict = fit_dict(std::move(patch.fit));
   dict["coverage"] = coverage;
   dict["centre_bound"] = patch.centre_bound_mm;
   return dict;
 }
 
-py::dict dict_of(CylinderFit&& fit) {
+py::dict fit_dict(CylinderFit&& fit) {
   py::dict dict;
   dict["point"] = array_of(fit.cylinder.point);
   dict["direction"] = array_of(fit.cylinder.direction);
@@ -73,7 +73,7 @@ py::dict fit_cylinder_to(const py::object& given, const py::object& point, const
   const Vec3 along = vector_in(direction, "direction");
   if (along.norm() == 0) throw UsageError("direction: its length is zero");
   const Cylinder start{vector_in(point, "point"), along.normalized(), radius};
-  return dict_of([&] {
+  return fit_dict([&] {
     const py::gil_scoped_release released;
     std::vector<Index> all(points.size());
     std::iota(all.begin(), all.end(), Index{0});
@@ -84,7 +84,7 @@ py::dict fit_cylinder_to(const py::object& given, const py::object& point, const
 py::dict find_cylinder_in(const Mesh& mesh, double smallest_radius, double largest_radius,
                           const py::object& within_centre, double within_radius) {
   const CylinderSearch search{smallest_radius, largest_radius, ball(within_centre, within_radius)};
-  return dict_of([&] {
+  return fit_dict([&] {
     const py::gil_scoped_release released;
     return find_cylinder(mesh, search);
   }());

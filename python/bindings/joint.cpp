@@ -6,8 +6,8 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "condyle/error.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/io/propose_joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "io/result/caveats.hpp"
 #include "joint_description.hpp"
@@ -16,7 +16,7 @@
 namespace condyle::python {
 namespace {
 
-std::unique_ptr<JointHandle> read(const std::filesystem::path& path) {
+std::unique_ptr<JointHandle> read_handle(const std::filesystem::path& path) {
   const py::gil_scoped_release released;
   return std::make_unique<JointHandle>(read_joint(path));
 }
@@ -161,7 +161,7 @@ void bind_joint(py::module_& module) {
                       }));
   module.def("propose_joint", &proposed);
   module.def("angle_names_of", &angle_names_of);
-  module.def("read_joint", &read);
+  module.def("read_joint", &read_handle);
   module.def("make_joint", &made);
 }
 

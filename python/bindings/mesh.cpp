@@ -7,7 +7,6 @@
 #include "bindings.hpp"
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/repair.hpp"
 #include "io/result/repair_text.hpp"
 
 namespace condyle::python {
@@ -56,7 +55,7 @@ py::tuple merged(const Mesh& mesh) {
   return py::make_tuple(std::move(result), array_of(std::move(number)));
 }
 
-py::tuple read(const std::filesystem::path& path) {
+py::tuple read_arrays(const std::filesystem::path& path) {
   auto [mesh, welded] = [&] {
     const py::gil_scoped_release released;
     MeshFile file = read_mesh(path);
@@ -90,7 +89,7 @@ void bind_mesh(py::module_& module) {
       .def_property_readonly("is_closed", &Mesh::is_closed);
   module.def("merged", &merged);
   module.def("repaired", &repaired);
-  module.def("read_mesh", &read);
+  module.def("read_mesh", &read_arrays);
   module.def("write_mesh", [](const std::filesystem::path& path, const Mesh& mesh) {
     const py::gil_scoped_release released;
     write_mesh(path, mesh.arrays());

@@ -14,7 +14,7 @@ std::array<double, 3> degrees_of_angles(const JointAngles& angles) {
   return {angles.flexion.degrees(), angles.adduction.degrees(), angles.internal_rotation.degrees()};
 }
 
-py::tuple tuple_of(const Feature& feature) {
+py::tuple feature_tuple(const Feature& feature) {
   constexpr const char* kinds[] = {"vertex", "edge", "face"};
   const char* kind = kinds[static_cast<std::size_t>(feature.kind)];
   if (feature.kind != FeatureKind::edge) return py::make_tuple(kind, feature.id);
@@ -50,8 +50,8 @@ std::vector<Motion> motions_in(const py::list& given) {
 py::object dict_of(const std::optional<ContactWitness>& contact) {
   if (!contact) return py::none();
   py::dict dict;
-  dict["fixed_feature"] = tuple_of(contact->fixed_feature);
-  dict["mobile_feature"] = tuple_of(contact->mobile_feature);
+  dict["fixed_feature"] = feature_tuple(contact->fixed_feature);
+  dict["mobile_feature"] = feature_tuple(contact->mobile_feature);
   dict["fixed_point"] = array_of(contact->fixed_point);
   dict["mobile_point"] = array_of(contact->mobile_point);
   dict["kind"] = name_of(contact->kind);

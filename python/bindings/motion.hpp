@@ -9,7 +9,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "condyle/held_translation.hpp"
+#include "condyle/joint.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"

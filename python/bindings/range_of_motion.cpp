@@ -6,7 +6,6 @@
 #include "bindings.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
-#include "condyle/path_limit.hpp"
 #include "interrupts.hpp"
 #include "io/result/caveats.hpp"
 #include "io/result/rom_result.hpp"

@@ -5,8 +5,8 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "condyle/io/joint_motion.hpp"
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "condyle/recorded_contact.hpp"
 #include "interrupts.hpp"
 #include "io/result/motion_result.hpp"

@@ -7,7 +7,6 @@
 #include "condyle/mesh.hpp"
 #include "condyle/sample/cartilages.hpp"
 #include "condyle/sample/hip.hpp"
-#include "condyle/sample/hip_measures.hpp"
 #include "interrupts.hpp"
 
 namespace condyle::python {

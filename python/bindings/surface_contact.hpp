@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/contact_checks.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/normal_depth.hpp"
 #include "condyle/pressure.hpp"
 

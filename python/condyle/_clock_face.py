@@ -23,7 +23,7 @@ class ClockFace:
 
     `twelve` and `three` are (3,) unit vectors at a right angle.
 
-    C++: `condyle::ClockFace` in condyle/clock_face.hpp.
+    C++: `condyle::ClockFace` in condyle/impingement_zone.hpp.
 
     >>> import condyle
     >>> face = condyle.sagittal_clock()
@@ -69,7 +69,7 @@ def clock_face(normal: ArrayLike) -> ClockFace:
     12 is Y of the joint frame and 3 is X, each as it falls on the plane. UsageError where the normal is within a degree
     of Y, or 12 and X leave no 3.
 
-    C++: `condyle::clock_face` in condyle/clock_face.hpp.
+    C++: `condyle::clock_face` in condyle/impingement_zone.hpp.
     """
     return ClockFace(*_native.clock_face(normal))
 
@@ -77,7 +77,7 @@ def clock_face(normal: ArrayLike) -> ClockFace:
 def sagittal_clock() -> ClockFace:
     """The acetabular clock where the plane of the rim is not given: the sagittal plane, normal Z.
 
-    C++: `condyle::sagittal_clock` in condyle/clock_face.hpp.
+    C++: `condyle::sagittal_clock` in condyle/impingement_zone.hpp.
     """
     return ClockFace(*_native.sagittal_clock())
 
@@ -87,7 +87,7 @@ def find_rim_clock(fixed: MeshLike, head: Ball) -> Optional[ClockFace]:
 
     None where no rim or no notch is found, or the plane leaves no 3 o'clock.
 
-    C++: `condyle::find_rim_clock` in condyle/clock_face.hpp.
+    C++: `condyle::find_rim_clock` in condyle/impingement_zone.hpp.
     """
     centre, radius = ball(head, "head")
     found = _native.find_rim_clock(TriMesh.of(fixed)._native, centre, radius)
@@ -97,7 +97,7 @@ def find_rim_clock(fixed: MeshLike, head: Ball) -> Optional[ClockFace]:
 def find_neck_axis(mobile: MeshLike, head_radius_mm: float) -> Optional[NDArray[np.float64]]:
     """(3,) the direction of the femoral neck from the head's centre outwards, in M; None where there is none.
 
-    C++: `condyle::find_neck_axis` in condyle/clock_face.hpp.
+    C++: `condyle::find_neck_axis` in condyle/impingement_zone.hpp.
     """
     return _native.find_neck_axis(TriMesh.of(mobile)._native, number(head_radius_mm, "head_radius_mm", low=0))
 
@@ -105,6 +105,6 @@ def find_neck_axis(mobile: MeshLike, head_radius_mm: float) -> Optional[NDArray[
 def neck_clock(direction: ArrayLike) -> ClockFace:
     """The clock around the neck, across its axis: see :func:`find_neck_axis`.
 
-    C++: `condyle::neck_clock` in condyle/clock_face.hpp.
+    C++: `condyle::neck_clock` in condyle/impingement_zone.hpp.
     """
     return ClockFace(*_native.neck_clock(direction))

@@ -47,7 +47,7 @@ class DepthRange:
     depth is computed at poses `step_deg` apart, of vertices only, and the limit to `tolerance_deg`. UsageError for a
     depth below 0, and for a tolerance that is not above 0 and at most the step; MeshError where a mesh is open.
 
-    C++: `condyle::DepthRange` in condyle/depth_limit.hpp; `condyle rom --allow-depth`.
+    C++: `condyle::DepthRange` in condyle/range_of_motion.hpp; `condyle rom --allow-depth`.
 
     >>> import condyle
     >>> bones = condyle.sample_hip(scenario=1)

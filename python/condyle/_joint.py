@@ -346,7 +346,7 @@ class Joint(DescribedJoint):
 
         FileError for columns that are not there or whose unit is not known.
 
-        C++: `condyle::motion_of` in condyle/io/joint_motion.hpp.
+        C++: `condyle::motion_of` in condyle/io/joint_file.hpp.
         """
         found = _native.motion_of(self._native, path_of(path))
         found["processing"] = tuple(found["processing"])
@@ -451,7 +451,7 @@ class Joint(DescribedJoint):
         `waypoints` are two or more mappings of angles in degrees by their names. The path is free up to the limit,
         whatever the surfaces do between two poses; it ends where a rotation by the tolerance might bring them together.
 
-        C++: `condyle::PathFinder` in condyle/path_limit.hpp.
+        C++: `condyle::PathFinder` in condyle/range_of_motion.hpp.
         """
         return path_limit(self, waypoints, tolerance_deg)
 

@@ -201,7 +201,7 @@ class ElasticContact:
     def notes(self) -> tuple[ContactNote, ...]:
         """What looks wrong with the layers: moduli, Poisson's ratios, thicknesses, a layer on a bone.
 
-        C++: `condyle::check_layers` in condyle/contact_checks.hpp.
+        C++: `condyle::check_layers` in condyle/motion_contact.hpp.
 
         >>> import condyle
         >>> layers = condyle.sample_cartilages(clearance_mm=0)
@@ -235,7 +235,7 @@ class ElasticContact:
         rotations are unknowns too; without it a moment has nothing to balance it and is refused. UsageError where the load
         is zero along what is free. Not ended by Ctrl-C.
 
-        C++: `condyle::balance` in condyle/load_balance.hpp.
+        C++: `condyle::balance` in condyle/pressure.hpp.
         """
         _refuse_moment(moment_nmm, free_rotations)
         pose = balanced(_native.balance(self._native, np.eye(4) if start is None else start, force_n, moment_nmm,

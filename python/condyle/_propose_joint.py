@@ -28,7 +28,7 @@ def propose_joint(fixed: Path, mobile: Path, joint_file: Path, *, side: Optional
     `joint_file` is where it is to lie, for meshes are named from its folder; `side` "right" or "left" and `units` "mm"
     or "m" are inferred from the bones if not given. FileError where a mesh cannot be read.
 
-    C++: `condyle::propose_joint` in condyle/io/propose_joint.hpp; `condyle init`.
+    C++: `condyle::propose_joint` in condyle/io/joint_file.hpp; `condyle init`.
     """
     toml, to_fill_in, evidence = _native.propose_joint(
         path_of(fixed, "fixed"), path_of(mobile, "mobile"), path_of(joint_file, "joint_file"),

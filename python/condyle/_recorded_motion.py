@@ -138,7 +138,7 @@ def recorded_contact(joint: DescribedJoint, time_s: ArrayLike, poses: ArrayLike,
 def read_motion_table(path: Path) -> MotionTable:
     """Reads .mot and .sto (OpenSim) or .csv (docs/motion-files.md). FileError naming file, line and column.
 
-    C++: `condyle::read_motion_table` in condyle/io/motion_file.hpp.
+    C++: `condyle::read_motion_table` in condyle/io/recorded_motion.hpp.
     """
     found = _native.read_motion_table(path_of(path))
     return MotionTable(found["columns"], found["in_degrees"], tuple(found["processing"]))

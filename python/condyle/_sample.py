@@ -10,7 +10,7 @@ from ._errors import UsageError, unknown
 from ._mesh import TriMesh
 from ._words import Side, count, number, word
 
-#: The measures that :func:`sample_hip` takes, millimetres and degrees; C++: condyle/sample/hip_parameters.hpp has their
+#: The measures that :func:`sample_hip` takes, millimetres and degrees; C++: condyle/sample/hip.hpp has their
 #: ranges and meanings.
 HIP_PARAMETERS = (
     "head_radius_mm", "joint_space_mm", "neck_shaft_angle_deg", "femoral_anteversion_deg", "neck_radius_mm",

@@ -1,4 +1,4 @@
-#include "condyle/load_balance.hpp"
+#include "condyle/pressure.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>

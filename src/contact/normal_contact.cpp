@@ -1,4 +1,5 @@
-#include "condyle/normal_contact.hpp"
+#include "condyle/normal_depth.hpp"
+#include "condyle/pressure.hpp"
 
 namespace condyle {
 namespace {

@@ -1,4 +1,4 @@
-#include "condyle/axis_frame.hpp"
+#include "condyle/pose.hpp"
 
 #include "condyle/error.hpp"
 #include "condyle/mesh.hpp"

@@ -1,4 +1,4 @@
-#include "condyle/held_translation.hpp"
+#include "condyle/joint.hpp"
 
 #include <utility>
 

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "condyle/repair.hpp"
 #include "core/formatted.hpp"
 #include "core/predicates.hpp"
 #include "mesh/disjoint_sets.hpp"

@@ -1,4 +1,3 @@
-#include "condyle/repair.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "condyle/mesh.hpp"
-#include "condyle/point_state.hpp"
+#include "condyle/points.hpp"
 
 namespace condyle::mesh {
 

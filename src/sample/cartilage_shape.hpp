@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "condyle/sample/cartilage_parameters.hpp"
-#include "condyle/sample/hip_parameters.hpp"
+#include "condyle/sample/cartilages.hpp"
+#include "condyle/sample/hip.hpp"
 #include "sample/field.hpp"
 
 namespace condyle::sample {

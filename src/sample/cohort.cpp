@@ -1,4 +1,3 @@
-#include "condyle/sample/cohort.hpp"
 
 #include <algorithm>
 #include <boost/math/special_functions/erf.hpp>
@@ -7,7 +6,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "condyle/sample/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
 #include "sample/femur_shape.hpp"
 
 namespace condyle {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "condyle/sample/hip_parameters.hpp"
+#include "condyle/sample/hip.hpp"
 #include "sample/field.hpp"
 
 namespace condyle::sample {

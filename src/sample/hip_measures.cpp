@@ -1,4 +1,4 @@
-#include "condyle/sample/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
 
 #include <algorithm>
 

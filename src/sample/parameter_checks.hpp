@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "condyle/angle.hpp"
-#include "condyle/sample/hip_parameters.hpp"
+#include "condyle/sample/hip.hpp"
 
 namespace condyle::sample {
 

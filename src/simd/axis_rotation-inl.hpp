@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <span>
 
-#include "condyle/axis_frame.hpp"
+#include "condyle/pose.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace condyle::simd::HWY_NAMESPACE {

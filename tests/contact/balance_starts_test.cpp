@@ -3,7 +3,7 @@
 #include <cmath>
 #include <random>
 
-#include "condyle/load_balance.hpp"
+#include "condyle/pressure.hpp"
 #include "support/cup.hpp"
 
 /// A ball in a closed shell with a rim, hollow downwards: where a balance starts from does not decide what is found, and what is

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "condyle/load_balance.hpp"
+#include "condyle/pressure.hpp"
 #include "support/shared_data.hpp"
 
 /// Cartilages of a real hip under what a pelvis puts on it while standing: rays at their rims begin and cease to meet as the hip

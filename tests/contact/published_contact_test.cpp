@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-#include "condyle/load_balance.hpp"
+#include "condyle/pressure.hpp"
 #include "support/knee.hpp"
 
 /// A simulated flexion of a knee, and the contact that OpenSim-JAM publishes for it.

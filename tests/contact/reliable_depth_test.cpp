@@ -1,4 +1,4 @@
-#include "condyle/reliable_depth.hpp"
+#include "condyle/contact_measures.hpp"
 
 #include <gtest/gtest.h>
 

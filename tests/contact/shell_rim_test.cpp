@@ -5,8 +5,8 @@
 #include <random>
 #include <utility>
 
-#include "condyle/load_balance.hpp"
-#include "condyle/normal_contact.hpp"
+#include "condyle/normal_depth.hpp"
+#include "condyle/pressure.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/subdivide.hpp"
 #include "support/cup.hpp"

@@ -7,11 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
 #include "condyle/first_contact.hpp"
 #include "condyle/normal_depth.hpp"
+#include "condyle/pose.hpp"
 #include "condyle/pressure.hpp"
 #include "condyle/radial.hpp"
 #include "condyle/tangential.hpp"

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <string_view>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
 #include "condyle/pose.hpp"
 

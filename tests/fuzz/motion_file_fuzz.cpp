@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
-#include "condyle/io/motion_file.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"

@@ -4,7 +4,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "fuzz/fuzz_input.hpp"
 #include "fuzz/one_line.hpp"
 #include "fuzz/targets.hpp"

@@ -11,7 +11,6 @@
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
-#include "condyle/repair.hpp"
 
 #include "support/shared_data.hpp"
 

@@ -1,4 +1,3 @@
-#include "condyle/io/propose_joint.hpp"
 
 #include <gtest/gtest.h>
 

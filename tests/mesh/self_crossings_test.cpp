@@ -6,7 +6,6 @@
 #include <random>
 
 #include "condyle/inspect.hpp"
-#include "condyle/repair.hpp"
 #include "support/brute_force.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"

@@ -6,7 +6,6 @@
 
 #include "condyle/error.hpp"
 #include "condyle/impingement_zone.hpp"
-#include "condyle/path_limit.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "motion/joint_scenes.hpp"
 #include "support/shared_data.hpp"

@@ -5,7 +5,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/point_state.hpp"
+#include "condyle/points.hpp"
 
 namespace condyle::test {
 

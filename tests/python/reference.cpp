@@ -11,7 +11,7 @@
 
 #include "condyle/contact.hpp"
 #include "condyle/io/joint_file.hpp"
-#include "condyle/normal_contact.hpp"
+#include "condyle/normal_depth.hpp"
 
 /// Answers of C++ at the poses of a file, as doubles, for the tests of the Python module to compare with:
 ///

@@ -1,10 +1,9 @@
-#include "condyle/sample/cohort.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "condyle/sample/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
 #include "sample/parameter_checks.hpp"
 
 namespace condyle::test {

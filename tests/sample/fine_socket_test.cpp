@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "condyle/sample/cohort.hpp"
 #include "condyle/sample/hip.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "sample/contour.hpp"

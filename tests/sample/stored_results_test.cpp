@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/contact.hpp"
+#include "condyle/pose.hpp"
 #include "condyle/range_of_motion.hpp"
 #include "condyle/tangential.hpp"
 #include "sample/made_hips.hpp"

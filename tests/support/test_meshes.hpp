@@ -1,7 +1,7 @@
 #pragma once
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
 
 /// Small closed meshes with known geometry, all wound outwards.
 

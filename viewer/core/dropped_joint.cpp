@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "condyle/answer.hpp"
-#include "condyle/clock_face.hpp"
 #include "condyle/error.hpp"
+#include "condyle/impingement_zone.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/make_joint.hpp"

@@ -2,17 +2,21 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "condyle/inspect.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/file_digest.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/recorded_motion.hpp"
+#include "condyle/joint_coordinates.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/make_joint.hpp"
+#include "condyle/mesh.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/range_of_motion.hpp"
-#include "condyle/repair.hpp"
 
 /// Joint files: two meshes and how one rotates in the other, in TOML. Every key, with its unit and default,
 /// is in docs/joint-file.md. Bad files throw FileError, one line "file: line 7: frame.centre: what is wrong".
@@ -79,5 +83,44 @@ struct LoadedJoint {
 /// Reads a joint file and its meshes, and makes the joint: docs/joint-frame.md, "Placement", and make_joint().
 /// Throws FileError, and MeshError if a fit finds nothing or a repair cannot be made.
 LoadedJoint read_joint(const std::filesystem::path& path);
+
+/// Input of a proposal.
+struct ProposalRequest {
+  std::filesystem::path fixed, mobile;   ///< mesh files
+  std::filesystem::path joint_file;      ///< where it is to lie: meshes are named from its folder
+  std::optional<Side> side = {};         ///< default: inferred from the bones
+  std::optional<LengthUnit> units = {};  ///< default: inferred from their size
+};
+
+/// A joint file, complete but for what could not be inferred.
+struct JointProposal {
+  std::string toml;                     ///< each value with a comment on its evidence
+  std::vector<std::string> to_fill_in;  ///< keys that stand in it as comments, with the reason
+  std::vector<std::string> evidence;  ///< for side and axes, one line each with its vote; comments in it too
+};
+
+/// Proposes a joint file for two meshes: kind, centre, axes, side and units, each with the evidence for it. A hip's axes are
+/// inferred among the frames in use: RAS, LPS, and X anterior, Y superior, Z right. Where femur, neck, hip bone and the
+/// socket's opening lie about the head votes for up and outwards, and so do the far ends of whole bones; the neck's angle
+/// in the socket and the hip bone's shape vote for the side. What the votes do not settle, or settle against the given
+/// side, is left to fill in; nothing is guessed. Throws FileError if a mesh cannot be read.
+JointProposal propose_joint(const ProposalRequest& request);
+
+// A recorded motion of a joint: from the columns of a table to poses X_FM in the joint frame.
+
+struct JointMotion {
+  FrameTimes times;
+  std::vector<std::optional<Pose>> X_FM;  ///< in the joint frame; empty for gaps
+  std::vector<std::string> processing;    ///< of the table and of its reading
+  std::filesystem::path path = {};        ///< of the table
+  FileDigest digest = {};
+  std::vector<ContactNote> notes = {};  ///< what looks wrong with its numbers: their unit
+};
+
+/// By the joint file's [recorded_motion]. Without one the table must have columns named after the joint's coordinates and
+/// their units: flexion_deg, internal_rotation_rad, x_mm, z_m; coordinates without a column are 0, and a note says so.
+/// Columns of poses are of the frames of the mesh files. FileError as for recorded_coordinates() and recorded_poses(), and
+/// for a joint that does not translate if its poses do by more than 1e-6 mm.
+JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
 
 }  // namespace condyle

@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "condyle/length_unit.hpp"
 #include "condyle/mesh.hpp"
 
 /// Mesh files in and out. Every function here raises FileError, one line "file: element: what is wrong", and

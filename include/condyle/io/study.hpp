@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "condyle/control.hpp"
-#include "condyle/io/contact_changes.hpp"
+#include "condyle/io/contact_entry.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/limit_band.hpp"
 #include "condyle/motion_map.hpp"

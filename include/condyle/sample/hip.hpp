@@ -1,14 +1,56 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <stop_token>
+#include <string_view>
 #include <variant>
 
+#include "condyle/angle.hpp"
 #include "condyle/mesh.hpp"
-#include "condyle/sample/hip_parameters.hpp"
+#include "condyle/points.hpp"
 
 namespace condyle {
+
+/// The measures of the sample hip, as a clinician or a designer of implants would state them. Defaults are
+/// those of an average adult; ranges are what adult hips show, somewhat widened. Sizes not named here grow
+/// with the head (femur) or the socket (hip bone).
+struct HipParameters {
+  /// Radius of the femoral head, mm, 18 to 32.
+  double head_radius_mm = 24;
+  /// Bony joint space: radius of the socket less radius of the head, which are concentric; mm, 2 to 6.
+  double joint_space_mm = 3.5;
+
+  /// Between the neck's axis and the shaft's axis, both pointing away from where they meet; 110 to 145
+  /// degrees.
+  Angle neck_shaft_angle = Angle::degrees(127);
+  /// Angle about the shaft by which the neck points forward of the frontal plane; -15 to 45 degrees.
+  Angle femoral_anteversion = Angle::degrees(15);
+  /// Half the neck's front-to-back width where it is narrowest; mm, 8 to 0.8 head radii.
+  double neck_radius_mm = 13;
+  /// Along the neck's axis from the head's centre to the shaft's axis; mm, 40 to 65.
+  double neck_length_mm = 50;
+  /// Along the shaft's axis from there to the cut at its lower end; mm, 60 to 250.
+  double shaft_length_mm = 100;
+  /// With this set, a cam bump on the head-neck junction at half past one around the neck's axis,
+  /// anterosuperior, that makes this alpha angle there; from sample::native_alpha_angle(), but at least 50,
+  /// to 90 degrees. Without, no bump: head and neck make the native angle, which no constant could stand for.
+  std::optional<Angle> alpha_angle = {};
+
+  /// Between the socket's opening direction and the vertical, Murray's anatomical inclination; 35 to 65
+  /// degrees.
+  Angle acetabular_inclination = Angle::degrees(50);
+  /// By which the opening direction, seen from above, points forward of straight lateral, Murray's anatomical
+  /// anteversion; -10 to 35 degrees.
+  Angle acetabular_version = Angle::degrees(18);
+  /// In the frontal plane through the head's centre, from the vertical to the socket's edge, positive
+  /// laterally; 15 to 45 degrees.
+  Angle lateral_centre_edge_angle = Angle::degrees(33);
+
+  friend bool operator==(const HipParameters&, const HipParameters&) = default;
+};
 
 /// Resolutions of the founding paper's Table 1 (Arbabi, Boulic, Thalmann 2009). Each is the 1-to-4
 /// subdivision of the one before, laid back on the surface.
@@ -51,5 +93,42 @@ std::optional<SampleHip> sample_hip(const HipParameters& parameters, const Resol
 /// The other side: Z negated, triangles flipped so that they face outwards again.
 TriMesh mirrored(const TriMesh& mesh);
 SampleHip mirrored(const SampleHip& hip);
+
+/// A measure of the sample hip by the name it has in tables and in Python: "neck_shaft_angle_deg". Values are mm or degrees.
+struct HipMeasure {
+  std::string_view name, unit, meaning;
+  std::optional<double> (*value)(const HipParameters&);
+  void (*set)(HipParameters&, double);
+};
+
+/// All measures of HipParameters, in their order.
+std::span<const HipMeasure> hip_measures() noexcept;
+
+/// Null if no measure has this name.
+const HipMeasure* hip_measure_named(std::string_view name) noexcept;
+
+// Hips with measures drawn at random, for anybody to try a study on. docs/cohort.md has where the distributions come from.
+
+/// A normal distribution cut off at both ends. Of a measure that goes with the head, in head radii.
+struct MeasureDistribution {
+  std::string_view measure;  ///< its name in hip_measures()
+  std::string_view unit;     ///< "mm", "deg", or "head radii"
+  double mean, standard_deviation, low, high;
+};
+
+/// One for each measure that is drawn, each independent of the others; those not drawn are as HipParameters has them.
+std::span<const MeasureDistribution> cohort_distributions() noexcept;
+
+/// A hip of a cohort.
+struct CohortHip {
+  HipParameters measures;  ///< rounded to 0.1 mm and 0.1 degrees
+  bool is_left;
+  /// The alpha angle that the femur has: of its cam, or without one that of head and neck.
+  Angle alpha_angle;
+};
+
+/// Hip k of the cohort of this seed, which does not depend on how many there are. An alpha angle drawn below the least of a
+/// cam makes a hip without one. Some microseconds.
+CohortHip cohort_hip(std::uint64_t seed, std::uint64_t k);
 
 }  // namespace condyle

@@ -4,7 +4,7 @@
 #include <new>
 
 #include "condyle/error.hpp"
-#include "condyle/overlap_options.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "io/file/plain_text.hpp"
 
 namespace condyle::io {

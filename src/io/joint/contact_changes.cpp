@@ -1,4 +1,4 @@
-#include "condyle/io/contact_changes.hpp"
+#include "condyle/io/contact_entry.hpp"
 
 #include <cstddef>
 #include <utility>

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "condyle/error.hpp"
-#include "condyle/overlap_options.hpp"
+#include "condyle/range_of_motion.hpp"
 
 namespace condyle::io {
 

@@ -1,4 +1,4 @@
-#include "condyle/io/propose_joint.hpp"
+#include "condyle/io/joint_file.hpp"
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -66,13 +66,13 @@ class Lines {
   std::vector<std::string> to_fill_in_, evidence_;
 };
 
-struct LoadedMesh {
+struct MeshInItsUnit {
   TriMesh mesh;
   LikelyUnit unit;
 };
 
-LoadedMesh load(const std::filesystem::path& path) {
-  LoadedMesh loaded{read_mesh(path).mesh, {}};
+MeshInItsUnit load(const std::filesystem::path& path) {
+  MeshInItsUnit loaded{read_mesh(path).mesh, {}};
   loaded.unit = likely_unit(loaded.mesh);
   return loaded;
 }
@@ -118,7 +118,7 @@ void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics:
 }  // namespace
 
 JointProposal propose_joint(const ProposalRequest& request) {
-  LoadedMesh fixed = load(request.fixed), mobile = load(request.mobile);
+  MeshInItsUnit fixed = load(request.fixed), mobile = load(request.mobile);
   Lines lines;
   lines.add(fmt::format(
       "# Proposed by condyle init {} from the two meshes below. Each value has a comment with its evidence;",

@@ -9,18 +9,19 @@
 namespace condyle::io {
 namespace {
 
-struct TypeName {
+struct LegacyTypeName {
   std::string_view name;
   VtkType type;
 };
 // vtkIdType stands for int in files, whatever it is in memory. "long" has the size it had where it was
 // written: not read.
-constexpr TypeName type_names[] = {{"char", VtkType::i8},          {"unsigned_char", VtkType::u8},
-                                   {"short", VtkType::i16},        {"unsigned_short", VtkType::u16},
-                                   {"int", VtkType::i32},          {"unsigned_int", VtkType::u32},
-                                   {"vtktypeint64", VtkType::i64}, {"vtktypeuint64", VtkType::u64},
-                                   {"vtkidtype", VtkType::i32},    {"float", VtkType::f32},
-                                   {"double", VtkType::f64}};
+constexpr LegacyTypeName legacy_type_names[] = {
+    {"char", VtkType::i8},          {"unsigned_char", VtkType::u8},
+    {"short", VtkType::i16},        {"unsigned_short", VtkType::u16},
+    {"int", VtkType::i32},          {"unsigned_int", VtkType::u32},
+    {"vtktypeint64", VtkType::i64}, {"vtktypeuint64", VtkType::u64},
+    {"vtkidtype", VtkType::i32},    {"float", VtkType::f32},
+    {"double", VtkType::f64}};
 
 /// From this version on, cells are given by offsets and corners, before by length and corners in turn.
 constexpr double first_version_with_offsets = 5;
@@ -165,7 +166,7 @@ class Reader {
   VtkType read_type() {
     const auto word = text_.word();
     const auto name = lower_case(word);
-    for (const auto& known : type_names) {
+    for (const auto& known : legacy_type_names) {
       if (known.name == name) return known.type;
     }
     text_.fail(in_quotes(word) + " is no type of numbers that is read");

@@ -11,11 +11,11 @@ namespace {
 enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
 enum class Encoding { text, little, big };
 
-struct TypeName {
+struct PlyTypeName {
   std::string_view name;
   Type type;
 };
-constexpr TypeName type_names[] = {
+constexpr PlyTypeName ply_type_names[] = {
     {"char", Type::i8},   {"int8", Type::i8},     {"uchar", Type::u8},   {"uint8", Type::u8},
     {"short", Type::i16}, {"int16", Type::i16},   {"ushort", Type::u16}, {"uint16", Type::u16},
     {"int", Type::i32},   {"int32", Type::i32},   {"uint", Type::u32},   {"uint32", Type::u32},
@@ -83,7 +83,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 Type type_from(std::string_view name, const TextCursor& text) {
-  for (const auto& known : type_names) {
+  for (const auto& known : ply_type_names) {
     if (known.name == name) return known.type;
   }
   text.fail(in_quotes(name) + " is no type of a PLY file");

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "condyle/error.hpp"
-#include "condyle/repair.hpp"
+#include "condyle/inspect.hpp"
 #include "core/coordinate_range.hpp"
 #include "io/mesh/parse.hpp"
 

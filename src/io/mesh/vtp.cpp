@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::string_view end_of_file = "</VTKFile>";
 
-struct TypeName {
+struct VtpTypeName {
   std::string_view name;
   VtkType type;
 };
-constexpr TypeName type_names[] = {
+constexpr VtpTypeName vtp_type_names[] = {
     {"Int8", VtkType::i8},     {"UInt8", VtkType::u8},   {"Int16", VtkType::i16}, {"UInt16", VtkType::u16},
     {"Int32", VtkType::i32},   {"UInt32", VtkType::u32}, {"Int64", VtkType::i64}, {"UInt64", VtkType::u64},
     {"Float32", VtkType::f32}, {"Float64", VtkType::f64}};
@@ -96,9 +96,9 @@ Description description_from(const XmlTag& tag, std::string label, const XmlCurs
   Description description{{std::move(label), VtkType::f32, VtkArray::Format::text, {}}, std::nullopt};
   auto& array = description.array;
   const auto type = required(tag, "type", xml);
-  const auto* known = std::find_if(std::begin(type_names), std::end(type_names),
-                                   [&](const TypeName& candidate) { return candidate.name == type; });
-  if (known == std::end(type_names)) xml.fail(in_quotes(type) + " is no type of an array");
+  const auto* known = std::find_if(std::begin(vtp_type_names), std::end(vtp_type_names),
+                                   [&](const VtpTypeName& candidate) { return candidate.name == type; });
+  if (known == std::end(vtp_type_names)) xml.fail(in_quotes(type) + " is no type of an array");
   array.type = known->type;
 
   const auto format = tag.find("format").value_or("ascii");

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string_view>
 
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 
 namespace condyle::io {
 

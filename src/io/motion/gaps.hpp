@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 
 namespace condyle::io {
 

@@ -1,4 +1,4 @@
-#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/joint_file.hpp"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "condyle/io/joint_motion.hpp"
-#include "condyle/load_balance.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/pressure.hpp"
 
 /// Loads of a recorded motion, from a table of its own.
 

@@ -1,4 +1,4 @@
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 
 #include <fmt/format.h>
 

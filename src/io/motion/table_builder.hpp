@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {

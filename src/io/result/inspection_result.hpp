@@ -7,7 +7,6 @@
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/file_digest.hpp"
-#include "condyle/repair.hpp"
 
 /// Results of `condyle inspect`. Keys of the JSON are listed in docs/mesh-files.md.
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/contact_checks.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/points.hpp"
 #include "io/result/caveats.hpp"
 

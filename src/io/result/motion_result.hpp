@@ -9,7 +9,7 @@
 
 #include "condyle/answer.hpp"
 #include "condyle/io/contact_entry.hpp"
-#include "condyle/io/joint_motion.hpp"
+#include "condyle/io/joint_file.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint_checks.hpp"

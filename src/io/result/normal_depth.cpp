@@ -57,7 +57,8 @@ ContactEntry rays_of(const DepthAnswer& answer) {
           .rays = answer.request.rays.value_or(NormalDepthOptions{})};
 }
 
-std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, const NormalContact& contact) {
+std::string normal_json(const DepthQuestion& question, const DepthAnswer& answer,
+                        const NormalContact& contact) {
   const Views bodies = views(question, contact);
   io::Json json = io::depth_header(question, answer, "normal");
   json["in_contact"] = contact.in_contact;
@@ -97,7 +98,8 @@ std::string body_text(const Views& bodies, const View& view, const NormalDepthOp
   return text;
 }
 
-std::string text_of(const DepthQuestion& question, const DepthAnswer& answer, const NormalContact& contact) {
+std::string normal_text(const DepthQuestion& question, const DepthAnswer& answer,
+                        const NormalContact& contact) {
   const Views bodies = views(question, contact);
   const ContactEntry rays = rays_of(answer);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
@@ -124,7 +126,7 @@ DepthResult io::normal_result(const DepthQuestion& question, const DepthAnswer& 
                               const NormalContact& contact) {
   const Body &fixed = question.joint.fixed, &mobile = question.joint.mobile;
   const NearestDistances& nearest = answer.measures.distances;
-  return {text_of(question, answer, contact), json_of(question, answer, contact),
+  return {normal_text(question, answer, contact), normal_json(question, answer, contact),
           pairs_csv(question.joint, contact.pairs),
           io::arrays_of(fixed, {nearest_array(nearest.fixed)}, contact.pairs, &TrianglePair::fixed,
                         condyle::arrays_of(contact.fixed, fixed)),

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "condyle/repair.hpp"
+#include "condyle/inspect.hpp"
 
 /// Repairs by the names that joint files and the command line give them.
 

@@ -7,15 +7,13 @@
 #include <vector>
 
 #include "condyle/answer.hpp"
-#include "condyle/clock_face.hpp"
-#include "condyle/contact_checks.hpp"
-#include "condyle/depth_limit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/provenance.hpp"
 #include "condyle/joint.hpp"
 #include "condyle/joint_checks.hpp"
 #include "condyle/limit_band.hpp"
+#include "condyle/motion_contact.hpp"
 #include "condyle/motion_map.hpp"
 #include "condyle/range_of_motion.hpp"
 

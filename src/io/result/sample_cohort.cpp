@@ -7,7 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
-#include "condyle/sample/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
 #include "condyle/version.hpp"
 #include "core/parallel_tasks.hpp"
 #include "io/file/whole_file.hpp"

@@ -9,7 +9,6 @@
 #include "condyle/control.hpp"
 #include "condyle/joint_coordinates.hpp"
 #include "condyle/sample/cartilages.hpp"
-#include "condyle/sample/cohort.hpp"
 #include "condyle/sample/hip.hpp"
 #include "io/file/output_folder.hpp"
 

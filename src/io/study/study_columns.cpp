@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "condyle/sample/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/result/csv_field.hpp"
 #include "io/study/study_load.hpp"
@@ -13,7 +13,7 @@
 namespace condyle::io {
 namespace {
 
-constexpr ColumnKind text = ColumnKind::text, number = ColumnKind::number;
+using enum ColumnKind;
 using Columns = std::vector<ResultColumn>;
 
 Columns id_columns() {

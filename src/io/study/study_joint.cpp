@@ -5,7 +5,6 @@
 #include "condyle/error.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
-#include "condyle/sample/hip_measures.hpp"
 #include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"

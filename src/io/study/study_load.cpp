@@ -15,7 +15,7 @@ using Fields = std::vector<std::string>;
 /// Columns that stay empty without a force.
 constexpr std::size_t of_balance = 5;
 
-constexpr ColumnKind text = ColumnKind::text, number = ColumnKind::number;
+using enum ColumnKind;
 
 ContactEntry contact_of(const LoadedJoint& loaded, const StudyLoad& load) {
   const JointFile& file = loaded.report.file;

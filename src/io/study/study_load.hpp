@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "condyle/contact_checks.hpp"
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/study.hpp"
+#include "condyle/motion_contact.hpp"
 #include "io/study/study_columns.hpp"
 
 namespace condyle::io {

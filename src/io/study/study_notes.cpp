@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "condyle/error.hpp"
-#include "condyle/overlap_options.hpp"
+#include "condyle/range_of_motion.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/failure.hpp"
 #include "io/study/study_columns.hpp"

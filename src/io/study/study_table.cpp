@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "condyle/sample/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
 #include "core/near_name.hpp"
 #include "io/file/csv_fields.hpp"
 #include "io/file/in_quotes.hpp"

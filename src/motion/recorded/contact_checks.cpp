@@ -1,4 +1,4 @@
-#include "condyle/contact_checks.hpp"
+#include "condyle/motion_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "condyle/clock_face.hpp"
+#include "condyle/impingement_zone.hpp"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "condyle/bearing.hpp"
-#include "condyle/overlap_options.hpp"
+#include "condyle/range_of_motion.hpp"
 
 /// Effects of OverlapOptions: the triangles that count, and texts for users whose meshes overlap.
 

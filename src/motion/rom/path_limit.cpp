@@ -1,4 +1,4 @@
-#include "condyle/path_limit.hpp"
+#include "condyle/range_of_motion.hpp"
 
 #include <cmath>
 

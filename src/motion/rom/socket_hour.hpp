@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "condyle/bearing.hpp"
-#include "condyle/clock_face.hpp"
+#include "condyle/impingement_zone.hpp"
 
 namespace condyle::motion {
 

@@ -3,7 +3,6 @@
 #include <memory>
 #include <vector>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/pose.hpp"
 #include "motion/events/cylinder_box.hpp"
 #include "motion/events/rotation_event.hpp"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
 #include "core/uninitialised.hpp"
 
 /// Sorts triangles into rings: each in a box of radii and heights, in single precision, rounded outwards.

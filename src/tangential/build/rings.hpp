@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "condyle/axis_frame.hpp"
 #include "condyle/mesh.hpp"
+#include "condyle/pose.hpp"
 #include "condyle/tangential.hpp"
 #include "core/uninitialised.hpp"
 #include "mesh/triangle_intersection.hpp"

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "condyle/point_state.hpp"
+#include "condyle/points.hpp"
 #include "condyle/tangential.hpp"
 #include "core/uninitialised.hpp"
 #include "tangential/build/rings.hpp"

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "condyle/axis_frame.hpp"
+#include "condyle/pose.hpp"
 #include "core/uninitialised.hpp"
 #include "tangential/build/cell_box.hpp"
 #include "tangential/build/profile_grid.hpp"

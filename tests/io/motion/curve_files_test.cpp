@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "condyle/error.hpp"
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "io/file/whole_file.hpp"
 #include "support/temporary_folder.hpp"
 

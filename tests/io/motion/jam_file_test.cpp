@@ -9,7 +9,7 @@
 #include <map>
 
 #include "condyle/error.hpp"
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "io/file/whole_file.hpp"
 #include "support/shared_data.hpp"
 #include "support/temporary_folder.hpp"

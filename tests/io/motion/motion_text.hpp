@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "condyle/error.hpp"
-#include "condyle/io/motion_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
 #include "support/temporary_folder.hpp"
 
 /// Recorded motions as text, and what reading them gives.
