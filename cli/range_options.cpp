@@ -106,7 +106,7 @@ CLI::Option* add_band(CLI::App& command, const std::shared_ptr<RangeGiven>& give
   for_band(command
                .add_option("--sigma-surface", given->sigma.surface_mm,
                            "With --band: the same of each surface along its normals")
-               ->option_text("MM (0.25)"));
+               ->option_text("MM (0.25, of a label map 0.25 voxels)"));
   return band;
 }
 

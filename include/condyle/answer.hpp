@@ -227,6 +227,7 @@ struct RangeRequest {
 enum class RangeNoteCode : std::uint8_t {
   centre_moves_limits,  ///< Head and socket have different centres, and limits depend on which one the joint turns about.
   narrow_bearing_margin,  ///< Head and rim are too close for bearing contact to be distinguished from impingement.
+  limit_on_cut,           ///< A motion ends on a face that closes a bone where its image ends: no limit.
 };
 
 /// As in files: "centre_moves_limits".
@@ -279,9 +280,9 @@ std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement
                                         const RangeRequest& request, const AnswerControl& control);
 RangeAnswer answer_range(const Joint& joint, const JointPlacement& placement, const RangeRequest& request);
 
-/// The notes of answer_range(), for callers who have the bearing surface of the limits already. Two searches of all motions if
+/// The notes of answer_range(), for callers who have the limits and their bearing surface already. Two searches of all motions if
 /// head and socket are more than centres_apart_mm apart.
-std::vector<RangeNote> range_notes(const Joint& joint, std::span<const Motion> motions,
+std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLimit> limits,
                                    const RangeOptions& range, const BearingFinding& bearing);
 
 /// Sentences on what these options leave out or accept.

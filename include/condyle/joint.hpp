@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,12 +19,39 @@ struct BodyPart {
   bool is_bearing = false;  ///< it slides on the other body, as cartilage does: find_bearing_surface()
 };
 
+/// A flat face that closes a bone where its image ends: the plane normal . p = offset, the normal unit and outwards.
+struct ImageCut {
+  Vec3 normal = Vec3::UnitX();
+  double offset_mm = 0;
+};
+
+/// The image that the surface of a bone was extracted from, in the frame of the bone's mesh.
+struct BodyImage {
+  Eigen::Matrix3d voxel = Eigen::Matrix3d::Zero();  ///< columns: the edges of a voxel, mm
+  std::vector<ImageCut> cuts = {};
+
+  /// Width of a voxel along a unit direction, mm.
+  double voxel_width_mm(const Vec3& direction) const noexcept {
+    return (voxel.transpose() * direction).norm();
+  }
+};
+
 /// One bone (or cartilage) of a joint, by the name its user gave it.
 struct Body {
   std::string name;
-  Mesh mesh;                         ///< of all parts together
-  std::vector<BodyPart> parts = {};  ///< in their order, covering the mesh; empty if it is one mesh
+  Mesh mesh;                            ///< of all parts together
+  std::vector<BodyPart> parts = {};     ///< in their order, covering the mesh; empty if it is one mesh
+  std::optional<BodyImage> image = {};  ///< of a surface from a label map
 };
+
+/// How far from a cut a point still lies on it: meshes in floats are off by less.
+inline constexpr double on_cut_mm = 0.01;
+
+/// Whether a point of the body's surface, in its frame, lies on a face that closes it where its image ends.
+bool is_on_cut(const Body& body, const Vec3& point) noexcept;
+
+/// Area of the triangles that lie in the body's cuts, mm^2. Linear in the mesh.
+double cut_area_mm2(const Body& body);
 
 /// The mesh of the part of this name. Throws UsageError with the names there are. Linear in the part.
 Mesh mesh_of_part(const Body& body, std::string_view part);

@@ -42,8 +42,14 @@ void members(T& value, const Each& each) {
     auto& [name, first_vertex, vertices, first_triangle, triangles, is_bearing] = value;
     each(name, first_vertex, vertices, first_triangle, triangles, is_bearing);
   } else if constexpr (std::is_same_v<Struct, Body>) {
-    auto& [name, mesh, parts] = value;
-    each(name, mesh, parts);
+    auto& [name, mesh, parts, image] = value;
+    each(name, mesh, parts, image);
+  } else if constexpr (std::is_same_v<Struct, BodyImage>) {
+    auto& [voxel, cuts] = value;
+    each(voxel, cuts);
+  } else if constexpr (std::is_same_v<Struct, ImageCut>) {
+    auto& [normal, offset] = value;
+    each(normal, offset);
   } else if constexpr (std::is_same_v<Struct, Joint>) {
     auto& [name, kind, side, fixed, mobile, anatomy, frame] = value;
     each(name, kind, side, fixed, mobile, anatomy, frame);
@@ -113,14 +119,14 @@ void members(T& value, const Each& each) {
     auto& [part, mesh, repairs, is_bearing] = value;
     each(part, mesh, repairs, is_bearing);
   } else if constexpr (std::is_same_v<Struct, BodyEntry>) {
-    auto& [name, meshes] = value;
-    each(name, meshes);
+    auto& [name, meshes, image] = value;
+    each(name, meshes, image);
   } else if constexpr (std::is_same_v<Struct, Motion>) {
     auto& [name, vary, sense, start, range] = value;
     each(name, vary, sense, start, range);
   } else if constexpr (std::is_same_v<Struct, Uncertainty>) {
-    auto& [centre, axes, surface] = value;
-    each(centre, axes, surface);
+    auto& [centre, axes, surface, surface_voxels] = value;
+    each(centre, axes, surface, surface_voxels);
   } else if constexpr (std::is_same_v<Struct, NormalDepthOptions>) {
     auto& [rule, reach] = value;
     each(rule, reach);
@@ -180,6 +186,8 @@ class Writer {
       put(value.radians());
     } else if constexpr (std::is_same_v<T, Vec3>) {
       put_bytes(value.data(), 3 * sizeof(double));
+    } else if constexpr (std::is_same_v<T, Eigen::Matrix3d>) {
+      put_bytes(value.data(), 9 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Pose>) {
       put_bytes(value.matrix().data(), 16 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Mesh>) {
@@ -223,6 +231,8 @@ class Reader {
       value = Angle::radians(made<double>());
     } else if constexpr (std::is_same_v<T, Vec3>) {
       get_bytes(value.data(), 3 * sizeof(double));
+    } else if constexpr (std::is_same_v<T, Eigen::Matrix3d>) {
+      get_bytes(value.data(), 9 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Pose>) {
       get_bytes(value.matrix().data(), 16 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Mesh>) {

@@ -92,10 +92,12 @@ py::dict map_of(const RangeHandle& handle, const py::tuple& row, const py::tuple
 }
 
 py::list bands_of(const RangeHandle& handle, const py::list& given, std::size_t samples, std::uint64_t seed,
-                  double centre_mm, double axes_deg, double surface_mm, const py::object& progress) {
+                  double centre_mm, double axes_deg, double surface_mm, double surface_voxels,
+                  const py::object& progress) {
   const std::vector<Motion> motions = motions_in(given);
-  const BandOptions options{
-      .sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm}, .samples = samples, .seed = seed};
+  const BandOptions options{.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
+                            .samples = samples,
+                            .seed = seed};
   const auto bands = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     return limit_bands(handle.joint, motions, handle.options, options, {.progress = report, .stop = stop});
   });
@@ -123,7 +125,8 @@ void bind_motion_map(py::module_& module) {
   module.def("uncertainty", [](const JointHandle& handle) {
     const JointFile& file = handle.loaded.report.file;
     const Uncertainty& sigma = file.uncertainty;
-    return py::make_tuple(sigma.centre_mm, sigma.axes.degrees(), sigma.surface_mm, file.band_seed);
+    return py::make_tuple(sigma.centre_mm, sigma.axes.degrees(), sigma.surface_mm, file.band_seed,
+                          sigma.surface_voxels);
   });
 }
 

@@ -58,7 +58,7 @@ py::list notes(const RangeHandle& handle, const py::list& given) {
   const std::vector<Motion> motions = motions_in(given);
   const std::vector<RangeNote> found = [&] {
     const py::gil_scoped_release released;
-    return range_notes(handle.joint, motions, handle.options, handle.range.bearing());
+    return range_notes(handle.joint, handle.range.limits(motions), handle.options, handle.range.bearing());
   }();
   py::list list;
   for (const RangeNote& note : found) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));

@@ -167,8 +167,9 @@ class RangeOfMotion:
               progress: Progress = None) -> tuple[LimitBand, ...]:
         """How far each limit moves with what is uncertain: 5 to 95 % of `samples` displaced joints, 20 to 100,000.
 
-        Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1. The
-        same seed gives the same bands. Of the motions of `limits` where none are named.
+        Standard deviations and a seed not given are those of the joint file, else 0.5 mm, 1 degree, 0.25 mm and 1; a surface from
+        a label map has 0.25 voxels along its normal, which is the grid's part and not the segmentation's. The same seed gives the
+        same bands. Without `motions` those of `limits`.
 
         C++: `condyle::limit_bands` in condyle/limit_band.hpp.
         """
@@ -177,10 +178,11 @@ class RangeOfMotion:
         sigma = [number(value if given is None else given, what) for given, value, what in (
             (sigma_centre_mm, usual[0], "sigma_centre_mm"), (sigma_axes_deg, usual[1], "sigma_axes_deg"),
             (sigma_surface_mm, usual[2], "sigma_surface_mm"))]
+        voxels = usual[4] if sigma_surface_mm is None else 0.0
         found = _native.limit_bands(self._native, [self._motions.tuple_of(each) for each in asked],
                                     count(samples, "samples", FEWEST_SAMPLES, MOST_SAMPLES),
                                     usual[3] if seed is None else count(seed, "seed", high=2**64 - 1),
-                                    sigma[0], sigma[1], sigma[2], progress_of(progress))
+                                    sigma[0], sigma[1], sigma[2], voxels, progress_of(progress))
         return tuple(LimitBand(motion, **band) for motion, band in zip(asked, found))
 
     def zones(self, motions: Optional[Sequence[MotionLike]] = None, *, past_deg: float = 5,

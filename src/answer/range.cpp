@@ -56,7 +56,7 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
 
   RangeOptions again = options;
   again.bearing.surface = answer.bearing.surface;
-  answer.notes = range_notes(answer.joint, request.motions, again, answer.bearing);
+  answer.notes = range_notes(answer.joint, answer.limits, again, answer.bearing);
   if (request.zones_past) {
     const ZoneFinder finder(
         answer.joint, {.bearing = again.bearing, .past = *request.zones_past, .socket_clock = answer.clock});
@@ -71,6 +71,11 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
                              answer::staged(control, "joints of the band"));
     if (!bands) return false;
     answer.bands = std::move(*bands);
+    if (request.bands->sigma.surface_voxels > 0 && (answer.joint.fixed.image || answer.joint.mobile.image))
+      answer.caveats.push_back(core::formatted(
+          "the band takes %g voxels along the normal as the standard deviation of surfaces from label "
+          "maps: the grid's part, not the error of the segmentation",
+          request.bands->sigma.surface_voxels));
   }
   return true;
 }

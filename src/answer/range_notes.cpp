@@ -50,6 +50,27 @@ void note_centres(const Joint& joint, std::span<const Motion> motions, const Ran
   notes.push_back({RangeNoteCode::centre_moves_limits, std::move(text)});
 }
 
+/// Whose cut a motion ends on; null if it ends elsewhere. The missing bone goes on beyond the cut, and would have met the other bone
+/// no later.
+const Body* cut_body_of(const Joint& joint, const MotionLimit& limit) {
+  const std::optional<ContactWitness>& contact = limit.end.contact;
+  if (!contact) return nullptr;
+  if (is_on_cut(joint.fixed, contact->fixed_point)) return &joint.fixed;
+  return is_on_cut(joint.mobile, contact->mobile_point) ? &joint.mobile : nullptr;
+}
+
+void note_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vector<RangeNote>& notes) {
+  for (const Body* body : {&joint.fixed, &joint.mobile}) {
+    std::string motions;
+    for (const MotionLimit& limit : limits)
+      if (cut_body_of(joint, limit) == body) motions += (motions.empty() ? "" : ", ") + limit.motion.name;
+    if (!motions.empty())
+      notes.push_back(
+          {RangeNoteCode::limit_on_cut, "no limits: " + motions + " on the face that closes " + body->name +
+                                            " where its image ends; the joint stops there at the latest"});
+  }
+}
+
 }  // namespace
 
 std::string_view name_of(RangeNoteCode code) noexcept {
@@ -58,13 +79,18 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "centre_moves_limits";
     case RangeNoteCode::narrow_bearing_margin:
       return "narrow_bearing_margin";
+    case RangeNoteCode::limit_on_cut:
+      return "limit_on_cut";
   }
   return "";
 }
 
-std::vector<RangeNote> range_notes(const Joint& joint, std::span<const Motion> motions,
+std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLimit> limits,
                                    const RangeOptions& range, const BearingFinding& bearing) {
   std::vector<RangeNote> notes;
+  note_cuts(joint, limits, notes);
+  std::vector<Motion> motions;
+  for (const MotionLimit& limit : limits) motions.push_back(limit.motion);
   if (bearing.surface) note_centres(joint, motions, range, *bearing.surface, notes);
   if (range.bearing.rule == BearingRule::leave_out && bearing.narrow_margin)
     notes.push_back(

@@ -43,6 +43,10 @@ constexpr double pubis_reach = 3;
 /// Least horizontal part of a neck whose direction seen from above means something.
 constexpr double least_horizontal = 0.3;
 
+/// With known axes: the mean cosine of the directions to the side, and the largest to the other one. Whole hips have 0.5 and more; the
+/// wrong side has as much the other way.
+constexpr double least_outwards = 0.25, most_inwards = 0.2;
+
 /// A direction that the bones show, and where it points in every hip.
 struct Direction {
   const char* name;
@@ -306,6 +310,25 @@ HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::opti
       best.votes.least >= least_vote && best.votes.mean - next.votes.mean >= least_lead)
     answer.agreeing = chosen(sharing_front(readings, best.axes, given), sides);
   if (answer.agreeing.size() != 1) answer.why_none = why_none(answer.agreeing);
+  return answer;
+}
+
+SideInAxes side_in(const FrameDirections& axes, const HipAnatomy& hip) {
+  const Vec3 right = axes.anterior.cross(axes.superior);
+  const auto directions = directions_of(hip);
+  SideInAxes answer;
+  double mean = 0, least = 1, largest = -1;
+  for (const Direction& direction : directions) {
+    const double to_right = std::copysign(1.0, direction.outwards) * direction.seen.dot(right);
+    mean += to_right / static_cast<double>(directions.size());
+    least = std::min(least, to_right), largest = std::max(largest, to_right);
+    answer.evidence.push_back(formatted("%s: to the right by %.2f", direction.name, to_right));
+  }
+  answer.evidence.push_back(formatted("mean: %.2f (needs %.2f either way, none that contradicts by %.2f)",
+                                      mean, least_outwards, most_inwards));
+  if (directions.size() < fewest_directions) return answer;
+  if (mean >= least_outwards && least >= -most_inwards) answer.side = Side::right;
+  if (mean <= -least_outwards && largest <= most_inwards) answer.side = Side::left;
   return answer;
 }
 

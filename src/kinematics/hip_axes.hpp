@@ -48,4 +48,13 @@ struct HipAxes {
 /// On the given side only if one is. Without enough evidence several or none agree. Linear in the hip bone.
 HipAxes hip_axes(const TriMesh& hip_bone, const HipAnatomy& hip, const std::optional<Side>& given);
 
+/// The side of a hip whose axes are known, as those of an image are, and the evidence.
+struct SideInAxes {
+  std::optional<Side> side;  ///< empty if the bones do not speak for one
+  std::vector<std::string> evidence;
+};
+
+/// The same four directions vote for outwards; bones that an image cuts short vote as whole ones do.
+SideInAxes side_in(const FrameDirections& axes, const HipAnatomy& hip);
+
 }  // namespace condyle::kinematics

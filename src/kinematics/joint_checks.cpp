@@ -141,6 +141,15 @@ void check_surface(const Body& body, Notes& notes) {
                       crossings.pairs, (*crossings.first)[0], (*crossings.first)[1], 100 * crossing / area));
 }
 
+void check_cuts(const Body& body, Notes& notes) {
+  if (!body.image || body.image->cuts.empty()) return;
+  notes.add(
+      JointNoteCode::cut_by_view,
+      body.name + formatted(" ends where its image ends, in %zu flat faces of %.0f mm2 together: what is "
+                            "missing may end a motion earlier, and limits are upper bounds",
+                            body.image->cuts.size(), cut_area_mm2(body)));
+}
+
 void check_fit(const Joint& joint, const JointPlacement& placement, Notes& notes) {
   const std::string& fixed = joint.fixed.name;
   const std::string& name = placement.fitted_body == BodyRole::fixed ? fixed : joint.mobile.name;
@@ -308,6 +317,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "inverted_mesh";
     case JointNoteCode::self_crossings:
       return "self_crossings";
+    case JointNoteCode::cut_by_view:
+      return "cut_by_view";
     case JointNoteCode::same_mesh:
       return "same_mesh";
     case JointNoteCode::unlikely_joint:
@@ -341,7 +352,10 @@ std::string_view name_of(JointNoteCode code) noexcept {
 std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& placement) {
   Notes notes;
   const bool fixed_is_bone = check_size(joint.fixed, notes), mobile_is_bone = check_size(joint.mobile, notes);
-  for (const Body* body : {&joint.fixed, &joint.mobile}) check_surface(*body, notes);
+  for (const Body* body : {&joint.fixed, &joint.mobile}) {
+    check_surface(*body, notes);
+    check_cuts(*body, notes);
+  }
   check_fit(joint, placement, notes);
   const bool is_same = are_one_mesh(joint.fixed.mesh, joint.mobile.mesh);
   if (is_same)

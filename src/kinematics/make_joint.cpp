@@ -58,6 +58,17 @@ Mesh placed(const Pose& X_AW, const Pose& X_WB, double scale, const Body& body) 
   return body.mesh.moved_to(std::move(points));
 }
 
+/// The image of a body in the frame A: its lengths are mm already.
+std::optional<BodyImage> placed_image(const Pose& X_AB, const std::optional<BodyImage>& image) {
+  if (!image) return std::nullopt;
+  BodyImage placed{X_AB.linear() * image->voxel, {}};
+  for (const ImageCut& cut : image->cuts) {
+    const Vec3 normal = X_AB.linear() * cut.normal;
+    placed.cuts.push_back({normal, cut.offset_mm + normal.dot(X_AB.translation())});
+  }
+  return placed;
+}
+
 /// The axes about a centre, from directions or landmarks.
 Pose frame_about(const Vec3& centre, const JointDescription& description) {
   struct Frames {
@@ -238,6 +249,8 @@ PlacedJoint make_joint(const JointDescription& description, Body fixed, Body mob
   const double scale = scale_of(description.units);
   fixed.mesh = placed(X_FW, description.fixed_in_W, scale, fixed);
   mobile.mesh = placed(X_MW, description.mobile_in_W, scale, mobile);
+  fixed.image = placed_image(X_FW * description.fixed_in_W, fixed.image);
+  mobile.image = placed_image(X_MW * description.mobile_in_W, mobile.image);
   // A search about the joint centre finds the head that a search of the whole body found.
   const auto* fit = std::get_if<CentreFit>(&description.frame.centre);
   if (placement.sphere && fit && fit->body == BodyRole::mobile && !fit->within)

@@ -215,20 +215,21 @@ const char* condyle_description(CondyleJoint* joint) {
     const PageProposal& proposal = joint->proposal;
     const Joint named = named_by_files(*joint);
     Json motions = Json::array();
-    for (const MotionLimit& limit : range.limits(hip_motions()))
+    const std::vector<MotionLimit> limits = range.limits(hip_motions());
+    for (const MotionLimit& limit : limits)
       motions.push_back(motion_json(named, limit, range.bearing().surface));
-    const Json rom{{"clock_plane", "sagittal"},
-                   {"motions", std::move(motions)},
-                   {"notes", io::notes_json(proposal.notes, {},
-                                            range_notes(joint->joint, hip_motions(), {}, range.bearing()))},
-                   {"caveats", proposal.inferred},
-                   {"normal_range_source", normal_hip_range_source},
-                   {"scope", scope_text(named)},
-                   {"bearing", bearing_json(range.bearing())},
-                   {"provenance",
-                    {{"version", version},
-                     {"fixed_mesh", file_json(proposal.fixed)},
-                     {"mobile_mesh", file_json(proposal.mobile)}}}};
+    const Json rom{
+        {"clock_plane", "sagittal"},
+        {"motions", std::move(motions)},
+        {"notes", io::notes_json(proposal.notes, {}, range_notes(joint->joint, limits, {}, range.bearing()))},
+        {"caveats", proposal.inferred},
+        {"normal_range_source", normal_hip_range_source},
+        {"scope", scope_text(named)},
+        {"bearing", bearing_json(range.bearing())},
+        {"provenance",
+         {{"version", version},
+          {"fixed_mesh", file_json(proposal.fixed)},
+          {"mobile_mesh", file_json(proposal.mobile)}}}};
     joint->description = rom.dump(-1, ' ', false, Json::error_handler_t::replace);
     return joint->description.c_str();
   });

@@ -62,7 +62,7 @@ export interface RomAnswer {
     socket?: FittedSphere | null;
     margin_mm?: number | null;
   };
-  band?: { samples: number; seed: number; sigma: { centre_mm: number; axes_deg: number; surface_mm: number } } | null;
+  band?: { samples: number; seed: number; sigma: { centre_mm: number; axes_deg: number; surface_mm: number; surface_voxels?: number } } | null;
   clock_plane?: "sagittal" | "rim" | null;  // null for joints other than hips
   held_translation_mm?: [number, number, number] | null;
   motions: MotionAnswer[];

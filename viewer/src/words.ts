@@ -4,6 +4,7 @@ interface BandSource {
   centre_mm: number;
   axes_deg: number;
   surface_mm: number;
+  surface_voxels?: number;
 }
 
 /// Every text of the page, in one table: another language is another table.
@@ -172,9 +173,9 @@ export const words = {
   how: "How limits were found",
   guarantee: "A limit is the first contact of the surfaces as the angle turns: free before it, in contact at it or past it by at most " +
     "its error bound.",
-  bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm }: BandSource) =>
+  bandsFrom: ({ samples, seed, centre_mm, axes_deg, surface_mm, surface_voxels }: BandSource) =>
     `Bands: 5 to 95 % of ${samples} displaced joints, seed ${seed}; standard deviations: centre ${centre_mm} mm, axes ${axes_deg}°, ` +
-    `surfaces ${surface_mm} mm.`,
+    `surfaces ${surface_voxels ? `${surface_voxels} voxels` : `${surface_mm} mm`}.`,
   bearingRules: {
     leave_out: "Contact of the bearing surface does not end a motion.", count: "Every contact ends a motion.",
   },

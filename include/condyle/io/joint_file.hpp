@@ -34,7 +34,8 @@ struct MeshEntry {
 /// A [fixed] or [mobile] table.
 struct BodyEntry {
   std::string name;
-  std::vector<MeshEntry> meshes;  ///< one or more
+  std::vector<MeshEntry> meshes;        ///< one or more
+  std::optional<BodyImage> image = {};  ///< in the frame of the mesh, mm
 };
 
 /// A joint file's contents, checked one by one; no mesh was read. Lengths were converted to mm.

@@ -128,9 +128,29 @@ std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key) {
   return entries;
 }
 
+/// [fixed.image]: the edges of a voxel, and the planes of the faces that close the bone where its image ends.
+std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths) {
+  std::optional<io::TomlTable> table = body.table("image");
+  if (!table) return std::nullopt;
+  BodyImage image;
+  constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
+  for (int i = 0; i < 3; ++i) image.voxel.col(i) = lengths.required_point(*table, edges[i]);
+  if (image.voxel.determinant() == 0) table->fail("voxel_k", "the edges of a voxel lie in one plane");
+  for (io::TomlTable& cut : table->tables("cut")) {
+    const Vec3 normal = cut.required("normal", cut.triple("normal"));
+    if (!(std::abs(normal.norm() - 1) <= axis_tolerance)) cut.fail("normal", "must be a unit vector");
+    const double offset = cut.required("offset", cut.number("offset"));
+    image.cuts.push_back({normal.normalized(), lengths.in_mm({offset, 0, 0}).x()});
+    cut.finish();
+  }
+  table->finish();
+  return image;
+}
+
 /// A body's table is read in two parts: its pose needs what is known of the joint.
-BodyEntry body_entry(io::TomlTable& table, std::string_view key) {
-  return {table.text("name").value_or(std::string(key)), mesh_entries(table, key)};
+BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& lengths) {
+  return {table.text("name").value_or(std::string(key)), mesh_entries(table, key),
+          body_image(table, lengths)};
 }
 
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
@@ -276,6 +296,8 @@ void refuse_other_names(const io::TomlTable& file) {
 void read_uncertainty(io::TomlTable& file, const Lengths& lengths, JointFile& out) {
   Uncertainty& sigma = out.uncertainty;
   auto table = file.table("uncertainty");
+  const bool has_surface = table && table->has("surface");
+  if (!has_surface && (out.fixed.image || out.mobile.image)) sigma.surface_voxels = usual_surface_voxels;
   if (!table) return;
   if (table->has("centre")) sigma.centre_mm = lengths.not_negative(*table, "centre");
   if (table->has("surface")) sigma.surface_mm = lengths.not_negative(*table, "surface");
@@ -356,8 +378,8 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
   io::TomlTable fixed = file.required("fixed", file.table("fixed"));
   io::TomlTable mobile = file.required("mobile", file.table("mobile"));
-  out.fixed = body_entry(fixed, "fixed");
-  out.mobile = body_entry(mobile, "mobile");
+  out.fixed = body_entry(fixed, "fixed", Lengths(joint.units));
+  out.mobile = body_entry(mobile, "mobile", Lengths(joint.units));
   for (BodyEntry* body : {&out.fixed, &out.mobile})
     for (MeshEntry& entry : body->meshes) entry.mesh = path.parent_path() / entry.mesh;
   joint.frame = frame_description(file, Lengths(joint.units));

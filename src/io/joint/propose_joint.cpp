@@ -15,11 +15,12 @@
 #include "condyle/version.hpp"
 #include "core/rounded.hpp"
 #include "io/file/format_version.hpp"
+#include "io/joint/proposal.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
 
-namespace condyle {
+namespace condyle::io {
 namespace {
 
 double degrees(double cosine) {
@@ -66,36 +67,43 @@ class Lines {
   std::vector<std::string> to_fill_in_, evidence_;
 };
 
-struct MeshInItsUnit {
-  TriMesh mesh;
-  LikelyUnit unit;
-};
-
-MeshInItsUnit load(const std::filesystem::path& path) {
-  MeshInItsUnit loaded{read_mesh(path).mesh, {}};
-  loaded.unit = likely_unit(loaded.mesh);
-  return loaded;
-}
-
-void add_body(Lines& lines, std::string_view role, const std::filesystem::path& mesh,
+void add_body(Lines& lines, std::string_view role, const ProposedBody& body,
               const std::filesystem::path& joint_file) {
   const auto folder = std::filesystem::absolute(joint_file).parent_path();
-  const auto from_folder = std::filesystem::absolute(mesh).lexically_normal().lexically_proximate(folder);
+  const auto from_folder =
+      std::filesystem::absolute(body.file).lexically_normal().lexically_proximate(folder);
   lines.add(fmt::format("\n[{}]", role));
-  lines.add("name = " + toml_text(mesh.stem().string()));
+  for (const std::string& comment : body.comments) lines.add("# " + comment);
+  lines.add("name = " + toml_text(body.name));
   lines.add("mesh = " + toml_text(from_folder.generic_string()));
 }
 
-void add_side(Lines& lines, const std::optional<Side>& given, const kinematics::HipAxes& axes) {
-  if (given)
-    lines.key("side", toml_text(name_of(*given)), "given");
-  else if (axes.agreeing.size() == 1)
-    lines.key("side", toml_text(name_of(axes.agreeing[0].side)),
-              "inferred from the bones, as the axes below");
+/// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
+void add_image(Lines& lines, std::string_view role, const ProposedBody& body) {
+  if (!body.image) return;
+  const auto exact = [](const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+  };
+  lines.add(fmt::format(
+      "\n[{}.image]  # the edges of a voxel, mm: bands take a quarter of it as the surface's uncertainty",
+      role));
+  constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
+  for (int i = 0; i < 3; ++i) lines.add(fmt::format("{} = {}", edges[i], exact(body.image->voxel.col(i))));
+  for (const ImageCut& cut : body.image->cuts) {
+    lines.add(fmt::format("[[{}.image.cut]]  # a flat face that closes the bone where the image ends", role));
+    lines.add("normal = " + exact(cut.normal));
+    lines.add(fmt::format("offset = {}", cut.offset_mm));
+  }
+}
+
+void add_side(Lines& lines, const std::optional<Stated<Side>>& stated, const std::optional<Side>& inferred,
+              const std::string& why_none) {
+  if (stated)
+    lines.key("side", toml_text(name_of(stated->value)), stated->by);
+  else if (inferred)
+    lines.key("side", toml_text(name_of(*inferred)), "inferred from the bones, as the axes below");
   else
-    lines.missing("side", "\"right\" or \"left\"",
-                  axes.agreeing.empty() ? "no usual axes agree with the bones"
-                                        : "more than one pair of axes and side agrees with the bones");
+    lines.missing("side", "\"right\" or \"left\"", why_none);
 }
 
 void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics::AgreeingAxes& inferred) {
@@ -115,61 +123,88 @@ void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics:
         core::rounded(degrees_forwards(hip.opening->dot(axes->anterior()), hip.opening->dot(lateral)), 0)));
 }
 
+void add_units(Lines& lines, const std::optional<Stated<LengthUnit>>& stated, const LikelyUnit& of_fixed,
+               const LikelyUnit& of_mobile) {
+  const auto text = [](LengthUnit unit) { return unit == LengthUnit::metres ? "\"m\"" : "\"mm\""; };
+  if (stated)
+    lines.key("units", text(stated->value), stated->by);
+  else if (of_mobile.unit && of_fixed.unit == of_mobile.unit)
+    lines.key("units", text(*of_mobile.unit), "inferred from the size of the meshes: " + of_mobile.reason);
+  else
+    lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
+}
+
+void add_kind(Lines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
+  if (!hip)
+    return lines.missing("kind", "\"ball\" or \"hinge\"",
+                         "no head was found on the mobile body near the fixed one");
+  lines.key("kind", "\"ball\"",
+            fmt::format("inferred from a head of radius {:.2f} mm, {:.0f} % of a sphere{}",
+                        hip->head.fit.sphere.radius, 100 * hip->head.coverage,
+                        hip->socket
+                            ? fmt::format(", in a socket of radius {:.2f} mm", hip->socket->fit.sphere.radius)
+                            : std::string(", without a spherical socket round it")));
+}
+
+void add_centre(Lines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
+  if (!hip) return lines.missing("centre", "[x, y, z]", "nothing was fitted");
+  const Sphere& head = hip->head.fit.sphere;
+  lines.key("centre", "\"fit\"",
+            fmt::format("the head's centre, {} mm in the frame of the meshes, rms {:.2f} mm{}",
+                        core::rounded(head.centre, 2), hip->head.fit.rms_residual,
+                        hip->socket ? fmt::format("; the socket's is {:.2f} mm from it",
+                                                  (hip->socket->fit.sphere.centre - head.centre).norm())
+                                    : std::string()));
+}
+
 }  // namespace
 
-JointProposal propose_joint(const ProposalRequest& request) {
-  MeshInItsUnit fixed = load(request.fixed), mobile = load(request.mobile);
+JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts) {
+  const LikelyUnit of_fixed = likely_unit(fixed.mesh), of_mobile = likely_unit(mobile.mesh);
   Lines lines;
-  lines.add(fmt::format(
-      "# Proposed by condyle init {} from the two meshes below. Each value has a comment with its evidence;",
-      version));
+  lines.add(fmt::format("# Proposed by condyle init {} from {}. Each value has a comment with its evidence;",
+                        version, facts.from));
   lines.add("# lines that begin with # and a key could not be inferred and are to be filled in.");
   lines.add(fmt::format("condyle = {}", io::format_version));
-  lines.add("name = " + toml_text(request.mobile.stem().string() + " in " + request.fixed.stem().string()));
+  lines.add("name = " + toml_text(mobile.name + " in " + fixed.name));
 
-  const bool same_unit = mobile.unit.unit && fixed.unit.unit == mobile.unit.unit;
-  const LengthUnit units = request.units.value_or(mobile.unit.unit.value_or(LengthUnit::millimetres));
-  const std::string unit_text = units == LengthUnit::metres ? "\"m\"" : "\"mm\"";
+  const LengthUnit units =
+      facts.units ? facts.units->value : of_mobile.unit.value_or(LengthUnit::millimetres);
   mesh::scale(fixed.mesh, mm_per(units));
   mesh::scale(mobile.mesh, mm_per(units));
   const auto hip = kinematics::hip_anatomy(fixed.mesh, mobile.mesh);
-  if (hip) {
-    lines.key("kind", "\"ball\"",
-              fmt::format("inferred from a head of radius {:.2f} mm, {:.0f} % of a sphere{}",
-                          hip->head.fit.sphere.radius, 100 * hip->head.coverage,
-                          hip->socket ? fmt::format(", in a socket of radius {:.2f} mm",
-                                                    hip->socket->fit.sphere.radius)
-                                      : std::string(", without a spherical socket round it")));
-  } else {
-    lines.missing("kind", "\"ball\" or \"hinge\"", "no head was found on the mobile body near the fixed one");
+  add_kind(lines, hip);
+
+  const std::optional<Side> given = facts.side ? std::optional(facts.side->value) : std::nullopt;
+  kinematics::HipAxes axes{{}, "no head was found to infer them from", {}};
+  std::optional<Side> side;
+  if (hip && facts.axes_by) {
+    kinematics::SideInAxes in_axes = kinematics::side_in(lps_axes, *hip);
+    side = in_axes.side;
+    axes.why_none = "the bones do not speak for one side";
+    axes.evidence = std::move(in_axes.evidence);
+    if (given && side && *given != *side)
+      lines.evidence(fmt::format("CAUTION: the bones lie as those of a {} hip", name_of(*side)));
+  } else if (hip) {
+    axes = kinematics::hip_axes(fixed.mesh, *hip, given);
+    if (axes.agreeing.size() == 1) side = axes.agreeing[0].side;
   }
+  add_side(lines, facts.side, side,
+           facts.axes_by           ? axes.why_none
+           : axes.agreeing.empty() ? "no usual axes agree with the bones"
+                                   : "more than one pair of axes and side agrees with the bones");
+  add_units(lines, facts.units, of_fixed, of_mobile);
 
-  const auto axes = hip ? kinematics::hip_axes(fixed.mesh, *hip, request.side)
-                        : kinematics::HipAxes{{}, "no head was found to infer them from", {}};
-  add_side(lines, request.side, axes);
-  if (request.units)
-    lines.key("units", unit_text, "given");
-  else if (same_unit)
-    lines.key("units", unit_text, "inferred from the size of the meshes: " + mobile.unit.reason);
-  else
-    lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
-
-  add_body(lines, "fixed", request.fixed, request.joint_file);
-  add_body(lines, "mobile", request.mobile, request.joint_file);
+  add_body(lines, "fixed", fixed, facts.joint_file);
+  add_image(lines, "fixed", fixed);
+  add_body(lines, "mobile", mobile, facts.joint_file);
+  add_image(lines, "mobile", mobile);
 
   lines.add("\n[frame]");
-  if (hip) {
-    const Sphere& head = hip->head.fit.sphere;
-    lines.key("centre", "\"fit\"",
-              fmt::format("the head's centre, {} mm in the frame of the meshes, rms {:.2f} mm{}",
-                          core::rounded(head.centre, 2), hip->head.fit.rms_residual,
-                          hip->socket ? fmt::format("; the socket's is {:.2f} mm from it",
-                                                    (hip->socket->fit.sphere.centre - head.centre).norm())
-                                      : std::string()));
-  } else {
-    lines.missing("centre", "[x, y, z]", "nothing was fitted");
-  }
-  if (axes.agreeing.size() == 1) {
+  add_centre(lines, hip);
+  if (facts.axes_by) {
+    lines.key("axes", "\"LPS\"", *facts.axes_by);
+  } else if (axes.agreeing.size() == 1) {
     add_axes(lines, *hip, axes.agreeing[0]);
   } else {
     lines.missing("anterior", "[x, y, z]", axes.why_none);
@@ -177,6 +212,20 @@ JointProposal propose_joint(const ProposalRequest& request) {
   }
   for (const std::string& line : axes.evidence) lines.evidence(line);
   return std::move(lines).proposal();
+}
+
+}  // namespace condyle::io
+
+namespace condyle {
+
+JointProposal propose_joint(const ProposalRequest& request) {
+  const auto body = [](const std::filesystem::path& file) {
+    return io::ProposedBody{read_mesh(file).mesh, file, file.stem().string()};
+  };
+  io::ProposalFacts facts{.joint_file = request.joint_file, .from = "the two meshes below"};
+  if (request.side) facts.side = {*request.side, "given"};
+  if (request.units) facts.units = {*request.units, "given"};
+  return io::proposal_of(body(request.fixed), body(request.mobile), facts);
 }
 
 }  // namespace condyle

@@ -62,7 +62,8 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, const std::files
   if (entry.meshes.size() == 1) {
     const bool in_list = !entry.meshes.front().part.empty();
     LoadedMesh only = load(entry.meshes.front(), in_list ? key + ".meshes[0]" : key, joint_file);
-    return {{entry.meshes.front().mesh.string(), std::move(only.mesh)}, {std::move(only.report)}};
+    return {{entry.meshes.front().mesh.string(), std::move(only.mesh), {}, entry.image},
+            {std::move(only.report)}};
   }
   TriMesh whole;
   std::vector<BodyPart> parts;
@@ -76,7 +77,7 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, const std::files
     reports.push_back(std::move(one.report));
     files += (files.empty() ? "" : " + ") + entry.meshes[i].mesh.string();
   }
-  return {{files, std::move(whole), std::move(parts)}, std::move(reports)};
+  return {{files, std::move(whole), std::move(parts), entry.image}, std::move(reports)};
 }
 
 PlacedJoint placed(const JointFile& file, Body fixed, Body mobile) {

@@ -28,12 +28,11 @@ Json motion_json(const RomResult& result, std::size_t i) {
 }
 
 Json json_of(const BandOptions& options) {
-  return {{"samples", options.samples},
-          {"seed", options.seed},
-          {"sigma",
-           {{"centre_mm", options.sigma.centre_mm},
-            {"axes_deg", options.sigma.axes.degrees()},
-            {"surface_mm", options.sigma.surface_mm}}}};
+  Json sigma{{"centre_mm", options.sigma.centre_mm},
+             {"axes_deg", options.sigma.axes.degrees()},
+             {"surface_mm", options.sigma.surface_mm}};
+  if (options.sigma.surface_voxels > 0) sigma["surface_voxels"] = options.sigma.surface_voxels;
+  return {{"samples", options.samples}, {"seed", options.seed}, {"sigma", std::move(sigma)}};
 }
 
 Json json_of(const ReasonCounts& counts) {

@@ -122,6 +122,11 @@ std::string table_text(std::span<const Column> columns) {
   return text;
 }
 
+std::string surface_text(const Uncertainty& sigma) {
+  return sigma.surface_voxels > 0 ? fmt::format("{:g} voxels", sigma.surface_voxels)
+                                  : fmt::format("{:g} mm", sigma.surface_mm);
+}
+
 /// The bands and where they come from; without bands a line that says how to get them.
 std::string band_text(const RomResult& result) {
   if (result.bands.empty())
@@ -131,9 +136,9 @@ std::string band_text(const RomResult& result) {
   const BandOptions& options = result.band_options;
   std::string text = fmt::format(
       "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
-      "surfaces by {:g} mm\n"
+      "surfaces by {}\n"
       "    (standard deviations, seed {}); its width where only one of them is moved:\n",
-      options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(), options.sigma.surface_mm,
+      options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(), surface_text(options.sigma),
       options.seed);
   Column name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
       high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},

@@ -59,7 +59,7 @@ Uncertainty StudyUncertainty::over(const Uncertainty& of_file) const noexcept {
   Uncertainty sigma = of_file;
   if (centre_mm) sigma.centre_mm = *centre_mm;
   if (axes_deg) sigma.axes = Angle::degrees(*axes_deg);
-  if (surface_mm) sigma.surface_mm = *surface_mm;
+  if (surface_mm) sigma.surface_mm = *surface_mm, sigma.surface_voxels = 0;
   return sigma;
 }
 

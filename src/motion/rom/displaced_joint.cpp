@@ -48,12 +48,20 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
   return groups;
 }
 
-/// Mean of the triangles around each vertex weighted by area; zero if no triangle uses it.
-Points unit_normals(const TriMesh& mesh) {
-  Points normals = mesh::area_normals(mesh);
+bool is_moved_by_voxels(const Body& body, const Uncertainty& sigma) {
+  return body.image && sigma.surface_voxels > 0;
+}
+
+/// Mean of the triangles around each vertex weighted by area, unit; zero if no triangle uses it. A surface that is off by a share
+/// of a voxel has the width of the share in the normal's direction instead: slices are thicker than their pixels.
+Points directions_of(const Body& body, const Uncertainty& sigma) {
+  Points normals = mesh::area_normals(body.mesh);
   for (std::size_t v = 0; v < normals.size(); ++v) {
-    const Vec3 normal = normals[v];
-    if (normal.squaredNorm() > 0) normals.set(v, normal.normalized());
+    if (!(normals[v].squaredNorm() > 0)) continue;
+    const Vec3 normal = normals[v].normalized();
+    normals.set(v, is_moved_by_voxels(body, sigma)
+                       ? Vec3(sigma.surface_voxels * body.image->voxel_width_mm(normal) * normal)
+                       : normal);
   }
   return normals;
 }
@@ -61,18 +69,25 @@ Points unit_normals(const TriMesh& mesh) {
 /// A body as its search reads it, its surface movable along its normals.
 class Surface {
  public:
-  Surface(const Mesh& whole, const Mesh& part)
-      : vertices_(whole.vertices()), normals_(unit_normals(whole)), tree_(part) {}
+  Surface(const Body& body, const Mesh& part, const Uncertainty& sigma)
+      : vertices_(body.mesh.vertices()),
+        directions_(directions_of(body, sigma)),
+        sigma_(is_moved_by_voxels(body, sigma) ? 1 : sigma.surface_mm),
+        tree_(part) {}
 
   const FeatureTree& tree() const noexcept { return tree_; }
-  FeatureTree moved_by(double mm) const {
+  /// Moved by so many standard deviations; empty if it stays where it is.
+  std::optional<FeatureTree> moved_by(double standard_deviations) const {
+    const double far = sigma_ * standard_deviations;
+    if (far == 0) return std::nullopt;
     Points moved(vertices_.size());
-    for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices_[v] + mm * normals_[v]);
+    for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices_[v] + far * directions_[v]);
     return tree_.moved_to(moved);
   }
 
  private:
-  Points vertices_, normals_;
+  Points vertices_, directions_;
+  double sigma_;  ///< of the length along the directions
   FeatureTree tree_;
 };
 
@@ -80,22 +95,21 @@ class Surface {
 
 struct DisplacedJoint::Parts {
   Parts(const Joint& joint, const PartsOfJoint& parts, const JointAngles& reference,
-        std::span<const Motion> motions)
+        std::span<const Motion> motions, const Uncertainty& sigma)
       : system_(joint.coordinates()),
         X_ref_(pose_at(joint.coordinates(), reference)),
         motions_(motions),
         groups_(grouped(motions)),
-        fixed_(joint.fixed.mesh, parts.fixed.mesh),
-        mobile_(joint.mobile.mesh, parts.mobile.mesh) {}
+        fixed_(joint.fixed, parts.fixed.mesh, sigma),
+        mobile_(joint.mobile, parts.mobile.mesh, sigma) {}
 
   /// Writes one outcome per motion. The frame G of the displaced joint lies at X_FG in F; with both bodies where the
   /// reference pose q0 has them, the mobile body at the angles q is at
   ///
   ///     X_FM = X_FG R(q) A^-1,   A = R(q0)^-1 X_FG R(q0), where G's mobile frame lies in M
   void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
-    std::optional<FeatureTree> moved_fixed, moved_mobile;
-    if (d.fixed_surface != 0) moved_fixed.emplace(fixed_.moved_by(d.fixed_surface));
-    if (d.mobile_surface != 0) moved_mobile.emplace(mobile_.moved_by(d.mobile_surface));
+    const std::optional<FeatureTree> moved_fixed = fixed_.moved_by(d.fixed_surface),
+                                     moved_mobile = mobile_.moved_by(d.mobile_surface);
     const auto &fixed = moved_fixed ? *moved_fixed : fixed_.tree(),
                &mobile = moved_mobile ? *moved_mobile : mobile_.tree();
     RotatingBody stationary_fixed(fixed), stationary_mobile(mobile), rotating_fixed(fixed),
@@ -137,12 +151,13 @@ struct DisplacedJoint::Parts {
   Surface fixed_, mobile_;
 };
 
-DisplacedJoint::DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range)
+DisplacedJoint::DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range,
+                               const Uncertainty& sigma)
     : parts_(std::make_unique<Parts>(
           joint,
           parts_that_count(joint, range.overlap, find_bearing_surface(joint, range.bearing).surface,
                            range.bearing.rule),
-          range.overlap.reference_pose, motions)) {}
+          range.overlap.reference_pose, motions, sigma)) {}
 DisplacedJoint::~DisplacedJoint() = default;
 
 void DisplacedJoint::limits(const Displacement& by, std::span<DisplacedLimit> out) const {
@@ -156,7 +171,7 @@ namespace condyle {
 std::vector<DisplacedLimit> limits_about(const Joint& joint, std::span<const Motion> motions,
                                          const RangeOptions& range, std::span<const Vec3> centres) {
   for (const Motion& motion : motions) check_motion(motion, joint.kind);
-  const motion::DisplacedJoint displaced(joint, motions, range);
+  const motion::DisplacedJoint displaced(joint, motions, range, {});
   std::vector<DisplacedLimit> limits(centres.size() * motions.size());
   core::parallel_chunks(centres.size(), 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i)

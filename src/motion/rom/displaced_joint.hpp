@@ -14,14 +14,16 @@ namespace condyle::motion {
 struct Displacement {
   Vec3 centre = Vec3::Zero();                    ///< mm
   Vec3 axes = Vec3::Zero();                      ///< rotation vector, rad
-  double fixed_surface = 0, mobile_surface = 0;  ///< along normals, mm
+  double fixed_surface = 0, mobile_surface = 0;  ///< along normals, in standard deviations
 };
 
 /// The joint that all samples are displaced from, prepared once.
 class DisplacedJoint {
  public:
-  /// Where a bearing surface is known, that of the joint as given is used in all. The motions must outlive it.
-  DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range);
+  /// Where a bearing surface is known, that of the joint as given is used in all. The motions must outlive it. `sigma` is that of
+  /// the surfaces.
+  DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range,
+                 const Uncertainty& sigma);
   ~DisplacedJoint();
   DisplacedJoint(const DisplacedJoint&) = delete;
   DisplacedJoint& operator=(const DisplacedJoint&) = delete;

@@ -23,12 +23,16 @@ constexpr std::size_t dimensions = 8;
 
 enum class Source { all, centre, axes, surface };
 
+bool moves_surfaces(const Uncertainty& sigma) {
+  return sigma.surface_mm > 0 || sigma.surface_voxels > 0;
+}
+
 /// The sources to compute: all of them together, and each one by itself if there are several.
 std::vector<Source> sources_of(const Uncertainty& sigma) {
   std::vector<Source> moving;
   if (sigma.centre_mm > 0) moving.push_back(Source::centre);
   if (sigma.axes > Angle()) moving.push_back(Source::axes);
-  if (sigma.surface_mm > 0) moving.push_back(Source::surface);
+  if (moves_surfaces(sigma)) moving.push_back(Source::surface);
   if (moving.size() < 2) return {Source::all};
   moving.insert(moving.begin(), Source::all);
   return moving;
@@ -37,7 +41,7 @@ std::vector<Source> sources_of(const Uncertainty& sigma) {
 bool moves(const Uncertainty& sigma, Source source) {
   return source == Source::centre ? sigma.centre_mm > 0
          : source == Source::axes ? sigma.axes > Angle()
-                                  : sigma.surface_mm > 0;
+                                  : moves_surfaces(sigma);
 }
 
 /// Only the part of the displacement that one source moves.
@@ -82,7 +86,7 @@ std::vector<Displacement> displacements(const BandOptions& options) {
   std::vector<Displacement> out;
   for (const auto& z : standard)
     out.push_back({sigma.centre_mm * Vec3(z[0], z[1], z[2]), sigma.axes.radians() * Vec3(z[3], z[4], z[5]),
-                   sigma.surface_mm * z[6], sigma.surface_mm * z[7]});
+                   z[6], z[7]});
   return out;
 }
 
@@ -99,7 +103,7 @@ void check(const BandOptions& options, std::span<const Motion> motions, JointKin
     throw UsageError("band: " + std::to_string(fewest_samples) + " samples or more are needed");
   const auto bad = [](double sigma) { return !(sigma >= 0) || !std::isfinite(sigma); };
   const Uncertainty& sigma = options.sigma;
-  if (bad(sigma.centre_mm) || bad(sigma.axes.radians()) || bad(sigma.surface_mm))
+  if (bad(sigma.centre_mm) || bad(sigma.axes.radians()) || bad(sigma.surface_mm) || bad(sigma.surface_voxels))
     throw UsageError("band: standard deviations must be 0 or more");
   for (const Motion& motion : motions) check_motion(motion, kind);
 }
@@ -110,7 +114,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
                                                   const RangeOptions& range, const BandOptions& options,
                                                   const Control& control) {
   check(options, motions, joint.kind);
-  const motion::DisplacedJoint displaced(joint, motions, range);
+  const motion::DisplacedJoint displaced(joint, motions, range, options.sigma);
   const std::vector<Displacement> samples = displacements(options);
 
   // Outcomes by source, sample and motion.

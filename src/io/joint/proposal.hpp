@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/io/joint_file.hpp"
+
+/// What a proposed joint file is written from, whether its bodies are mesh files or bones of an image.
+
+namespace condyle::io {
+
+/// A body of a joint that is proposed.
+struct ProposedBody {
+  TriMesh mesh;                            ///< in the unit of its file
+  std::filesystem::path file;              ///< where the mesh lies, or will lie
+  std::string name;                        ///< as reports call it
+  std::vector<std::string> comments = {};  ///< one line each, above its keys: where the surface comes from
+  std::optional<BodyImage> image = {};
+};
+
+/// A value that somebody stated, and who did.
+template <class T>
+struct Stated {
+  T value;
+  std::string by;  ///< "given", "the label's name"
+};
+
+struct ProposalFacts {
+  std::filesystem::path joint_file;              ///< meshes are named from its folder
+  std::string from;                              ///< "the two meshes below"
+  std::optional<Stated<Side>> side = {};         ///< default: inferred from the bones
+  std::optional<Stated<LengthUnit>> units = {};  ///< default: inferred from their size
+  std::optional<std::string> axes_by =
+      {};  ///< who stated that the meshes are in LPS; default: inferred from the bones
+};
+
+JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts);
+
+}  // namespace condyle::io
