@@ -21,7 +21,7 @@ set(io_uses core mesh kinematics contact motion answer sample)
 # The layer of each public header. An AxisFrame is made in kinematics; as a plain value it is everybody's.
 set(core_headers angle control error points pose version)
 set(simd_headers)
-set(mesh_headers inspect mesh voxel_mask)
+set(mesh_headers inspect label_surface mesh voxel_mask)
 set(kinematics_headers fit joint joint_checks joint_coordinates joint_frame make_joint)
 set(radial_headers radial)
 set(tangential_headers tangential)

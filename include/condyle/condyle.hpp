@@ -16,6 +16,8 @@
 // Surfaces.
 #include "condyle/mesh.hpp"
 #include "condyle/inspect.hpp"
+#include "condyle/voxel_mask.hpp"
+#include "condyle/label_surface.hpp"
 
 // Joints.
 #include "condyle/joint_coordinates.hpp"
