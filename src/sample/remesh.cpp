@@ -10,12 +10,15 @@
 #include <tuple>
 
 #include "condyle/error.hpp"
+#include "mesh/editable_mesh.hpp"
 #include "sample/edge_queue.hpp"
-#include "sample/editable_mesh.hpp"
 #include "sample/projection.hpp"
 
 namespace condyle::sample {
 namespace {
+
+using mesh::EdgeStar;
+using mesh::EditableMesh;
 
 /// Twice the area, along the normal.
 Vec3 area_normal(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "condyle/error.hpp"
+#include "mesh/editable_mesh.hpp"
 #include "sample/contour.hpp"
 #include "sample/edge_queue.hpp"
-#include "sample/editable_mesh.hpp"
 #include "sample/projection.hpp"
 #include "sample/self_intersection.hpp"
 #include "sample/solid_mesh.hpp"
@@ -19,6 +19,8 @@
 
 namespace condyle::sample {
 namespace {
+
+using mesh::EditableMesh;
 
 const Sizing even = [](const Vec3&) { return 1.0; };
 

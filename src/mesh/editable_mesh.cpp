@@ -1,10 +1,10 @@
-#include "sample/editable_mesh.hpp"
+#include "mesh/editable_mesh.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
 
-namespace condyle::sample {
+namespace condyle::mesh {
 namespace {
 
 int corner_of(const Triangle& t, Index v) noexcept {
@@ -145,4 +145,4 @@ TriMesh EditableMesh::packed() const {
   return mesh;
 }
 
-}  // namespace condyle::sample
+}  // namespace condyle::mesh

@@ -6,7 +6,7 @@
 
 #include "condyle/mesh.hpp"
 
-namespace condyle::sample {
+namespace condyle::mesh {
 
 /// An edge with its two triangles' third corners. Triangle (a, b, left) lies to the left of a -> b seen from
 /// outside, (b, a, right) to the right.
@@ -29,6 +29,7 @@ class EditableMesh {
 
   const Vec3& position(Index v) const noexcept { return position_[v]; }
   void move(Index v, const Vec3& p) noexcept { position_[v] = p; }
+  bool has_triangle(Index t) const noexcept { return triangle_[t][0] != no_index; }
   const Triangle& triangle(Index t) const noexcept { return triangle_[t]; }
   /// Triangles at a vertex, in no geometric order.
   const std::vector<Index>& around(Index v) const noexcept { return around_[v]; }
@@ -71,4 +72,4 @@ class EditableMesh {
   std::size_t vertex_count_ = 0;
 };
 
-}  // namespace condyle::sample
+}  // namespace condyle::mesh
