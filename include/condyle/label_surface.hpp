@@ -22,7 +22,8 @@ struct LabelSurfaceOptions {
   bool all_pieces = false;
   /// Cavities stay hollow; otherwise they are filled.
   bool keep_cavities = false;
-  /// The surface is simplified to about so many triangles, if it has more.
+  /// The surface is simplified to so many triangles, 100 or more, if it has more: one fewer where the number is odd, more where its shape leaves
+  /// no choice.
   std::optional<std::size_t> triangles = std::nullopt;
 };
 

@@ -422,6 +422,71 @@ TEST(LabelSurface, OfAMaskBesideTheBorderHasNoCap) {
   EXPECT_EQ(surface_of(ball_mask({17, 17, 17}, {8, 8, 7}, 7.2)).caps.size(), 1u);
 }
 
+TEST(LabelSurface, SimplifiedKeepsItsShape) {
+  const VoxelMask ring = mask_where({61, 61, 21}, [](const Vec3& p) {
+    const double across = std::hypot(p.x() - 30.2, p.y() - 29.7) - 20;
+    return std::hypot(across, p.z() - 10.1) < 7.5;
+  });
+  const LabelSurface fine = surface_of(ring);
+  const std::size_t before = fine.mesh.triangles.size();
+  for (const std::size_t wanted : {before / 2, before / 5, before / 10}) {
+    const LabelSurface coarse = surface_of(ring, {.triangles = wanted});
+    expect_sound(coarse.mesh);
+    EXPECT_LE(coarse.mesh.triangles.size(), wanted);
+    EXPECT_GE(coarse.mesh.triangles.size() + 1, wanted);
+    const MeshReport report = inspect(coarse.mesh);
+    ASSERT_EQ(report.components.size(), 1u);
+    EXPECT_EQ(report.components[0].genus, 1);
+    ASSERT_TRUE(coarse.simplification);
+    EXPECT_EQ(coarse.simplification->triangles_before, before);
+    const mesh::SurfaceDistance distance(coarse.mesh);
+    double largest = 0;
+    for (std::size_t v = 0; v < fine.mesh.vertices.size(); ++v)
+      largest = std::max(largest, distance(fine.mesh.vertices[v]));
+    EXPECT_EQ(coarse.simplification->largest_error, largest);
+    EXPECT_LT(largest, 0.5);
+    EXPECT_NEAR(*report.signed_volume, mesh::enclosed_volume(fine.mesh), report.area * largest);
+  }
+  EXPECT_FALSE(surface_of(ring, {.triangles = before}).simplification);
+  EXPECT_EQ(surface_of(ring, {.triangles = before}).mesh, fine.mesh);
+  EXPECT_THROW(surface_of(ring, {.triangles = 99}), UsageError);
+}
+
+TEST(LabelSurface, SimplifiedKeepsItsCaps) {
+  Eigen::Affine3d X_WI(Eigen::AngleAxisd(0.5, Vec3(1, 2, 2).normalized()));
+  for (const bool oblique : {false, true}) {
+    VoxelMask mask = ball_mask({30, 30, 30}, {3.2, 25.1, 15}, 21);
+    if (oblique) mask.image.X_WI = X_WI;
+    const LabelSurface fine = surface_of(mask), coarse = surface_of(mask, {.triangles = 600});
+    expect_sound(coarse.mesh);
+    EXPECT_EQ(coarse.mesh.triangles.size(), 600u);
+    ASSERT_EQ(coarse.caps.size(), 4u);
+    for (std::size_t c = 0; c < 4; ++c) {
+      const CapPlane &cap = coarse.caps[c], &as_before = fine.caps[c];
+      EXPECT_EQ(cap.normal, as_before.normal);
+      EXPECT_EQ(cap.offset, as_before.offset);
+      EXPECT_NEAR(cap.area, as_before.area, 0.02 * as_before.area);
+      EXPECT_LT(cap.triangles.size(), as_before.triangles.size());
+      for (const Index t : cap.triangles) {
+        for (int k = 0; k < 3; ++k) {
+          const double off_plane = cap.normal.dot(coarse.mesh.corner(t, k)) - cap.offset;
+          EXPECT_NEAR(off_plane, 0, 1e-13 * 30);
+        }
+      }
+      if (!oblique) vertices_of_cap(coarse, cap, cap.normal[cap.axis] * cap.offset);
+    }
+  }
+}
+
+TEST(LabelSurface, SimplifiedRandomMasksAreSound) {
+  std::mt19937 random(8);
+  for (const double share : {0.4, 0.6, 0.9}) {
+    const VoxelMask mask = random_mask(random, 16, 0, share, Eigen::Affine3d::Identity());
+    for (const std::size_t triangles : {1500u, 400u, 100u})
+      expect_sound(surface_of(mask, {.keep_cavities = true, .triangles = triangles}).mesh);
+  }
+}
+
 TEST(LabelSurface, DoesNotDependOnTheBoxNorOnThreads) {
   std::mt19937 random(6);
   const Eigen::Affine3d X_WI(Eigen::AngleAxisd(0.3, Vec3(1, 2, 2).normalized()));
@@ -431,10 +496,11 @@ TEST(LabelSurface, DoesNotDependOnTheBoxNorOnThreads) {
         return (p - Vec3(30, 28, 25)).norm() < 18 + 4 * std::sin(p.x()) * std::cos(0.7 * p.y());
       },
       X_WI);
-  const LabelSurface whole = surface_of(mask);
+  const LabelSurface whole = surface_of(mask), simple = surface_of(mask, {.triangles = 2000});
   EXPECT_EQ(surface_of(cropped(mask)).mesh, whole.mesh);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   EXPECT_EQ(surface_of(mask).mesh, whole.mesh);
+  EXPECT_EQ(surface_of(mask, {.triangles = 2000}).mesh, simple.mesh);
 }
 
 TEST(LabelSurface, CountsItsStepsAndStops) {

@@ -12,6 +12,7 @@
 #include "mesh/label_surface/bone_components.hpp"
 #include "mesh/label_surface/contour.hpp"
 #include "mesh/label_surface/mask_checks.hpp"
+#include "mesh/label_surface/simplify.hpp"
 #include "mesh/label_surface/smoothed_field.hpp"
 #include "mesh/label_surface/voxel_pieces.hpp"
 
@@ -19,6 +20,9 @@ namespace condyle {
 namespace {
 
 using mesh::Contour;
+
+/// Fewer show the shape of no bone.
+constexpr std::size_t fewest_triangles = 100;
 
 /// Counts the steps of the work that are done.
 class Steps {
@@ -99,6 +103,9 @@ std::optional<LabelSurface> surface_of(const VoxelMask& mask, const LabelSurface
   mesh::check_mask(mask);
   if (!(options.sigma_voxels >= 0 && options.sigma_voxels <= 4))
     throw UsageError("smoothing of a label: the standard deviation is 0 to 4 voxels");
+  if (options.triangles && *options.triangles < fewest_triangles)
+    throw UsageError("simplification of a label: " + std::to_string(fewest_triangles) +
+                     " triangles are the fewest");
   Steps steps(control);
   if (steps.stopped()) return std::nullopt;
 
@@ -121,6 +128,12 @@ std::optional<LabelSurface> surface_of(const VoxelMask& mask, const LabelSurface
     throw MeshError("smoothing leaves none of the label's " + std::to_string(surface.pieces.front().voxels) +
                     (surface.pieces.front().voxels == 1 ? " voxel" : " voxels"));
   place_in_world(mask.image.X_WI, contour->mesh);
+  if (options.triangles && contour->mesh.triangles.size() > *options.triangles) {
+    auto made = mesh::simplified(*contour, *options.triangles, control.stop);
+    if (!made) return std::nullopt;
+    surface.simplification = {contour->mesh.triangles.size(), made->largest_error};
+    contour = std::move(made->surface);
+  }
   surface.caps = caps_of(mask.image, contour->mesh, contour->cap);
   surface.mesh = std::move(contour->mesh);
   const Eigen::Matrix3d& steps_along_axes = mask.image.X_WI.linear();
