@@ -13,17 +13,17 @@ namespace condyle {
 
 /// How a surface is made of a mask.
 struct LabelSurfaceOptions {
-  /// Standard deviation of the Gaussian along each index axis, in voxels, from 0 (none) to 4. At 0.65 the steps that voxels
-  /// leave and the rounding of edges change limits of motion by as much, in opposite directions: errors of many limits then
-  /// average to nothing. Rounding: an edge or a ball moves inwards by sigma^2 (k1 + k2) / 2, k1 and k2 its principal curvatures.
-  /// Rods of one voxel vanish, plates of one voxel stay.
+  /// Standard deviation of the Gaussian along each index axis, in voxels, from 0 (none) to 4. At 0.65 the steps that
+  /// voxels leave and the rounding of edges change limits of motion by as much, in opposite directions: errors of many
+  /// limits then average to nothing. Rounding: an edge or a ball moves inwards by sigma^2 (k1 + k2) / 2, k1 and k2 its
+  /// principal curvatures. Rods of one voxel vanish, plates of one voxel stay.
   double sigma_voxels = 0.65;
   /// Every 26-connected piece; otherwise the one of most voxels.
   bool all_pieces = false;
   /// Cavities stay hollow; otherwise they are filled.
   bool keep_cavities = false;
-  /// The surface is simplified to so many triangles, 100 or more, if it has more: one fewer where the number is odd, more where its shape leaves
-  /// no choice.
+  /// The surface is simplified to so many triangles, 100 or more, if it has more: to one fewer if the number is odd, to
+  /// more if no edge is left that could go.
   std::optional<std::size_t> triangles = std::nullopt;
 };
 
@@ -34,8 +34,8 @@ struct LabelPiece {
   bool kept = false;
 };
 
-/// Background that is not connected over faces of voxels to the outside of the mask's box: marrow, cysts. A tunnel is none, nor
-/// is a marrow canal that the border of the image opens.
+/// Background that is not connected over faces of voxels to the outside of the mask's box: marrow, cysts. A tunnel is
+/// none, nor is a marrow canal that the border of the image opens.
 struct LabelCavities {
   std::size_t count = 0;
   std::int64_t voxels = 0;
@@ -81,13 +81,14 @@ struct LabelSurface {
 
 /// The surface at the half level of the smoothed mask. Steps: largest piece, cavities, Gaussian, contour, largest component.
 ///
-/// A mask that reaches the first or last voxels of its image is taken to go on beyond them as it ends there, and is cut half a voxel beyond
-/// their centres by a flat cap.
+/// A mask that reaches the first or last voxels of its image is taken to go on beyond them as it ends there, and is cut
+/// half a voxel beyond their centres by a flat cap. A wall that is oblique to the cap is bent by less than half a voxel
+/// there.
 ///
-/// A vertex lies on the line between two neighbouring samples where their linear interpolation has the half level, but never
-/// within 0.001 of a sample: there it is moved by less than 0.001 of the distance of the samples. The result does not depend on the
-/// number of threads, nor on how much larger than the voxels the mask's box is. Memory: about 6 bytes per voxel of the box, and the
-/// surface.
+/// A vertex lies on the line between two neighbouring samples where their linear interpolation has the half level, but
+/// never within 0.001 of a sample: there it is moved by less than 0.001 of the distance of the samples. The result does
+/// not depend on the number of threads, nor on how much larger than the voxels the mask's box is. Memory: about 6 bytes
+/// per voxel of the box, and the surface.
 ///
 /// Raises UsageError for options out of range, for a grid whose matrix is not finite or not invertible, and for a mask whose
 /// arrays do not fit its sizes; MeshError if no voxel is set, or if smoothing leaves none of them.

@@ -70,8 +70,8 @@ unsigned ambiguous_faces(unsigned inside) {
 }
 
 CellLoops loops_of_cell(unsigned inside, unsigned joined) {
-  // On each face, counter-clockwise, the boundary enters the inside along one edge and leaves it along another. A segment goes
-  // from where it enters to where it leaves; the face beyond the latter edge enters there.
+  // On each face, counter-clockwise, the boundary enters the inside along one edge and leaves it along another. A
+  // segment goes from where it enters to where it leaves; the face beyond the latter edge enters there.
   std::array<std::uint8_t, cell_edges> next;
   next.fill(none);
   for (std::size_t f = 0; f < cell_faces; ++f) {

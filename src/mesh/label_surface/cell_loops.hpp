@@ -66,8 +66,8 @@ struct CellLoops {
 /// Faces of which two opposite corners are inside and two outside.
 unsigned ambiguous_faces(unsigned inside);
 
-/// The loops of a cell. On an ambiguous face the two corners inside are joined if the face is among `joined`, otherwise the two
-/// outside.
+/// The loops of a cell. On an ambiguous face the two corners inside are joined if the face is among `joined`, otherwise
+/// the two outside.
 CellLoops loops_of_cell(unsigned inside, unsigned joined);
 
 }  // namespace condyle::mesh

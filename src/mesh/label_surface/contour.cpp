@@ -42,8 +42,8 @@ double roundness(const Vec3& a, const Vec3& b, const Vec3& c) {
   return ab.cross(ca).norm() / (ab.squaredNorm() + bc.squaredNorm() + ca.squaredNorm());
 }
 
-/// Numbers of the vertices that belong to the samples of a layer: those on the edges from a sample along each axis, and the one
-/// at the sample itself, of a cap.
+/// Numbers of the vertices that belong to the samples of a layer: those on the edges from a sample along each axis, and
+/// the one at the sample itself, of a cap.
 class LayerNumbers {
  public:
   static constexpr std::size_t at_sample = 3;
@@ -207,8 +207,8 @@ class Contouring {
     }
   }
 
-  /// Those ambiguous faces in whose middle the bilinear interpolation of the corners joins the two inside. Products of two floats are exact
-  /// in double.
+  /// Those ambiguous faces in whose middle the bilinear interpolation of the corners joins the two inside. Products of
+  /// two floats are exact in double.
   static unsigned joined_faces(const std::array<float, 8>& value, unsigned ambiguous) {
     unsigned joined = 0;
     for (std::size_t f = 0; f < cell_faces; ++f) {

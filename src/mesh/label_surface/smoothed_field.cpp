@@ -28,7 +28,8 @@ struct AxisFilter {
   std::int64_t size;
   bool cut_low, cut_high;
 
-  /// source(c) is row c of those given, target(c) the place of row c of those made; they do not overlap. `zero` is a row of zeros.
+  /// source(c) is row c of those given, target(c) the place of row c of those made; they do not overlap. `zero` is a
+  /// row of zeros.
   template <class Source, class Target>
   void apply(std::size_t width, const float* zero, const Source& source, const Target& target) const {
     const auto row = [&](std::int64_t c) -> const float* {
@@ -46,11 +47,11 @@ struct AxisFilter {
         for (std::size_t i = 0; i < width; ++i) out[i] += w * (before[i] + after[i]);
       }
     }
-    const auto to_cap = [&](float* cap, const float* last) {
-      for (std::size_t i = 0; i < width; ++i) cap[i] = (cap[i] + last[i]) / 2;
+    const auto to_cap = [&](float* cap, const float* last, const float* next) {
+      for (std::size_t i = 0; i < width; ++i) cap[i] = last[i] + 0.5f * (last[i] - next[i]);
     };
-    if (cut_low) to_cap(target(-1), target(0));
-    if (cut_high) to_cap(target(size), target(size - 1));
+    if (cut_low) to_cap(target(-1), target(0), target(std::min<std::int64_t>(1, size - 1)));
+    if (cut_high) to_cap(target(size), target(size - 1), target(std::max<std::int64_t>(size - 2, 0)));
   }
 };
 
@@ -133,18 +134,24 @@ SampledField smoothed_field(const VoxelBox& box, const BoxPlace& place, double s
     }
   });
 
-  // Layers outside of caps.
-  constexpr float outside = -0.5f;
+  // Layers outside of caps, and the last ones of sides that are not cut: outside too where a cap's extrapolation says
+  // otherwise.
+  constexpr float outside = -0.5f, most_at_end = -0.01f;
   core::parallel_chunks(count[2], 16, [&](std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
       for (std::size_t j = 0; j < count[1]; ++j) {
         float* const row = field.value.data() + (k * count[1] + j) * count[0];
+        const auto is_end = [&](std::size_t a, std::size_t layer) {
+          return (layer == 0 && !field.axis[a].cut_low) || (layer + 1 == count[a] && !field.axis[a].cut_high);
+        };
         if (field.axis[1].is_outer(j) || field.axis[2].is_outer(k)) {
           std::fill(row, row + count[0], outside);
-        } else {
-          if (field.axis[0].cut_low) row[0] = outside;
-          if (field.axis[0].cut_high) row[count[0] - 1] = outside;
+          continue;
         }
+        if (is_end(1, j) || is_end(2, k))
+          for (std::size_t i = 0; i < count[0]; ++i) row[i] = std::min(row[i], most_at_end);
+        for (const std::size_t i : {std::size_t{0}, count[0] - 1})
+          row[i] = field.axis[0].is_outer(i) ? outside : std::min(row[i], most_at_end);
       }
     }
   });

@@ -10,8 +10,8 @@
 
 namespace condyle::mesh {
 
-/// Where samples lie along one axis. A cut side ends in two layers at one place: that of the cap, and one outside of it, whose
-/// samples are all negative. A side that is not cut ends in a layer whose samples are all negative.
+/// Where samples lie along one axis. A cut side ends in two layers at one place: that of the cap, and one outside of
+/// it, whose samples are all negative. A side that is not cut ends in a layer whose samples are all negative.
 struct SampleAxis {
   std::vector<double> coordinate;  ///< ascending
   bool cut_low = false, cut_high = false;
@@ -35,10 +35,12 @@ struct BoxPlace {
   std::array<std::int64_t, 3> image{};
 };
 
-/// The voxels under a Gaussian along each axis, less one half; in single precision. The Gaussian's standard deviation is in
-/// voxels; sampled at whole voxels, cut at three standard deviations and divided by its sum; none if it is 0. Beyond the box
-/// there is nothing; beyond the image the voxels go on as they end there. At a cap, half a voxel beyond the last centres, the
-/// field is the mean of that at the last and that at the next centres.
+/// The voxels under a Gaussian along each axis, less one half; in single precision. The Gaussian's standard deviation
+/// is in voxels; sampled at whole voxels, cut at three standard deviations and divided by its sum; none if it is 0.
+/// Beyond the box there is nothing; beyond the image the voxels go on as they end there. At a cap, half a voxel beyond
+/// the last centres, the field is extrapolated from those at the last two. A surface square to the cap stays so; one
+/// that leans leans less near it, by 0.23, 0.34 and 0.38 voxel at 30, 45 and 60 degrees; by 0.1 to 0.15 at the last
+/// centres, by nothing beyond the next.
 ///
 /// A sample depends on the voxels around it only, in a fixed order of sums.
 SampledField smoothed_field(const VoxelBox& box, const BoxPlace& place, double sigma);
