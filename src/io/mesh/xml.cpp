@@ -26,7 +26,8 @@ std::optional<XmlTag> XmlCursor::next() {
                   : "no XML tag");
     }
     at_ = tag;
-  } while (skip_remark("<!--", "-->") || skip_remark("<?", "?>") || skip_remark("<!", ">"));
+  } while (skip_remark("<!--", "-->") || skip_remark("<![CDATA[", "]]>") || skip_remark("<?", "?>") ||
+           skip_remark("<!", ">"));
 
   take('<');
   XmlTag tag{XmlTag::Kind::open, {}, {}};
