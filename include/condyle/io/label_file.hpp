@@ -1,0 +1,133 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/voxel_mask.hpp"
+
+/// Label maps: images in which the value of a voxel says which bone it belongs to. Every function that reads raises FileError,
+/// one line "file: element: what is wrong", and nothing else, whatever the file holds.
+
+namespace condyle {
+
+/// NIfTI-1 and -2 (.nii, .nii.gz, .hdr with .img), NRRD (.nrrd, .nhdr, .seg.nrrd), MetaImage (.mha, .mhd).
+enum class LabelFormat { nifti, nrrd, metaimage };
+
+/// A name that the file gives to one value in one layer. Two layers may have the same value: these are two segments.
+struct LabelSegment {
+  std::string name;  ///< without characters that a terminal obeys
+  std::string id;    ///< of 3D Slicer; empty in other files
+  std::size_t layer = 0;
+  std::uint32_t label = 0;
+};
+
+/// What a person should know of a label map or of a choice among its labels. Nothing was changed because of it.
+enum class LabelNoteCode {
+  two_affines,         ///< NIfTI: sform and qform place the voxels differently.
+  unknown_units,       ///< NIfTI: no unit of length; mm was assumed.
+  more_bytes,          ///< The file holds more than its header promises.
+  empty_segmentation,  ///< One voxel: 3D Slicer writes an empty segmentation so.
+  label_tables,        ///< A number was asked for: the names that published tables and the file give it.
+};
+
+/// As in files: "two_affines".
+std::string_view name_of(LabelNoteCode code) noexcept;
+
+struct LabelNote {
+  LabelNoteCode code;
+  std::string text;  ///< one sentence
+};
+
+/// A label map, whatever its format was.
+struct LabelMap {
+  /// The world is always LPS in mm: x to the left, y to posterior, z to superior. NIfTI's world and those of NRRD's
+  /// right-anterior-superior and left-anterior-superior are converted: x and y, or y only, change their sign.
+  VoxelGrid grid;
+  std::vector<std::uint32_t> labels;  ///< the distinct values of all voxels, ascending
+  /// One per layer, at least one: the index into `labels` of each voxel, i runs fastest, then j, then k.
+  std::vector<std::vector<std::uint16_t>> layers;
+  std::vector<LabelSegment> segments;  ///< in the file's order; empty if it names nothing
+  std::vector<LabelNote> notes;
+};
+
+/// Which affine of a NIfTI file counts. The other two refuse a file that lacks theirs.
+enum class AffineChoice { sform_first, sform, qform };
+
+/// Orientation that a user states for a file that has none. NRRD with axes but no named space: their world. Otherwise: the
+/// directions in which i, j and k run, with voxel (0, 0, 0) at the origin if the file gives no other place.
+enum class StatedAxes { lps, ras, las };
+
+struct LabelFileOptions {
+  AffineChoice affine = AffineChoice::sform_first;
+  std::optional<std::int64_t> volume =
+      {};  ///< of a NIfTI file with several, from 0; without it such a file is refused
+  std::optional<StatedAxes> axes =
+      {};                       ///< counts only if the file gives no orientation, which is else refused
+  bool outside_folder = false;  ///< a header's data may lie outside the folder of the header
+};
+
+/// Reads a label map; the extension decides on the format, in upper or lower case. Values must be whole numbers from 0 to
+/// 2^32 - 1, at most 65535 different ones: floats within 1e-3 of a whole number count as that. The file is read piece by
+/// piece: memory is 2 bytes for each voxel, and a fixed amount beside it.
+///
+/// Refused: axes in one plane, a size of 0, more than 2^40 voxels, fewer bytes than the header promises, and before any
+/// memory is taken a compressed file that is too short for them.
+LabelMap read_labels(const std::filesystem::path& path, const LabelFileOptions& options = {});
+
+/// The same from memory; `name` is what errors call the file. A header whose data lie in another file is refused.
+LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_view name,
+                     const LabelFileOptions& options = {});
+
+/// The format that the name of a file ends in, nothing if it is none of a label map.
+std::optional<LabelFormat> label_format_of(const std::filesystem::path& path);
+
+/// The voxels of a label in their smallest box. A label that no voxel of the layer has gives a box of size 0. The layer
+/// must exist.
+VoxelMask mask_of(const LabelMap& map, std::size_t layer, std::uint32_t label);
+
+/// Extent of a label in one layer.
+struct LabelSummary {
+  std::size_t layer = 0;
+  std::uint32_t label = 0;
+  std::int64_t voxels = 0;
+  std::array<std::int64_t, 3> first{};  ///< of the smallest box
+  std::array<std::int64_t, 3> size{};   ///< of the smallest box
+  /// Whether it reaches the first and the last voxels of the image along i, j and k: first i, last i, first j, ... The field
+  /// of view may have cut it there.
+  std::array<bool, 6> touches{};
+};
+
+/// Every label of every layer that has voxels, by layer and then by label; one pass over the image.
+std::vector<LabelSummary> summaries_of(const LabelMap& map);
+
+/// Tables of labels that TotalSegmentator publishes: version 2 and 1 of its task for CT, and that for MR.
+enum class LabelTask { total, total_v1, total_mr };
+
+/// "total", "total_v1" or "total_mr", nothing for any other word.
+std::optional<LabelTask> label_task_of(std::string_view word) noexcept;
+std::string_view name_of(LabelTask task) noexcept;
+
+/// One label among those of a file, as a user chose it.
+struct ChosenLabel {
+  std::size_t layer = 0;
+  std::uint32_t label = 0;
+  std::string name;              ///< that of the file, else of the table, else empty
+  std::vector<LabelNote> notes;  ///< a bare number: its names in the tables
+};
+
+/// The label that a user means: a number ("75"); a layer and a number ("1:3") where several layers have that value; or a name
+/// or id of a segment, or a name of the task's table: first exactly, then in any case with blanks as '_'. A name is never
+/// guessed by likeness.
+///
+/// UsageError for a name that neither the file nor the table has, which lists the names there are; for one that stands for
+/// several; for a number that no voxel has; and if the file and the table call one value differently. A segment without voxels
+/// is found all the same: mask_of() gives it a size of 0.
+ChosenLabel choose_label(const LabelMap& map, std::string_view text, std::optional<LabelTask> task = {});
+
+}  // namespace condyle

@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+
+#include <string>
+
+#include "condyle/error.hpp"
+#include "condyle/io/label_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/image/label_input.hpp"
+#include "io/mesh/parse.hpp"
+
+namespace condyle {
+namespace {
+
+LabelMap read(const io::LabelInput& input, LabelFormat format) {
+  if (input.header.size() == 0) input.header.fail("the file is empty");
+  switch (format) {
+    case LabelFormat::nifti:
+      return io::read_nifti(input);
+    case LabelFormat::nrrd:
+      return io::read_nrrd(input);
+    case LabelFormat::metaimage:
+      break;
+  }
+  return io::read_metaimage(input);
+}
+
+/// NIfTI in two files has its header in .hdr, whichever of both was named.
+std::filesystem::path header_of(std::filesystem::path path) {
+  const auto extension = path.extension().string();
+  if (io::lower_case(extension) == ".img") path.replace_extension(extension == ".IMG" ? ".HDR" : ".hdr");
+  return path;
+}
+
+}  // namespace
+
+std::optional<LabelFormat> label_format_of(const std::filesystem::path& path) {
+  const std::string name = io::lower_case(path.filename().string());
+  const auto ends_in = [&](auto... endings) { return (name.ends_with(endings) || ...); };
+  if (ends_in(".nii", ".nii.gz", ".hdr", ".img")) return LabelFormat::nifti;
+  if (ends_in(".nrrd", ".nhdr")) return LabelFormat::nrrd;
+  if (ends_in(".mha", ".mhd")) return LabelFormat::metaimage;
+  return std::nullopt;
+}
+
+LabelMap read_labels(const std::filesystem::path& path, const LabelFileOptions& options) {
+  io::check_is_file(path);
+  const auto format = label_format_of(path);
+  if (!format)
+    throw FileError(fmt::format(
+        "{}: unknown extension '{}': label maps in .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha and .mhd are read",
+        path.string(), path.extension().string()));
+  const auto header = header_of(path);
+  const io::ByteSource source(header);
+  return read({source, header, options}, *format);
+}
+
+LabelMap read_labels(std::string_view bytes, LabelFormat format, std::string_view name,
+                     const LabelFileOptions& options) {
+  const io::ByteSource source(bytes, name);
+  return read({source, {}, options}, format);
+}
+
+std::string_view name_of(LabelNoteCode code) noexcept {
+  switch (code) {
+    case LabelNoteCode::two_affines:
+      return "two_affines";
+    case LabelNoteCode::unknown_units:
+      return "unknown_units";
+    case LabelNoteCode::more_bytes:
+      return "more_bytes";
+    case LabelNoteCode::empty_segmentation:
+      return "empty_segmentation";
+    case LabelNoteCode::label_tables:
+      break;
+  }
+  return "label_tables";
+}
+
+}  // namespace condyle
