@@ -45,7 +45,7 @@ std::unique_ptr<ElasticContact> elastic_of_file(const JointHandle& handle) {
                                           elastic_options(*entry, surfaces, handle.loaded));
 }
 
-py::tuple at(const ElasticContact& contact, const py::object& given, const py::object& progress) {
+py::tuple results_at(const ElasticContact& contact, const py::object& given, const py::object& progress) {
   const PosesIn in = poses_in(given, "pose");
   std::vector<ElasticContactResults> found;
   Follower follower(progress, in.poses.size());
@@ -66,7 +66,7 @@ py::tuple at(const ElasticContact& contact, const py::object& given, const py::o
 void bind_pressure(py::module_& module) {
   py::class_<ElasticContact>(module, "ElasticContact")
       .def(py::init(&elastic))
-      .def("at", &at)
+      .def("at", &results_at)
       .def("cut_off_by_reach",
            [](const ElasticContact& contact, const py::object& pose) {
              const Pose X_FM = one_pose(pose, "pose");

@@ -51,7 +51,7 @@ MapGrid grid_in(const py::tuple& given, Anatomy anatomy) {
 }
 
 /// Options that run_study() of Python has checked; no bands without samples.
-StudyOptions options_in(const py::dict& given) {
+StudyOptions study_options_in(const py::dict& given) {
   StudyOptions options;
   for (const Anatomy anatomy : all_anatomies)
     if (given["anatomy"].cast<std::string>() == name_of(anatomy)) options.anatomy = anatomy;
@@ -84,7 +84,7 @@ std::vector<std::pair<std::string, std::string>> noted(const StudyDone& done) {
 std::vector<std::pair<std::string, std::string>> study(
     const std::string& table, const std::string& folder, const py::dict& options,
     std::optional<std::pair<std::size_t, std::size_t>> shard, bool is_strict, const py::object& progress) {
-  Study one{table, folder, options_in(options), {}, {}};
+  Study one{table, folder, study_options_in(options), {}, {}};
   if (shard) one.shard = {shard->first, shard->second};
   if (is_strict) one.bad_joint = BadJoint::ends_run;
   const auto done = followed(progress, [&](const auto& report, const std::stop_token& stop) {

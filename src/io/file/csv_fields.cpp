@@ -1,7 +1,9 @@
 #include "io/file/csv_fields.hpp"
+#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
+#include "io/file/words.hpp"
 #include "io/motion/table_builder.hpp"
 
 namespace condyle::io {

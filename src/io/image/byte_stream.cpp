@@ -11,9 +11,9 @@ namespace condyle::io {
 namespace {
 
 /// Bytes of a compressed file that are read at once.
-constexpr std::size_t block_size = std::size_t{1} << 16;
+constexpr std::size_t stream_block_size = std::size_t{1} << 16;
 /// Deflate needs at least two bits for 258 bytes.
-constexpr std::uint64_t largest_ratio = 1032;
+constexpr std::uint64_t largest_deflate_ratio = 1032;
 /// For inflateInit2: the largest window, and either of both headers.
 constexpr int zlib_or_gzip = 15 + 32;
 
@@ -37,7 +37,7 @@ struct ByteStream::Inflate {
 ByteStream::ByteStream(const ByteSource& source, std::uint64_t at, Packing packing)
     : source_(source), at_(std::min(at, source.size())) {
   if (packing == Packing::none) return;
-  block_.resize(block_size);
+  block_.resize(stream_block_size);
   inflate_ = std::make_unique<Inflate>();
 }
 
@@ -56,7 +56,7 @@ bool ByteStream::skip(std::uint64_t bytes) {
     at_ = there ? at_ + bytes : source_.size();
     return there;
   }
-  std::vector<char> passed(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, block_size)));
+  std::vector<char> passed(static_cast<std::size_t>(std::min<std::uint64_t>(bytes, stream_block_size)));
   while (bytes > 0) {
     const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(bytes, passed.size()));
     if (inflate(std::span(passed).first(wanted)) < wanted) return false;
@@ -77,9 +77,9 @@ bool ByteStream::may_hold(std::uint64_t bytes) const noexcept {
   const std::uint64_t left = source_.size() - at_;
   if (!inflate_) return bytes <= left;
   const std::uint64_t compressed = left + inflate_->stream.avail_in;
-  // What zlib has taken in already may still give a window of bytes and a match.
+  // Zlib may still hold a window of bytes and a match back.
   constexpr std::uint64_t in_flight = (std::uint64_t{1} << 15) + 258;
-  return bytes <= in_flight || (bytes - in_flight) / largest_ratio <= compressed;
+  return bytes <= in_flight || (bytes - in_flight) / largest_deflate_ratio <= compressed;
 }
 
 bool ByteStream::refill() {

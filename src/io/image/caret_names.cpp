@@ -1,4 +1,5 @@
 #include "io/image/caret_names.hpp"
+#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +34,7 @@ std::string plain_characters(std::string_view text, const XmlCursor& cursor) {
   return out;
 }
 
-/// What a label is called: one CDATA section, or plain text.
+/// The name of a label: one CDATA section, or plain text.
 std::string label_name(std::string_view xml, const XmlCursor& cursor) {
   constexpr std::string_view begin = "<![CDATA[", end = "]]>";
   const std::string_view rest = trimmed(xml.substr(cursor.offset()));

@@ -8,7 +8,7 @@
 
 namespace condyle::io {
 
-/// What a reader of label maps gets: the file with the header, and where its neighbours are.
+/// Input of a reader of label maps: the file with the header, and the place of its neighbours.
 struct LabelInput {
   const ByteSource& header;
   std::filesystem::path path = {};  ///< of the header; empty if it comes from memory

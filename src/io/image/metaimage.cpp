@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "io/file/words.hpp"
 #include "io/image/image_grid.hpp"
 #include "io/image/label_input.hpp"
 #include "io/image/text_header.hpp"
@@ -76,7 +77,7 @@ void check_is_image(const HeaderFields& fields) {
     fields.fail("ElementToIntensityFunctionOffset", "an offset other than 0 is not read");
 }
 
-VoxelType voxel_type(const HeaderFields& fields) {
+VoxelType element_type(const HeaderFields& fields) {
   const auto type = fields.need("ElementType");
   if (type == "MET_UCHAR") return VoxelType::u8;
   if (type == "MET_CHAR") return VoxelType::i8;
@@ -96,7 +97,7 @@ VoxelType voxel_type(const HeaderFields& fields) {
 
 VoxelData voxel_data(const HeaderFields& fields) {
   VoxelData data;
-  data.type = voxel_type(fields);
+  data.type = element_type(fields);
   const auto order = given(fields, std::array{"BinaryDataByteOrderMSB", "ElementByteOrderMSB"});
   data.order = order && flag(fields, *order, false) ? std::endian::big : std::endian::little;
   const auto sizes = fields.whole_numbers("DimSize", 3);
@@ -106,7 +107,7 @@ VoxelData voxel_data(const HeaderFields& fields) {
   return data;
 }
 
-double mm_per_unit(const HeaderFields& fields) {
+double element_mm_per_unit(const HeaderFields& fields) {
   const auto unit = fields.find("DistanceUnits");
   if (!unit || *unit == "mm" || *unit == "?") return 1;
   if (*unit == "cm") return 10;
@@ -128,7 +129,7 @@ VoxelGrid grid_of(const HeaderFields& fields, const VoxelData& data) {
     X_WI.linear().col(axis) = directions.col(axis) * spacing[static_cast<std::size_t>(axis)];
   if (const auto offset = given(fields, std::array{"Offset", "Position", "Origin"}))
     X_WI.translation() = Eigen::Vector3d::Map(fields.numbers(*offset, 3).data());
-  X_WI.matrix().topRows<3>() *= mm_per_unit(fields);
+  X_WI.matrix().topRows<3>() *= element_mm_per_unit(fields);
   return checked_grid(data.size, X_WI, StatedAxes::lps, fields.source(),
                       matrix ? *matrix : std::string("ElementSpacing"));
 }

@@ -78,7 +78,7 @@ double difference(const Affine3d& first, const Affine3d& second, const std::arra
   return largest;
 }
 
-double mm_per_unit(const NiftiHeader& header, const ByteSource& source, std::vector<LabelNote>& notes) {
+double nifti_mm_per_unit(const NiftiHeader& header, const ByteSource& source, std::vector<LabelNote>& notes) {
   switch (const int unit = header.units & 7) {
     case 0:
       notes.push_back({LabelNoteCode::unknown_units,
@@ -124,7 +124,7 @@ VoxelGrid nifti_grid(const NiftiHeader& header, const std::array<std::int64_t, 3
                      const LabelFileOptions& options, const ByteSource& source,
                      std::vector<LabelNote>& notes) {
   auto [X_WI, world, element] = chosen_affine(header, options, source);
-  const double mm = mm_per_unit(header, source, notes);
+  const double mm = nifti_mm_per_unit(header, source, notes);
   const auto grid =
       checked_grid(size, affine_of(X_WI.linear() * mm, X_WI.translation() * mm), world, source, element);
   if (header.sform_code > 0 && header.qform_code > 0) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "io/file/words.hpp"
 #include "io/image/image_grid.hpp"
 #include "io/image/label_input.hpp"
 #include "io/image/nrrd_header.hpp"
@@ -13,7 +14,7 @@
 namespace condyle::io {
 namespace {
 
-VoxelType voxel_type(const HeaderFields& fields) {
+VoxelType nrrd_type(const HeaderFields& fields) {
   const std::string type = lower_case(fields.need("type"));
   const auto is = [&](auto... names) { return ((type == names) || ...); };
   if (is("uchar", "unsigned char", "uint8", "uint8_t")) return VoxelType::u8;
@@ -59,7 +60,7 @@ std::optional<StatedAxes> world_of(const HeaderFields& fields) {
   fields.fail("space", fmt::format("{} is not read", in_quotes(space)));
 }
 
-double mm_per_unit(const HeaderFields& fields) {
+double nrrd_mm_per_unit(const HeaderFields& fields) {
   const auto value = fields.find("space units");
   if (!value) return 1;
   const auto words = words_of(*value);
@@ -125,7 +126,7 @@ void check_kinds(const HeaderFields& fields, const Axes& axes) {
 VoxelData voxel_data(const HeaderFields& fields, const Axes& axes) {
   constexpr std::int64_t most_layers = 1024;  // segmentations have some tens
   VoxelData data;
-  data.type = voxel_type(fields);
+  data.type = nrrd_type(fields);
   data.order = byte_order(fields, data.type);
   std::size_t axis = 0;
   std::optional<std::size_t> axes_before_layers;
@@ -162,7 +163,7 @@ VoxelGrid grid_of(const HeaderFields& fields, const Axes& axes, const VoxelData&
     if (!origin || !trimmed(left).empty()) fields.fail("space origin", "is no single vector");
     X_WI.translation() = Eigen::Vector3d::Map(origin->data());
   }
-  const double mm = mm_per_unit(fields);
+  const double mm = nrrd_mm_per_unit(fields);
   X_WI.matrix().topRows<3>() *= mm;
   return checked_grid(data.size, X_WI, *world, fields.source(), "space directions");
 }

@@ -1,4 +1,5 @@
 #include "io/image/nrrd_header.hpp"
+#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 

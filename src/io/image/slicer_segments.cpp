@@ -4,6 +4,7 @@
 
 #include "io/file/in_quotes.hpp"
 #include "io/file/plain_text.hpp"
+#include "io/file/words.hpp"
 #include "io/image/nrrd_header.hpp"
 #include "io/mesh/parse.hpp"
 

@@ -1,4 +1,5 @@
 #include "io/image/text_header.hpp"
+#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,7 @@
 namespace condyle::io {
 namespace {
 
-constexpr std::size_t block_size = std::size_t{1} << 14;
+constexpr std::size_t line_block_size = std::size_t{1} << 14;
 constexpr std::uint64_t longest_header = std::uint64_t{1} << 24;  // bytes
 
 }  // namespace
@@ -29,7 +30,7 @@ std::optional<std::string> HeaderLines::next() {
     searched = block_.size();
     const std::uint64_t at = offset_ + searched;
     if (at > longest_header) source_.fail("the header is longer than 16 MB");
-    block_.resize(searched + block_size);
+    block_.resize(searched + line_block_size);
     block_.resize(searched + source_.read(at, std::span(block_).subspan(searched)));
     if (block_.size() > searched) continue;
     if (block_.empty()) return std::nullopt;
@@ -78,23 +79,6 @@ std::vector<std::int64_t> HeaderFields::whole_numbers(const std::string& key, st
 
 void HeaderFields::fail(std::string_view key, std::string_view what) const {
   source_.fail(fmt::format("{}: {}", key, what));
-}
-
-std::string_view trimmed(std::string_view text) noexcept {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-std::vector<std::string_view> words_of(std::string_view text) {
-  std::vector<std::string_view> words;
-  for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
-    std::size_t end = 0;
-    while (end < text.size() && !is_space(text[end])) ++end;
-    words.push_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return words;
 }
 
 }  // namespace condyle::io

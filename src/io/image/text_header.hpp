@@ -21,14 +21,14 @@ class HeaderLines {
   std::optional<std::string> next();
   /// Where the line after the last one begins.
   std::uint64_t offset() const noexcept { return offset_; }
-  /// Of the last line, from 1.
+  /// Number of the last line, from 1.
   std::size_t line() const noexcept { return line_; }
   /// FileError "name: line 3: what"
   [[noreturn]] void fail(std::string_view what) const;
 
  private:
   const ByteSource& source_;
-  std::string block_;  ///< bytes that no line has taken yet begin at used_
+  std::string block_;  ///< read bytes; lines have taken those before used_
   std::size_t used_ = 0, line_ = 0;
   std::uint64_t offset_ = 0;
 };
@@ -59,10 +59,5 @@ class HeaderFields {
   const ByteSource& source_;
   std::map<std::string, std::string> values_;
 };
-
-/// Without blanks at both ends.
-std::string_view trimmed(std::string_view text) noexcept;
-/// Split at blanks.
-std::vector<std::string_view> words_of(std::string_view text);
 
 }  // namespace condyle::io

@@ -39,7 +39,7 @@ std::string toml_text(std::string_view text) {
   return out.str();
 }
 
-std::string numbers(const Vec3& v) {
+std::string toml_vector(const Vec3& v) {
   return fmt::format("[{:g}, {:g}, {:g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
 }
 
@@ -109,9 +109,9 @@ void add_side(Lines& lines, const std::optional<Stated<Side>>& stated, const std
 void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics::AgreeingAxes& inferred) {
   const auto& [axes, side] = inferred;
   const Vec3 lateral = inferred.lateral();
-  lines.key("anterior", numbers(axes->anterior()),
+  lines.key("anterior", toml_vector(axes->anterior()),
             fmt::format("{}: of the axes in use the ones that agree", axes->name));
-  lines.key("superior", numbers(axes->superior()),
+  lines.key("superior", toml_vector(axes->superior()),
             fmt::format("the femur hangs {:.0f} degrees from straight down, the hip bone lies {:.0f} degrees "
                         "from the way to the midline",
                         degrees(-hip.towards_femur.dot(axes->superior())),

@@ -71,7 +71,7 @@ struct Header {
   std::size_t size = 0;  ///< Bytes, up to the first of the data.
 };
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::vector<std::string_view> ply_words(std::string_view line) {
   std::vector<std::string_view> words;
   for (std::size_t at = 0; at < line.size();) {
     while (at < line.size() && is_space(line[at])) ++at;
@@ -126,7 +126,7 @@ Header read_header(const Source& source) {
   bool format_seen = false;
   while (true) {
     if (text.at_end()) source.fail("header: the file ends before 'end_header'");
-    const auto words = words_of(text.rest_of_line());
+    const auto words = ply_words(text.rest_of_line());
     if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
     if (words[0] == "end_header") break;
     if (words[0] == "format") {

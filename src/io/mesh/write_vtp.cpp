@@ -42,14 +42,14 @@ template <>
 constexpr std::string_view type_name<std::int64_t> = "Int64";
 
 /// One block is read and uncompressed at a time, and each begins anew to compress: larger ones compress little better.
-constexpr std::size_t block_size = 1 << 20;
+constexpr std::size_t vtp_block_size = 1 << 20;
 
 std::string compressed_array(std::string_view bytes) {
-  std::vector<std::uint64_t> header = {(bytes.size() + block_size - 1) / block_size, block_size,
-                                       bytes.size() % block_size};
+  std::vector<std::uint64_t> header = {(bytes.size() + vtp_block_size - 1) / vtp_block_size, vtp_block_size,
+                                       bytes.size() % vtp_block_size};
   std::string blocks;
-  for (std::size_t at = 0; at < bytes.size(); at += block_size) {
-    const std::string block = io::deflated(bytes.substr(at, block_size));
+  for (std::size_t at = 0; at < bytes.size(); at += vtp_block_size) {
+    const std::string block = io::deflated(bytes.substr(at, vtp_block_size));
     header.push_back(block.size());
     blocks += block;
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "io/file/csv_fields.hpp"
+#include "io/file/words.hpp"
 #include "io/motion/table_builder.hpp"
 
 namespace condyle::io {

@@ -9,6 +9,7 @@
 #include "condyle/error.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/file/words.hpp"
 #include "io/motion/table_builder.hpp"
 
 namespace condyle {
@@ -37,12 +38,6 @@ void check_times(const MotionTable& table, const Source& source) {
 }
 
 }  // namespace
-
-std::string_view trimmed(std::string_view text) noexcept {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 void TableBuilder::name_columns(std::vector<std::string> names, std::size_t line) {
   std::set<std::string_view> known;

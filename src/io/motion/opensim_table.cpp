@@ -3,13 +3,14 @@
 #include <cstdint>
 #include <map>
 
+#include "io/file/words.hpp"
 #include "io/motion/table_builder.hpp"
 
 namespace condyle::io {
 namespace {
 
 /// The lines before `endheader`: "key=value" in any order, and free text.
-struct Header {
+struct TableHeader {
   struct Entry {
     std::string value;
     std::size_t line = 0;
@@ -18,8 +19,8 @@ struct Header {
   std::optional<bool> prose_in_degrees;  ///< what "Angles are in degrees." among the free text says
 };
 
-Header read_header(TextCursor& cursor, const Source& source) {
-  Header header;
+TableHeader read_header(TextCursor& cursor, const Source& source) {
+  TableHeader header;
   while (!cursor.at_end()) {
     const std::size_t line = cursor.line();
     const std::string_view text = trimmed(cursor.rest_of_line());
@@ -29,7 +30,8 @@ Header read_header(TextCursor& cursor, const Source& source) {
     const std::string_view key = trimmed(text.substr(0, equals));
     if (equals != text.npos && key.find_first_of(" \t") == key.npos) {
       const std::string value(trimmed(text.substr(equals + 1)));
-      const auto [known, is_new] = header.entries.try_emplace(lower_case(key), Header::Entry{value, line});
+      const auto [known, is_new] =
+          header.entries.try_emplace(lower_case(key), TableHeader::Entry{value, line});
       if (!is_new && known->second.value != value)
         source.fail(fmt::format("line {}: {} is given twice, with different values", line, in_quotes(key)));
     } else if (lower.find("angles are in degrees") != lower.npos) {
@@ -41,7 +43,7 @@ Header read_header(TextCursor& cursor, const Source& source) {
   source.fail("has no line 'endheader': the header does not end");
 }
 
-std::optional<bool> in_degrees(const Header& header, const Source& source) {
+std::optional<bool> in_degrees(const TableHeader& header, const Source& source) {
   const auto entry = header.entries.find("indegrees");
   if (entry == header.entries.end()) return std::nullopt;
   const std::string value = lower_case(entry->second.value);
@@ -52,7 +54,7 @@ std::optional<bool> in_degrees(const Header& header, const Source& source) {
 }
 
 /// Tables of vectors and quaternions have several numbers to a cell.
-void check_data_type(const Header& header, const Source& source) {
+void check_data_type(const TableHeader& header, const Source& source) {
   const auto entry = header.entries.find("datatype");
   if (entry != header.entries.end() && lower_case(entry->second.value) != "double")
     source.fail(fmt::format("line {}: DataType: must be double, not {}", entry->second.line,
@@ -60,7 +62,7 @@ void check_data_type(const Header& header, const Source& source) {
 }
 
 /// A count that the header promises, against what is there.
-void compare_count(const Header& header, const char* key, const char* what, std::size_t counted,
+void compare_count(const TableHeader& header, const char* key, const char* what, std::size_t counted,
                    const Source& source, std::vector<std::string>& processing) {
   const auto entry = header.entries.find(lower_case(key));
   if (entry == header.entries.end()) return;
@@ -73,22 +75,11 @@ void compare_count(const Header& header, const char* key, const char* what, std:
                                      promised, what, counted));
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  while (!(line = trimmed(line)).empty()) {
-    std::size_t end = 0;
-    while (end < line.size() && !is_space(line[end])) ++end;
-    words.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-  }
-  return words;
-}
-
 }  // namespace
 
 MotionTable read_opensim_table(const Source& source) {
   TextCursor cursor(source);
-  const Header header = read_header(cursor, source);
+  const TableHeader header = read_header(cursor, source);
   TableBuilder builder(source);
   MotionTable& table = builder.table;
   check_data_type(header, source);

@@ -31,9 +31,6 @@ class TableBuilder {
   Source source_;
 };
 
-/// Without blanks at both ends.
-std::string_view trimmed(std::string_view text) noexcept;
-
 // One reader per format; each raises FileError only.
 MotionTable read_opensim_table(const Source& source);
 MotionTable read_csv_table(const Source& source);

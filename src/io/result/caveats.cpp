@@ -12,11 +12,11 @@ namespace {
 
 /// In the order in which a scope names them.
 enum class Tissue : std::uint8_t { bones, cartilages, labrum, menisci, soft, implants, layers };
-constexpr std::array<std::string_view, 7> names{"bones",       "cartilages", "labrum",        "menisci",
-                                                "soft tissue", "implants",   "elastic layers"};
+constexpr std::array<std::string_view, 7> tissue_names{
+    "bones", "cartilages", "labrum", "menisci", "soft tissue", "implants", "elastic layers"};
 
 struct Tissues {
-  std::array<bool, names.size()> has = {};
+  std::array<bool, tissue_names.size()> has = {};
 
   bool holds(Tissue tissue) const noexcept { return has[static_cast<std::size_t>(tissue)]; }
   void add(Tissue tissue) noexcept { has[static_cast<std::size_t>(tissue)] = true; }
@@ -72,8 +72,8 @@ std::string scope_of(const Tissues& tissues) {
   if (tissues.only_bones())
     return fmt::format("osseous contact of the meshes given; soft tissue is not modelled; {}", end);
   std::vector<std::string_view> there;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (tissues.has[i]) there.push_back(names[i]);
+  for (std::size_t i = 0; i < tissue_names.size(); ++i)
+    if (tissues.has[i]) there.push_back(tissue_names[i]);
   std::string list;
   for (std::size_t i = 0; i < there.size(); ++i)
     list += fmt::format("{}{}", i == 0 ? "" : i + 1 == there.size() ? " and " : ", ", there[i]);
@@ -133,20 +133,20 @@ struct Row {
 };
 
 constexpr JointAngle flexion = JointAngle::flexion, adduction = JointAngle::adduction,
-                     rotation = JointAngle::internal_rotation;
-constexpr RotationSense positive = RotationSense::positive, negative = RotationSense::negative;
+                     internal = JointAngle::internal_rotation;
+constexpr RotationSense plus = RotationSense::positive, minus = RotationSense::negative;
 
-constexpr std::array rows{
-    Row{"flexion", flexion, positive, {&bone_in_flexion, nullptr}},
-    Row{"extension", flexion, negative, {&soft_tissue, nullptr}},
-    Row{"internal_rotation", rotation, positive, {&capsule, nullptr}},
-    Row{"external_rotation", rotation, negative, {&capsule, nullptr}},
-    Row{"abduction_at_90_flexion", adduction, negative, {&bone_in_flexion, nullptr}},
-    Row{"adduction_at_90_flexion", adduction, positive, {&soft_tissue, nullptr}},
-    Row{"internal_rotation_at_90_flexion", rotation, positive, {&close, &labrum}},
-    Row{"external_rotation_at_90_flexion", rotation, negative, {&capsule, nullptr}},
-    Row{"fadir", rotation, positive, {&bone_in_fadir, &labrum}},
-    Row{"faber", rotation, negative, {&capsule, nullptr}},
+constexpr std::array caveat_rows{
+    Row{"flexion", flexion, plus, {&bone_in_flexion, nullptr}},
+    Row{"extension", flexion, minus, {&soft_tissue, nullptr}},
+    Row{"internal_rotation", internal, plus, {&capsule, nullptr}},
+    Row{"external_rotation", internal, minus, {&capsule, nullptr}},
+    Row{"abduction_at_90_flexion", adduction, minus, {&bone_in_flexion, nullptr}},
+    Row{"adduction_at_90_flexion", adduction, plus, {&soft_tissue, nullptr}},
+    Row{"internal_rotation_at_90_flexion", internal, plus, {&close, &labrum}},
+    Row{"external_rotation_at_90_flexion", internal, minus, {&capsule, nullptr}},
+    Row{"fadir", internal, plus, {&bone_in_fadir, &labrum}},
+    Row{"faber", internal, minus, {&capsule, nullptr}},
 };
 
 bool has_labrum(const Joint& joint) {
@@ -191,7 +191,7 @@ std::string_view name_of(MotionCaveatCode code) noexcept {
 
 std::vector<MotionCaveat> motion_caveats(const Joint& joint, const Motion& motion) {
   if (!joint.is_hip()) return {};
-  for (const auto& [name, vary, sense, caveats] : rows) {
+  for (const auto& [name, vary, sense, caveats] : caveat_rows) {
     // A motion of one's own may have a built-in one's name and be another.
     if (name != motion.name || vary != motion.vary || sense != motion.sense) continue;
     std::vector<MotionCaveat> found;

@@ -47,9 +47,9 @@ HalfSpace half_of_region(std::size_t region) {
 }
 
 /// The casting surface of a motion.
-class Surface {
+class CastingSurface {
  public:
-  Surface(const Mesh& mesh, FaceRule rule, bool with_pressure)
+  CastingSurface(const Mesh& mesh, FaceRule rule, bool with_pressure)
       : mesh_(mesh), rule_(rule), with_pressure_(with_pressure) {}
 
   JamFrame frame(const std::optional<FrameContact>& frame) const {
@@ -93,7 +93,7 @@ JamContact jam_contact(const MotionQuestion& question, const MotionAnswer& answe
              &target = fixed_casts ? surfaces.mobile : surfaces.fixed;
   JamContact contact{
       field_name(question.joint.joint.name), {field_name(casting.name), {}}, {field_name(target.name), {}}};
-  const Surface surface(casting.mesh, question.contact.rays.rule, question.with_pressure);
+  const CastingSurface surface(casting.mesh, question.contact.rays.rule, question.with_pressure);
   for (const auto& frame : answer.frames) contact.casting.frames.push_back(surface.frame(frame));
   return contact;
 }

@@ -10,13 +10,13 @@ namespace condyle {
 namespace {
 
 using View = io::BodyView<NormalCast>;
-using Views = io::BodyViews<NormalCast>;
+using NormalViews = io::BodyViews<NormalCast>;
 
-Views views(const DepthQuestion& question, const NormalContact& contact) {
+NormalViews views(const DepthQuestion& question, const NormalContact& contact) {
   return {question, contact.mobile, contact.fixed};
 }
 
-const View& other_of(const Views& bodies, const View& view) {
+const View& other_of(const NormalViews& bodies, const View& view) {
   return &view == &bodies.mobile ? bodies.fixed : bodies.mobile;
 }
 
@@ -25,7 +25,7 @@ Vec3 centre_of(const View& view) {
   return view.frame.fixed_point(posed(view.X_F, *view.summary->surface.totals.centre_of_depth));
 }
 
-io::Json body_json(const Views& bodies, const View& view) {
+io::Json body_json(const NormalViews& bodies, const View& view) {
   if (!view.summary) return nullptr;
   const auto& [surface, cut_off_by_reach] = *view.summary;
   const ContactTotals& totals = surface.totals;
@@ -59,7 +59,7 @@ ContactEntry rays_of(const DepthAnswer& answer) {
 
 std::string normal_json(const DepthQuestion& question, const DepthAnswer& answer,
                         const NormalContact& contact) {
-  const Views bodies = views(question, contact);
+  const NormalViews bodies = views(question, contact);
   io::Json json = io::depth_header(question, answer, "normal");
   json["in_contact"] = contact.in_contact;
   json["triangle_pairs"] = contact.pairs.size();
@@ -71,7 +71,7 @@ std::string normal_json(const DepthQuestion& question, const DepthAnswer& answer
   return io::document(json);
 }
 
-std::string body_text(const Views& bodies, const View& view, const NormalDepthOptions& rays) {
+std::string body_text(const NormalViews& bodies, const View& view, const NormalDepthOptions& rays) {
   const auto& [surface, cut_off_by_reach] = *view.summary;
   const ContactTotals& totals = surface.totals;
   const std::string& target = other_of(bodies, view).body.name;
@@ -100,7 +100,7 @@ std::string body_text(const Views& bodies, const View& view, const NormalDepthOp
 
 std::string normal_text(const DepthQuestion& question, const DepthAnswer& answer,
                         const NormalContact& contact) {
-  const Views bodies = views(question, contact);
+  const NormalViews bodies = views(question, contact);
   const ContactEntry rays = rays_of(answer);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
   text += io::contact_terms_text(rays, {question.joint.fixed, question.joint.mobile}, false);

@@ -11,22 +11,22 @@
 namespace condyle {
 namespace {
 
-using Views = io::BodyViews<RadialBodySummary>;
+using RadialViews = io::BodyViews<RadialBodySummary>;
 
 const char* name_of(DepthKind kind) {
   return kind == DepthKind::radial ? "radial" : "tangential";
 }
 
-Views views(const DepthQuestion& question, const RadialSummary& summary) {
+RadialViews views(const DepthQuestion& question, const RadialSummary& summary) {
   return {question, summary.mobile, summary.fixed};
 }
 
-auto deepest_of(const Views& bodies) {
+auto deepest_of(const RadialViews& bodies) {
   return bodies.deepest(&RadialBodySummary::deepest, &DeepestVertex::depth_mm);
 }
 
 /// The deepest of those whose radial depth is a depth.
-auto deepest_facing_of(const Views& bodies) {
+auto deepest_facing_of(const RadialViews& bodies) {
   return bodies.deepest(&RadialBodySummary::deepest_facing, &DeepestVertex::depth_mm);
 }
 
@@ -49,7 +49,7 @@ struct DeepestOf {
   DeepestReliable vertex;
 };
 
-std::optional<DeepestOf> deepest_of(const Views& bodies, const ReliableContact& reliable) {
+std::optional<DeepestOf> deepest_of(const RadialViews& bodies, const ReliableContact& reliable) {
   const auto deepest = condyle::deepest_of(reliable);
   if (!deepest) return std::nullopt;
   return DeepestOf{deepest->is_mobile ? &bodies.mobile : &bodies.fixed, deepest->vertex};
@@ -84,10 +84,10 @@ io::Json reliable_json(const std::optional<DeepestOf>& deepest, Anatomy joint) {
   return json;
 }
 
-std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
-                    const RadialSummary& summary) {
+std::string rays_json(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
+                      const RadialSummary& summary) {
   const auto& [contact, reliable] = depths;
-  const Views bodies = views(question, summary);
+  const RadialViews bodies = views(question, summary);
   const auto deepest = deepest_of(bodies);
   const auto facing = deepest_facing_of(bodies);
   io::Json json = io::depth_header(question, answer,
@@ -122,10 +122,10 @@ std::string reliable_text(const DeepestOf& deepest, Anatomy joint) {
                      io::place_text(view->place_of(vertex.vertex)), vertex.nearest_distance_mm);
 }
 
-std::string text_of(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
-                    const RadialSummary& summary) {
+std::string rays_text(const DepthQuestion& question, const DepthAnswer& answer, const RayDepths& depths,
+                      const RadialSummary& summary) {
   const auto& [contact, reliable] = depths;
-  const Views bodies = views(question, summary);
+  const RadialViews bodies = views(question, summary);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
   if (const auto deepest = deepest_of(bodies, reliable))
     text += reliable_text(*deepest, question.joint.anatomy);
@@ -181,7 +181,7 @@ DepthResult io::ray_result(const DepthQuestion& question, const DepthAnswer& ans
   const auto& [contact, reliable] = depths;
   const NearestDistances& nearest = answer.measures.distances;
   const RadialSummary summary = summarise(contact, nearest);
-  return {text_of(question, answer, depths, summary), json_of(question, answer, depths, summary),
+  return {rays_text(question, answer, depths, summary), rays_json(question, answer, depths, summary),
           pairs_csv(question.joint, contact.pairs),
           io::arrays_of(question.joint.fixed,
                         condyle::arrays_of(contact.fixed_in_mobile, nearest.fixed, reliable.fixed),

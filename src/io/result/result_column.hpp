@@ -5,6 +5,7 @@
 namespace condyle::io {
 
 enum class ColumnKind { text, number };
+inline constexpr ColumnKind text_column = ColumnKind::text, number_column = ColumnKind::number;
 
 /// A column of a table of results.
 struct ResultColumn {

@@ -11,21 +11,21 @@
 namespace condyle {
 namespace {
 
-using Views = io::BodyViews<TangentialBodySummary>;
-using Deepest = Views::Deepest<DeepestRotation>;
+using ArcViews = io::BodyViews<TangentialBodySummary>;
+using Deepest = ArcViews::Deepest<DeepestRotation>;
 
-Views views(const DepthQuestion& question, const TangentialContact& contact) {
+ArcViews views(const DepthQuestion& question, const TangentialContact& contact) {
   const auto summary_of = [](const std::optional<TangentialResults>& results) {
     return results ? std::optional(summarise(*results)) : std::nullopt;
   };
   return {question, summary_of(contact.mobile_in_fixed), summary_of(contact.fixed_in_mobile)};
 }
 
-std::optional<Deepest> longest(const Views& bodies) {
+std::optional<Deepest> longest(const ArcViews& bodies) {
   return bodies.deepest(&TangentialBodySummary::deepest, &DeepestRotation::depth_mm);
 }
 
-std::optional<Deepest> largest(const Views& bodies) {
+std::optional<Deepest> largest(const ArcViews& bodies) {
   return bodies.deepest(&TangentialBodySummary::largest_angle, &DeepestRotation::depth);
 }
 
@@ -53,9 +53,9 @@ std::string deepest_line(const char* what, std::string_view about, const Deepest
                      deepest.view->body.name, io::place_text(deepest.view->place_of(deepest.vertex.vertex)));
 }
 
-std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
+std::string arcs_json(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
   const auto& [axis, contact] = depths;
-  const Views bodies = views(question, contact);
+  const ArcViews bodies = views(question, contact);
   const auto deepest = longest(bodies), furthest = largest(bodies);
   io::Json json = io::depth_header(question, answer, "tangential");
   json["about"] = name_of(axis.about, question.joint.anatomy);
@@ -73,9 +73,9 @@ std::string json_of(const DepthQuestion& question, const DepthAnswer& answer, co
   return io::document(json);
 }
 
-std::string text_of(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
+std::string arcs_text(const DepthQuestion& question, const DepthAnswer& answer, const ArcDepths& depths) {
   const auto& [axis, contact] = depths;
-  const Views bodies = views(question, contact);
+  const ArcViews bodies = views(question, contact);
   const std::string_view about = name_of(axis.about, question.joint.anatomy);
   std::string text = io::depth_headline(question, answer, contact.pairs.size());
   const auto deepest = longest(bodies), furthest = largest(bodies);
@@ -140,7 +140,7 @@ DepthResult io::arc_result(const DepthQuestion& question, const DepthAnswer& ans
                            const ArcDepths& depths) {
   const TangentialContact& contact = depths.contact;
   const NearestDistances& nearest = answer.measures.distances;
-  return {text_of(question, answer, depths), json_of(question, answer, depths),
+  return {arcs_text(question, answer, depths), arcs_json(question, answer, depths),
           pairs_csv(question.joint, contact.pairs),
           io::arrays_of(question.joint.fixed, condyle::arrays_of(contact.fixed_in_mobile, nearest.fixed),
                         contact.pairs, &TrianglePair::fixed),

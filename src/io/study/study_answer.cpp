@@ -21,7 +21,7 @@
 namespace condyle::io {
 namespace {
 
-using Fields = std::vector<std::string>;
+using Cells = std::vector<std::string>;
 
 template <class Value>
 std::string text_of(const std::optional<Value>& value) {
@@ -29,13 +29,13 @@ std::string text_of(const std::optional<Value>& value) {
 }
 
 /// First fields of each line of this row.
-Fields row_fields(const StudyTable& table, const StudyRow& row) {
-  Fields fields = {csv_field(table.id(row)), fmt::format("{}", row.number)};
+Cells row_fields(const StudyTable& table, const StudyRow& row) {
+  Cells fields = {csv_field(table.id(row)), fmt::format("{}", row.number)};
   for (std::string& field : table.carried_fields(row)) fields.push_back(std::move(field));
   return fields;
 }
 
-std::string line_of(Fields fields, const Fields& more) {
+std::string line_of(Cells fields, const Cells& more) {
   fields.insert(fields.end(), more.begin(), more.end());
   return csv_line(fields);
 }
@@ -72,18 +72,18 @@ RangeRequest range_request_of(const LoadedJoint& loaded, const StudyOptions& opt
   return request;
 }
 
-std::string limit_lines(const Fields& row, const RomResult& result, const StudyOptions& options) {
+std::string limit_lines(const Cells& row, const RomResult& result, const StudyOptions& options) {
   const std::vector<const LimitField*> limit_fields = limit_fields_of(options);
   std::string lines;
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
-    Fields fields = row;
+    Cells fields = row;
     for (const LimitField* field : limit_fields) append_texts(fields, *field, {result, i});
     lines += csv_line(fields);
   }
   return lines;
 }
 
-void add_map(Fields& fields, const MotionMap& map) {
+void add_map(Cells& fields, const MotionMap& map) {
   const MapSummary summary = summarise(map);
   const auto add = [&](auto value) { fields.push_back(fmt::format("{}", value)); };
   add(map.points.size());
@@ -114,7 +114,7 @@ PoseDegrees pose_of(const StudyTable& table, const StudyRow& row, const Joint& j
   }
 }
 
-void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {
+void add_depth(Cells& fields, const Joint& joint, const PoseDegrees& at) {
   const DepthAnswer answer =
       answer_depth(joint, {.X_FM = pose_at(joint.coordinates(), at.angles()), .pose = at.angles()});
   const ContactMeasures& measures = answer.measures;
@@ -130,8 +130,8 @@ void add_depth(Fields& fields, const Joint& joint, const PoseDegrees& at) {
   fields.push_back(fmt::format("{}", measures.nearest.distance_mm));
 }
 
-Fields hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std::string_view notes,
-                  std::string_view inputs) {
+Cells hip_fields(const LoadedJoint& loaded, const BearingFinding& bearing, std::string_view notes,
+                 std::string_view inputs) {
   const auto& surface = bearing.surface;
   return {std::string(name_of(loaded.joint.side)), surface ? fmt::format("{}", surface->head.radius) : "",
           surface ? fmt::format("{}", surface->margin_mm) : "", std::string(notes), std::string(inputs)};
@@ -179,9 +179,9 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
   if (!answer) return std::nullopt;
   for (const RangeNote& note : answer->notes)
     notes += (notes.empty() ? "" : " ") + std::string(name_of(note.code));
-  const Fields of_row = row_fields(table, row);
+  const Cells of_row = row_fields(table, row);
   const std::string inputs = inputs_sha256(row, loaded);
-  Fields of_hip = hip_fields(loaded, answer->bearing, notes, inputs);
+  Cells of_hip = hip_fields(loaded, answer->bearing, notes, inputs);
   if (answer->map) add_map(of_hip, *answer->map);
   if (depth_at) name_joint_file(place, [&] { add_depth(of_hip, joint, *depth_at); });
   for (std::string& field : load.fields) of_hip.push_back(std::move(field));
@@ -192,8 +192,8 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
 StudyAnswer failure_of(const StudyTable& table, const StudyRow& row) {
   const Failure failure = failure_of_current_exception();
   const std::string inputs = inputs_sha256(table, row);
-  const Fields why = {fmt::format("{}", static_cast<int>(failure.exit_code)), csv_field(failure.message),
-                      inputs};
+  const Cells why = {fmt::format("{}", static_cast<int>(failure.exit_code)), csv_field(failure.message),
+                     inputs};
   return {{}, {}, line_of(row_fields(table, row), why), inputs};
 }
 

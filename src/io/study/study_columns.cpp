@@ -13,49 +13,50 @@
 namespace condyle::io {
 namespace {
 
-using enum ColumnKind;
 using Columns = std::vector<ResultColumn>;
 
 Columns id_columns() {
-  return {{"id", "", text, "of the row of the table"},
-          {"table_row", "", number, "number of the row, 1 for the first one"}};
+  return {{"id", "", text_column, "of the row of the table"},
+          {"table_row", "", number_column, "number of the row, 1 for the first one"}};
 }
 
 Columns map_columns() {
-  Columns columns = {
-      {"map_points", "", number, "grid points of the map"},
-      {"map_free_volume_deg3", "deg^3", number, "of the free angles"},
-      {"map_free_volume_weighted_deg3", "deg^3", number, "weighted by the invariant measure of rotations"}};
+  Columns columns = {{"map_points", "", number_column, "grid points of the map"},
+                     {"map_free_volume_deg3", "deg^3", number_column, "of the free angles"},
+                     {"map_free_volume_weighted_deg3", "deg^3", number_column,
+                      "weighted by the invariant measure of rotations"}};
   for (const char* end : {"lower", "upper"})
     for (const char* reason : {"contact", "end_of_range", "contact_at_start"})
-      columns.push_back({fmt::format("map_{}_{}_points", end, reason), "", number,
+      columns.push_back({fmt::format("map_{}_{}_points", end, reason), "", number_column,
                          fmt::format("points whose {} end has this reason", end)});
   columns.push_back(
-      {"map_free_elsewhere_points", "", number, "in contact at the start, free at other angles"});
-  columns.push_back({"map_island_points", "", number, "free again beyond contact"});
+      {"map_free_elsewhere_points", "", number_column, "in contact at the start, free at other angles"});
+  columns.push_back({"map_island_points", "", number_column, "free again beyond contact"});
   return columns;
 }
 
 Columns depth_columns() {
   return {
-      {"depth_in_contact", "", number, "1 where the bodies meet in the pose, else 0"},
-      {"depth_mm", "mm", number, "of the deepest vertex of either body; empty where none is inside"},
-      {"depth_way", "", text, "along which way it is a depth: radial, or the arc of this angle"},
-      {"depth_volume_mm3", "mm^3", number, "of the space inside both; empty where a mesh is open"},
-      {"depth_volume_error_mm3", "mm^3", number, "bound on what the volume is off by rounding"},
-      {"depth_covered_again_mm3", "mm^3", number,
+      {"depth_in_contact", "", number_column, "1 where the bodies meet in the pose, else 0"},
+      {"depth_mm", "mm", number_column, "of the deepest vertex of either body; empty where none is inside"},
+      {"depth_way", "", text_column, "along which way it is a depth: radial, or the arc of this angle"},
+      {"depth_volume_mm3", "mm^3", number_column, "of the space inside both; empty where a mesh is open"},
+      {"depth_volume_error_mm3", "mm^3", number_column, "bound on what the volume is off by rounding"},
+      {"depth_covered_again_mm3", "mm^3", number_column,
        "how much of the overlap's surroundings a body covers more than once; above 0 the volume may count "
        "space twice"},
-      {"depth_nearest_distance_mm", "mm", number, "smallest distance of the surfaces, 0 where they meet"}};
+      {"depth_nearest_distance_mm", "mm", number_column,
+       "smallest distance of the surfaces, 0 where they meet"}};
 }
 
 Columns hip_columns() {
-  return {
-      {"side", "", text, "right or left"},
-      {"bearing_radius_mm", "mm", number, "radius of the sphere of the bearing surface; empty: none known"},
-      {"bearing_margin_mm", "mm", number, "how far outside it contact is bearing contact"},
-      {"notes", "", text, "codes of the notes on the joint, its load and its limits, with blanks between"},
-      {"inputs_sha256", "", text, "of the row and of the contents of the files it names"}};
+  return {{"side", "", text_column, "right or left"},
+          {"bearing_radius_mm", "mm", number_column,
+           "radius of the sphere of the bearing surface; empty: none known"},
+          {"bearing_margin_mm", "mm", number_column, "how far outside it contact is bearing contact"},
+          {"notes", "", text_column,
+           "codes of the notes on the joint, its load and its limits, with blanks between"},
+          {"inputs_sha256", "", text_column, "of the row and of the contents of the files it names"}};
 }
 
 void append(Columns& columns, const Columns& more) {
@@ -74,16 +75,17 @@ Columns carried_columns(const StudyTable& table) {
   Columns columns;
   for (const auto& [column, name, is_number] : table.carried) {
     const HipMeasure* measure = hip_measure_named(table.columns[column]);
-    columns.push_back({name, measure ? std::string(measure->unit) : "", is_number ? number : text,
+    columns.push_back({name, measure ? std::string(measure->unit) : "",
+                       is_number ? number_column : text_column,
                        measure ? fmt::format("from the table: {}", measure->meaning) : "from the table"});
   }
   return columns;
 }
 
 Columns failure_columns() {
-  return {{"exit_code", "", number, "of condyle rom for this joint"},
-          {"message", "", text, "one line: file, element, what is wrong"},
-          {"inputs_sha256", "", text, "of the row and of the contents of the files it names"}};
+  return {{"exit_code", "", number_column, "of condyle rom for this joint"},
+          {"message", "", text_column, "one line: file, element, what is wrong"},
+          {"inputs_sha256", "", text_column, "of the row and of the contents of the files it names"}};
 }
 
 }  // namespace
@@ -131,7 +133,8 @@ std::string columns_csv(const StudyColumns& columns) {
   std::string lines = "table,column,unit,kind,meaning\n";
   const auto add = [&](const char* table, const Columns& of_table) {
     for (const auto& [name, unit, kind, meaning] : of_table)
-      lines += csv_line({table, csv_field(name), unit, kind == text ? "text" : "number", csv_field(meaning)});
+      lines += csv_line(
+          {table, csv_field(name), unit, kind == text_column ? "text" : "number", csv_field(meaning)});
   };
   add("limits", columns.limits);
   add("hips", columns.hips);
@@ -151,7 +154,7 @@ StudyColumns read_columns_csv(std::string_view bytes, std::string_view name) {
     Columns& table = fields[0] == "limits" ? columns.limits
                      : fields[0] == "hips" ? columns.hips
                                            : columns.failures;
-    table.push_back({fields[1], fields[2], fields[3] == "text" ? text : number, fields[4]});
+    table.push_back({fields[1], fields[2], fields[3] == "text" ? text_column : number_column, fields[4]});
   }
   return columns;
 }

@@ -10,12 +10,10 @@
 namespace condyle::io {
 namespace {
 
-using Fields = std::vector<std::string>;
+using Cells = std::vector<std::string>;
 
 /// Columns that stay empty without a force.
 constexpr std::size_t of_balance = 5;
-
-using enum ColumnKind;
 
 ContactEntry contact_of(const LoadedJoint& loaded, const StudyLoad& load) {
   const JointFile& file = loaded.report.file;
@@ -25,16 +23,16 @@ ContactEntry contact_of(const LoadedJoint& loaded, const StudyLoad& load) {
   return contact;
 }
 
-void add(Fields& fields, double value) {
+void add(Cells& fields, double value) {
   fields.push_back(fmt::format("{}", value));
 }
 
-void add(Fields& fields, const Vec3& v) {
+void add(Cells& fields, const Vec3& v) {
   for (int axis = 0; axis < 3; ++axis) add(fields, v[axis]);
 }
 
 /// Empty if the body's surface was not cast, a mean or a centre also where nothing of it is in contact.
-void add_surface(Fields& fields, const std::optional<SurfaceContact>& surface) {
+void add_surface(Cells& fields, const std::optional<SurfaceContact>& surface) {
   const std::size_t end = fields.size() + 9;
   if (surface) {
     const ContactTotals& totals = surface->totals;
@@ -68,17 +66,17 @@ LoadRequest request_of(const Joint& joint, const StudyLoad& load, const BodyName
 
 std::vector<ResultColumn> load_columns() {
   std::vector<ResultColumn> columns = {
-      {"load_outcome", "", text,
+      {"load_outcome", "", text_column,
        "balanced, at_jump or unstable; pulled_apart, over_the_rim, too_large or free_direction, where the "
        "other "
        "columns are empty; empty without a force"},
-      {"load_residual_n", "N", number, "what contact and force add up to; empty without a force"}};
+      {"load_residual_n", "N", number_column, "what contact and force add up to; empty without a force"}};
   for (const char* axis : {"x", "y", "z"})
-    columns.push_back({fmt::format("load_moved_{}_mm", axis), "mm", number,
+    columns.push_back({fmt::format("load_moved_{}_mm", axis), "mm", number_column,
                        "from the pose asked to the balanced one, joint frame; empty without a force"});
   for (const char* body : {"fixed", "mobile"}) {
     const auto add = [&](const char* name, const char* unit, const char* meaning) {
-      columns.push_back({fmt::format("load_{}_{}", body, name), unit, number,
+      columns.push_back({fmt::format("load_{}_{}", body, name), unit, number_column,
                          fmt::format("{}, of the {} body's surface", meaning, body)});
     };
     add("area_mm2", "mm^2", "in contact");
@@ -87,18 +85,18 @@ std::vector<ResultColumn> load_columns() {
     add("mean_pressure_mpa", "MPa", "pressure in the mean over the area in contact");
     add("max_pressure_mpa", "MPa", "greatest pressure");
     for (const char* axis : {"x", "y", "z"})
-      columns.push_back({fmt::format("load_{}_centre_{}_mm", body, axis), "mm", number,
+      columns.push_back({fmt::format("load_{}_centre_{}_mm", body, axis), "mm", number_column,
                          fmt::format("centre of pressure on the {} body, its own frame", body)});
     add("oblique_area_mm2", "mm^2", "overlap without a depth, as rays meet the other surface at a slant");
   }
   for (const char* axis : {"x", "y", "z"})
-    columns.push_back({fmt::format("load_force_{}_n", axis), "N", number,
+    columns.push_back({fmt::format("load_force_{}_n", axis), "N", number_column,
                        "of the contact on the mobile body, joint frame"});
   columns.push_back(
-      {"load_refined_force_n", "N", number,
+      {"load_refined_force_n", "N", number_column,
        "length of that force with 16 rays in each triangle: what the meshes' edges leave open; empty "
        "with one ray for each triangle"});
-  columns.push_back({"load_cut_off_by_reach", "", number,
+  columns.push_back({"load_cut_off_by_reach", "", number_column,
                      "rays that a longer reach would find in contact; 0: the reach suffices"});
   return columns;
 }
@@ -111,7 +109,7 @@ LoadFields load_fields(const LoadedJoint& loaded, const StudyLoad& load) {
                               elastic_options(contact, surfaces, loaded));
   const LoadRequest request = request_of(joint, load, {surfaces.fixed.name, surfaces.mobile.name});
   LoadAnswer answer = answer_load(layers, request);
-  Fields fields;
+  Cells fields;
   if (answer.balanced) {
     fields.emplace_back(name_of(answer.balanced->outcome));
     if (!answer.carries_load()) {

@@ -1,4 +1,5 @@
 #include "io/study/study_table.hpp"
+#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ void check_spelling(const StudyTable& table, std::size_t line, const Source& sou
 
 /// Longest name that HDF5 takes.
 constexpr std::size_t longest_name = 1000;
-bool is_control(char c) {
+bool is_control_byte(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
@@ -82,7 +83,7 @@ void check_columns(const StudyTable& table, std::size_t line, const Source& sour
     if (name.empty()) fail(fmt::format("column {} has no name", c + 1));
     if (name == "." || name.find_first_of("/\\") != name.npos)
       fail(fmt::format("column {}: a name is no point and has no slash", in_quotes(name)));
-    if (std::any_of(name.begin(), name.end(), is_control))
+    if (std::any_of(name.begin(), name.end(), is_control_byte))
       fail(fmt::format("column {}: a name has no control characters", in_quotes(name)));
     if (name.size() > longest_name)
       fail(
