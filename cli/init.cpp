@@ -6,74 +6,163 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "answer.hpp"
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/label_joint.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "followed.hpp"
+#include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
+#include "io/file/output_folder.hpp"
+#include "label_options.hpp"
 
 namespace condyle::cli {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct Options {
-  ProposalRequest request;
+  std::string fixed, mobile;  ///< files
+  std::string fixed_label, mobile_label;
+  std::optional<Side> side;
+  std::optional<LengthUnit> units;
+  std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   std::string out;
+
+  fs::path joint_file() const { return out.empty() ? fs::path("joint.toml") : fs::path(out); }
 };
 
-void run(Options options) {
-  namespace fs = std::filesystem;
-  options.request.joint_file = options.out.empty() ? fs::path("joint.toml") : fs::path(options.out);
-  if (!options.out.empty()) {
-    std::error_code ignored;
-    if (fs::exists(fs::symlink_status(options.out, ignored)))
-      throw FileError(options.out +
-                      ": is there already; a joint file may have been edited and is not replaced");
-    io::check_output_file(options.out);
-  }
-  const JointProposal proposal = propose_joint(options.request);
+void refuse_existing(const fs::path& path, const char* why) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(path, ignored)))
+    throw FileError(path.string() + ": is there already; " + why);
+}
+
+void check_out(const Options& options) {
+  if (options.out.empty()) return;
+  refuse_existing(options.out, "a joint file may have been edited and is not replaced");
+  io::check_output_file(options.out);
+}
+
+void note_to_fill_in(const JointProposal& proposal) {
   for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
+}
+
+void propose_from_meshes(const Options& options) {
+  if (options.mobile.empty()) throw UsageError("MOBILE: the mesh of the body that moves is needed");
+  const JointProposal proposal = propose_joint(
+      ProposalRequest{options.fixed, options.mobile, options.joint_file(), options.side, options.units});
+  note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
   note("wrote " + options.out);
 }
 
+void check_labels(const Options& options) {
+  if (options.out.empty())
+    throw UsageError("--out: is needed, the surfaces of the bones are written beside the joint file");
+  if (options.units) throw UsageError("--units: surfaces of label maps are in mm");
+  if (options.mobile.empty() && (options.fixed_label.empty() || options.mobile_label.empty()))
+    throw UsageError("--fixed, --mobile: both labels are needed, by number or by name");
+}
+
+void propose_from_labels(const Options& options) {
+  check_labels(options);
+  const auto bone = [&](const std::string& label) {
+    return LabelBoneRequest{label, options.labels->task, options.labels->surface};
+  };
+  LabelJointRequest request{.labels = options.fixed,
+                            .file = options.labels->file,
+                            .fixed = bone(options.fixed_label),
+                            .mobile = bone(options.mobile_label),
+                            .joint_file = options.joint_file(),
+                            .side = options.side};
+  if (!options.mobile.empty()) request.mobile_labels = options.mobile;
+  const LabelJoint joint =
+      followed("steps of surfaces", [&](const auto& progress, const std::stop_token& stop) {
+        return propose_joint(request, {.progress = progress, .stop = stop});
+      });
+  for (const fs::path& mesh : {joint.fixed_mesh, joint.mobile_mesh})
+    refuse_existing(mesh, "a mesh of a joint is not replaced");
+  note_labels(joint.notes);
+  note_to_fill_in(joint.proposal);
+  const fs::path folder = request.joint_file.parent_path();
+  OutputFolder out(folder.empty() ? fs::path(".") : folder);
+  write_mesh(out.file(joint.fixed_mesh.filename().string()), joint.fixed.surface.mesh);
+  write_mesh(out.file(joint.mobile_mesh.filename().string()), joint.mobile.surface.mesh);
+  io::write_output_file(out.file(request.joint_file.filename().string()), joint.proposal.toml);
+  say_written(out.commit());
+}
+
+void run(const Options& options) {
+  check_out(options);
+  if (label_format_of(options.fixed)) return propose_from_labels(options);
+  if (!options.fixed_label.empty() || !options.mobile_label.empty())
+    throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
+  propose_from_meshes(options);
+}
+
 }  // namespace
 
 void add_init(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("init", "Propose a joint file for two meshes, with the evidence for each value");
+  auto* command = app.add_subcommand(
+      "init",
+      "Propose a joint file for two meshes or two bones of a label map, with the evidence for each value");
   command->footer(
       "Example: condyle sample hip --out bones\n"
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
+      "         condyle init seg.nii.gz --task total --fixed hip_right --mobile femur_right -o hip.toml\n"
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
   auto options = std::make_shared<Options>();
   command
-      ->add_option("FIXED", options->request.fixed, "The mesh of the body that stays, such as the hip bone")
+      ->add_option(
+          "FIXED", options->fixed,
+          "The mesh of the body that stays, such as the hip bone, or a label map: .nii, .nii.gz, .nrrd, "
+          ".nhdr, .mha, .mhd")
       ->required();
-  command->add_option("MOBILE", options->request.mobile, "The mesh of the body that moves, such as the femur")
-      ->required();
+  command->add_option(
+      "MOBILE", options->mobile,
+      "The mesh of the body that moves, such as the femur; a label map if it is in a file of its own");
+  command
+      ->add_option(
+          "--fixed", options->fixed_label,
+          "The label of the body that stays: its number, or its name if the file or --task has names")
+      ->option_text("LABEL");
+  command->add_option("--mobile", options->mobile_label, "The label of the body that moves")
+      ->option_text("LABEL");
+  add_label_surface(*command, options->labels);
+  add_label_file(*command, options->labels);
   command
       ->add_option_function<std::string>(
           "--side",
-          [options](const std::string& side) {
-            options->request.side = side == "right" ? Side::right : Side::left;
-          },
-          "The side of the body. Without it inferred from the bones")
+          [options](const std::string& side) { options->side = side == "right" ? Side::right : Side::left; },
+          "The side of the body. Without it by the labels' names, else inferred from the bones")
       ->check(CLI::IsMember({"right", "left"}))
       ->option_text("right|left");
   command
       ->add_option_function<std::string>(
           "--units",
           [options](const std::string& units) {
-            options->request.units = units == "m" ? LengthUnit::metres : LengthUnit::millimetres;
+            options->units = units == "m" ? LengthUnit::metres : LengthUnit::millimetres;
           },
           "The unit of both meshes. Without it inferred from their size")
       ->check(CLI::IsMember({"mm", "m"}))
       ->option_text("mm|m");
-  command->add_option("-o,--out", options->out, "Write the joint file here")
+  command
+      ->add_option("-o,--out", options->out,
+                   "Write the joint file here, and surfaces of a label map beside it")
       ->option_text("FILE (standard output)");
+  std::vector<std::string> of_labels{"--fixed", "--mobile"};
+  for (const std::string& name : label_surface_names()) of_labels.push_back(name);
+  group_help(*command, {{"Joint", {"--side", "--units"}},
+                        {"Label maps", of_labels},
+                        {"Images", label_file_names()},
+                        {"Output", {"--out"}}});
   command->callback([options] { run(*options); });
 }
 

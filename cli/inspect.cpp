@@ -13,15 +13,19 @@
 #include "commands.hpp"
 #include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "help_formatter.hpp"
 #include "io/file/output_folder.hpp"
 #include "io/result/inspection_result.hpp"
+#include "io/result/label_result.hpp"
 #include "io/result/repair_text.hpp"
+#include "label_options.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct Options {
-  std::vector<std::string> meshes;
+  std::vector<std::string> meshes;  ///< or label maps
+  std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   std::vector<std::string> repairs;
   std::string out;
   AnswerForm form = AnswerForm::text;
@@ -39,7 +43,28 @@ void check_names_differ(const Options& options) {
       throw UsageError("--out: two meshes would be written as " + repaired_name(mesh));
 }
 
+/// False if the files are meshes.
+bool are_label_maps(const Options& options) {
+  const auto is_label_map = [](const std::string& path) { return label_format_of(path).has_value(); };
+  const auto maps = std::count_if(options.meshes.begin(), options.meshes.end(), is_label_map);
+  if (maps == 0) return false;
+  if (maps != static_cast<std::ptrdiff_t>(options.meshes.size()))
+    throw UsageError("MESH: meshes and label maps are inspected one after the other, not together");
+  if (!options.repairs.empty() || !options.out.empty())
+    throw UsageError("--repair, --out: are for meshes; condyle surface extracts one from a label map");
+  return true;
+}
+
+void inspect_label_maps(const Options& options, const CLI::App& command) {
+  std::vector<io::LabelInspection> images;
+  for (const std::string& path : options.meshes)
+    images.push_back(io::inspect_labels(path, options.labels->file));
+  print(options.form == AnswerForm::json ? io::labels_json(images, words_of(command))
+                                         : io::labels_text(images));
+}
+
 void run(const Options& options, const CLI::App& command) {
+  if (are_label_maps(options)) return inspect_label_maps(options, command);
   std::vector<Repair> repairs;
   for (const std::string& name : options.repairs) repairs.push_back(repair_named(name));
   const std::vector<std::filesystem::path> meshes(options.meshes.begin(), options.meshes.end());
@@ -71,12 +96,18 @@ void run(const Options& options, const CLI::App& command) {
 }  // namespace
 
 void add_inspect(CLI::App& app) {
-  auto* command = app.add_subcommand("inspect", "Report what meshes are and what is wrong with them");
+  auto* command =
+      app.add_subcommand("inspect", "Report what meshes and label maps hold, and what is wrong with them");
   command->footer(
       "Example: condyle inspect femur.ply hip_bone.ply\n"
-      "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired");
+      "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"
+      "         condyle inspect seg.nii.gz");
   auto options = std::make_shared<Options>();
-  command->add_option("MESH", options->meshes, "Mesh files, .stl, .obj, .ply, .vtp or .vtk")->required();
+  command
+      ->add_option("MESH", options->meshes,
+                   "Mesh files, .stl, .obj, .ply, .vtp or .vtk, or label maps, .nii, .nii.gz, .hdr, .nrrd, "
+                   ".nhdr, .mha or .mhd")
+      ->required();
   command->add_option("--repair", options->repairs, "Make these repairs, which lose nothing, in this order")
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -86,6 +117,9 @@ void add_inspect(CLI::App& app) {
   command->add_flag_callback(
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
+  add_label_file(*command, options->labels);
+  group_help(*command,
+             {{"Meshes", {"--repair", "--out"}}, {"Label maps", label_file_names()}, {"Output", {"--json"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

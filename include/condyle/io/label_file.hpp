@@ -33,6 +33,10 @@ enum class LabelNoteCode {
   unknown_units,       ///< NIfTI: no unit of length; mm was assumed.
   more_bytes,          ///< The file holds more than its header promises.
   empty_segmentation,  ///< One voxel: 3D Slicer writes an empty segmentation so.
+  pieces,              ///< A bone is in several pieces.
+  cavities,            ///< It has closed cavities, such as marrow.
+  cut_by_view,         ///< It reaches the border of its image.
+  touching,            ///< Two bones touch or overlap.
   label_tables,        ///< A number was asked for: the names that published tables and the file give it.
 };
 
@@ -56,7 +60,8 @@ struct LabelMap {
   std::vector<LabelNote> notes;
 };
 
-/// Which affine of a NIfTI file counts. The other two refuse a file that lacks theirs.
+/// Which affine of a NIfTI file counts: the sform, and the qform if there is none; or only one of both, without which the file
+/// is refused.
 enum class AffineChoice { sform_first, sform, qform };
 
 /// Orientation that a user states for a file that has none. NRRD with axes but no named space: their world. Otherwise: the
@@ -65,11 +70,12 @@ enum class StatedAxes { lps, ras, las };
 
 struct LabelFileOptions {
   AffineChoice affine = AffineChoice::sform_first;
-  std::optional<std::int64_t> volume =
-      {};  ///< of a NIfTI file with several, from 0; without it such a file is refused
-  std::optional<StatedAxes> axes =
-      {};                       ///< counts only if the file gives no orientation, which is else refused
-  bool outside_folder = false;  ///< a header's data may lie outside the folder of the header
+  /// One volume among several of a NIfTI file, counted from 0; such a file is refused without it.
+  std::optional<std::int64_t> volume = {};
+  /// Counts only for a file without orientation, which is refused without it.
+  std::optional<StatedAxes> axes = {};
+  /// Data may lie outside the folder of the header that names them.
+  bool outside_folder = false;
 };
 
 /// Reads a label map; the extension decides on the format, in upper or lower case. Values must be whole numbers from 0 to

@@ -95,7 +95,7 @@ std::vector<std::size_t> layers_with(const LabelMap& map, std::uint32_t label) {
   return layers;
 }
 
-/// What the file and every table call a number.
+/// The names that the file and every table give to a number.
 LabelNote tables_note(const LabelMap& map, std::size_t layer, std::uint32_t label) {
   std::vector<std::string> words;
   if (const auto name = name_in_file(map, layer, label); !name.empty())

@@ -70,6 +70,14 @@ std::string_view name_of(LabelNoteCode code) noexcept {
       return "more_bytes";
     case LabelNoteCode::empty_segmentation:
       return "empty_segmentation";
+    case LabelNoteCode::pieces:
+      return "pieces";
+    case LabelNoteCode::cavities:
+      return "cavities";
+    case LabelNoteCode::cut_by_view:
+      return "cut_by_view";
+    case LabelNoteCode::touching:
+      return "touching";
     case LabelNoteCode::label_tables:
       break;
   }

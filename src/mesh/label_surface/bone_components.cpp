@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "condyle/repair.hpp"
+#include "condyle/inspect.hpp"
 #include "mesh/edge_table.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/winding_number.hpp"

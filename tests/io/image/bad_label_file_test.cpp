@@ -400,15 +400,15 @@ void expect_one_line_for_each(const std::vector<Damage>& damages, LabelFormat fo
   }
 }
 
-TEST(BadLabelFile, OfNiftiEndsInOneLine) {
+TEST(BadNiftiFile, EndsInOneLine) {
   expect_one_line_for_each(damaged_nifti(), LabelFormat::nifti);
 }
 
-TEST(BadLabelFile, OfNrrdEndsInOneLine) {
+TEST(BadNrrdFile, EndsInOneLine) {
   expect_one_line_for_each(damaged_nrrd(), LabelFormat::nrrd);
 }
 
-TEST(BadLabelFile, OfMetaImageEndsInOneLine) {
+TEST(BadMetaImageFile, EndsInOneLine) {
   expect_one_line_for_each(damaged_metaimage(), LabelFormat::metaimage);
 }
 

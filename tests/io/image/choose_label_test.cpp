@@ -46,7 +46,7 @@ std::string chosen(const LabelMap& map, std::string_view text, std::optional<Lab
   }
 }
 
-TEST(LabelNames, OfACaretExtensionAreRead) {
+TEST(CaretNames, AreRead) {
   const auto map = named_by_nifti(femurs);
   ASSERT_EQ(map.segments.size(), 2u);
   EXPECT_EQ(map.segments[1].name, "femur_right");
@@ -54,7 +54,7 @@ TEST(LabelNames, OfACaretExtensionAreRead) {
   EXPECT_EQ(map.segments[1].layer, 0u);
 }
 
-TEST(LabelNames, OfACaretExtensionMayHoldAnyCharacter) {
+TEST(CaretNames, MayHoldAnyCharacter) {
   const auto map = named_by_nifti(
       "<Label Key=\"1\"><![CDATA[a < b > c & ]] d]]></Label><Label Key=\"2\">a &lt; b &amp;amp; c</Label>"
       "<Label Key=\"3\"> <![CDATA[bl\x1b[31mank]]> </Label><Label Key=\"75\"/><Label Key='76'></Label>");
@@ -66,7 +66,7 @@ TEST(LabelNames, OfACaretExtensionMayHoldAnyCharacter) {
   EXPECT_EQ(map.segments[4].name, "");
 }
 
-TEST(LabelNames, OfSlicerAreByLayerAndValue) {
+TEST(SlicerSegments, AreByLayerAndValue) {
   const auto map = named_by_slicer(
       "Segment0_ID:=Segment_1\nSegment0_LabelValue:=3\nSegment0_Layer:=0\nSegment0_Name:=Left femur\n"
       "Segment0_Extent:=0 4 0 3 0 2\nSegment10_Name:=Pelvis \\\\ both\nSegment10_LabelValue:=3\n"
@@ -84,7 +84,7 @@ TEST(LabelNames, OfSlicerAreByLayerAndValue) {
   EXPECT_EQ(chosen(map, "2:3"), "no layer 2: the image has 2, counted from 0");
 }
 
-TEST(LabelNames, OfOldSlicerFilesAreOneLayerEach) {
+TEST(SlicerSegments, AreOneLayerEachInOldFiles) {
   const auto map = named_by_slicer("Segment0_Name:=a\nSegment1_Name:=b\n", 2);
   ASSERT_EQ(map.segments.size(), 2u);
   EXPECT_EQ(map.segments[1].layer, 1u);

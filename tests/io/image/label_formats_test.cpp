@@ -234,7 +234,7 @@ TEST(LabelLayers, LieInterleavedWhereTheListIsFirstAndElsewhereWhereItStands) {
     }
 }
 
-TEST(LabelLayers, OfManyBlocksStayApart) {
+TEST(LabelLayers, StayApartOverManyBlocks) {
   LabelImage image{{70, 71, 72}, Affine3d::Identity(), {{}, {}}};
   std::mt19937 random(3);
   for (auto& layer : image.layers)
@@ -406,7 +406,7 @@ TEST(MetaImageMatrix, HasTheAxesInItsRows) {
   EXPECT_LE((map.grid.X_WI * Vector3d(0, 1, 0) - Vector3d(-5, 10, 3)).norm(), 1e-12);
 }
 
-TEST(LabelBytes, BeyondThoseThatTheHeaderPromisesAreNoted) {
+TEST(LabelBytes, AreNotedBeyondThoseThatTheHeaderPromises) {
   const auto image = test::label_image(placements()[0].X_WI);
   for (const auto& [bytes, format] : {std::pair{test::nifti(image), LabelFormat::nifti},
                                       {test::nrrd(image), LabelFormat::nrrd},
@@ -418,7 +418,7 @@ TEST(LabelBytes, BeyondThoseThatTheHeaderPromisesAreNoted) {
   }
 }
 
-TEST(LabelBytes, OfOneVoxelAreAnEmptySegmentation) {
+TEST(EmptySegmentation, IsNotedForASingleVoxel) {
   const LabelImage image{{1, 1, 1}, Affine3d::Identity(), {{0}}};
   EXPECT_TRUE(has_note(read(test::nrrd(image), LabelFormat::nrrd), LabelNoteCode::empty_segmentation));
 }

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/io/label_joint.hpp"
+
+/// Options of commands that read label maps.
+
+namespace condyle::cli {
+
+struct LabelOptions {
+  LabelFileOptions file;
+  std::optional<LabelTask> task;
+  LabelSurfaceOptions surface;
+};
+
+/// --affine, --volume, --axes and --elsewhere.
+void add_label_file(CLI::App& command, const std::shared_ptr<LabelOptions>& options);
+
+/// --task, --pieces, --cavities and --triangles.
+void add_label_surface(CLI::App& command, const std::shared_ptr<LabelOptions>& options);
+
+/// The long names of both, for groups of the help.
+std::vector<std::string> label_file_names();
+std::vector<std::string> label_surface_names();
+
+/// Notes on standard error.
+void note_labels(const std::vector<LabelNote>& notes);
+
+}  // namespace condyle::cli

@@ -1,0 +1,75 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <string>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/io/label_joint.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "followed.hpp"
+#include "help_formatter.hpp"
+#include "io/file/output_file.hpp"
+#include "io/result/label_result.hpp"
+#include "label_options.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string image, label, out;
+  std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
+  AnswerForm form = AnswerForm::text;
+};
+
+void run(const Options& options, const CLI::App& command) {
+  mesh_format_of(options.out);  // refuses an ending that is none of a mesh
+  const std::filesystem::path read[] = {options.image};
+  io::check_output_file(options.out, read);
+  const LabelMap map = read_labels(options.image, options.labels->file);
+  const LabelBoneRequest request{options.label, options.labels->task, options.labels->surface};
+  const LabelBone bone =
+      followed("steps of the surface", [&](const auto& progress, const std::stop_token& stop) {
+        return bone_of(map, options.image, request, {.progress = progress, .stop = stop});
+      });
+  note_labels(map.notes);
+  note_labels(bone.notes);
+  write_mesh(options.out, bone.surface.mesh);
+  note("wrote " + options.out);
+  print(options.form == AnswerForm::json ? io::surface_json(bone, options.image, words_of(command))
+                                         : io::surface_text(bone));
+}
+
+}  // namespace
+
+void add_surface(CLI::App& app) {
+  auto* command = app.add_subcommand("surface", "Extract the surface of one bone from a label map");
+  command->footer(
+      "Example: condyle surface seg.nii.gz --label 76 -o femur.ply\n"
+      "         condyle surface seg.nii.gz --task total --label femur_right -o femur.ply\n"
+      "The surface is closed and in LPS, mm: it lies over its image in 3D Slicer.");
+  auto options = std::make_shared<Options>();
+  command->add_option("LABELS", options->image, "A label map: .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha, .mhd")
+      ->required();
+  command
+      ->add_option("--label", options->label,
+                   "The label of the bone: its number, or its name if the file or --task has names. Without "
+                   "it the only label")
+      ->option_text("LABEL");
+  command->add_option("-o,--out", options->out, "Write the surface here, .ply or .vtp")
+      ->option_text("FILE")
+      ->required();
+  command->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
+  add_label_surface(*command, options->labels);
+  add_label_file(*command, options->labels);
+  std::vector<std::string> of_bone{"--label"};
+  for (const std::string& name : label_surface_names()) of_bone.push_back(name);
+  group_help(*command, {{"Bone", of_bone}, {"Image", label_file_names()}, {"Output", {"--out", "--json"}}});
+  command->callback([options, command] { run(*options, *command); });
+}
+
+}  // namespace condyle::cli

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "condyle/error.hpp"
+#include "condyle/io/label_joint.hpp"
+#include "core/rounded.hpp"
+
+namespace condyle {
+namespace {
+
+/// Pieces below this share of the bone's voxels are specks, of which nothing is said.
+constexpr double least_noted_piece = 1e-3;
+
+/// The only label above 0; UsageError if there are several.
+std::string only_label(const LabelMap& map, std::string_view file) {
+  std::optional<LabelSummary> only;
+  for (const LabelSummary& summary : summaries_of(map)) {
+    if (summary.label == 0) continue;
+    if (only) throw UsageError(fmt::format("{}: has several labels: say which one is meant", file));
+    only = summary;
+  }
+  if (!only) throw MeshError(fmt::format("{}: no voxel has a label above 0", file));
+  return map.layers.size() > 1 ? fmt::format("{}:{}", only->layer, only->label)
+                               : fmt::format("{}", only->label);
+}
+
+/// Without a number's note on tables where nobody chose the number.
+ChosenLabel chosen_label(const LabelMap& map, std::string_view file, const LabelBoneRequest& request) {
+  const bool is_only = request.label.empty();
+  try {
+    ChosenLabel chosen = choose_label(map, is_only ? only_label(map, file) : request.label, request.task);
+    if (is_only) chosen.notes.clear();
+    return chosen;
+  } catch (const UsageError& error) {
+    const std::string_view what = error.what();
+    throw UsageError(what.starts_with(file) ? std::string(what) : fmt::format("{}: {}", file, what));
+  }
+}
+
+void check_size(const VoxelMask& mask, std::int64_t voxels, std::string_view file, std::string_view name) {
+  if (voxels == 0) throw MeshError(fmt::format("{}: {} has no voxel", file, name));
+  double longest = 0;
+  for (int i = 0; i < 3; ++i)
+    longest = std::max(longest, static_cast<double>(mask.size[static_cast<std::size_t>(i)]) *
+                                    mask.image.X_WI.linear().col(i).norm());
+  if (voxels < fewest_bone_voxels || longest < smallest_bone_mm)
+    throw MeshError(fmt::format("{}: {} has {} voxels and is {:.3g} mm long: no bone is so small", file, name,
+                                voxels, longest));
+}
+
+void note_pieces(const LabelBone& bone, std::vector<LabelNote>& notes) {
+  double kept = 0, dropped = 0;
+  std::size_t kept_pieces = 0, dropped_pieces = 0;
+  for (const LabelPiece& piece : bone.surface.pieces) {
+    if (static_cast<double>(piece.voxels) < least_noted_piece * static_cast<double>(bone.voxels)) continue;
+    (piece.kept ? kept : dropped) += piece.volume;
+    ++(piece.kept ? kept_pieces : dropped_pieces);
+  }
+  if (dropped_pieces > 0)
+    notes.push_back(
+        {LabelNoteCode::pieces,
+         fmt::format("{} is in {} pieces: the largest is kept, {:.0f} mm3, and {:.0f} mm3 are left out",
+                     bone.name, kept_pieces + dropped_pieces, kept, dropped)});
+  else if (kept_pieces > 1)
+    notes.push_back(
+        {LabelNoteCode::pieces, fmt::format("{} is in {} pieces, all of them kept", bone.name, kept_pieces)});
+}
+
+void note_cavities(const LabelBone& bone, bool kept, std::vector<LabelNote>& notes) {
+  const LabelCavities& cavities = bone.surface.cavities;
+  if (cavities.count == 0) return;
+  notes.push_back(
+      {LabelNoteCode::cavities,
+       fmt::format("{} has {} cavit{} of {:.0f} mm3 together, {}", bone.name, cavities.count,
+                   cavities.count == 1 ? "y" : "ies", cavities.volume, kept ? "kept" : "filled")});
+}
+
+void note_cuts(const LabelBone& bone, std::vector<LabelNote>& notes) {
+  for (const CapPlane& cap : bone.surface.caps)
+    notes.push_back(
+        {LabelNoteCode::cut_by_view,
+         fmt::format("{} ends at the {} voxels of the image along {}, and is closed there by a flat face of "
+                     "{:.0f} mm2: limits of a joint with it are upper bounds",
+                     bone.name, cap.high ? "last" : "first", "ijk"[cap.axis], cap.area)});
+}
+
+BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
+  BodyImage image{grid.X_WI.linear(), {}};
+  for (const CapPlane& cap : surface.caps) image.cuts.push_back({cap.normal, cap.offset});
+  return image;
+}
+
+}  // namespace
+
+std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
+                                 const Control& control) {
+  LabelBone bone{.name = {}, .label = chosen_label(map, file, request), .surface = {}, .image = {}};
+  bone.name = bone.label.name.empty() ? fmt::format("label_{}", bone.label.label) : bone.label.name;
+  const VoxelMask mask = mask_of(map, bone.label.layer, bone.label.label);
+  bone.voxels = std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
+  check_size(mask, bone.voxels, file, bone.name);
+  try {
+    auto surface = surface_of(mask, request.surface, control);
+    if (!surface) return std::nullopt;
+    bone.surface = std::move(*surface);
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}: {}", file, bone.name, error.what()));
+  }
+  bone.image = image_of(map.grid, bone.surface);
+  bone.notes = bone.label.notes;
+  note_pieces(bone, bone.notes);
+  note_cavities(bone, request.surface.keep_cavities, bone.notes);
+  note_cuts(bone, bone.notes);
+  return bone;
+}
+
+LabelBone bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request) {
+  return *bone_of(map, file, request, {});
+}
+
+std::optional<Side> side_in_name(std::string_view name) {
+  bool left = false, right = false;
+  std::string word;
+  const auto end_word = [&] {
+    left |= word == "left" || word == "l";
+    right |= word == "right" || word == "r";
+    word.clear();
+  };
+  for (const char c : name) {
+    if (std::isalpha(static_cast<unsigned char>(c)))
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    else
+      end_word();
+  }
+  end_word();
+  if (left == right) return std::nullopt;
+  return left ? Side::left : Side::right;
+}
+
+}  // namespace condyle
