@@ -75,8 +75,12 @@ struct BearingFinding {
   /// If the gap at the rim makes the usual margin smaller than narrow_bearing_margin_mm.
   std::optional<NarrowMargin> narrow_margin = {};
 
-  /// Kind of a contact on this feature of the mobile mesh. Linear in its triangles for vertices and edges.
-  ContactKind kind_of(const TriMesh& mobile, const Feature& feature) const noexcept;
+  /// Of both bodies, which no contact of bones is on.
+  std::vector<ImageCut> fixed_cuts = {}, mobile_cuts = {};
+
+  bool is_on_cut(const ContactWitness& contact) const noexcept;
+  /// Kind of a contact whose mobile feature is of this mesh. Linear in its triangles for vertices and edges.
+  ContactKind kind_of(const TriMesh& mobile, const ContactWitness& contact) const noexcept;
 };
 
 /// Searches for the head around the joint centre. None for a hinge, if no head is found, if its centre is farther

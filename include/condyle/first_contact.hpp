@@ -31,6 +31,7 @@ enum class ContactKind : std::uint8_t {
   unknown,      ///< No bearing surface is known.
   bearing,      ///< The bearing surfaces touch: the centre or the segmentation is off.
   impingement,  ///< Something else meets.
+  cut,          ///< A face that closes a bone where its image ends meets something: no contact of bones.
 };
 
 /// A pair of features in contact, and the point on each body in its own frame. If several pairs are in contact at the

@@ -49,6 +49,7 @@ inline constexpr double on_cut_mm = 0.01;
 
 /// Whether a point of the body's surface, in its frame, lies on a face that closes it where its image ends.
 bool is_on_cut(const Body& body, const Vec3& point) noexcept;
+bool is_on_cut(const std::vector<ImageCut>& cuts, const Vec3& point) noexcept;
 
 /// Area of the triangles that lie in the body's cuts, mm^2. Linear in the mesh.
 double cut_area_mm2(const Body& body);

@@ -29,8 +29,8 @@ Feature = Union[tuple[Literal["vertex"], int], tuple[Literal["edge"], int, int],
 class ContactWitness:
     """A pair of features in contact. Each is ("vertex", number), ("edge", vertex, vertex) or ("face", triangle).
 
-    `fixed_point` and `mobile_point` are (3,), each in its own body's frame, mm. `kind` is "bearing", "impingement" or
-    "unknown".
+    `fixed_point` and `mobile_point` are (3,), each in its own body's frame, mm. `kind` is "bearing", "impingement", "cut"
+    (on a face that closes a bone where its image ends) or "unknown".
     """
 
     fixed_feature: Feature

@@ -36,7 +36,7 @@ Repair = Literal["weld", "drop_unreferenced", "flip_inverted"]
 Colour = Literal["depth", "gap", "nearest", "none"]
 Look = Literal["solid", "transparent", "hidden"]
 LimitReason = Literal["contact", "end_of_range", "contact_at_start"]
-ContactKind = Literal["unknown", "bearing", "impingement"]
+ContactKind = Literal["unknown", "bearing", "impingement", "cut"]
 Way = Literal["none", "radial", "flexion", "adduction", "internal_rotation", "nearest"]
 BalanceOutcome = Literal["balanced", "at_jump", "pulled_apart", "over_the_rim", "too_large", "unstable",
                          "free_direction"]

@@ -12,9 +12,12 @@ bool is_on(const ImageCut& cut, const Vec3& point) noexcept {
 
 }  // namespace
 
+bool is_on_cut(const std::vector<ImageCut>& cuts, const Vec3& point) noexcept {
+  return std::any_of(cuts.begin(), cuts.end(), [&](const ImageCut& cut) { return is_on(cut, point); });
+}
+
 bool is_on_cut(const Body& body, const Vec3& point) noexcept {
-  return body.image && std::any_of(body.image->cuts.begin(), body.image->cuts.end(),
-                                   [&](const ImageCut& cut) { return is_on(cut, point); });
+  return body.image && is_on_cut(body.image->cuts, point);
 }
 
 double cut_area_mm2(const Body& body) {

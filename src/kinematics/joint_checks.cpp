@@ -145,9 +145,10 @@ void check_cuts(const Body& body, Notes& notes) {
   if (!body.image || body.image->cuts.empty()) return;
   notes.add(
       JointNoteCode::cut_by_view,
-      body.name + formatted(" ends where its image ends, in %zu flat faces of %.0f mm2 together: what is "
+      body.name + formatted(" ends where its image ends, in %zu flat face%s of %.0f mm2 together: what is "
                             "missing may end a motion earlier, and limits are upper bounds",
-                            body.image->cuts.size(), cut_area_mm2(body)));
+                            body.image->cuts.size(), body.image->cuts.size() == 1 ? "" : "s",
+                            cut_area_mm2(body)));
 }
 
 void check_fit(const Joint& joint, const JointPlacement& placement, Notes& notes) {

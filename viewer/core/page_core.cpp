@@ -104,6 +104,8 @@ int number_of(ContactKind kind) {
       return 1;
     case ContactKind::impingement:
       return 2;
+    case ContactKind::cut:
+      return 3;
   }
   return -1;
 }

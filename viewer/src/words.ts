@@ -116,7 +116,9 @@ export const words = {
   bearingContact: "bearing contact",
   reason: "ends by",
   endsBy: (reason: string, kind: string) => `${reason} (${kind})`,
-  contactKinds: { impingement: "impingement", bearing: "bearing", unknown: "kind unknown" } as Record<string, string>,
+  contactKinds: {
+    impingement: "impingement", bearing: "bearing", unknown: "kind unknown", cut: "cut of the image: no limit",
+  } as Record<string, string>,
   band: "band",
   bandEnds: (low: string, high: string) => `${low} to ${high}°`,
   errorBound: "error bound",

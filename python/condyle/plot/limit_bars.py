@@ -25,6 +25,7 @@ class End(NamedTuple):
 ENDS: Dict[str, End] = {
     "impingement": End(style.BLUE, "o", "impingement"),
     "contact": End(style.BLUE, "o", "contact"),
+    "cut": End(style.VERMILION, "s", "cut of the image: no limit"),
     "bearing": End(style.ORANGE, "D", "bearing contact"),
     "end_of_range": End(style.GREY, ">", "no contact in the range"),
     "contact_at_start": End(style.VERMILION, "X", "in contact at the start"),

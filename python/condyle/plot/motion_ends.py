@@ -29,7 +29,7 @@ class Band(NamedTuple):
 
 
 class MotionEnd(NamedTuple):
-    """Where a motion ends. `end` is "impingement", "bearing", "contact" (of an unknown kind), "end_of_range" or
+    """Where a motion ends. `end` is "impingement", "bearing", "cut", "contact" (of an unknown kind), "end_of_range" or
     "contact_at_start"; `bearing_deg` where bearing surfaces met before; `hour` on the rim's clock, in [0, 12); `caveats`
     the codes of what usually ends such a motion.
     """
@@ -47,7 +47,7 @@ class MotionEnd(NamedTuple):
 def _end(reason: str, kind: Optional[str]) -> str:
     if reason != "contact":
         return reason
-    return kind if kind in ("impingement", "bearing") else "contact"
+    return kind if kind in ("impingement", "bearing", "cut") else "contact"
 
 
 def _band(found: Any) -> Optional[Band]:

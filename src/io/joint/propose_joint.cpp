@@ -183,16 +183,19 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
     side = in_axes.side;
     axes.why_none = "the bones do not speak for one side";
     axes.evidence = std::move(in_axes.evidence);
-    if (given && side && *given != *side)
-      lines.evidence(fmt::format("CAUTION: the bones lie as those of a {} hip", name_of(*side)));
   } else if (hip) {
     axes = kinematics::hip_axes(fixed.mesh, *hip, given);
     if (axes.agreeing.size() == 1) side = axes.agreeing[0].side;
   }
-  add_side(lines, facts.side, side,
-           facts.axes_by           ? axes.why_none
-           : axes.agreeing.empty() ? "no usual axes agree with the bones"
-                                   : "more than one pair of axes and side agrees with the bones");
+  if (facts.axes_by && given && side && *given != *side)
+    lines.missing("side", "\"right\" or \"left\"",
+                  fmt::format("{} it is {}, and the bones lie as those of a {} hip", facts.side->by,
+                              name_of(*given), name_of(*side)));
+  else
+    add_side(lines, facts.side, side,
+             facts.axes_by           ? axes.why_none
+             : axes.agreeing.empty() ? "no usual axes agree with the bones"
+                                     : "more than one pair of axes and side agrees with the bones");
   add_units(lines, facts.units, of_fixed, of_mobile);
 
   add_body(lines, "fixed", fixed, facts.joint_file);

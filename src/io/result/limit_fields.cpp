@@ -211,10 +211,11 @@ constexpr LimitField every_field[] = {
     {"reason", "`\"contact\"`, `\"end_of_range\"` (no contact), `\"contact_at_start\"` (`limit_deg` is 0)",
      &reason, one, "reason", "", text_column, "contact, end_of_range or contact_at_start", studies},
     {"contact_kind",
-     "`\"impingement\"`, `\"bearing\"`, or `\"unknown\"` if no bearing surface is known; null "
+     "`\"impingement\"`, `\"bearing\"`, `\"cut\"` on a face that closes a bone where its image ends, or "
+     "`\"unknown\"` if no bearing surface is known; null "
      "at the end of the range",
      &contact_kind, one, "contact_kind", "", text_column,
-     "impingement, bearing or unknown; empty without contact", studies},
+     "impingement, bearing, cut or unknown; empty without contact", studies},
     {"bearing_contact_deg",
      "where bearing surfaces touch first, if before the limit; else null. A flag, not a "
      "measure: centre and segmentation are rarely better than it needs",

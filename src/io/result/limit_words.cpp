@@ -22,6 +22,8 @@ std::string_view name_of(ContactKind kind) noexcept {
       return "bearing";
     case ContactKind::impingement:
       return "impingement";
+    case ContactKind::cut:
+      return "cut";
   }
   return "unknown";
 }

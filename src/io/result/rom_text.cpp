@@ -87,6 +87,8 @@ std::string_view words_of(const MotionLimit& limit) noexcept {
           return "bearing contact";
         case ContactKind::impingement:
           return "impingement";
+        case ContactKind::cut:
+          return "cut of image: no limit";
         case ContactKind::unknown:
           return "contact";
       }

@@ -61,13 +61,21 @@ bool BearingSurface::holds(const TriMesh& mobile, const Feature& feature) const 
   return used;
 }
 
-ContactKind BearingFinding::kind_of(const TriMesh& mobile, const Feature& feature) const noexcept {
+bool BearingFinding::is_on_cut(const ContactWitness& contact) const noexcept {
+  return condyle::is_on_cut(fixed_cuts, contact.fixed_point) ||
+         condyle::is_on_cut(mobile_cuts, contact.mobile_point);
+}
+
+ContactKind BearingFinding::kind_of(const TriMesh& mobile, const ContactWitness& contact) const noexcept {
+  if (is_on_cut(contact)) return ContactKind::cut;
   if (!surface) return ContactKind::unknown;
-  return surface->holds(mobile, feature) ? ContactKind::bearing : ContactKind::impingement;
+  return surface->holds(mobile, contact.mobile_feature) ? ContactKind::bearing : ContactKind::impingement;
 }
 
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options) {
   BearingFinding found;
+  if (joint.fixed.image) found.fixed_cuts = joint.fixed.image->cuts;
+  if (joint.mobile.image) found.mobile_cuts = joint.mobile.image->cuts;
   const auto none = [&](std::string why) {
     found.why_none = std::move(why);
     return std::move(found);

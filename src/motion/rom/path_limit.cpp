@@ -69,12 +69,12 @@ struct PathFinder::Parts {
   ContactWitness witness(const motion::Clearance& nearest, const Pose& X_FM) const {
     const Index f = included.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
     const Index m = included.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
-    const Feature face{FeatureKind::face, m};
-    return {{FeatureKind::face, f},
-            face,
-            nearest.fixed_point,
-            posed(inverted(X_FM), nearest.mobile_point),
-            range.bearing().kind_of(whole_mobile, face)};
+    ContactWitness contact{{FeatureKind::face, f},
+                           {FeatureKind::face, m},
+                           nearest.fixed_point,
+                           posed(inverted(X_FM), nearest.mobile_point)};
+    contact.kind = range.bearing().kind_of(whole_mobile, contact);
+    return contact;
   }
 };
 

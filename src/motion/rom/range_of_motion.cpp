@@ -178,7 +178,8 @@ struct RangeOfMotion::Parts {
     contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
     contact.mobile_feature = part.body.in_whole(contact.mobile_feature);
     // With its parts searched apart, a contact is of the kind of its part.
-    contact.kind = bearing_rule == BearingRule::count ? bearing.kind_of(whole_mobile, contact.mobile_feature)
+    contact.kind = bearing_rule == BearingRule::count ? bearing.kind_of(whole_mobile, contact)
+                   : bearing.is_on_cut(contact)       ? ContactKind::cut
                    : &part == bearing_part.get()      ? ContactKind::bearing
                                                       : ContactKind::impingement;
   }

@@ -98,7 +98,7 @@ export interface LiveLimit {
   positive: boolean;
   turned_deg: number;
   reason: "contact" | "end_of_range" | "contact_at_start";
-  kind: "unknown" | "bearing" | "impingement";
+  kind: "unknown" | "bearing" | "impingement" | "cut";
   bearing_deg: number | null;
   point: [number, number, number] | null;
 }
