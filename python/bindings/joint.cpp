@@ -22,11 +22,18 @@ std::unique_ptr<JointHandle> read_handle(const std::filesystem::path& path) {
 }
 
 std::unique_ptr<JointHandle> made(const py::dict& description, const std::string& fixed_name,
-                                  const Mesh& fixed, const std::string& mobile_name, const Mesh& mobile) {
+                                  const Mesh& fixed, const BodyImage* fixed_image,
+                                  const std::string& mobile_name, const Mesh& mobile,
+                                  const BodyImage* mobile_image) {
   JointReport report;
   report.file.joint = description_in(description);
   const py::gil_scoped_release released;
-  auto [joint, placement] = make_joint(report.file.joint, {fixed_name, fixed}, {mobile_name, mobile});
+  const auto body = [](const std::string& name, const Mesh& mesh, const BodyImage* image) {
+    return Body{name, mesh, {}, image ? std::optional(*image) : std::nullopt};
+  };
+  if (fixed_image || mobile_image) report.file.uncertainty.surface_voxels = usual_surface_voxels;
+  auto [joint, placement] = make_joint(report.file.joint, body(fixed_name, fixed, fixed_image),
+                                       body(mobile_name, mobile, mobile_image));
   report.processing = placement.processing;
   report.placement = std::move(placement);
   return std::make_unique<JointHandle>(LoadedJoint{std::move(joint), std::move(report)});

@@ -19,6 +19,7 @@ from ._gaps import WAYS, ContactMeasures, ContactPatch, Depths, Gaps, VertexDept
 from ._impingement_zone import BodyZone, ImpingementZone
 from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
+from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, SurfaceCut, read_labels, surface
 from ._limit_band import LimitBand
 from ._limits import KINDS, REASONS, Caveat, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
@@ -40,18 +41,19 @@ from ._tables import OccupiedArcs, RadialTable, RingTable
 
 __all__ = [
     "BalanceOptions", "BalancedPose", "Bearing", "BodyPart", "BodyZone", "Caveat", "ClockFace", "CondyleError",
-    "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch", "ContactTotals",
-    "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths", "ElasticContact",
-    "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact", "FreeAngles",
-    "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote", "JointProposal",
-    "JointWarning", "KINDS", "Limit", "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport",
-    "Motion", "MotionLimit", "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE",
-    "OccupiedArcs", "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS",
-    "RadialTable", "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits",
-    "SampleCartilages", "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "TriMesh",
+    "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
+    "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths",
+    "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",
+    "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
+    "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
+    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit",
+    "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
+    "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "RadialTable",
+    "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
+    "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
-    "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_mesh", "read_motion_table",
-    "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort", "sample_hip", "thickness_to",
-    "write_mesh",
+    "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh",
+    "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",
+    "sample_hip", "surface", "thickness_to", "write_mesh",
 ]

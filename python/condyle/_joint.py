@@ -14,6 +14,7 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
 from ._joint_description import description_of
+from ._labels import Cavities, LabelLike, LabelMap, LabelSurface, LabelTask, Pieces, joint_bones
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._motion import MotionLike
@@ -40,7 +41,7 @@ class Joint(DescribedJoint):
     Parameters
     ----------
     fixed, mobile : mesh
-        Each a :class:`TriMesh` or what :meth:`TriMesh.of` takes.
+        Each a :class:`TriMesh`, what :meth:`TriMesh.of` takes, or a :class:`LabelSurface`.
     kind : "ball", "hinge" or "free"
     joint : "hip", "knee", "ankle", "elbow" or "shoulder"
     side : "right" or "left"
@@ -80,7 +81,7 @@ class Joint(DescribedJoint):
 
     __slots__ = ("__weakref__",)
 
-    def __init__(self, fixed: MeshLike, mobile: MeshLike, *, name: str = "joint", kind: JointKind = "ball",
+    def __init__(self, fixed: Union[MeshLike, LabelSurface], mobile: Union[MeshLike, LabelSurface], *, name: str = "joint", kind: JointKind = "ball",
                  joint: Anatomy = "hip", side: Side = "right", units: LengthUnit = "mm",
                  translation_frame: TranslationFrame = "fixed",
                  centre: Union[ArrayLike, Literal["fit"], None] = None, fit_body: Body = "mobile",
@@ -90,14 +91,15 @@ class Joint(DescribedJoint):
                  reference_pose: Optional[Mapping[str, float]] = None, fixed_in_W: Optional[ArrayLike] = None,
                  mobile_in_W: Optional[ArrayLike] = None, fixed_name: str = "fixed",
                  mobile_name: str = "mobile") -> None:
-        fixed, mobile = TriMesh.of(fixed), TriMesh.of(mobile)
+        images = [body._image if isinstance(body, LabelSurface) else None for body in (fixed, mobile)]
+        fixed, mobile = (TriMesh.of(body.mesh if isinstance(body, LabelSurface) else body) for body in (fixed, mobile))
         description = description_of(
             name=name, kind=kind, joint=joint, side=side, units=units, translation_frame=translation_frame,
             centre=centre, fit_body=fit_body, fit_within=fit_within, axes=axes, anterior=anterior, superior=superior,
             landmarks=landmarks, reference_pose=reference_pose, fixed_in_W=fixed_in_W, mobile_in_W=mobile_in_W)
         for text, what in ((fixed_name, "fixed_name"), (mobile_name, "mobile_name")):
             text_of(text, what)
-        native = _native.make_joint(description, fixed_name, fixed._native, mobile_name, mobile._native)
+        native = _native.make_joint(description, fixed_name, fixed._native, images[0], mobile_name, mobile._native, images[1])
         self._hold(native, TriMesh._moved(native.fixed, fixed), TriMesh._moved(native.mobile, mobile))
 
     @classmethod
@@ -108,6 +110,25 @@ class Joint(DescribedJoint):
     def from_file(cls, path: Path) -> Joint:
         """The same as :func:`read_joint`."""
         return cls._of_native(_native.read_joint(path_of(path)))
+
+    @classmethod
+    def from_labels(cls, labels: Union[LabelMap, Path], fixed: Optional[LabelLike] = None,
+                    mobile: Optional[LabelLike] = None, *, mobile_labels: Union[LabelMap, Path, None] = None,
+                    task: Optional[LabelTask] = None, side: Optional[Side] = None, pieces: Pieces = "largest",
+                    cavities: Cavities = "fill", triangles: Optional[int] = None, progress: Progress = None) -> Joint:
+        """The hip of two bones of a label map, by number or name, or of two maps of one bone each.
+
+        The joint that `condyle init` proposes: both surfaces, the centre fitted to the head, the axes of the image; the side by
+        the labels' names, else inferred from the bones. Notes on the bones are warned of. UsageError where something cannot be
+        inferred, or for labels that are not there.
+
+        C++: `condyle::propose_joint` in condyle/io/label_joint.hpp; `condyle init`.
+        """
+        bone, other, found = joint_bones(labels, fixed, mobile, mobile_labels, task,
+                                         None if side is None else word(side, "side", Side), pieces, cavities, triangles,
+                                         progress)
+        return cls(bone, other, name=f"{other.name} in {bone.name}", side=word(found, "side", Side), axes="LPS",
+                   centre="fit", fixed_name=bone.name, mobile_name=other.name)
 
     # Copies. Nothing changes a joint: a copy is the joint itself, with the tables that it has built.
 

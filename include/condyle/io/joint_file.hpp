@@ -97,6 +97,7 @@ struct ProposalRequest {
 struct JointProposal {
   std::string toml;                     ///< each value with a comment on its evidence
   std::vector<std::string> to_fill_in;  ///< keys that stand in it as comments, with the reason
+  std::optional<Side> side;             ///< as the file has it
   std::vector<std::string> evidence;  ///< for side and axes, one line each with its vote; comments in it too
 };
 

@@ -69,4 +69,8 @@ struct LabelJoint {
 std::optional<LabelJoint> propose_joint(const LabelJointRequest& request, const Control& control);
 LabelJoint propose_joint(const LabelJointRequest& request);
 
+/// The same of images that were read already; `mobile_map` is null if one has both bones. The request's files name them.
+std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* mobile_map,
+                                        const LabelJointRequest& request, const Control& control);
+
 }  // namespace condyle

@@ -78,10 +78,8 @@ std::optional<io::Stated<Side>> stated_side(const LabelJointRequest& request, co
 
 }  // namespace
 
-std::optional<LabelJoint> propose_joint(const LabelJointRequest& request, const Control& control) {
-  const LabelMap map = read_labels(request.labels, request.file);
-  std::optional<LabelMap> other;
-  if (request.mobile_labels) other = read_labels(*request.mobile_labels, request.file);
+std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* other,
+                                        const LabelJointRequest& request, const Control& control) {
   const LabelMap& mobile_map = other ? *other : map;
   const std::filesystem::path& mobile_file = request.mobile_labels ? *request.mobile_labels : request.labels;
 
@@ -114,6 +112,13 @@ std::optional<LabelJoint> propose_joint(const LabelJointRequest& request, const 
   joint.proposal = io::proposal_of(body_of(joint.fixed, joint.fixed_mesh, request.labels),
                                    body_of(joint.mobile, joint.mobile_mesh, mobile_file), facts);
   return joint;
+}
+
+std::optional<LabelJoint> propose_joint(const LabelJointRequest& request, const Control& control) {
+  const LabelMap map = read_labels(request.labels, request.file);
+  std::optional<LabelMap> other;
+  if (request.mobile_labels) other = read_labels(*request.mobile_labels, request.file);
+  return propose_joint(map, other ? &*other : nullptr, request, control);
 }
 
 LabelJoint propose_joint(const LabelJointRequest& request) {

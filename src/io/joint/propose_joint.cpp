@@ -60,7 +60,9 @@ class Lines {
     evidence_.push_back(line);
   }
 
-  JointProposal proposal() && { return {std::move(text_), std::move(to_fill_in_), std::move(evidence_)}; }
+  JointProposal proposal(std::optional<Side> side) && {
+    return {std::move(text_), std::move(to_fill_in_), side, std::move(evidence_)};
+  }
 
  private:
   std::string text_;
@@ -187,7 +189,9 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
     axes = kinematics::hip_axes(fixed.mesh, *hip, given);
     if (axes.agreeing.size() == 1) side = axes.agreeing[0].side;
   }
-  if (facts.axes_by && given && side && *given != *side)
+  const bool contradicted = facts.axes_by && given && side && *given != *side;
+  const std::optional<Side> stated = contradicted ? std::nullopt : given ? given : side;
+  if (contradicted)
     lines.missing("side", "\"right\" or \"left\"",
                   fmt::format("{} it is {}, and the bones lie as those of a {} hip", facts.side->by,
                               name_of(*given), name_of(*side)));
@@ -214,7 +218,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
     lines.missing("superior", "[x, y, z]", "as anterior");
   }
   for (const std::string& line : axes.evidence) lines.evidence(line);
-  return std::move(lines).proposal();
+  return std::move(lines).proposal(stated);
 }
 
 }  // namespace condyle::io

@@ -1,0 +1,192 @@
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "condyle/error.hpp"
+#include "condyle/io/label_joint.hpp"
+#include "interrupts.hpp"
+
+/// Label maps, and surfaces and joints made of them.
+
+namespace condyle::python {
+namespace {
+
+LabelMap read_label_map(const std::filesystem::path& path, const std::string& affine,
+                        std::optional<std::int64_t> volume, const std::string& axes, bool elsewhere) {
+  LabelFileOptions options{.volume = volume, .outside_folder = elsewhere};
+  if (!affine.empty()) options.affine = affine == "qform" ? AffineChoice::qform : AffineChoice::sform;
+  if (!axes.empty())
+    options.axes = axes == "LPS" ? StatedAxes::lps : axes == "RAS" ? StatedAxes::ras : StatedAxes::las;
+  const py::gil_scoped_release released;
+  return read_labels(path, options);
+}
+
+py::list label_notes(const std::vector<LabelNote>& notes) {
+  py::list list;
+  for (const LabelNote& note : notes) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  return list;
+}
+
+py::array affine_array(const Eigen::Affine3d& X) {
+  py::array_t<double> array({4, 4});
+  auto values = array.mutable_unchecked<2>();
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) values(i, j) = X.matrix()(i, j);
+  return array;
+}
+
+/// (label, layer, names, voxels, first, size, touches) of each label above 0.
+py::list labels_of(const LabelMap& map) {
+  const std::vector<LabelSummary> summaries = [&] {
+    const py::gil_scoped_release released;
+    return summaries_of(map);
+  }();
+  py::list list;
+  for (const LabelSummary& summary : summaries) {
+    if (summary.label == 0) continue;
+    std::vector<std::string> names;
+    for (const LabelSegment& segment : map.segments)
+      if (segment.layer == summary.layer && segment.label == summary.label) names.push_back(segment.name);
+    list.append(py::make_tuple(summary.label, summary.layer, names, summary.voxels, summary.first,
+                               summary.size, summary.touches));
+  }
+  return list;
+}
+
+/// Voxels of one layer as their labels, (I, J, K), i fastest in memory.
+py::array voxels_of(const LabelMap& map, std::size_t layer) {
+  if (layer >= map.layers.size())
+    throw UsageError("layer: the label map has " + std::to_string(map.layers.size()));
+  const auto& indices = map.layers[layer];
+  std::vector<std::uint32_t> labels(indices.size());
+  for (std::size_t v = 0; v < indices.size(); ++v) labels[v] = map.labels[indices[v]];
+  const auto [i, j, k] = map.grid.size;
+  return array_of(std::move(labels))
+      .attr("reshape")(py::make_tuple(k, j, i))
+      .attr("transpose")()
+      .cast<py::array>();
+}
+
+py::object image_object(const BodyImage& image) {
+  return py::cast(image);
+}
+
+py::dict surface_dict(LabelSurface&& surface, const BodyImage& image) {
+  py::dict dict;
+  py::list cuts, pieces;
+  for (const CapPlane& cap : surface.caps)
+    cuts.append(py::make_tuple(std::string(1, "ijk"[cap.axis]), cap.high ? "last" : "first",
+                               array_of(cap.normal), cap.offset, cap.area,
+                               array_of(std::vector<Index>(cap.triangles))));
+  for (const LabelPiece& piece : surface.pieces)
+    pieces.append(py::make_tuple(piece.voxels, piece.volume, piece.kept));
+  dict["cuts"] = cuts;
+  dict["pieces"] = pieces;
+  dict["cavities"] = py::make_tuple(surface.cavities.count, surface.cavities.voxels, surface.cavities.volume);
+  dict["spacing_mm"] = array_of(surface.spacing);
+  dict["digitisation_mm"] = surface.digitisation;
+  dict["simplification_error_mm"] =
+      surface.simplification ? py::object(py::float_(surface.simplification->largest_error)) : py::none();
+  dict["image"] = image_object(image);
+  dict["mesh"] = [&] {
+    const py::gil_scoped_release released;
+    return Mesh(std::move(surface.mesh));
+  }();
+  return dict;
+}
+
+py::dict bone_dict(LabelBone&& bone) {
+  py::dict dict = surface_dict(std::move(bone.surface), bone.image);
+  dict["name"] = bone.name;
+  dict["label"] = bone.label.label;
+  dict["voxels"] = bone.voxels;
+  dict["notes"] = label_notes(bone.notes);
+  return dict;
+}
+
+LabelSurfaceOptions surface_options_in(const py::dict& given) {
+  LabelSurfaceOptions options;
+  options.sigma_voxels = given["sigma_voxels"].cast<double>();
+  options.all_pieces = given["all_pieces"].cast<bool>();
+  options.keep_cavities = given["keep_cavities"].cast<bool>();
+  options.triangles = given["triangles"].cast<std::optional<std::size_t>>();
+  return options;
+}
+
+LabelBoneRequest bone_request_in(const std::string& label, const std::string& task, const py::dict& surface) {
+  return {label, task.empty() ? std::nullopt : label_task_of(task), surface_options_in(surface)};
+}
+
+py::dict label_bone(const LabelMap& map, const std::string& file, const std::string& label,
+                    const std::string& task, const py::dict& surface, const py::object& progress) {
+  const LabelBoneRequest request = bone_request_in(label, task, surface);
+  auto bone = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return bone_of(map, file, request, {.progress = report, .stop = stop});
+  });
+  return bone_dict(std::move(*bone));
+}
+
+/// A surface of voxels that numpy holds: the box of those inside, (I, J, K) of uint8 with i fastest, and where it lies.
+py::dict mask_surface(const py::array_t<std::uint8_t, py::array::f_style>& inside,
+                      const std::array<std::int64_t, 3>& first, const std::array<std::int64_t, 3>& image_size,
+                      const py::array_t<double, py::array::c_style | py::array::forcecast>& affine,
+                      const py::dict& options, const py::object& progress) {
+  VoxelMask mask;
+  mask.image.size = image_size;
+  mask.first = first;
+  for (int i = 0; i < 3; ++i) {
+    mask.size[static_cast<std::size_t>(i)] = inside.shape(i);
+    for (int j = 0; j < 4; ++j) mask.image.X_WI(i, j) = affine.at(i, j);
+  }
+  mask.inside.assign(inside.data(), inside.data() + inside.size());
+  const LabelSurfaceOptions surface_options = surface_options_in(options);
+  auto surface = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return surface_of(mask, surface_options, {.progress = report, .stop = stop});
+  });
+  BodyImage image{mask.image.X_WI.linear(), {}};
+  for (const CapPlane& cap : surface->caps) image.cuts.push_back({cap.normal, cap.offset});
+  return surface_dict(std::move(*surface), image);
+}
+
+/// (bone, bone, side or None, keys to fill in, notes) of two bones that make a joint.
+py::tuple label_joint(const LabelMap& map, const LabelMap* mobile_map, const std::string& file,
+                      const std::optional<std::string>& mobile_file, const std::array<std::string, 2>& labels,
+                      const std::string& task, const std::string& side, const py::dict& surface,
+                      const py::object& progress) {
+  LabelJointRequest request{.labels = file,
+                            .fixed = bone_request_in(labels[0], task, surface),
+                            .mobile = bone_request_in(labels[1], task, surface),
+                            .joint_file = "joint.toml"};
+  if (mobile_file) request.mobile_labels = *mobile_file;
+  if (!side.empty()) request.side = side == "right" ? Side::right : Side::left;
+  auto joint = followed(progress, [&](const auto& report, const std::stop_token& stop) {
+    return propose_joint(map, mobile_map, request, {.progress = report, .stop = stop});
+  });
+  const auto& found = joint->proposal.side;
+  return py::make_tuple(bone_dict(std::move(joint->fixed)), bone_dict(std::move(joint->mobile)),
+                        found ? py::object(py::str(std::string(name_of(*found)))) : py::none(),
+                        joint->proposal.to_fill_in, label_notes(joint->notes));
+}
+
+}  // namespace
+
+void bind_labels(py::module_& module) {
+  py::class_<BodyImage>(module, "BodyImage");
+  py::class_<LabelMap>(module, "LabelMap")
+      .def_property_readonly("size", [](const LabelMap& map) { return py::tuple(py::cast(map.grid.size)); })
+      .def_property_readonly("lps_from_index",
+                             [](const LabelMap& map) { return affine_array(map.grid.X_WI); })
+      .def_property_readonly("layers", [](const LabelMap& map) { return map.layers.size(); })
+      .def_property_readonly("notes", [](const LabelMap& map) { return label_notes(map.notes); })
+      .def("labels", &labels_of)
+      .def("voxels", &voxels_of);
+  module.def("read_labels", &read_label_map);
+  module.def("label_bone", &label_bone);
+  module.def("mask_surface", &mask_surface);
+  module.def("label_joint", &label_joint, py::arg("map"), py::arg("mobile_map").none(true), py::arg("file"),
+             py::arg("mobile_file"), py::arg("labels"), py::arg("task"), py::arg("side"), py::arg("surface"),
+             py::arg("progress"));
+}
+
+}  // namespace condyle::python
