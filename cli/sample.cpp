@@ -4,6 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -26,6 +27,7 @@ struct Options {
 
 struct HipOptions : Options {
   std::size_t femur_triangles = 0, hip_bone_triangles = 0;
+  std::optional<double> voxel_mm;
 };
 
 struct CartilageOptions : Options {
@@ -47,9 +49,11 @@ void run(const HipOptions& options) {
   if (options.side == Side::left) hip = mirrored(hip);
   OutputFolder out(options.out);
   write_sample_hip(out, hip, options.side);
+  if (options.voxel_mm) write_sample_labels(out, hip, options.side, *options.voxel_mm);
   out.commit();
   print(counts_line("hip bone", hip.hip_bone) + counts_line("femur", hip.femur) +
-        fmt::format("written to {0}: hip_bone.ply, femur.ply, hip.toml\n", options.out));
+        fmt::format("written to {}: hip_bone.ply, femur.ply, hip.toml{}\n", options.out,
+                    options.voxel_mm ? ", labels.nii.gz" : ""));
 }
 
 CartilageResolution resolution_of(const CartilageOptions& options) {
@@ -157,12 +161,16 @@ void add_hip(CLI::App& sample) {
                  "next one four times as many",
                  {"--hip-bone-triangles", options->hip_bone_triangles},
                  {"--femur-triangles", options->femur_triangles});
+  command
+      ->add_option("--voxel", options->voxel_mm,
+                   "Write labels.nii.gz too: a label map of both bones with voxels so wide, for condyle init")
+      ->option_text("MM");
   add_side(*command, options->side);
   add_measures(*command, options->hip);
   group_help(*command,
              {{"Most used", {"--out", "--side", "--scenario", "--alpha-angle", "--neck-shaft-angle"}},
               measures_group(),
-              {"Resolution", {"--femur-triangles", "--hip-bone-triangles", "--help"}}});
+              {"Resolution", {"--femur-triangles", "--hip-bone-triangles", "--voxel", "--help"}}});
   command->callback([options] { run(*options); });
 }
 

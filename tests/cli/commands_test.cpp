@@ -199,7 +199,7 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
 
 TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
   for (const char* command :
-       {"", "init", "inspect", "frame", "depth", "rom", "load", "motion", "picture", "report", "sample",
+       {"", "init", "surface", "inspect", "frame", "depth", "rom", "load", "motion", "picture", "report", "sample",
         "sample hip", "sample cartilages", "sample cohort", "study", "merge"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
@@ -249,7 +249,7 @@ TEST_F(Command, NearMissesAreAnsweredWithWhatWasMeant) {
 
 /// The examples in the help of every command, run as they stand.
 TEST_F(Command, TheExamplesOfHelpWork) {
-  for (const char* command : {"init", "inspect", "frame", "load", "picture", "report", "study"}) {
+  for (const char* command : {"init", "surface", "inspect", "frame", "load", "picture", "report", "study"}) {
     // Where a line was too long for a terminal it goes on, indented by two.
     const std::string help =
         std::regex_replace(run(std::string(command) + " --help").out, std::regex("\n  (?=[^ ])"), " ");

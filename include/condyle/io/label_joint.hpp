@@ -52,7 +52,7 @@ struct LabelJointRequest {
   std::optional<std::filesystem::path> mobile_labels = {};  ///< with the mobile one, if it is another file
   LabelFileOptions file = {};
   LabelBoneRequest fixed, mobile;
-  std::filesystem::path joint_file;  ///< where it is to lie; the meshes lie beside it
+  std::filesystem::path joint_file = {};  ///< where it is to lie; the meshes lie beside it
   std::optional<Side> side = {};     ///< default: that of the labels' names, else inferred from the bones
 };
 

@@ -2,6 +2,8 @@
 
 #include <zlib.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <new>
 
 namespace condyle::io {
@@ -14,6 +16,33 @@ std::string deflated(std::string_view bytes) {
                bytes.size()) != Z_OK)
     throw std::bad_alloc();
   out.resize(size);
+  return out;
+}
+
+std::string gzipped(std::string_view bytes) {
+  z_stream stream{};
+  constexpr int gzip_window = 15 + 16, usual_memory = 8;
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzip_window, usual_memory,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+  std::string out;
+  constexpr std::size_t block = std::size_t{1} << 20;
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
+  try {
+    for (int result = Z_OK; result != Z_STREAM_END;) {
+      const std::size_t given = std::min(block, bytes.size());
+      if (stream.avail_in == 0) stream.avail_in = static_cast<uInt>(given), bytes.remove_prefix(given);
+      out.resize(out.size() + block);
+      stream.next_out = reinterpret_cast<Bytef*>(out.data() + out.size() - block);
+      stream.avail_out = static_cast<uInt>(block);
+      result = deflate(&stream, bytes.empty() ? Z_FINISH : Z_NO_FLUSH);
+      out.resize(out.size() - stream.avail_out);
+    }
+  } catch (...) {
+    deflateEnd(&stream);
+    throw;
+  }
+  deflateEnd(&stream);
   return out;
 }
 

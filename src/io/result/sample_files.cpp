@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <string>
+#include <vector>
 
+#include "condyle/error.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/image/write_labels.hpp"
+#include "mesh/voxelise.hpp"
 
 namespace condyle {
 namespace {
@@ -49,6 +54,45 @@ void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side) {
   write_mesh(out.file(femur.mesh), hip.femur);
   io::write_whole_file(out.file("hip.toml"),
                        joint_file_text(fmt::format("sample {} hip", name_of(side)), hip_bone, femur, side));
+}
+
+void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, double voxel_mm) {
+  constexpr double finest_mm = 0.2, coarsest_mm = 5;
+  if (!(voxel_mm >= finest_mm && voxel_mm <= coarsest_mm))
+    throw UsageError(fmt::format("voxel: from {} to {} mm", finest_mm, coarsest_mm));
+  // The joint frame in LPS, then in voxels.
+  Eigen::Matrix3d lps_from_joint;
+  lps_from_joint << 0, 0, -1, -1, 0, 0, 0, 1, 0;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const TriMesh* mesh : {&hip.hip_bone, &hip.femur})
+    for (std::size_t v = 0; v < mesh->vertices.size(); ++v) {
+      const Vec3 p = lps_from_joint * mesh->vertices[v];
+      low = low.cwiseMin(p), high = high.cwiseMax(p);
+    }
+  constexpr int margin = 4;  // voxels
+  VoxelGrid grid;
+  // Floats hold the place exactly, as the file has it.
+  grid.X_WI.translation() = (low.array() - margin * voxel_mm).round();
+  grid.X_WI.linear() = static_cast<double>(static_cast<float>(voxel_mm)) * Eigen::Matrix3d::Identity();
+  for (int axis = 0; axis < 3; ++axis)
+    grid.size[static_cast<std::size_t>(axis)] =
+        static_cast<std::int64_t>((high[axis] - grid.X_WI.translation()[axis]) / voxel_mm) + margin;
+  std::vector<std::uint8_t> labels(static_cast<std::size_t>(grid.size[0] * grid.size[1] * grid.size[2]));
+  VoxelGrid in_joint = grid;
+  in_joint.X_WI = lps_from_joint.transpose() * grid.X_WI;
+  const auto mark = [&](const TriMesh& bone, std::uint8_t label) {
+    const VoxelMask mask = mesh::voxelised(bone, in_joint);
+    std::size_t in_box = 0;
+    for (std::int64_t k = 0; k < mask.size[2]; ++k)
+      for (std::int64_t j = 0; j < mask.size[1]; ++j) {
+        const std::int64_t row = ((k + mask.first[2]) * grid.size[1] + j + mask.first[1]) * grid.size[0];
+        for (std::int64_t i = 0; i < mask.size[0]; ++i)
+          if (mask.inside[in_box++] != 0) labels[static_cast<std::size_t>(row + i + mask.first[0])] = label;
+      }
+  };
+  mark(hip.femur, side == Side::left ? 75 : 76);
+  mark(hip.hip_bone, side == Side::left ? 77 : 78);
+  io::write_labels(out.file("labels.nii.gz"), grid, labels);
 }
 
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side) {

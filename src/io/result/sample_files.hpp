@@ -18,6 +18,10 @@ namespace condyle {
 /// hip.toml. The meshes are those of the side given, already mirrored for a left hip.
 void write_sample_hip(OutputFolder& out, const SampleHip& hip, Side side);
 
+/// Puts a label map of a sample hip into a folder, labels.nii.gz: cubes of this width, in mm, with the labels that
+/// TotalSegmentator gives femur and hip bone of that side. Throws UsageError for voxels below 0.2 or above 5 mm.
+void write_sample_labels(OutputFolder& out, const SampleHip& hip, Side side, double voxel_mm);
+
 /// The same for the cartilages: acetabular_cartilage.ply, which is fixed, femoral_cartilage.ply and
 /// cartilages.toml.
 void write_sample_cartilages(OutputFolder& out, const SampleCartilages& cartilages, Side side);

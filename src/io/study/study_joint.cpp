@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "condyle/error.hpp"
+#include "condyle/io/label_joint.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/sample/hip.hpp"
 #include "core/one_line.hpp"
@@ -16,17 +17,19 @@ namespace condyle::io {
 namespace {
 
 /// Where a row's joint comes from.
-enum class JointSource { joint_file, meshes, sample };
+enum class JointSource { joint_file, meshes, labels, sample };
 
 JointSource source_of(const StudyTable& table, const StudyRow& row) {
-  const bool joint = !table.field(row, "joint").empty(), sample = !table.field(row, "sample").empty();
-  const bool fixed = !table.field(row, "fixed").empty(), mobile = !table.field(row, "mobile").empty();
-  if (joint && !fixed && !mobile && !sample) return JointSource::joint_file;
-  if (fixed && mobile && !joint && !sample) return JointSource::meshes;
-  if (sample && !joint && !fixed && !mobile) return JointSource::sample;
-  throw FileError(
-      fmt::format("{}: line {}: a row needs joint, or fixed and mobile, or sample, and only one of them",
-                  table.path.string(), row.line));
+  const auto has = [&](std::string_view column) { return !table.field(row, column).empty(); };
+  const bool meshes = has("fixed") && has("mobile"), one_mesh = has("fixed") != has("mobile");
+  if (!one_mesh && has("joint") + meshes + has("labels") + has("sample") == 1)
+    return has("joint")    ? JointSource::joint_file
+           : meshes        ? JointSource::meshes
+           : has("labels") ? JointSource::labels
+                           : JointSource::sample;
+  throw FileError(fmt::format(
+      "{}: line {}: a row needs joint, or fixed and mobile, or labels, or sample, and only one of them",
+      table.path.string(), row.line));
 }
 
 std::filesystem::path path_in(const StudyTable& table, const StudyRow& row, std::string_view column) {
@@ -110,6 +113,50 @@ LoadedJoint made(const StudyTable& table, const StudyRow& row) {
   }
 }
 
+/// Of two bones of a label map: the joint that condyle init proposes.
+LoadedJoint segmented(const StudyTable& table, const StudyRow& row) {
+  static constexpr std::pair<std::string_view, std::optional<LabelTask>> tasks[] = {
+      {"", std::nullopt},
+      {"total", LabelTask::total},
+      {"total_v1", LabelTask::total_v1},
+      {"total_mr", LabelTask::total_mr}};
+  const std::filesystem::path labels = file_in(table, row, "labels");
+  const auto bone = [&](std::string_view column) {
+    if (table.field(row, column).empty())
+      throw FileError(fmt::format("{}: a label is needed beside labels", table.place(row, column)));
+    return LabelBoneRequest{std::string(table.field(row, column)), one_of(table, row, "task", tasks)};
+  };
+  LabelJointRequest request{.labels = labels, .fixed = bone("fixed_label"), .mobile = bone("mobile_label")};
+  if (!table.field(row, "side").empty()) request.side = side_of(table, row);
+  const std::string where = fmt::format("{}: line {}", table.path.string(), row.line);
+  try {
+    LabelJoint found = propose_joint(request);
+    if (!found.proposal.to_fill_in.empty())
+      throw UsageError("not inferred: " + found.proposal.to_fill_in.front());
+    JointFile file{.path = table.path, .joint = {}, .fixed = {}, .mobile = {}, .motions = {}};
+    file.joint.name = table.id(row);
+    file.joint.side = *found.proposal.side;
+    file.joint.frame.centre = CentreFit{};
+    file.joint.frame.axes = lps_axes;
+    file.uncertainty.surface_voxels = usual_surface_voxels;
+    for (const LabelNote& note : found.notes)
+      file.processing.push_back(fmt::format("{}: {}", name_of(note.code), note.text));
+    const auto body = [](LabelBone& of) { return Body{of.name, std::move(of.surface.mesh), {}, of.image}; };
+    const FileDigest digest = digest_of(read_whole_file(labels));
+    const auto report = [&](const LabelBone& of) {
+      return BodyMeshReport{"", labels, of.surface.mesh.vertices.size(), of.surface.mesh.triangles.size(), 0,
+                            {}, digest};
+    };
+    JointReport joint_report{std::move(file), {report(found.fixed)}, {report(found.mobile)}, {}, {}};
+    PlacedJoint placed = make_joint(joint_report.file.joint, body(found.fixed), body(found.mobile));
+    joint_report.placement = std::move(placed.placement);
+    joint_report.processing = joint_report.file.processing;
+    return {std::move(placed.joint), std::move(joint_report)};
+  } catch (const UsageError& error) {
+    throw FileError(fmt::format("{}: {}", where, error.what()));
+  }
+}
+
 std::string sha256_of(const StudyRow& row, const std::vector<std::string>& files) {
   return io::sha256_of(nlohmann::json{row.fields, files});
 }
@@ -149,6 +196,8 @@ LoadedJoint load_joint(const StudyTable& table, const StudyRow& row) {
       for (const char* body : {"fixed", "mobile"}) file_in(table, row, body);
       return load_joint(std::move(file));
     }
+    case JointSource::labels:
+      return segmented(table, row);
     case JointSource::sample:
       break;
   }
@@ -166,7 +215,7 @@ bool is_sample(const StudyTable& table, const StudyRow& row) {
 
 std::vector<std::filesystem::path> files_of(const StudyTable& table, const StudyRow& row) {
   std::vector<std::filesystem::path> files;
-  for (const std::string_view column : {"joint", "fixed", "mobile"})
+  for (const std::string_view column : {"joint", "fixed", "mobile", "labels"})
     if (!table.field(row, column).empty()) files.push_back(path_in(table, row, column));
   if (table.field(row, "joint").empty()) return files;
   try {
@@ -190,6 +239,7 @@ std::string inputs_sha256(const StudyTable& table, const StudyRow& row) {
   try {
     const JointSource source = source_of(table, row);
     if (source == JointSource::meshes) add_files(described(table, row), files);
+    if (source == JointSource::labels) files.assign(2, sha256_of_file(path_in(table, row, "labels")));
     if (source == JointSource::joint_file) {
       files.push_back(sha256_of_file(path_in(table, row, "joint")));
       add_files(read_joint_file(path_in(table, row, "joint")), files);

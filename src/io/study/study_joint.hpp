@@ -9,7 +9,7 @@
 
 namespace condyle::io {
 
-/// The joint of a row: of its joint file, of its two meshes, or a sample hip of its measures. Throws what read_joint() does;
+/// The joint of a row: of its joint file, of its two meshes, of two bones of a label map, or a sample hip of its measures. Throws what read_joint() does;
 /// FileError if the row does not say which, or a field is not what it must be.
 LoadedJoint load_joint(const StudyTable& table, const StudyRow& row);
 
