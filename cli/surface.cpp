@@ -12,6 +12,7 @@
 #include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
+#include "io/file/output_folder.hpp"
 #include "io/result/label_result.hpp"
 #include "label_options.hpp"
 
@@ -36,7 +37,10 @@ void run(const Options& options, const CLI::App& command) {
       });
   note_labels(map.notes);
   note_labels(bone.notes);
-  write_mesh(options.out, bone.surface.mesh);
+  const std::filesystem::path out(options.out);
+  OutputFolder folder(out.has_parent_path() ? out.parent_path() : ".");
+  write_mesh(folder.file(out.filename().string()), bone.surface.mesh);
+  folder.commit();
   note("wrote " + options.out);
   print(options.form == AnswerForm::json ? io::surface_json(bone, options.image, words_of(command))
                                          : io::surface_text(bone));

@@ -126,7 +126,10 @@ LoadedJoint segmented(const StudyTable& table, const StudyRow& row) {
       throw FileError(fmt::format("{}: a label is needed beside labels", table.place(row, column)));
     return LabelBoneRequest{std::string(table.field(row, column)), one_of(table, row, "task", tasks)};
   };
-  LabelJointRequest request{.labels = labels, .fixed = bone("fixed_label"), .mobile = bone("mobile_label")};
+  LabelJointRequest request{.labels = labels,
+                            .fixed = bone("fixed_label"),
+                            .mobile = bone("mobile_label"),
+                            .joint_file = table.path};
   if (!table.field(row, "side").empty()) request.side = side_of(table, row);
   const std::string where = fmt::format("{}: line {}", table.path.string(), row.line);
   try {
