@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -55,6 +56,9 @@ constexpr double deviations_kept = 3;
 constexpr double narrowest_band = 1e-6;
 constexpr double first_band = 0.10;
 constexpr double widest_band = 0.05;
+
+/// A sphere that moves by less, in parts of its radius, stays where it is.
+constexpr double settled = 1e-4;
 
 /// Robust deviations from a socket within which a vertex belongs to it and not to its fossa's floor.
 constexpr double floor_deviations = 3;
@@ -218,7 +222,6 @@ std::vector<Index> on_sphere(const std::vector<SurfacePoint>& points, const Poin
 /// that is near it: all sums of fit_sphere() in one pass, and none of its care. Empty if that is not enough.
 std::optional<Sphere> roughly_fitted(const Points& places, const std::vector<Index>& part, Sphere sphere) {
   constexpr int most_steps = 6;
-  constexpr double settled = 1e-4;
   const auto count = static_cast<double>(part.size());
   for (int step = 0; step < most_steps; ++step) {
     const double x = sphere.centre.x(), y = sphere.centre.y(), z = sphere.centre.z();
@@ -286,8 +289,9 @@ struct SearchedPoints {
 };
 
 /// Fits, keeps what lies within the band of the fit, connected, and fits again until the same vertices come
-/// back. On the way a rough fit does; where the vertices stay, they are fitted with care and must stay again. Empty where
-/// it comes to a part that is known.
+/// back. On the way a rough fit does; where the vertices stay, they are fitted with care and must stay again. A vertex at the
+/// edge of the band may come and go for ever, as on surfaces of voxels: then the last vertices are taken if the sphere stays
+/// where it is. Empty where it comes to a part that is known.
 std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double inwards,
                           const SphereSearch& search, const std::vector<Part>& known) {
   const auto& [mesh, points, neighbours, places] = searched;
@@ -296,6 +300,7 @@ std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double 
   std::vector<Index> part;
   std::optional<SphereFit> fit;
   bool same = false;
+  double moved = std::numeric_limits<double>::infinity();
   for (int round = 0; round < most_rounds; round += same ? 0 : 1) {
     const std::vector<Index> on = on_sphere(points, places, sphere, inwards, band);
     // With the widest band of all in the first round, what is too small now will not grow; and what all together is too
@@ -314,7 +319,8 @@ std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double 
     } catch (const MeshError&) {
       return std::nullopt;
     }
-    sphere = rough ? *rough : fit->sphere;
+    const Sphere before = std::exchange(sphere, rough ? *rough : fit->sphere);
+    moved = (sphere.centre - before.centre).norm() + std::abs(sphere.radius - before.radius);
     if (sphere.radius < search.smallest_radius || sphere.radius > search.largest_radius) return std::nullopt;
     const auto is_there = [&](const Part& other) { return near(sphere, other.patch.fit.sphere, arrived); };
     if (std::any_of(known.begin(), known.end(), is_there)) return std::nullopt;
@@ -325,7 +331,12 @@ std::optional<Part> grown(const SearchedPoints& searched, Sphere sphere, double 
     band = std::clamp(deviations_kept * kinematics::robust_deviation(std::move(residuals)),
                       narrowest_band * sphere.radius, widest_band * sphere.radius);
   }
-  return std::nullopt;
+  if (!(moved < settled * sphere.radius)) return std::nullopt;
+  try {
+    return measured(points, part, fit_sphere(mesh.vertices, kinematics::vertices_of(points, part)));
+  } catch (const MeshError&) {
+    return std::nullopt;
+  }
 }
 
 /// A socket without the floor of its fossa, which lies a few millimetres deeper and draws the sphere towards it: fitted to
