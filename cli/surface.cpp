@@ -26,7 +26,7 @@ struct Options {
 };
 
 void run(const Options& options, const CLI::App& command) {
-  mesh_format_of(options.out);  // refuses an ending that is none of a mesh
+  check_written_mesh(options.out);
   const std::filesystem::path read[] = {options.image};
   io::check_output_file(options.out, read);
   const LabelMap map = read_labels(options.image, options.labels->file);

@@ -41,6 +41,9 @@ MeshFormat mesh_format_of(const std::filesystem::path& path);
 /// doubles, so that reading gives the same bits back. The file appears whole under its name or not at all.
 void write_mesh(const std::filesystem::path& path, const TriMesh& mesh);
 
+/// Throws what write_mesh() throws for a file whose extension it does not write.
+void check_written_mesh(const std::filesystem::path& path);
+
 /// A named array with one value per vertex or per triangle.
 struct MeshArray {
   std::string name;

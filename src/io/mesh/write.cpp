@@ -53,16 +53,19 @@ void write_ply(const std::filesystem::path& path, const TriMesh& mesh) {
 
 }  // namespace
 
-void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
+void check_written_mesh(const std::filesystem::path& path) {
   const auto extension = io::lower_case(path.extension().string());
-  if (extension == ".ply") {
-    write_ply(path, mesh);
-  } else if (extension == ".vtp") {
-    write_vtp(path, mesh, {}, {});
-  } else {
+  if (extension != ".ply" && extension != ".vtp")
     throw FileError(fmt::format("{}: unknown extension '{}': .vtp and .ply are written", path.string(),
                                 path.extension().string()));
-  }
+}
+
+void write_mesh(const std::filesystem::path& path, const TriMesh& mesh) {
+  check_written_mesh(path);
+  if (io::lower_case(path.extension().string()) == ".ply")
+    write_ply(path, mesh);
+  else
+    write_vtp(path, mesh, {}, {});
 }
 
 }  // namespace condyle
