@@ -1,6 +1,6 @@
 # Thin front door; CMakePresets.json has the details.
 .PHONY: demo command test build dependencies command_dependencies clang_dependencies format format-check clean fuzz sanitize clang bench verify bench_dependencies docs docs_dependencies \
-  package package-test wheel page-core page page-template sanitize-thread sanitize-some release
+  package package-test wheel page-core page page-template sanitize-thread sanitize-some release label-limits
 
 dependencies:
 	@scripts/install_dependencies.sh
@@ -80,6 +80,14 @@ bench: bench_dependencies
 	@build/release/condyle-bench --json out/bench/run.json --csv out/bench/experiment.csv --save-baseline out/bench/baseline.json
 	@PYTHONPATH=build/release/python bench/draw_experiment.py out/bench/experiment.csv docs/images/bench
 	@bench/update_page.py out/bench/run.json bench/tables/performance.md bench/tables/experiment.md
+
+# Limits from label maps against those of the meshes that were made into voxels; bench/tables/label-maps.md gets the figures.
+label-limits: bench_dependencies
+	@$(configure_all)
+	@cmake --build --preset release --target condyle_label_limits
+	@mkdir -p out/bench
+	@build/release/condyle-label-limits --json out/bench/label_limits.json
+	@bench/update_page.py out/bench/label_limits.json bench/tables/label-maps.md
 
 # The fast paths against the plain ones: a hundred million vertices, on each instruction set in turn.
 verify: bench_dependencies
