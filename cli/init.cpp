@@ -113,9 +113,10 @@ void add_init(CLI::App& app) {
       "init",
       "Propose a joint file for two meshes or two bones of a label map, with the evidence for each value");
   command->footer(
-      "Example: condyle sample hip --out bones\n"
+      "Example: condyle sample hip --voxel 1 --out bones\n"
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
-      "         condyle init seg.nii.gz --task total --fixed hip_right --mobile femur_right -o hip.toml\n"
+      "         condyle init bones/labels.nii.gz --task total --fixed hip_right --mobile femur_right -o "
+      "hip.toml\n"
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
   auto options = std::make_shared<Options>();

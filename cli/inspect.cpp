@@ -101,7 +101,8 @@ void add_inspect(CLI::App& app) {
   command->footer(
       "Example: condyle inspect femur.ply hip_bone.ply\n"
       "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"
-      "         condyle inspect seg.nii.gz");
+      "         condyle sample hip --voxel 1 --out scan\n"
+      "         condyle inspect scan/labels.nii.gz");
   auto options = std::make_shared<Options>();
   command
       ->add_option("MESH", options->meshes,

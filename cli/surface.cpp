@@ -51,8 +51,9 @@ void run(const Options& options, const CLI::App& command) {
 void add_surface(CLI::App& app) {
   auto* command = app.add_subcommand("surface", "Extract the surface of one bone from a label map");
   command->footer(
-      "Example: condyle surface seg.nii.gz --label 76 -o femur.ply\n"
-      "         condyle surface seg.nii.gz --task total --label femur_right -o femur.ply\n"
+      "Example: condyle sample hip --voxel 1 --out scan\n"
+      "         condyle surface scan/labels.nii.gz --label 76 -o femur.ply\n"
+      "         condyle surface scan/labels.nii.gz --task total --label femur_right -o femur.ply\n"
       "The surface is closed and in LPS, mm: it lies over its image in 3D Slicer.");
   auto options = std::make_shared<Options>();
   command->add_option("LABELS", options->image, "A label map: .nii, .nii.gz, .hdr, .nrrd, .nhdr, .mha, .mhd")
