@@ -48,8 +48,9 @@ py::list labels_of(const LabelMap& map) {
     std::vector<std::string> names;
     for (const LabelSegment& segment : map.segments)
       if (segment.layer == summary.layer && segment.label == summary.label) names.push_back(segment.name);
-    list.append(py::make_tuple(summary.label, summary.layer, names, summary.voxels, summary.first,
-                               summary.size, summary.touches));
+    list.append(py::make_tuple(summary.label, summary.layer, py::tuple(py::cast(names)), summary.voxels,
+                               py::tuple(py::cast(summary.first)), py::tuple(py::cast(summary.size)),
+                               py::tuple(py::cast(summary.touches))));
   }
   return list;
 }

@@ -14,7 +14,7 @@ from ._described_joint import DescribedJoint
 from ._errors import UsageError
 from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
 from ._joint_description import description_of
-from ._labels import Cavities, LabelLike, LabelMap, LabelSurface, LabelTask, Pieces, joint_bones
+from ._labels import LabelLike, LabelMap, LabelSurface, joint_bones
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._motion import MotionLike
@@ -26,8 +26,8 @@ from ._pressure import ElasticContact
 from ._range_of_motion import RangeOfMotion
 from ._recorded_motion import JointMotion, RecordedContact, recorded_contact
 from ._surface_contact import NormalContact, normal_contact
-from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Colour, DepthMethod, FaceRule, GapMethod, JointKind
-from ._words import LengthUnit, Look, Path, Progress, Side, TranslationFrame, count, number, path_of, progress_of
+from ._words import Anatomy, Axes, Ball, BearingRule, Bodies, Body, Cavities, Colour, DepthMethod, FaceRule, GapMethod
+from ._words import JointKind, LabelTask, LengthUnit, Look, Path, Pieces, Progress, Side, TranslationFrame, count, number, path_of, progress_of
 from ._words import text_of, word
 
 
@@ -127,7 +127,7 @@ class Joint(DescribedJoint):
         bone, other, found = joint_bones(labels, fixed, mobile, mobile_labels, task,
                                          None if side is None else word(side, "side", Side), pieces, cavities, triangles,
                                          progress)
-        return cls(bone, other, name=f"{other.name} in {bone.name}", side=word(found, "side", Side), axes="LPS",
+        return cls(bone, other, name=f"{other.name} in {bone.name}", side=found, axes="LPS",
                    centre="fit", fixed_name=bone.name, mobile_name=other.name)
 
     # Copies. Nothing changes a joint: a copy is the joint itself, with the tables that it has built.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, Optional, Sequence, Union
+from typing import Any, Optional, Sequence, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,14 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._errors import UsageError, warn
 from ._mesh import TriMesh
-from ._words import Path, Progress, count, number, number_array, path_of, progress_of, text_of, word
+from ._native import BodyImage
+from ._native import LabelMap as NativeLabelMap
+from ._words import Affine, Cavities, ImageAxes, ImageAxis, ImageSide, LabelTask, Path, Pieces, Progress, Side, count
+from ._words import number, number_array, path_of, progress_of, text_of, word
 
-LabelTask = Literal["total", "total_v1", "total_mr"]
-Affine = Literal["sform", "qform"]
-ImageAxes = Literal["LPS", "RAS", "LAS"]
-Pieces = Literal["largest", "all"]
-Cavities = Literal["fill", "keep"]
-World = Literal["LPS", "RAS"]
 LabelLike = Union[int, str]
 
 
@@ -60,8 +57,8 @@ class LabelPiece:
 class SurfaceCut:
     """A flat face that closes a bone where its image ends, normal . p = offset_mm: no contact on it is one of bones."""
 
-    axis: Literal["i", "j", "k"]
-    side: Literal["first", "last"]
+    axis: ImageAxis
+    side: ImageSide
     normal: NDArray[np.float64]
     offset_mm: float
     area_mm2: float
@@ -93,22 +90,35 @@ class LabelSurface:
     __slots__ = ("mesh", "cuts", "pieces", "cavities", "spacing_mm", "digitisation_mm", "simplification_error_mm", "name",
                  "label", "voxels", "notes", "_image")
 
-    def __init__(self, found: dict[str, Any]) -> None:
-        self.mesh = TriMesh._of_native(found["mesh"])
-        self.cuts: tuple[SurfaceCut, ...] = tuple(SurfaceCut(*cut) for cut in found["cuts"])
-        self.pieces: tuple[LabelPiece, ...] = tuple(LabelPiece(*piece) for piece in found["pieces"])
-        self.cavities: tuple[int, int, float] = tuple(found["cavities"])
-        self.spacing_mm: NDArray[np.float64] = found["spacing_mm"]
-        self.digitisation_mm: float = found["digitisation_mm"]
-        self.simplification_error_mm: Optional[float] = found["simplification_error_mm"]
-        self.name: str = found.get("name", "")
-        self.label: int = found["label"]
-        self.voxels: int = found["voxels"]
-        self.notes = label_notes(found.get("notes", ()))
-        self._image = found["image"]
+    mesh: TriMesh
+    cuts: tuple[SurfaceCut, ...]
+    pieces: tuple[LabelPiece, ...]
+    cavities: tuple[int, int, float]
+    spacing_mm: NDArray[np.float64]
+    digitisation_mm: float
+    simplification_error_mm: Optional[float]
+    name: str
+    label: int
+    voxels: int
+    notes: tuple[LabelNote, ...]
+    _image: BodyImage
 
     def __repr__(self) -> str:
         return f"LabelSurface({self.name or self.label!r}: {self.voxels} voxels, {self.mesh!r})"
+
+
+def _surface_of(found: dict[str, Any]) -> LabelSurface:
+    made = LabelSurface.__new__(LabelSurface)
+    made.mesh = TriMesh._of_native(found["mesh"])
+    made.cuts = tuple(SurfaceCut(*cut) for cut in found["cuts"])
+    made.pieces = tuple(LabelPiece(*piece) for piece in found["pieces"])
+    made.cavities = found["cavities"]
+    made.spacing_mm, made.digitisation_mm = found["spacing_mm"], found["digitisation_mm"]
+    made.simplification_error_mm = found["simplification_error_mm"]
+    made.name, made.label, made.voxels = found.get("name", ""), found["label"], found["voxels"]
+    made.notes = label_notes(found.get("notes", ()))
+    made._image = found["image"]
+    return made
 
 
 class LabelMap:
@@ -116,7 +126,7 @@ class LabelMap:
 
     __slots__ = ("_native", "_file", "_labels")
 
-    def __init__(self, native: Any, file: str) -> None:
+    def __init__(self, native: NativeLabelMap, file: str) -> None:
         self._native, self._file = native, file
         self._labels: Optional[tuple[Label, ...]] = None
 
@@ -129,14 +139,14 @@ class LabelMap:
     @property
     def lps_from_index(self) -> NDArray[np.float64]:
         """(4, 4): the centre of voxel (i, j, k) is at lps_from_index @ (i, j, k, 1), mm."""
-        return self._native.lps_from_index
+        matrix: NDArray[np.float64] = self._native.lps_from_index
+        return matrix
 
     @property
     def labels(self) -> tuple[Label, ...]:
         """Every label above 0, by layer and then by number."""
         if self._labels is None:
-            self._labels = tuple(Label(label, layer, tuple(names), voxels, tuple(first), tuple(size), tuple(touches))
-                                 for label, layer, names, voxels, first, size, touches in self._native.labels())
+            self._labels = tuple(Label(*each) for each in self._native.labels())
         return self._labels
 
     @property
@@ -145,7 +155,8 @@ class LabelMap:
 
     def voxels(self, layer: int = 0) -> NDArray[np.uint32]:
         """(I, J, K) the label of each voxel of a layer."""
-        return self._native.voxels(count(layer, "layer"))
+        voxels: NDArray[np.uint32] = self._native.voxels(count(layer, "layer"))
+        return voxels
 
     def surface(self, label: Optional[LabelLike] = None, *, task: Optional[LabelTask] = None, pieces: Pieces = "largest",
                 cavities: Cavities = "fill", triangles: Optional[int] = None, progress: Progress = None) -> LabelSurface:
@@ -156,7 +167,7 @@ class LabelMap:
 
         C++: `condyle::bone_of` in condyle/io/label_joint.hpp; `condyle surface`.
         """
-        return LabelSurface(_native.label_bone(
+        return _surface_of(_native.label_bone(
             self._native, self._file, _label_text(label, "label"), "" if task is None else word(task, "task", LabelTask),
             _surface_options(pieces, cavities, triangles), progress_of(progress)))
 
@@ -231,13 +242,13 @@ def surface(labels: ArrayLike, affine: ArrayLike, label: Optional[int] = None, *
     bone = np.asfortranarray(inside[tuple(slice(*side) for side in box)], dtype=np.uint8)
     options = {**_surface_options(pieces, cavities, triangles), "sigma_voxels": number(sigma_voxels, "sigma_voxels", 0, 4)}
     found = _native.mask_surface(bone, [low for low, _ in box], list(voxels.shape), matrix, options, progress_of(progress))
-    return LabelSurface({**found, "label": 0 if label is None else label, "voxels": int(np.count_nonzero(bone))})
+    return _surface_of({**found, "label": 0 if label is None else label, "voxels": int(np.count_nonzero(bone))})
 
 
 def joint_bones(labels: Union[LabelMap, Path], fixed: Optional[LabelLike], mobile: Optional[LabelLike],
                 mobile_labels: Union[LabelMap, Path, None], task: Optional[LabelTask], side: Optional[str], pieces: Pieces,
                 cavities: Cavities, triangles: Optional[int], progress: Progress
-                ) -> tuple[LabelSurface, LabelSurface, str]:
+                ) -> tuple[LabelSurface, LabelSurface, Side]:
     """Both bones and the side of a joint; warns of the notes."""
     first = labels if isinstance(labels, LabelMap) else read_labels(labels)
     second = mobile_labels if mobile_labels is None or isinstance(mobile_labels, LabelMap) else read_labels(mobile_labels)
@@ -249,7 +260,7 @@ def joint_bones(labels: Union[LabelMap, Path], fixed: Optional[LabelLike], mobil
         raise UsageError(f"cannot be inferred from the bones: {'; '.join(missing)}")
     for note in label_notes(notes):
         warn(f"{note.code}: {note.text}")
-    return LabelSurface(bone), LabelSurface(other), found
+    return _surface_of(bone), _surface_of(other), cast(Side, found)
 
 
 def label_notes(found: Sequence[tuple[str, str]]) -> tuple[LabelNote, ...]:
