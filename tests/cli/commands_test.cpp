@@ -199,8 +199,8 @@ TEST_F(Command, HelpAndVersionAreAnswers) {
 
 TEST_F(Command, HelpFitsATerminalAndHasAnExample) {
   for (const char* command :
-       {"", "init", "surface", "inspect", "frame", "depth", "rom", "load", "motion", "picture", "report", "sample",
-        "sample hip", "sample cartilages", "sample cohort", "study", "merge"}) {
+       {"", "init", "surface", "inspect", "frame", "depth", "rom", "load", "motion", "picture", "report",
+        "sample", "sample hip", "sample cartilages", "sample cohort", "study", "merge"}) {
     SCOPED_TRACE(command);
     std::istringstream help(run(std::string(command) + " --help").out);
     bool has_example = false;

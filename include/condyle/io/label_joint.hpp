@@ -53,7 +53,7 @@ struct LabelJointRequest {
   LabelFileOptions file = {};
   LabelBoneRequest fixed, mobile;
   std::filesystem::path joint_file = {};  ///< where it is to lie; the meshes lie beside it
-  std::optional<Side> side = {};     ///< default: that of the labels' names, else inferred from the bones
+  std::optional<Side> side = {};  ///< default: that of the labels' names, else inferred from the bones
 };
 
 struct LabelJoint {
