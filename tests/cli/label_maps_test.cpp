@@ -66,6 +66,7 @@ TEST_F(LabelMaps, AreListedWithWhatReachesTheBorder) {
   EXPECT_EQ(map["labels"][0]["label"], 76);
   EXPECT_EQ(map["labels"][1]["label"], 78);
   EXPECT_TRUE(map["labels"][0]["reaches_border"].empty());
+  EXPECT_EQ(map["labels"][0]["pieces"], 1);
   const Ran text = run("inspect labels.nii.gz");
   EXPECT_NE(text.out.find("76 (no name): "), std::string::npos) << text.out;
 }

@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "condyle/version.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/result/json.hpp"
+#include "mesh/label_surface/voxel_pieces.hpp"
 
 namespace condyle::io {
 namespace {
@@ -52,20 +54,23 @@ void append(std::string& text, const LabelInspection& image) {
                       image.layers > 1 ? fmt::format(", {} layers", image.layers) : "");
   for (const LabelNote& note : image.notes)
     text += fmt::format("  note: {}: {}\n", name_of(note.code), plain_text(note.text));
-  for (const LabelSummary& summary : image.labels) {
+  for (std::size_t i = 0; i < image.labels.size(); ++i) {
+    const LabelSummary& summary = image.labels[i];
     const std::string names = plain_text(fmt::format("{}", fmt::join(names_of(image, summary), ", ")));
     const std::string label = image.layers > 1 ? fmt::format("{}:{}", summary.layer, summary.label)
                                                : fmt::format("{}", summary.label);
-    text += fmt::format("  {:>5} {}: {} voxels, box of {} x {} x {}{}\n", label,
-                        names.empty() ? "(no name)" : names, summary.voxels, summary.size[0], summary.size[1],
-                        summary.size[2], touched(summary));
+    text += fmt::format("  {:>5} {}: {} voxels in {} piece{}, box of {} x {} x {}{}\n", label,
+                        names.empty() ? "(no name)" : names, summary.voxels, image.pieces[i],
+                        image.pieces[i] == 1 ? "" : "s", summary.size[0], summary.size[1], summary.size[2],
+                        touched(summary));
   }
   if (image.labels.empty()) text += "  no voxel has a label above 0\n";
 }
 
 Json inspection_json(const LabelInspection& image) {
   Json labels = Json::array();
-  for (const LabelSummary& summary : image.labels) {
+  for (std::size_t l = 0; l < image.labels.size(); ++l) {
+    const LabelSummary& summary = image.labels[l];
     Json touches = Json::array();
     for (std::size_t i = 0; i < 6; ++i)
       if (summary.touches[i]) touches.push_back(side_names[i]);
@@ -73,6 +78,7 @@ Json inspection_json(const LabelInspection& image) {
                       {"layer", summary.layer},
                       {"names", names_of(image, summary)},
                       {"voxels", summary.voxels},
+                      {"pieces", image.pieces[l]},
                       {"first", summary.first},
                       {"size", summary.size},
                       {"reaches_border", std::move(touches)}});
@@ -80,6 +86,22 @@ Json inspection_json(const LabelInspection& image) {
   return {{"file", image.image.string()}, {"size", image.grid.size},
           {"layers", image.layers},       {"lps_from_index", rows_json(image.grid.X_WI)},
           {"labels", std::move(labels)},  {"notes", notes_json(image.notes)}};
+}
+
+/// How many pieces a label is in, looked for in its box only.
+std::size_t pieces_of(const LabelMap& map, const LabelSummary& summary) {
+  const auto index = static_cast<std::uint16_t>(
+      std::lower_bound(map.labels.begin(), map.labels.end(), summary.label) - map.labels.begin());
+  const std::vector<std::uint16_t>& voxels = map.layers[summary.layer];
+  mesh::VoxelBox box{summary.size, {}};
+  for (std::int64_t k = 0; k < summary.size[2]; ++k)
+    for (std::int64_t j = 0; j < summary.size[1]; ++j) {
+      const std::int64_t row = (k + summary.first[2]) * map.grid.size[1] + j + summary.first[1];
+      const auto first = voxels.begin() + row * map.grid.size[0] + summary.first[0];
+      std::transform(first, first + summary.size[0], std::back_inserter(box.inside),
+                     [&](std::uint16_t voxel) { return static_cast<std::uint8_t>(voxel == index); });
+    }
+  return mesh::keep_pieces(box, true).size();
 }
 
 }  // namespace
@@ -140,7 +162,9 @@ LabelInspection inspect_labels(const std::filesystem::path& image, const LabelFi
   const LabelMap map = read_labels(image, options);
   std::vector<LabelSummary> labels = summaries_of(map);
   std::erase_if(labels, [](const LabelSummary& summary) { return summary.label == 0; });
-  return {image, map.grid, map.layers.size(), std::move(labels), map.segments, map.notes};
+  std::vector<std::size_t> pieces;
+  for (const LabelSummary& summary : labels) pieces.push_back(pieces_of(map, summary));
+  return {image, map.grid, map.layers.size(), std::move(labels), std::move(pieces), map.segments, map.notes};
 }
 
 std::string labels_text(std::span<const LabelInspection> images) {

@@ -21,6 +21,7 @@ struct LabelInspection {
   VoxelGrid grid;
   std::size_t layers;
   std::vector<LabelSummary> labels;  ///< above 0
+  std::vector<std::size_t> pieces;   ///< 26-connected ones of each
   std::vector<LabelSegment> segments;
   std::vector<LabelNote> notes;
 };
