@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "io/file/whole_file.hpp"
+#include "io/image/write_labels.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace condyle::test {
@@ -115,6 +116,21 @@ TEST_F(LabelMaps, WrongLabelsGetOneLine) {
   refused("surface labels.nii.gz --label 76 -o wrong/bone.stl", 3, "wrong/bone.stl");
   refused("inspect labels.nii.gz femur.ply", 2, "not together");
   refused("inspect labels.nii.gz --repair weld", 2, "are for meshes");
+}
+
+TEST_F(LabelMaps, OfOneBoneEachAreCalledAsTheirFiles) {
+  const VoxelGrid grid{{40, 40, 40}, Eigen::Affine3d::Identity()};
+  std::vector<std::uint8_t> ball(64000);
+  for (int v = 0; v < 64000; ++v) {
+    const int i = v % 40 - 20, j = v / 40 % 40 - 20, k = v / 1600 - 20;
+    ball[static_cast<std::size_t>(v)] = i * i + j * j + k * k < 225;
+  }
+  io::write_labels(scan->path() / "femur_left.nii.gz", grid, ball);
+  io::write_labels(scan->path() / "hip_right.nii.gz", grid, ball);
+  const Ran surface = run("surface femur_left.nii.gz -o ball.ply");
+  EXPECT_NE(surface.out.find("femur_left: "), std::string::npos) << surface.out << surface.err;
+  const auto sides = "init hip_right.nii.gz femur_left.nii.gz -o sides/hip.toml";
+  expect_refusal(run(sides), 2, "hip_right and femur_left are of two sides", sides);
 }
 
 TEST_F(LabelMaps, AreRowsOfAStudy) {

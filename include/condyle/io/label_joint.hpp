@@ -25,7 +25,7 @@ struct LabelBoneRequest {
 
 /// A bone of a label map.
 struct LabelBone {
-  std::string name;  ///< of the label: "femur_right", or "label_76" if it has none
+  std::string name;  ///< of the label: "femur_right"; if it has none that of a mask's file, else "label_76"
   ChosenLabel label;
   std::int64_t voxels = 0;
   LabelSurface surface;  ///< in LPS, mm

@@ -5,7 +5,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/label_joint.hpp"
-#include "core/rounded.hpp"
+#include "io/file/plain_text.hpp"
 
 namespace condyle {
 namespace {
@@ -24,6 +24,12 @@ std::string only_label(const LabelMap& map, std::string_view file) {
   if (!only) throw MeshError(fmt::format("{}: no voxel has a label above 0", file));
   return map.layers.size() > 1 ? fmt::format("{}:{}", only->layer, only->label)
                                : fmt::format("{}", only->label);
+}
+
+/// What a file of one bone is called, "femur_left" of femur_left.nii.gz, as TotalSegmentator writes them.
+std::string name_of_mask(std::string_view file) {
+  const std::string name = io::plain_text(std::filesystem::path(file).filename().string());
+  return name.substr(0, name.find('.'));
 }
 
 /// Without a number's note on tables where nobody chose the number.
@@ -97,7 +103,9 @@ BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
 std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
                                  const Control& control) {
   LabelBone bone{.name = {}, .label = chosen_label(map, file, request), .surface = {}, .image = {}};
-  bone.name = bone.label.name.empty() ? fmt::format("label_{}", bone.label.label) : bone.label.name;
+  bone.name = bone.label.name;
+  if (bone.name.empty())
+    bone.name = request.label.empty() ? name_of_mask(file) : fmt::format("label_{}", bone.label.label);
   const VoxelMask mask = mask_of(map, bone.label.layer, bone.label.label);
   bone.voxels = std::count(mask.inside.begin(), mask.inside.end(), std::uint8_t{1});
   check_size(mask, bone.voxels, file, bone.name);
