@@ -194,14 +194,13 @@ class Hip {
     std::vector<condyle::MotionLimit> limits;
     run.limits_s = wall_seconds_of([&] { limits = condyle::RangeOfMotion(image.joint).limits(motions_); });
     const auto own_limits = condyle::RangeOfMotion(own.joint).limits(motions_);
-    const condyle::Uncertainty by_voxels{.surface_voxels = condyle::usual_surface_voxels};
-    condyle::Uncertainty only_surface = by_voxels;
+    condyle::Uncertainty only_surface;
     only_surface.centre_mm = 0, only_surface.axes = Angle();
     const auto surface =
         limit_bands(image.joint, motions_, {}, {.sigma = only_surface, .samples = options.samples});
     std::vector<condyle::LimitBand> usual;
     if (offset == 0)
-      usual = limit_bands(own.joint, motions_, {}, {.sigma = by_voxels, .samples = options.samples});
+      usual = limit_bands(own.joint, motions_, {}, {.samples = options.samples});
     for (std::size_t m = 0; m < motions_.size(); ++m) {
       run.outcomes.push_back({limits_[m], limits[m], own_limits[m], surface[m], {}, offset == 0});
       if (offset == 0) run.outcomes.back().usual = usual[m];

@@ -75,7 +75,7 @@ struct BearingFinding {
   /// If the gap at the rim makes the usual margin smaller than narrow_bearing_margin_mm.
   std::optional<NarrowMargin> narrow_margin = {};
 
-  /// Of both bodies, which no contact of bones is on.
+  /// Faces that close the bones where their images end: contact on them is not contact of bones.
   std::vector<ImageCut> fixed_cuts = {}, mobile_cuts = {};
 
   bool is_on_cut(const ContactWitness& contact) const noexcept;

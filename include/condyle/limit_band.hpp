@@ -20,13 +20,13 @@ struct Uncertainty {
   /// Standard deviation of the surface along its normals, one value over a whole bone: a segmentation takes too much
   /// everywhere or too little everywhere.
   double surface_mm = 0.25;
-  /// If above 0, of a body whose image is known: the same in widths of a voxel along the normal, in place of surface_mm.
-  double surface_voxels = 0;
-};
+  /// If above 0, a body whose image is known has this in place of surface_mm: in widths of a voxel along the normal. It covers what
+  /// the grid leaves open, and nothing of the segmentation's own error. docs/mathematics/09-label-maps.md.
+  double surface_voxels = 0.25;
 
-/// The share of a voxel by which a surface from a label map is off along its normals: it covers what the grid
-/// leaves open, and nothing of the segmentation's own error. docs/mathematics/09-label-maps.md.
-inline constexpr double usual_surface_voxels = 0.25;
+  /// Whether the body's surface is moved by a share of a voxel.
+  bool is_by_voxels(const Body& body) const noexcept { return body.image && surface_voxels > 0; }
+};
 
 struct BandOptions {
   Uncertainty sigma = {};

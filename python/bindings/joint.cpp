@@ -31,7 +31,6 @@ std::unique_ptr<JointHandle> made(const py::dict& description, const std::string
   const auto body = [](const std::string& name, const Mesh& mesh, const BodyImage* image) {
     return Body{name, mesh, {}, image ? std::optional(*image) : std::nullopt};
   };
-  if (fixed_image || mobile_image) report.file.uncertainty.surface_voxels = usual_surface_voxels;
   auto [joint, placement] = make_joint(report.file.joint, body(fixed_name, fixed, fixed_image),
                                        body(mobile_name, mobile, mobile_image));
   report.processing = placement.processing;

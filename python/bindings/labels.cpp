@@ -69,10 +69,6 @@ py::array voxels_of(const LabelMap& map, std::size_t layer) {
       .cast<py::array>();
 }
 
-py::object image_object(const BodyImage& image) {
-  return py::cast(image);
-}
-
 py::dict surface_dict(LabelSurface&& surface, const BodyImage& image) {
   py::dict dict;
   py::list cuts, pieces;
@@ -89,7 +85,7 @@ py::dict surface_dict(LabelSurface&& surface, const BodyImage& image) {
   dict["digitisation_mm"] = surface.digitisation;
   dict["simplification_error_mm"] =
       surface.simplification ? py::object(py::float_(surface.simplification->largest_error)) : py::none();
-  dict["image"] = image_object(image);
+  dict["image"] = py::cast(image);
   dict["mesh"] = [&] {
     const py::gil_scoped_release released;
     return Mesh(std::move(surface.mesh));
@@ -145,8 +141,7 @@ py::dict mask_surface(const py::array_t<std::uint8_t, py::array::f_style>& insid
   auto surface = followed(progress, [&](const auto& report, const std::stop_token& stop) {
     return surface_of(mask, surface_options, {.progress = report, .stop = stop});
   });
-  BodyImage image{mask.image.X_WI.linear(), {}};
-  for (const CapPlane& cap : surface->caps) image.cuts.push_back({cap.normal, cap.offset});
+  const BodyImage image = image_of(mask.image, *surface);
   return surface_dict(std::move(*surface), image);
 }
 

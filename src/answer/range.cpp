@@ -71,11 +71,12 @@ bool add_exact_limits(RangeAnswer& answer, const RangeRequest& request, const Ra
                              answer::staged(control, "joints of the band"));
     if (!bands) return false;
     answer.bands = std::move(*bands);
-    if (request.bands->sigma.surface_voxels > 0 && (answer.joint.fixed.image || answer.joint.mobile.image))
+    const Uncertainty& sigma = request.bands->sigma;
+    if (sigma.is_by_voxels(answer.joint.fixed) || sigma.is_by_voxels(answer.joint.mobile))
       answer.caveats.push_back(core::formatted(
           "the band takes %g voxels along the normal as the standard deviation of surfaces from label "
           "maps: the grid's part, not the error of the segmentation",
-          request.bands->sigma.surface_voxels));
+          sigma.surface_voxels));
   }
   return true;
 }

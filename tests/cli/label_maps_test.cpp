@@ -149,6 +149,8 @@ TEST_F(LabelMaps, AreRowsOfAStudy) {
   std::size_t same = 0;
   for (std::size_t at = 0; (at = limits.find(limit, at)) != std::string::npos; ++at) ++same;
   EXPECT_EQ(same, 2u) << limits << "\nnot" << limit;
+  EXPECT_NE(text("study/hips.csv").find("label_tables label_tables"), std::string::npos)
+      << "numbers without a table";
   EXPECT_NE(failures.find("none"), std::string::npos) << failures;
   EXPECT_NE(failures.find("column 'mobile_label': a label is needed"), std::string::npos) << failures;
 }

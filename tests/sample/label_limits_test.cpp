@@ -67,8 +67,7 @@ TEST(LabelLimits, AreThoseOfTheBonesUpToTheGrid) {
   const double mean_deg = 2 * 0.1 * voxel_mm / head_mm * 180 / std::numbers::pi;
   const auto expected = limits_of(placed({"hip bone", hip().hip_bone}, {"femur", hip().femur}).joint);
   // The surface only: the joint's centre and axes are those of the bones.
-  const BandOptions band{.sigma = {.centre_mm = 0, .axes = {}, .surface_voxels = usual_surface_voxels},
-                         .samples = 20};
+  const BandOptions band{.sigma = {.centre_mm = 0, .axes = {}}, .samples = 20};
   for (const Vec3& offset : {Vec3(0.13, 0.57, 0.91), Vec3(0.46, 0.90, 0.24)}) {
     SCOPED_TRACE(offset.transpose());
     const PlacedJoint image = joint_of_voxels(grid_at(offset));

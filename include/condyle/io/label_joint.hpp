@@ -33,6 +33,9 @@ struct LabelBone {
   std::vector<LabelNote> notes = {};
 };
 
+/// What a body must know of the image of its surface.
+BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface);
+
 /// Fewer voxels, or a smaller box, are no bone.
 inline constexpr std::int64_t fewest_bone_voxels = 500;
 inline constexpr double smallest_bone_mm = 20;

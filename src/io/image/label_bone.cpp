@@ -92,13 +92,13 @@ void note_cuts(const LabelBone& bone, std::vector<LabelNote>& notes) {
                      bone.name, cap.high ? "last" : "first", "ijk"[cap.axis], cap.area)});
 }
 
+}  // namespace
+
 BodyImage image_of(const VoxelGrid& grid, const LabelSurface& surface) {
   BodyImage image{grid.X_WI.linear(), {}};
   for (const CapPlane& cap : surface.caps) image.cuts.push_back({cap.normal, cap.offset});
   return image;
 }
-
-}  // namespace
 
 std::optional<LabelBone> bone_of(const LabelMap& map, std::string_view file, const LabelBoneRequest& request,
                                  const Control& control) {

@@ -38,16 +38,26 @@ io::ProposedBody body_of(LabelBone& bone, const std::filesystem::path& mesh,
   body.comments.push_back(
       fmt::format("surface off by about {:.2g} mm at most by the grid; by the segmentation, unknown",
                   bone.surface.digitisation));
+  if (const auto& simplified = bone.surface.simplification)
+    body.comments.push_back(
+        fmt::format("simplified from {} triangles, within {:.2g} mm, which bands do not hold",
+                    simplified->triangles_before, simplified->largest_error));
   for (const LabelNote& note : bone.notes)
     body.comments.push_back(fmt::format("{}: {}", name_of(note.code), note.text));
   return body;
 }
 
-/// Bones of one image that are neighbours, voxel to voxel.
-void note_touching(const LabelMap& map, const LabelBone& fixed, const LabelBone& mobile,
-                   std::vector<LabelNote>& notes) {
-  const TouchingVoxels touching = touching_voxels(mask_of(map, fixed.label.layer, fixed.label.label),
-                                                  mask_of(map, mobile.label.layer, mobile.label.label));
+bool same_grid(const VoxelGrid& a, const VoxelGrid& b) {
+  return a.size == b.size && a.X_WI.matrix() == b.X_WI.matrix();
+}
+
+/// Bones of one grid that are neighbours, voxel to voxel: labels of one image, or two masks that were cut out of it.
+void note_touching(const LabelMap& fixed_map, const LabelBone& fixed, const LabelMap& mobile_map,
+                   const LabelBone& mobile, std::vector<LabelNote>& notes) {
+  if (!same_grid(fixed_map.grid, mobile_map.grid)) return;
+  const TouchingVoxels touching =
+      touching_voxels(mask_of(fixed_map, fixed.label.layer, fixed.label.label),
+                      mask_of(mobile_map, mobile.label.layer, mobile.label.label));
   const double voxel = fixed.surface.spacing.maxCoeff();
   if (touching.shared > 0)
     notes.push_back({LabelNoteCode::touching, fmt::format("{} voxels are both {} and {}: the bones overlap",
@@ -56,8 +66,7 @@ void note_touching(const LabelMap& map, const LabelBone& fixed, const LabelBone&
     notes.push_back(
         {LabelNoteCode::touching,
          fmt::format("{} and {} touch at {} faces of voxels, about {} mm: there the joint space is below "
-                     "what voxels of "
-                     "{:.2g} mm resolve, and its width is the smoothing's",
+                     "what voxels of {:.2g} mm resolve, and its width is the smoothing's",
                      fixed.name, mobile.name, touching.faces, core::rounded(*touching.centre, 1), voxel)});
 }
 
@@ -108,7 +117,7 @@ std::optional<LabelJoint> propose_joint(const LabelMap& map, const LabelMap* oth
   if (other) add(joint.notes, other->notes);
   add(joint.notes, joint.fixed.notes);
   add(joint.notes, joint.mobile.notes);
-  if (!other) note_touching(map, joint.fixed, joint.mobile, joint.notes);
+  note_touching(map, joint.fixed, mobile_map, joint.mobile, joint.notes);
   joint.proposal = io::proposal_of(body_of(joint.fixed, joint.fixed_mesh, request.labels),
                                    body_of(joint.mobile, joint.mobile_mesh, mobile_file), facts);
   return joint;

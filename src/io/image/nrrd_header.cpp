@@ -1,5 +1,4 @@
 #include "io/image/nrrd_header.hpp"
-#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
@@ -7,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/file/words.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {

@@ -1,8 +1,8 @@
 #include "io/image/text_header.hpp"
-#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
+#include "io/file/words.hpp"
 #include "io/mesh/parse.hpp"
 
 namespace condyle::io {

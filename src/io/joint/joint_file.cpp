@@ -296,11 +296,12 @@ void refuse_other_names(const io::TomlTable& file) {
 void read_uncertainty(io::TomlTable& file, const Lengths& lengths, JointFile& out) {
   Uncertainty& sigma = out.uncertainty;
   auto table = file.table("uncertainty");
-  const bool has_surface = table && table->has("surface");
-  if (!has_surface && (out.fixed.image || out.mobile.image)) sigma.surface_voxels = usual_surface_voxels;
   if (!table) return;
   if (table->has("centre")) sigma.centre_mm = lengths.not_negative(*table, "centre");
-  if (table->has("surface")) sigma.surface_mm = lengths.not_negative(*table, "surface");
+  if (table->has("surface")) {
+    sigma.surface_mm = lengths.not_negative(*table, "surface");
+    sigma.surface_voxels = 0;
+  }
   if (const auto axes = table->number("axes")) {
     if (*axes < 0) table->fail("axes", "must be 0 or more");
     sigma.axes = Angle::degrees(*axes);

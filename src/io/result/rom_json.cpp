@@ -27,11 +27,12 @@ Json motion_json(const RomResult& result, std::size_t i) {
   return json;
 }
 
-Json json_of(const BandOptions& options) {
+Json json_of(const BandOptions& options, const Joint& joint) {
   Json sigma{{"centre_mm", options.sigma.centre_mm},
              {"axes_deg", options.sigma.axes.degrees()},
              {"surface_mm", options.sigma.surface_mm}};
-  if (options.sigma.surface_voxels > 0) sigma["surface_voxels"] = options.sigma.surface_voxels;
+  if (options.sigma.is_by_voxels(joint.fixed) || options.sigma.is_by_voxels(joint.mobile))
+    sigma["surface_voxels"] = options.sigma.surface_voxels;
   return {{"samples", options.samples}, {"seed", options.seed}, {"sigma", std::move(sigma)}};
 }
 
@@ -128,7 +129,7 @@ Json io::rom_object(const RomResult& result) {
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
             {"caveats", result.caveats},
             {"notes", io::notes_json(result.notes, result.contact_notes, result.range_notes)},
-            {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options)}};
+            {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options, result.joint)}};
   json["motions"] = Json::array();
   for (std::size_t i = 0; i < result.limits.size(); ++i) json["motions"].push_back(motion_json(result, i));
   if (result.map) json["map"] = json_of(*result.map);

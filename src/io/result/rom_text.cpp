@@ -124,9 +124,14 @@ std::string table_text(std::span<const Column> columns) {
   return text;
 }
 
-std::string surface_text(const Uncertainty& sigma) {
-  return sigma.surface_voxels > 0 ? fmt::format("{:g} voxels", sigma.surface_voxels)
-                                  : fmt::format("{:g} mm", sigma.surface_mm);
+std::string surface_text(const Uncertainty& sigma, const Joint& joint) {
+  const bool fixed = sigma.is_by_voxels(joint.fixed), mobile = sigma.is_by_voxels(joint.mobile);
+  const std::string voxels = fmt::format("{:g} voxels", sigma.surface_voxels);
+  if (fixed && mobile) return voxels;
+  const std::string mm = fmt::format("{:g} mm", sigma.surface_mm);
+  return fixed || mobile
+             ? fmt::format("{} ({}) and {}", voxels, (fixed ? joint.fixed : joint.mobile).name, mm)
+             : mm;
 }
 
 /// The bands and where they come from; without bands a line that says how to get them.
@@ -140,8 +145,8 @@ std::string band_text(const RomResult& result) {
       "  band: 5 to 95 % of {} joints with the centre moved by {:g} mm, the axes by {:g} deg and the "
       "surfaces by {}\n"
       "    (standard deviations, seed {}); its width where only one of them is moved:\n",
-      options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(), surface_text(options.sigma),
-      options.seed);
+      options.samples, options.sigma.centre_mm, options.sigma.axes.degrees(),
+      surface_text(options.sigma, result.joint), options.seed);
   Column name{Align::left, {"motion"}}, median{Align::right, {"median"}}, low{Align::right, {"5 %"}},
       high{Align::right, {"95 %"}}, centre{Align::right, {"centre"}}, axes{Align::right, {"axes"}},
       surface{Align::right, {"surface"}}, free{Align::right, {"no contact"}};

@@ -160,7 +160,8 @@ std::string notes_on(const StudyTable& table, const StudyRow& row, const LoadedJ
 std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& row, const Study& study,
                                      std::stop_token stop) {
   const StudyOptions& options = study.options;
-  const LoadedJoint loaded = load_joint(table, row);
+  const StudyJoint of_joint = load_joint(table, row);
+  const LoadedJoint& loaded = of_joint.loaded;
   check_anatomy(loaded, options);
   const Joint& joint = loaded.joint;
   const std::string place = place_of(table, row);
@@ -177,8 +178,11 @@ std::optional<StudyAnswer> answer_of(const StudyTable& table, const StudyRow& ro
     return answer_range(joint, loaded.report.placement, range_request_of(loaded, options), {{}, stop});
   });
   if (!answer) return std::nullopt;
-  for (const RangeNote& note : answer->notes)
+  const auto add_code = [&](const auto& note) {
     notes += (notes.empty() ? "" : " ") + std::string(name_of(note.code));
+  };
+  for (const LabelNote& note : of_joint.notes) add_code(note);
+  for (const RangeNote& note : answer->notes) add_code(note);
   const Cells of_row = row_fields(table, row);
   const std::string inputs = inputs_sha256(row, loaded);
   Cells of_hip = hip_fields(loaded, answer->bearing, notes, inputs);

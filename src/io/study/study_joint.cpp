@@ -113,8 +113,8 @@ LoadedJoint made(const StudyTable& table, const StudyRow& row) {
   }
 }
 
-/// Of two bones of a label map: the joint that condyle init proposes.
-LoadedJoint segmented(const StudyTable& table, const StudyRow& row) {
+/// The joint that condyle init proposes for two bones of a label map.
+StudyJoint segmented(const StudyTable& table, const StudyRow& row) {
   static constexpr std::pair<std::string_view, std::optional<LabelTask>> tasks[] = {
       {"", std::nullopt},
       {"total", LabelTask::total},
@@ -141,9 +141,6 @@ LoadedJoint segmented(const StudyTable& table, const StudyRow& row) {
     file.joint.side = *found.proposal.side;
     file.joint.frame.centre = CentreFit{};
     file.joint.frame.axes = lps_axes;
-    file.uncertainty.surface_voxels = usual_surface_voxels;
-    for (const LabelNote& note : found.notes)
-      file.processing.push_back(fmt::format("{}: {}", name_of(note.code), note.text));
     const auto body = [](LabelBone& of) { return Body{of.name, std::move(of.surface.mesh), {}, of.image}; };
     const FileDigest digest = digest_of(read_whole_file(labels));
     const auto report = [&](const LabelBone& of) {
@@ -153,10 +150,12 @@ LoadedJoint segmented(const StudyTable& table, const StudyRow& row) {
     JointReport joint_report{std::move(file), {report(found.fixed)}, {report(found.mobile)}, {}, {}};
     PlacedJoint placed = make_joint(joint_report.file.joint, body(found.fixed), body(found.mobile));
     joint_report.placement = std::move(placed.placement);
-    joint_report.processing = joint_report.file.processing;
-    return {std::move(placed.joint), std::move(joint_report)};
+    std::erase_if(found.notes, [](const LabelNote& note) { return note.code == LabelNoteCode::cut_by_view; });
+    return {{std::move(placed.joint), std::move(joint_report)}, std::move(found.notes)};
   } catch (const UsageError& error) {
     throw FileError(fmt::format("{}: {}", where, error.what()));
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}", where, error.what()));
   }
 }
 
@@ -190,21 +189,21 @@ void add_files(const JointFile& file, std::vector<std::string>& files) {
 
 }  // namespace
 
-LoadedJoint load_joint(const StudyTable& table, const StudyRow& row) {
+StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
   switch (source_of(table, row)) {
     case JointSource::joint_file:
-      return read_joint(file_in(table, row, "joint"));
+      return {read_joint(file_in(table, row, "joint"))};
     case JointSource::meshes: {
       JointFile file = described(table, row);
       for (const char* body : {"fixed", "mobile"}) file_in(table, row, body);
-      return load_joint(std::move(file));
+      return {load_joint(std::move(file))};
     }
     case JointSource::labels:
       return segmented(table, row);
     case JointSource::sample:
       break;
   }
-  return made(table, row);
+  return {made(table, row)};
 }
 
 std::string place_of(const StudyTable& table, const StudyRow& row) {

@@ -5,13 +5,20 @@
 #include <vector>
 
 #include "condyle/io/joint_file.hpp"
+#include "condyle/io/label_file.hpp"
 #include "io/study/study_table.hpp"
 
 namespace condyle::io {
 
-/// The joint of a row: of its joint file, of its two meshes, of two bones of a label map, or a sample hip of its measures. Throws what read_joint() does;
-/// FileError if the row does not say which, or a field is not what it must be.
-LoadedJoint load_joint(const StudyTable& table, const StudyRow& row);
+/// The joint of a row, and what its label map must be read with.
+struct StudyJoint {
+  LoadedJoint loaded;
+  std::vector<LabelNote> notes = {};  ///< without those that check_joint() has too
+};
+
+/// The joint of a joint file, of two meshes, of two bones of a label map, or a sample hip of its measures. Throws what read_joint()
+/// does; FileError if the row does not say which, or a field is not what it must be.
+StudyJoint load_joint(const StudyTable& table, const StudyRow& row);
 
 /// Start of messages about the joint: its joint file, else the row's line, "table.csv: line 7".
 std::string place_of(const StudyTable& table, const StudyRow& row);

@@ -18,7 +18,7 @@ constexpr auto edge_between = [] {
   return edge;
 }();
 
-/// Of each edge, the two faces that it is in.
+/// The two faces that each edge is in.
 constexpr auto faces_of_edge = [] {
   std::array<unsigned, cell_edges> faces{};
   for (std::size_t f = 0; f < cell_faces; ++f) {

@@ -13,7 +13,7 @@ namespace condyle::mesh {
 /// The surface between samples inside and outside, in the field's coordinates, wound outwards.
 struct Contour {
   TriMesh mesh;
-  std::vector<std::uint8_t> cap;  ///< Of the triangles: 0, or 1 + 2 axis + (1 on the high side).
+  std::vector<std::uint8_t> cap;  ///< Per triangle: 0, or 1 + 2 axis + (1 on the high side).
 };
 
 /// Where a sample inside and one outside are closer to the level than this share of their distance, the vertex is not:

@@ -48,10 +48,6 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
   return groups;
 }
 
-bool is_moved_by_voxels(const Body& body, const Uncertainty& sigma) {
-  return body.image && sigma.surface_voxels > 0;
-}
-
 /// Mean of the triangles around each vertex weighted by area, unit; zero if no triangle uses it. A surface that is off by a share
 /// of a voxel has the width of the share in the normal's direction instead: slices are thicker than their pixels.
 Points directions_of(const Body& body, const Uncertainty& sigma) {
@@ -59,7 +55,7 @@ Points directions_of(const Body& body, const Uncertainty& sigma) {
   for (std::size_t v = 0; v < normals.size(); ++v) {
     if (!(normals[v].squaredNorm() > 0)) continue;
     const Vec3 normal = normals[v].normalized();
-    normals.set(v, is_moved_by_voxels(body, sigma)
+    normals.set(v, sigma.is_by_voxels(body)
                        ? Vec3(sigma.surface_voxels * body.image->voxel_width_mm(normal) * normal)
                        : normal);
   }
@@ -72,7 +68,7 @@ class Surface {
   Surface(const Body& body, const Mesh& part, const Uncertainty& sigma)
       : vertices_(body.mesh.vertices()),
         directions_(directions_of(body, sigma)),
-        sigma_(is_moved_by_voxels(body, sigma) ? 1 : sigma.surface_mm),
+        sigma_(sigma.is_by_voxels(body) ? 1 : sigma.surface_mm),
         tree_(part) {}
 
   const FeatureTree& tree() const noexcept { return tree_; }

@@ -23,25 +23,25 @@ constexpr std::size_t dimensions = 8;
 
 enum class Source { all, centre, axes, surface };
 
-bool moves_surfaces(const Uncertainty& sigma) {
-  return sigma.surface_mm > 0 || sigma.surface_voxels > 0;
+bool moves_surface(const Uncertainty& sigma, const Joint& joint) {
+  return sigma.surface_mm > 0 || sigma.is_by_voxels(joint.fixed) || sigma.is_by_voxels(joint.mobile);
 }
 
 /// The sources to compute: all of them together, and each one by itself if there are several.
-std::vector<Source> sources_of(const Uncertainty& sigma) {
+std::vector<Source> sources_of(const Uncertainty& sigma, const Joint& joint) {
   std::vector<Source> moving;
   if (sigma.centre_mm > 0) moving.push_back(Source::centre);
   if (sigma.axes > Angle()) moving.push_back(Source::axes);
-  if (moves_surfaces(sigma)) moving.push_back(Source::surface);
+  if (moves_surface(sigma, joint)) moving.push_back(Source::surface);
   if (moving.size() < 2) return {Source::all};
   moving.insert(moving.begin(), Source::all);
   return moving;
 }
 
-bool moves(const Uncertainty& sigma, Source source) {
+bool moves(const Uncertainty& sigma, const Joint& joint, Source source) {
   return source == Source::centre ? sigma.centre_mm > 0
          : source == Source::axes ? sigma.axes > Angle()
-                                  : moves_surfaces(sigma);
+                                  : moves_surface(sigma, joint);
 }
 
 /// Only the part of the displacement that one source moves.
@@ -118,7 +118,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
   const std::vector<Displacement> samples = displacements(options);
 
   // Outcomes by source, sample and motion.
-  const std::vector<Source> sources = sources_of(options.sigma);
+  const std::vector<Source> sources = sources_of(options.sigma, joint);
   const std::size_t count = samples.size(), width = motions.size(), total = sources.size() * count;
   std::vector<DisplacedLimit> outcomes(total * width);
   std::size_t done = 0;
@@ -144,7 +144,7 @@ std::optional<std::vector<LimitBand>> limit_bands(const Joint& joint, std::span<
       return values;
     };
     const auto width_of = [&](Source source) {
-      if (!moves(options.sigma, source)) return Angle();
+      if (!moves(options.sigma, joint, source)) return Angle();
       // Where it is the only one, all of it is its own.
       const auto at = std::find(sources.begin(), sources.end(), source);
       const auto values = sorted(at == sources.end() ? 0 : static_cast<std::size_t>(at - sources.begin()));
