@@ -1,35 +1,28 @@
 #include "io/image/caret_names.hpp"
-#include "io/file/words.hpp"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <set>
-#include <utility>
 
 #include "io/file/plain_text.hpp"
+#include "io/file/words.hpp"
+#include "io/file/xml_entity.hpp"
 #include "io/image/text_header.hpp"
 #include "io/mesh/xml.hpp"
 
 namespace condyle::io {
 namespace {
 
-/// Text outside of CDATA, with the five entities of XML.
+/// Text outside of CDATA.
 std::string plain_characters(std::string_view text, const XmlCursor& cursor) {
-  constexpr std::array<std::pair<std::string_view, char>, 5> entities = {
-      {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}}};
   std::string out;
   while (!text.empty()) {
-    if (text.front() != '&') {
+    std::size_t length = 1;
+    if (text.front() != '&')
       out += text.front();
-      text.remove_prefix(1);
-      continue;
-    }
-    const auto* entity = entities.begin();
-    while (entity != entities.end() && !text.starts_with(entity->first)) ++entity;
-    if (entity == entities.end()) cursor.fail(fmt::format("{} is no entity", in_quotes(text.substr(0, 10))));
-    out += entity->second;
-    text.remove_prefix(entity->first.size());
+    else if (length = append_entity(out, text); length == 0)
+      cursor.fail(fmt::format("{} is no entity", in_quotes(text.substr(0, 10))));
+    text.remove_prefix(length);
   }
   return out;
 }

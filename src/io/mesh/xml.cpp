@@ -26,8 +26,8 @@ std::optional<XmlTag> XmlCursor::next() {
                   : "no XML tag");
     }
     at_ = tag;
-  } while (skip_remark("<!--", "-->") || skip_remark("<![CDATA[", "]]>") || skip_remark("<?", "?>") ||
-           skip_remark("<!", ">"));
+  } while (skip_remark("<!--", "-->") || skip_remark("<?", "?>") || skip_section());
+  begin_ = at_;
 
   take('<');
   XmlTag tag{XmlTag::Kind::open, {}, {}};
@@ -76,6 +76,15 @@ bool XmlCursor::skip_remark(std::string_view begin, std::string_view end) {
   if (last == std::string_view::npos) fail(fmt::format("'{}' without '{}'", begin, end));
   at_ = last + end.size();
   return true;
+}
+
+/// Passes over what begins with <! and is no comment, or refuses it.
+bool XmlCursor::skip_section() {
+  const std::string_view rest = source_.bytes.substr(at_);
+  if (!rest.starts_with("<!")) return false;
+  if (sections_ == Sections::refused)
+    fail(fmt::format("{} is not read", in_quotes(rest.substr(0, rest.find_first_of(" \t\r\n>", 2)))));
+  return skip_remark("<![CDATA[", "]]>") || skip_remark("<!", ">");
 }
 
 std::string_view XmlCursor::name() {

@@ -19,18 +19,23 @@ struct XmlTag {
   std::optional<std::string_view> find(std::string_view attribute) const;
 };
 
-/// Goes from tag to tag through the XML that VTK writes, and holds that tags close in the order they opened.
-/// Comments and declarations are passed over; entities stay as they are. An XML parser proper would not do:
-/// data appended raw is not XML.
+/// Goes from tag to tag through the XML that VTK and OpenSim write, and holds that tags close in the order they opened.
+/// Comments and declarations are passed over, entities stay as they are: no text grows, and no other file is opened. An XML
+/// parser proper would not do: data appended raw is not XML.
 class XmlCursor {
  public:
-  explicit XmlCursor(const Source& source) : source_(source) {}
+  /// Whether DOCTYPE, ENTITY and CDATA are passed over, or are errors.
+  enum class Sections { skipped, refused };
+
+  explicit XmlCursor(const Source& source, Sections sections = Sections::skipped)
+      : source_(source), sections_(sections) {}
 
   /// The next tag; nothing once the outermost one has closed.
   std::optional<XmlTag> next();
   /// The text up to the next tag.
   std::string_view text() const;
-  /// Where the last tag ended.
+  /// Where the last tag began and ended.
+  std::size_t begin() const noexcept { return begin_; }
   std::size_t offset() const noexcept { return at_; }
   /// Names of the tags that are open, outermost first.
   const std::vector<std::string_view>& path() const noexcept { return open_; }
@@ -39,13 +44,15 @@ class XmlCursor {
 
  private:
   bool skip_remark(std::string_view begin, std::string_view end);
+  bool skip_section();
   std::string_view name();
   void skip_space();
   void take(char expected);
   void follow(const XmlTag& tag);
 
   Source source_;
-  std::size_t at_ = 0;
+  Sections sections_;
+  std::size_t at_ = 0, begin_ = 0;
   std::vector<std::string_view> open_;
   bool begun_ = false;
 };

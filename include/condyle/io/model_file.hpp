@@ -1,0 +1,156 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "condyle/io/file_digest.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "condyle/make_joint.hpp"
+
+/// Models of OpenSim (.osim): their joints, and joint files for them. What is read and what is not: docs/models.md.
+/// A model's own units throughout: metres, radians.
+
+namespace condyle {
+
+namespace io {
+struct ModelTransform;
+struct CouplerFunction;
+}  // namespace io
+
+/// What a coordinate does. A motion file in degrees has degrees for rotational ones only.
+enum class CoordinateMotion {
+  rotational,     ///< it turns the joint by its own value
+  translational,  ///< it moves the joint only
+  coupled,        ///< it turns the joint through a function
+};
+/// "rotational", "translational", "coupled".
+std::string_view name_of(CoordinateMotion motion) noexcept;
+
+struct ModelCoordinate {
+  std::string name;
+  CoordinateMotion motion = CoordinateMotion::rotational;
+  double default_value = 0;
+  std::optional<std::array<double, 2>> range = {};
+  bool is_clamped = true, is_locked = false, is_prescribed = false;
+};
+
+/// A joint of a model: X_parent_child(q) = X_PF X_FM(q) X_CM^-1.
+struct ModelJoint {
+  std::string name = {}, type = {};  ///< "knee_r", "CustomJoint"
+  std::string parent_body = {}, child_body = {};
+  Pose X_PF = Pose::Identity(), X_CM = Pose::Identity();
+  std::vector<ModelCoordinate> coordinates = {};
+  std::shared_ptr<const io::ModelTransform> transform = {};  ///< null if it cannot be read
+  std::string why_not = {};  ///< then one line with the reason, and where it stands
+  std::size_t line = 0;
+
+  std::vector<double> defaults() const;
+};
+
+/// X_parent_child at one value for each coordinate, in their order. Throws UsageError for another number of values, FileError
+/// for a joint that cannot be read. 1e-15 of the model's size.
+Pose pose_of(const ModelJoint& joint, std::span<const double> q);
+
+/// A mesh that a model attaches to a body: p_body = X_BG diag(scale) v.
+struct ModelMesh {
+  std::string body = {};
+  std::string file = {};  ///< as the model names it
+  Vec3 scale = Vec3::Ones();
+  Pose X_BG = Pose::Identity();
+  std::optional<std::filesystem::path> path = {};     ///< where it was found
+  std::vector<std::filesystem::path> looked_in = {};  ///< where it was looked for, if it was not
+  std::size_t line = 0;
+};
+
+/// A surface in contact of OpenSim-JAM (Smith2018ContactMesh), its layer behind the surface.
+struct ModelContactMesh {
+  std::string name;
+  ModelMesh mesh = {};
+  double youngs_modulus_pa = 1e6, poisson_ratio = 0.5;
+  double thickness = 0.005;
+  bool has_variable_thickness = false;
+  std::string back_file = {};
+  std::optional<std::filesystem::path> back_path = {};
+  double least_thickness = 0.001, greatest_thickness = 0.01;
+};
+
+/// A contact of two of them (Smith2018ArticularContactForce).
+struct ModelContact {
+  std::string name;
+  std::string casting = {}, target = {};  ///< names of contact meshes
+  double least_proximity = 0, greatest_proximity = 0.01;
+  bool is_linear = true, is_lumped = true, applies = true;
+  std::size_t line = 0;
+};
+
+/// A coordinate that follows others (CoordinateCouplerConstraint).
+struct ModelCoupler {
+  std::string name, dependent = {};
+  std::vector<std::string> independent = {};
+  std::shared_ptr<const io::CouplerFunction> function = {};  ///< null if it cannot be read
+  std::string why_not = {};
+};
+
+struct Model {
+  std::filesystem::path path;
+  FileDigest digest = {};
+  std::string name = {};
+  int version = 0;
+  std::vector<std::string> bodies = {};  ///< "ground" among them if joints or meshes use it
+  std::vector<ModelJoint> joints = {};
+  std::vector<ModelMesh> meshes = {};  ///< of all bodies
+  std::vector<ModelContactMesh> contact_meshes = {};
+  std::vector<ModelContact> contacts = {};
+  std::vector<ModelCoupler> couplers = {};
+  std::map<std::string, std::size_t> ignored = {};  ///< how many of each kind of component are not used here
+  std::vector<std::string> notes = {};              ///< one line each: what was read otherwise than it stands
+};
+
+/// Reads a model, and finds its meshes: in the model's folder, its folder Geometry, and the folders given, in this order. No
+/// mesh is opened. A joint that cannot be read says so and leaves the others as they are. Throws FileError, one line with
+/// the line of the file, for everything else that is not as it must be.
+Model read_model(const std::filesystem::path& path,
+                 std::span<const std::filesystem::path> geometry_folders = {});
+
+/// The joint of that name. Throws UsageError with the names there are, and FileError for one that cannot be read.
+const ModelJoint& joint_named(const Model& model, std::string_view name);
+
+/// The meshes of the parent's or the child's body and of all bodies welded to it, their poses in the body. Throws FileError
+/// for a weld that cannot be read.
+std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role);
+
+/// What may be chosen of a joint that is proposed for a model's.
+struct ModelJointRequest {
+  std::string joint;
+  std::filesystem::path joint_file;     ///< where it is to lie: meshes are named from its folder
+  std::optional<Anatomy> anatomy = {};  ///< default: by the names of joint and bodies
+  std::optional<Side> side = {};        ///< default: by the ending of their names
+  std::string contact = {};             ///< default: the first between the two bodies
+};
+
+/// A joint file for a joint of a model.
+struct ModelJointProposal {
+  JointProposal proposal;
+  std::vector<std::string> notes;  ///< one line each: what the model has and the file has not
+  std::string missing_body =
+      {};  ///< one line if none of a body's meshes was found: the file names them as the model does
+};
+
+/// Centre, axes, signs, kind, meshes, contact and the columns of a recorded motion as the model has them. Throws UsageError
+/// if the joint or the contact is not there, or names do not tell joint or side; FileError if the joint cannot be read.
+ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request);
+
+/// The joint itself, as read_joint() would read the proposed file, with the notes among its processing. Throws as both do;
+/// FileError if no mesh of a body is there.
+LoadedJoint read_joint(const Model& model, const ModelJointRequest& request);
+
+}  // namespace condyle

@@ -1,0 +1,147 @@
+#include "io/model/model_element.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/file/in_quotes.hpp"
+#include "io/file/words.hpp"
+
+namespace condyle::io {
+namespace {
+
+constexpr std::string_view functions_read[] = {
+    "Constant",   "LinearFunction",     "PolynomialFunction", "PiecewiseLinearFunction",
+    "SimmSpline", "NaturalCubicSpline", "natCubicSpline",     "MultiplierFunction"};
+
+bool is_function(const XmlElement& element) {
+  const std::string_view name = element.name;
+  constexpr std::string_view others[] = {
+      "GCVSpline",       "StepFunction",   "Sine", "MultivariatePolynomialFunction",
+      "SignalGenerator", "FunctionAdapter"};
+  return std::find(std::begin(functions_read), std::end(functions_read), name) != std::end(functions_read) ||
+         std::find(std::begin(others), std::end(others), name) != std::end(others) ||
+         name.ends_with("Function") || name.ends_with("Spline");
+}
+
+}  // namespace
+
+void ModelElement::fail_at(const XmlElement& element, std::string_view what) const {
+  source_->fail(fmt::format("line {}: {}{}{}", element.line, of_, of_.empty() ? "" : ": ", what));
+}
+
+const XmlElement* ModelElement::first_of(std::initializer_list<std::string_view> names) const noexcept {
+  for (const std::string_view name : names)
+    if (const XmlElement* child = element_->child(name)) return child;
+  return nullptr;
+}
+
+std::string ModelElement::text(std::string_view child) const {
+  const XmlElement* element = element_->child(child);
+  return element ? element->text() : std::string();
+}
+
+std::vector<double> ModelElement::numbers(const XmlElement& element) const {
+  std::vector<double> values;
+  const std::string text = element.text();
+  for (const std::string_view word : words_of(text)) {
+    double value = 0;
+    if (!parse_number(word, value))
+      fail_at(element, fmt::format("{}: {} is no number", element.name, in_quotes(word)));
+    if (!std::isfinite(value))
+      fail_at(element, fmt::format("{}: {} is not finite", element.name, in_quotes(word)));
+    values.push_back(value);
+  }
+  return values;
+}
+
+double ModelElement::number(std::string_view child, double otherwise) const {
+  const XmlElement* element = element_->child(child);
+  if (!element || element->text().empty()) return otherwise;
+  const std::vector<double> values = numbers(*element);
+  if (values.size() != 1)
+    fail_at(*element, fmt::format("{}: one number is needed, not {}", child, values.size()));
+  return values[0];
+}
+
+double ModelElement::above_zero(std::string_view child, double otherwise) const {
+  const double value = number(child, otherwise);
+  if (!(value > 0)) fail_at(*element_->child(child), fmt::format("{}: must be above 0", child));
+  return value;
+}
+
+Vec3 ModelElement::triple(std::initializer_list<std::string_view> children, const Vec3& otherwise) const {
+  const XmlElement* element = first_of(children);
+  if (!element || element->text().empty()) return otherwise;
+  const std::vector<double> values = numbers(*element);
+  if (values.size() != 3)
+    fail_at(*element, fmt::format("{}: three numbers are needed, not {}", element->name, values.size()));
+  return {values[0], values[1], values[2]};
+}
+
+bool ModelElement::flag(std::string_view child, bool otherwise) const {
+  const XmlElement* element = element_->child(child);
+  const std::string text = element ? lower_case(element->text()) : std::string();
+  if (text.empty()) return otherwise;
+  if (text == "true" || text == "1") return true;
+  if (text == "false" || text == "0") return false;
+  fail_at(*element, fmt::format("{}: {} is neither true nor false", child, in_quotes(text)));
+}
+
+std::vector<double> ModelElement::required_numbers(const XmlElement& function, std::string_view child) const {
+  const XmlElement* element = function.child(child);
+  std::vector<double> values = element ? numbers(*element) : std::vector<double>();
+  if (values.empty()) fail_at(function, fmt::format("{}: {} is missing", function.name, child));
+  return values;
+}
+
+void ModelElement::require_points(const XmlElement& function, const std::vector<double>& x,
+                                  const std::vector<double>& y) const {
+  if (x.size() != y.size())
+    fail_at(function, fmt::format("{}: {} numbers x and {} y", function.name, x.size(), y.size()));
+  if (x.size() < 2) fail_at(function, fmt::format("{}: two points or more are needed", function.name));
+  for (std::size_t i = 1; i < x.size(); ++i)
+    if (!(x[i] > x[i - 1]))
+      fail_at(function, fmt::format("{}: x must increase, and {} follows {}", function.name, x[i], x[i - 1]));
+}
+
+ModelFunction ModelElement::function_of(const XmlElement& element, int depth) const {
+  const std::string_view name = element.name;
+  const ModelElement values(*source_, element, of_);
+  if (name == "Constant") return ConstantFunction{values.number("value", 0)};
+  if (name == "LinearFunction") {
+    std::vector<double> slopes = required_numbers(element, "coefficients");
+    const double offset = slopes.back();
+    slopes.pop_back();
+    return LinearFunction{std::move(slopes), offset};
+  }
+  if (name == "PolynomialFunction") return PolynomialFunction{required_numbers(element, "coefficients")};
+  if (name == "MultiplierFunction") {
+    if (depth > 10) fail_at(element, "functions nested deeper than 10");
+    const ModelElement inside(*source_, element, of_);
+    const XmlElement* wrapper = element.child("function");
+    if (!wrapper || wrapper->children.empty()) fail_at(element, "MultiplierFunction: function is missing");
+    return ScaledFunction{inside.number("scale", 1), std::make_shared<const ModelFunction>(
+                                                         function_of(wrapper->children.front(), depth + 1))};
+  }
+  if (std::find(std::begin(functions_read), std::end(functions_read), name) == std::end(functions_read))
+    fail_at(element, fmt::format("function {} is not read", in_quotes(name)));
+  std::vector<double> x = required_numbers(element, "x"), y = required_numbers(element, "y");
+  require_points(element, x, y);
+  if (name == "PiecewiseLinearFunction") return PiecewiseLinearFunction{std::move(x), std::move(y)};
+  return SimmSpline(std::move(x), std::move(y));
+}
+
+std::optional<ModelFunction> ModelElement::function() const {
+  for (const XmlElement& child : element_->children) {
+    if (child.name == "function" && !child.children.empty()) return function_of(child.children.front(), 0);
+    if (child.name == "coupled_coordinates_function" && !child.children.empty())
+      return function_of(child.children.front(), 0);
+    if (is_function(child)) return function_of(child, 0);
+  }
+  return std::nullopt;
+}
+
+}  // namespace condyle::io

@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "condyle/error.hpp"
+#include "condyle/io/model_file.hpp"
+#include "core/near_name.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/model/spatial_transform.hpp"
+#include "io/model/welded_bodies.hpp"
+
+namespace condyle {
+
+std::string_view name_of(CoordinateMotion motion) noexcept {
+  switch (motion) {
+    case CoordinateMotion::rotational:
+      return "rotational";
+    case CoordinateMotion::translational:
+      return "translational";
+    case CoordinateMotion::coupled:
+      break;
+  }
+  return "coupled";
+}
+
+std::vector<double> ModelJoint::defaults() const {
+  std::vector<double> values;
+  for (const ModelCoordinate& coordinate : coordinates) values.push_back(coordinate.default_value);
+  return values;
+}
+
+Pose pose_of(const ModelJoint& joint, std::span<const double> q) {
+  if (!joint.transform) throw FileError(joint.why_not);
+  if (q.size() != joint.coordinates.size())
+    throw UsageError(fmt::format("joint {} has {} coordinates, and {} values are given",
+                                 io::in_quotes(joint.name), joint.coordinates.size(), q.size()));
+  return joint.X_PF * io::pose_of(joint.transform->axes, q) * inverted(joint.X_CM);
+}
+
+const ModelJoint& joint_named(const Model& model, std::string_view name) {
+  std::vector<std::string> names;
+  for (const ModelJoint& joint : model.joints) {
+    if (joint.name == name) {
+      if (!joint.transform) throw FileError(joint.why_not);
+      return joint;
+    }
+    names.push_back(joint.name);
+  }
+  std::string list;
+  for (const std::string& known : names) list += (list.empty() ? "" : ", ") + known;
+  throw UsageError(fmt::format("{}: no joint {}{}; there are {}", model.path.string(), io::in_quotes(name),
+                               core::did_you_mean(name, names), list.empty() ? "none" : list));
+}
+
+std::vector<io::WeldedBody> io::welded_bodies(const Model& model, const ModelJoint& joint, BodyRole role) {
+  std::vector<WeldedBody> bodies{{role == BodyRole::fixed ? joint.parent_body : joint.child_body}};
+  const auto add = [&](const std::string& body, const Pose& X) {
+    const auto is_this = [&](const WeldedBody& known) { return known.name == body; };
+    if (std::none_of(bodies.begin(), bodies.end(), is_this)) bodies.push_back({body, X});
+  };
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (const ModelJoint& weld : model.joints) {
+      if (weld.type != "WeldJoint" || weld.name == joint.name) continue;
+      const Pose X_parent_child = pose_of(weld, {});
+      const WeldedBody body = bodies[i];
+      if (weld.parent_body == body.name) add(weld.child_body, body.X * X_parent_child);
+      if (weld.child_body == body.name) add(weld.parent_body, body.X * inverted(X_parent_child));
+    }
+  }
+  return bodies;
+}
+
+std::vector<ModelMesh> meshes_of(const Model& model, const ModelJoint& joint, BodyRole role) {
+  std::vector<ModelMesh> meshes;
+  for (const io::WeldedBody& body : io::welded_bodies(model, joint, role)) {
+    for (ModelMesh mesh : model.meshes) {
+      if (mesh.body != body.name) continue;
+      mesh.X_BG = body.X * mesh.X_BG;
+      meshes.push_back(std::move(mesh));
+    }
+  }
+  return meshes;
+}
+
+}  // namespace condyle

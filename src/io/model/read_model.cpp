@@ -1,0 +1,340 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "condyle/error.hpp"
+#include "condyle/io/model_file.hpp"
+#include "core/near_name.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/file/plain_text.hpp"
+#include "io/file/whole_file.hpp"
+#include "io/file/words.hpp"
+#include "io/model/find_mesh.hpp"
+#include "io/model/model_frames.hpp"
+#include "io/model/read_joint.hpp"
+#include "io/model/spatial_transform.hpp"
+
+namespace condyle {
+namespace io {
+namespace {
+
+constexpr int first_version = 10500, last_version = 40600;
+constexpr std::size_t largest_file = 100'000'000;
+
+/// Goes through a model twice: bodies and frames first, then what refers to them.
+class ModelReader {
+ public:
+  ModelReader(const Source& source, Model& model, std::span<const std::filesystem::path> folders)
+      : source_(source), model_(model), folders_(folders), frames_(source) {
+    folder_ = model.path.parent_path();
+    if (folder_.empty()) folder_ = ".";
+  }
+
+  void read(const XmlElement& root) {
+    const XmlElement& model = *root.child("Model");
+    frames_.add_body("ground");
+    collect_frames(model, "");
+    read_components(model, "");
+    model_.bodies = frames_.bodies();
+    for (const auto& [kind, count] : shapes_) model_.ignored[kind] += count;
+    refuse_twice();
+  }
+
+ private:
+  static bool is_body(const XmlElement& element) {
+    return element.name == "Body" || element.name == "Ground";
+  }
+
+  static bool is_container(std::string_view name) {
+    return name == "objects" || name == "components" || name == "frames" || name == "Joint" ||
+           (name.ends_with("Set") && name != "CoordinateSet" && name != "WrapObjectSet" &&
+            name != "GeometrySet" && name != "PathPointSet");
+  }
+
+  /// Bodies, and frames wherever they stand, with what they stand in.
+  void collect_frames(const XmlElement& element, const std::string& owner) {
+    for (const XmlElement& child : element.children) {
+      if (is_body(child)) {
+        const std::string name = child.name == "Ground" ? "ground" : child.label();
+        if (name != "ground" && !bodies_.insert(name).second)
+          ModelElement(source_, child).fail(fmt::format("body {} is given twice", in_quotes(name)));
+        if (name != "ground") frames_.add_body(name);
+        collect_frames(child, name);
+      } else if (child.name == "PhysicalOffsetFrame") {
+        frames_.add_frame(child, owner);
+        collect_frames(child, child.label());
+      } else if (is_joint(child.name)) {
+        collect_frames(child, child.label());
+      } else if (is_container(child.name)) {
+        collect_frames(child, owner);
+      }
+    }
+  }
+
+  void read_components(const XmlElement& element, const std::string& owner) {
+    for (const XmlElement& child : element.children) {
+      const std::string_view name = child.name;
+      if (is_body(child)) {
+        read_body(child, name == "Ground" ? "ground" : child.label());
+      } else if (name == "PhysicalOffsetFrame") {
+        read_geometry(child, child.label(), owner);
+        read_components(child, child.label());
+      } else if (is_joint(name)) {
+        model_.joints.push_back(joint_of(source_, child, owner, frames_));
+        read_components(child, child.label());
+      } else if (name == "CoordinateCouplerConstraint") {
+        read_coupler(child);
+      } else if (name == "Smith2018ContactMesh") {
+        read_contact_mesh(child);
+      } else if (name == "Smith2018ArticularContactForce") {
+        read_contact(child);
+      } else if (is_container(name)) {
+        count_ignored(child);
+        read_components(child, owner);
+      }
+    }
+  }
+
+  /// What a set holds that has no part in a joint's place: muscles, ligaments, controllers, markers.
+  void count_ignored(const XmlElement& set) {
+    constexpr std::string_view sets[] = {"ForceSet",  "ConstraintSet", "ControllerSet",     "ProbeSet",
+                                         "MarkerSet", "MiscSet",       "ContactGeometrySet"};
+    if (std::find(std::begin(sets), std::end(sets), set.name) == std::end(sets)) return;
+    const XmlElement* objects = set.child("objects");
+    if (!objects) return;
+    for (const XmlElement& object : objects->children)
+      if (object.name != "CoordinateCouplerConstraint" && !object.name.starts_with("Smith2018"))
+        ++model_.ignored[std::string(object.name)];
+  }
+
+  void read_body(const XmlElement& body, const std::string& name) {
+    read_geometry(body, name, "");
+    read_visible_object(body, name);
+    if (const XmlElement* wraps = body.at({"WrapObjectSet", "objects"}))
+      for (const XmlElement& wrap : wraps->children) ++model_.ignored[std::string(wrap.name)];
+    read_components(body, name);
+  }
+
+  /// Meshes of 4.x: in the frame that they stand in, or that their socket names.
+  void read_geometry(const XmlElement& frame, const std::string& name, const std::string& owner) {
+    for (const std::string_view place : {"attached_geometry", "components"}) {
+      const XmlElement* geometry = frame.child(place);
+      if (!geometry) continue;
+      for (const XmlElement& shape : geometry->children) {
+        if (shape.name == "Mesh") {
+          read_mesh_element(shape, name, owner);
+        } else if (place == "attached_geometry" && shape.name != "FrameGeometry") {
+          ++shapes_[std::string(shape.name)];
+        }
+      }
+    }
+  }
+
+  void read_mesh_element(const XmlElement& element, const std::string& frame, const std::string& owner) {
+    const ModelElement values(source_, element, fmt::format("mesh {}", in_quotes(element.label())));
+    ModelMesh mesh{.line = element.line};
+    std::string socket = values.text("socket_frame");
+    if (socket.empty()) socket = values.text("socket_frame_connectee_name");
+    const bool stands_here = socket.empty() || socket == "..";
+    const BodyPlace place =
+        frames_.place_of(stands_here ? frame : socket, stands_here ? owner : frame, values);
+    mesh.body = place.body;
+    mesh.X_BG = place.X;
+    mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
+    add_mesh(std::move(mesh), values.text("mesh_file"), values);
+  }
+
+  /// Meshes before 3.2: each in the frame of its shape in that of the body's shapes.
+  void read_visible_object(const XmlElement& body, const std::string& name) {
+    const XmlElement* visible = body.child("VisibleObject");
+    if (!visible) return;
+    const ModelElement outer(source_, *visible, fmt::format("body {}", in_quotes(name)));
+    const Vec3 outer_scale = outer.triple({"scale_factors"}, Vec3::Ones());
+    if (const XmlElement* files = visible->child("geometry_files")) {
+      const std::string names = files->text();
+      for (const std::string_view file : words_of(names))
+        add_mesh({.body = name, .scale = outer_scale, .line = files->line}, std::string(file), outer);
+    }
+    const XmlElement* shapes = visible->at({"GeometrySet", "objects"});
+    if (!shapes) return;
+    const Pose X_outer = transform_in(outer);
+    for (const XmlElement& shape : shapes->children) {
+      if (shape.name != "DisplayGeometry") {
+        ++shapes_[std::string(shape.name)];
+        continue;
+      }
+      const ModelElement inner(source_, shape, fmt::format("body {}", in_quotes(name)));
+      const Vec3 scale = outer_scale.cwiseProduct(inner.triple({"scale_factors"}, Vec3::Ones()));
+      add_mesh({.body = name, .scale = scale, .X_BG = X_outer * transform_in(inner), .line = shape.line},
+               inner.text("geometry_file"), inner);
+    }
+  }
+
+  /// <transform>: three body-fixed X-Y-Z angles, then three lengths.
+  static Pose transform_in(const ModelElement& element) {
+    Pose X = Pose::Identity();
+    const XmlElement* transform = element.xml().child("transform");
+    if (!transform || transform->text().empty()) return X;
+    const std::vector<double> values = element.numbers(*transform);
+    if (values.size() != 6)
+      element.fail_at(*transform, fmt::format("transform: six numbers are needed, not {}", values.size()));
+    X.linear() = body_fixed_xyz({values[0], values[1], values[2]});
+    X.translation() = Vec3(values[3], values[4], values[5]);
+    return X;
+  }
+
+  void add_mesh(ModelMesh mesh, std::string file, const ModelElement& of) {
+    if (file.empty()) return;
+    for (int i = 0; i < 3; ++i)
+      if (mesh.scale[i] == 0) of.fail("scale_factors: a factor of 0 leaves no solid");
+    mesh.file = std::move(file);
+    FoundMesh found = find_mesh(mesh.file, folder_, folders_);
+    if (found.in_another_case)
+      model_.notes.push_back(fmt::format("mesh {} was found as {}", in_quotes(mesh.file),
+                                         in_quotes(found.path->filename().string())));
+    mesh.path = std::move(found.path);
+    mesh.looked_in = std::move(found.looked_in);
+    model_.meshes.push_back(std::move(mesh));
+  }
+
+  void read_contact_mesh(const XmlElement& element) {
+    const std::string name = element.label();
+    const ModelElement values(source_, element, fmt::format("contact mesh {}", in_quotes(name)));
+    std::string socket = values.text("socket_frame");
+    if (socket.empty()) values.fail("socket_frame is missing");
+    const BodyPlace place = frames_.place_of(socket, "", values);
+    ModelContactMesh contact{.name = name, .mesh = {.line = element.line}};
+    contact.mesh.body = place.body;
+    contact.mesh.X_BG = place.X * offset_of(values, {"location"}, {"orientation"});
+    contact.mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
+    contact.mesh.file = values.text("mesh_file");
+    if (contact.mesh.file.empty()) values.fail("mesh_file is missing");
+    FoundMesh found = find_mesh(contact.mesh.file, folder_, folders_);
+    contact.mesh.path = std::move(found.path);
+    contact.mesh.looked_in = std::move(found.looked_in);
+    contact.youngs_modulus_pa = values.above_zero("elastic_modulus", 1e6);
+    contact.poisson_ratio = values.number("poissons_ratio", 0.5);
+    contact.thickness = values.above_zero("thickness", 0.005);
+    contact.has_variable_thickness = values.flag("use_variable_thickness", false);
+    contact.back_file = values.text("mesh_back_file");
+    if (!contact.back_file.empty()) contact.back_path = find_mesh(contact.back_file, folder_, folders_).path;
+    contact.least_thickness = values.above_zero("min_thickness", 0.001);
+    contact.greatest_thickness = values.above_zero("max_thickness", 0.01);
+    model_.contact_meshes.push_back(std::move(contact));
+  }
+
+  void read_contact(const XmlElement& element) {
+    ModelContact contact{.name = element.label(), .line = element.line};
+    const ModelElement values(source_, element, fmt::format("contact {}", in_quotes(contact.name)));
+    const auto mesh = [&](const char* key) {
+      const std::string socket = values.text(key);
+      if (socket.empty()) values.fail(fmt::format("{} is missing", key));
+      return socket.substr(socket.rfind('/') + 1);
+    };
+    contact.casting = mesh("socket_casting_mesh");
+    contact.target = mesh("socket_target_mesh");
+    contact.least_proximity = values.number("min_proximity", 0);
+    contact.greatest_proximity = values.number("max_proximity", 0.01);
+    const std::string formulation = values.text("elastic_foundation_formulation");
+    if (!formulation.empty() && formulation != "linear" && formulation != "nonlinear")
+      values.fail(fmt::format("elastic_foundation_formulation {} is not read", in_quotes(formulation)));
+    contact.is_linear = formulation != "nonlinear";
+    contact.is_lumped = values.flag("use_lumped_contact_model", true);
+    contact.applies = values.flag("appliesForce", true);
+    model_.contacts.push_back(std::move(contact));
+  }
+
+  void read_coupler(const XmlElement& element) {
+    ModelCoupler coupler{.name = element.label()};
+    const ModelElement values(source_, element, fmt::format("constraint {}", in_quotes(coupler.name)));
+    if (!values.flag("isEnforced", true) || values.flag("isDisabled", false)) {
+      ++model_.ignored["CoordinateCouplerConstraint that is not enforced"];
+      return;
+    }
+    coupler.dependent = values.text("dependent_coordinate_name");
+    const std::string names = values.text("independent_coordinate_names");
+    for (const std::string_view name : words_of(names)) coupler.independent.emplace_back(name);
+    if (coupler.dependent.empty()) values.fail("dependent_coordinate_name is missing");
+    try {
+      const auto function = values.function();
+      if (!function) values.fail("its function is missing");
+      const auto* linear = std::get_if<LinearFunction>(&*function);
+      if (coupler.independent.empty() || (coupler.independent.size() > 1 &&
+                                          (!linear || linear->slopes.size() != coupler.independent.size())))
+        values.fail("its function is of another number of coordinates");
+      coupler.function = std::make_shared<const CouplerFunction>(
+          CouplerFunction{values.number("scale_factor", 1), *function});
+    } catch (const FileError& error) {
+      coupler.why_not = error.what();
+    }
+    model_.couplers.push_back(std::move(coupler));
+  }
+
+  void refuse_twice() const {
+    std::set<std::string> names;
+    for (const ModelJoint& joint : model_.joints)
+      if (!names.insert(joint.name).second)
+        source_.fail(fmt::format("line {}: joint {} is given twice", joint.line, in_quotes(joint.name)));
+  }
+
+  const Source& source_;
+  Model& model_;
+  std::span<const std::filesystem::path> folders_;
+  std::filesystem::path folder_;
+  ModelFrames frames_;
+  std::set<std::string> bodies_;
+  std::map<std::string, std::size_t> shapes_;  ///< spheres, bricks and the like among the meshes
+};
+
+int version_of(const XmlElement& root, const Source& source) {
+  const std::string text = root.label();
+  int version = 0;
+  if (text.empty()) source.fail(fmt::format("line {}: OpenSimDocument: Version is missing", root.line));
+  if (!parse_number(text, version))
+    source.fail(fmt::format("line {}: OpenSimDocument: Version {} is no number", root.line, in_quotes(text)));
+  if (version < first_version)
+    source.fail(fmt::format("line {}: version {} is before {}: save the model with OpenSim 3 or later",
+                            root.line, version, first_version));
+  if (version > last_version)
+    source.fail(fmt::format("line {}: version {} is after {}, the last one that is known here", root.line,
+                            version, last_version));
+  return version;
+}
+
+void check_length_units(const XmlElement& model, const Source& source) {
+  const XmlElement* element = model.child("length_units");
+  const std::string units = element ? element->text() : std::string();
+  if (units.empty() || units == "m" || units == "meters" || units == "metres") return;
+  ModelElement(source, *element)
+      .fail(fmt::format("length_units {}: OpenSim takes all lengths for metres", in_quotes(units)));
+}
+
+}  // namespace
+}  // namespace io
+
+Model read_model(const std::filesystem::path& path, std::span<const std::filesystem::path> geometry_folders) {
+  io::check_is_file(path);
+  const std::string name = path.string();
+  std::error_code ignored;
+  if (std::filesystem::file_size(path, ignored) > io::largest_file)
+    throw FileError(fmt::format("{}: larger than {} MB", name, io::largest_file / 1'000'000));
+  std::string bytes = io::read_whole_file(path);
+  Model model{.path = path, .digest = digest_of(bytes)};
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  const bool has_mark = bytes.starts_with(byte_order_mark);
+  const io::Source source{std::string_view(bytes).substr(has_mark ? byte_order_mark.size() : 0), name};
+  const io::XmlElement root = io::xml_tree(source);
+  if (root.name != "OpenSimDocument")
+    source.fail(
+        fmt::format("line {}: no OpenSim model: it begins with {}", root.line, io::in_quotes(root.name)));
+  model.version = io::version_of(root, source);
+  const io::XmlElement* of_model = root.child("Model");
+  if (!of_model) source.fail(fmt::format("line {}: there is no Model in it", root.line));
+  model.name = io::plain_text(of_model->label());
+  io::check_length_units(*of_model, source);
+  io::ModelReader(source, model, geometry_folders).read(root);
+  return model;
+}
+
+}  // namespace condyle
