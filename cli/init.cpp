@@ -19,6 +19,7 @@
 #include "io/file/output_file.hpp"
 #include "io/file/output_folder.hpp"
 #include "label_options.hpp"
+#include "model_options.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -27,6 +28,8 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string fixed, mobile;  ///< files
+  std::string joint;          ///< of a model
+  std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
   std::string fixed_label, mobile_label;
   std::optional<Side> side;
   std::optional<LengthUnit> units;
@@ -98,8 +101,31 @@ void propose_from_labels(const Options& options) {
   say_written(out.commit());
 }
 
+void propose_from_model(const Options& options) {
+  if (!options.mobile.empty()) throw UsageError("MOBILE: a model has both bodies");
+  if (options.units) throw UsageError("--units: lengths of a model are metres");
+  if (!options.fixed_label.empty() || !options.mobile_label.empty())
+    throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
+  const Model model = model_of(options.fixed, options.model->geometry);
+  ModelJointRequest request = request_of(model, *options.model, options.joint, options.side);
+  request.joint_file = options.joint_file();
+  const ModelJointProposal proposed = propose_joint(model, request);
+  for (const std::string& line : proposed.notes) note(line);
+  note_to_fill_in(proposed.proposal);
+  if (options.out.empty()) {
+    print(proposed.proposal.toml);
+  } else {
+    io::write_output_file(options.out, proposed.proposal.toml);
+    note("wrote " + options.out);
+  }
+  if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
+}
+
 void run(const Options& options) {
   check_out(options);
+  if (is_model(options.fixed)) return propose_from_model(options);
+  if (!options.joint.empty() || options.model->any())
+    throw UsageError("--joint, --anatomy, --contact, --geometry: are for models of OpenSim, .osim");
   if (label_format_of(options.fixed)) return propose_from_labels(options);
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
     throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
@@ -109,22 +135,24 @@ void run(const Options& options) {
 }  // namespace
 
 void add_init(CLI::App& app) {
-  auto* command = app.add_subcommand(
-      "init",
-      "Propose a joint file for two meshes or two bones of a label map, with the evidence for each value");
+  auto* command = app.add_subcommand("init",
+                                     "Propose a joint file for two meshes, two bones of a label map or a "
+                                     "joint of an OpenSim model, with the "
+                                     "evidence for each value");
   command->footer(
       "Example: condyle sample hip --voxel 1 --out bones\n"
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
       "         condyle init bones/labels.nii.gz --task total --fixed hip_right --mobile femur_right -o "
       "hip.toml\n"
+      "         condyle init model.osim --joint knee_r -o knee.toml\n"
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
   auto options = std::make_shared<Options>();
   command
       ->add_option(
           "FIXED", options->fixed,
-          "The mesh of the body that stays, such as the hip bone, or a label map: .nii, .nii.gz, .nrrd, "
-          ".nhdr, .mha, .mhd")
+          "The mesh of the body that stays, such as the hip bone; or a label map: .nii, .nii.gz, .nrrd, "
+          ".nhdr, .mha, .mhd; or a model of OpenSim: .osim")
       ->required();
   command->add_option(
       "MOBILE", options->mobile,
@@ -136,15 +164,14 @@ void add_init(CLI::App& app) {
       ->option_text("LABEL");
   command->add_option("--mobile", options->mobile_label, "The label of the body that moves")
       ->option_text("LABEL");
+  command->add_option("--joint", options->joint, "The joint of a model, by its name there")
+      ->option_text("NAME");
+  add_model(*command, options->model);
   add_label_surface(*command, options->labels);
   add_label_file(*command, options->labels);
-  command
-      ->add_option_function<std::string>(
-          "--side",
-          [options](const std::string& side) { options->side = side == "right" ? Side::right : Side::left; },
-          "The side of the body. Without it by the labels' names, else inferred from the bones")
-      ->check(CLI::IsMember({"right", "left"}))
-      ->option_text("right|left");
+  add_side(
+      *command, options->side,
+      "The side of the body. Without it by the labels' names or the model's, else inferred from the bones");
   command
       ->add_option_function<std::string>(
           "--units",
@@ -160,7 +187,10 @@ void add_init(CLI::App& app) {
       ->option_text("FILE (standard output)");
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
+  std::vector<std::string> of_models{"--joint"};
+  for (const std::string& name : model_names()) of_models.push_back(name);
   group_help(*command, {{"Joint", {"--side", "--units"}},
+                        {"Models", of_models},
                         {"Label maps", of_labels},
                         {"Images", label_file_names()},
                         {"Output", {"--out"}}});

@@ -17,15 +17,18 @@
 #include "io/file/output_folder.hpp"
 #include "io/result/inspection_result.hpp"
 #include "io/result/label_result.hpp"
+#include "io/result/model_result.hpp"
 #include "io/result/repair_text.hpp"
 #include "label_options.hpp"
+#include "model_options.hpp"
 
 namespace condyle::cli {
 namespace {
 
 struct Options {
-  std::vector<std::string> meshes;  ///< or label maps
+  std::vector<std::string> meshes;  ///< or label maps, or models
   std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
+  std::vector<std::string> geometry;  ///< folders with meshes of models
   std::vector<std::string> repairs;
   std::string out;
   AnswerForm form = AnswerForm::text;
@@ -43,16 +46,31 @@ void check_names_differ(const Options& options) {
       throw UsageError("--out: two meshes would be written as " + repaired_name(mesh));
 }
 
-/// False if the files are meshes.
-bool are_label_maps(const Options& options) {
-  const auto is_label_map = [](const std::string& path) { return label_format_of(path).has_value(); };
-  const auto maps = std::count_if(options.meshes.begin(), options.meshes.end(), is_label_map);
-  if (maps == 0) return false;
-  if (maps != static_cast<std::ptrdiff_t>(options.meshes.size()))
-    throw UsageError("MESH: meshes and label maps are inspected one after the other, not together");
-  if (!options.repairs.empty() || !options.out.empty())
+enum class FileKind { mesh, label_map, model };
+
+FileKind kind_of(const std::string& path) {
+  if (is_model(path)) return FileKind::model;
+  return label_format_of(path) ? FileKind::label_map : FileKind::mesh;
+}
+
+/// The one kind that all files are of.
+FileKind kind_of(const Options& options) {
+  const FileKind kind = kind_of(options.meshes.front());
+  for (const std::string& path : options.meshes)
+    if (kind_of(path) != kind)
+      throw UsageError("MESH: meshes, label maps and models are inspected one after the other, not together");
+  if (kind != FileKind::mesh && (!options.repairs.empty() || !options.out.empty()))
     throw UsageError("--repair, --out: are for meshes; condyle surface extracts one from a label map");
-  return true;
+  if (kind != FileKind::model && !options.geometry.empty())
+    throw UsageError("--geometry: is for models of OpenSim, .osim");
+  return kind;
+}
+
+void inspect_models(const Options& options, const CLI::App& command) {
+  std::vector<Model> models;
+  for (const std::string& path : options.meshes) models.push_back(model_of(path, options.geometry));
+  print(options.form == AnswerForm::json ? io::models_json(models, words_of(command))
+                                         : io::models_text(models));
 }
 
 void inspect_label_maps(const Options& options, const CLI::App& command) {
@@ -64,7 +82,9 @@ void inspect_label_maps(const Options& options, const CLI::App& command) {
 }
 
 void run(const Options& options, const CLI::App& command) {
-  if (are_label_maps(options)) return inspect_label_maps(options, command);
+  const FileKind kind = kind_of(options);
+  if (kind == FileKind::model) return inspect_models(options, command);
+  if (kind == FileKind::label_map) return inspect_label_maps(options, command);
   std::vector<Repair> repairs;
   for (const std::string& name : options.repairs) repairs.push_back(repair_named(name));
   const std::vector<std::filesystem::path> meshes(options.meshes.begin(), options.meshes.end());
@@ -96,8 +116,8 @@ void run(const Options& options, const CLI::App& command) {
 }  // namespace
 
 void add_inspect(CLI::App& app) {
-  auto* command =
-      app.add_subcommand("inspect", "Report what meshes and label maps hold, and what is wrong with them");
+  auto* command = app.add_subcommand(
+      "inspect", "Report what meshes, label maps and models hold, and what is wrong with them");
   command->footer(
       "Example: condyle inspect femur.ply hip_bone.ply\n"
       "         condyle inspect femur.ply --repair drop_unreferenced,flip_inverted --out repaired\n"
@@ -107,7 +127,7 @@ void add_inspect(CLI::App& app) {
   command
       ->add_option("MESH", options->meshes,
                    "Mesh files, .stl, .obj, .ply, .vtp or .vtk, or label maps, .nii, .nii.gz, .hdr, .nrrd, "
-                   ".nhdr, .mha or .mhd")
+                   ".nhdr, .mha or .mhd, or models of OpenSim, .osim")
       ->required();
   command->add_option("--repair", options->repairs, "Make these repairs, which lose nothing, in this order")
       ->delimiter(',')
@@ -119,8 +139,11 @@ void add_inspect(CLI::App& app) {
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_label_file(*command, options->labels);
-  group_help(*command,
-             {{"Meshes", {"--repair", "--out"}}, {"Label maps", label_file_names()}, {"Output", {"--json"}}});
+  add_geometry(*command, options->geometry);
+  group_help(*command, {{"Meshes", {"--repair", "--out"}},
+                        {"Label maps", label_file_names()},
+                        {"Models", {"--geometry"}},
+                        {"Output", {"--json"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

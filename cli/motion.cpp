@@ -21,6 +21,7 @@
 #include "io/motion/gaps.hpp"
 #include "io/motion/load_table.hpp"
 #include "io/result/motion_result.hpp"
+#include "model_options.hpp"
 #include "notes.hpp"
 
 namespace condyle::cli {
@@ -28,6 +29,9 @@ namespace {
 
 struct Options {
   std::string joint, motion, loads, out;
+  std::string model_joint;  ///< of a model in place of a joint file
+  std::optional<Side> side;
+  std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
   bool with_pressure = false, between = false;
   std::shared_ptr<ContactChanges> contact = std::make_shared<ContactChanges>();
   std::shared_ptr<BalanceGiven> balance = std::make_shared<BalanceGiven>();
@@ -62,8 +66,21 @@ MotionRequest request_of(const Options& options, JointMotion& motion) {
   return request;
 }
 
+LoadedJoint joint_of(const Options& options) {
+  if (is_model(options.joint)) {
+    const Model model = model_of(options.joint, options.model->geometry);
+    LoadedJoint loaded =
+        read_joint(model, request_of(model, *options.model, options.model_joint, options.side));
+    for (const std::string& remark : loaded.report.file.processing) note(remark);
+    return loaded;
+  }
+  if (!options.model_joint.empty() || options.side || options.model->any())
+    throw UsageError("--joint, --side, --anatomy, --contact, --geometry: are for models of OpenSim, .osim");
+  return read_joint(options.joint);
+}
+
 void run(const Options& options, const CLI::App& command) {
-  const LoadedJoint loaded = read_joint(options.joint);
+  const LoadedJoint loaded = joint_of(options);
   JointMotion motion = motion_of(loaded, read_motion_table(options.motion));
   MotionRequest request = request_of(options, motion);
   check_motion_request(request);
@@ -103,10 +120,17 @@ void add_motion(CLI::App& app) {
       "The motion file's columns are those of [recorded_motion] in the joint file, or flexion_deg, x_mm and "
       "the like.");
   auto options = std::make_shared<Options>();
-  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  command
+      ->add_option("JOINT", options->joint,
+                   "The joint file, .toml, or a model of OpenSim, .osim, with --joint")
+      ->required();
   command->add_option("--motion", options->motion, "The recorded motion, .mot, .sto or .csv")
       ->required()
       ->option_text("FILE");
+  command->add_option("--joint", options->model_joint, "The joint of a model, as condyle init takes it")
+      ->option_text("NAME");
+  add_side(*command, options->side, "The side of a model's joint. Without it by the ending of its name");
+  add_model(*command, options->model);
   command->add_flag_callback(
       "--load", [options] { options->with_pressure = true; },
       "Compute pressure, force and moment too, with the layers of the options or of the joint file");
@@ -150,10 +174,13 @@ void add_motion(CLI::App& app) {
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
+  std::vector<std::string> of_models{"--joint", "--side"};
+  for (const std::string& name : model_names()) of_models.push_back(name);
   group_help(
       *command,
       {{"Most used", {"--motion", "--load", "--force", "--out", "--json"}},
        {"Question", {"--between", "--loads", "--moment", "--force-frame", "--along", "--free-rotations"}},
+       {"Models", of_models},
        {"Contact", {"--e", "--nu", "--thickness", "--law", "--casting", "--rule", "--reach"}},
        {"Output", {"--cycle", "--maps", "--jam", "--frame", "--ascii", "--strict", "--help"}}});
   command->callback([options, command] { run(*options, *command); });

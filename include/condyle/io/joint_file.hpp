@@ -29,6 +29,11 @@ struct MeshEntry {
   std::filesystem::path mesh;  ///< found from the joint file's folder
   std::vector<Repair> repairs;
   bool is_bearing = false;  ///< one of several of the mobile body that slides on the fixed one
+  /// Where it lies in the body's frame: p_B = X_BG diag(scale) v, in the file's unit.
+  Vec3 scale = Vec3::Ones();
+  Pose X_BG = Pose::Identity();
+
+  bool is_moved() const noexcept { return scale != Vec3::Ones() || !X_BG.matrix().isIdentity(0); }
 };
 
 /// A [fixed] or [mobile] table.
@@ -65,6 +70,8 @@ struct BodyMeshReport {
   std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
   std::vector<RepairDone> repairs;
   FileDigest digest = {};  ///< of the file before anything was done to the mesh
+  /// p_B = body_from_file v, in the file's unit: the identity for a mesh without a scale or a pose of its own.
+  Eigen::Affine3d body_from_file = Eigen::Affine3d::Identity();
 };
 
 /// Steps that made a joint from a file, for reading and for checking.

@@ -60,6 +60,8 @@ struct MeshSource {
   std::string part;  ///< its name among several of one body
   std::filesystem::path path;
   FileDigest digest;
+  /// From the file to the source frame below: the identity for a mesh without a scale or a pose of its own in the body.
+  Eigen::Affine3d source_from_file = Eigen::Affine3d::Identity();
 };
 
 /// The mesh files of a body and how their meshes came into the joint: p_joint = joint_from_source * p_source for a vertex of the file,

@@ -61,6 +61,8 @@ struct ColumnOfCoordinate {
   std::optional<ColumnUnit> unit = {};
   double sign = 1;    ///< 1 or -1
   double offset = 0;  ///< degrees or mm
+  /// Stands in for the column, in degrees or mm, in a table that has no such column.
+  std::optional<double> otherwise = {};
 };
 
 /// Columns with poses of both bodies, 16 per body, in one frame L of a laboratory or scanner.
@@ -69,7 +71,14 @@ struct ColumnsOfPoses {
   LengthUnit unit = LengthUnit::millimetres;
 };
 
-using RecordedMotionMapping = std::variant<std::vector<ColumnOfCoordinate>, ColumnsOfPoses>;
+/// The joint of an OpenSim model that poses the bodies: its functions take the columns of its coordinates.
+struct PosesOfModel {
+  std::filesystem::path model;
+  std::string joint;
+  std::optional<bool> in_degrees = {};  ///< of rotational coordinates, where no header says it
+};
+
+using RecordedMotionMapping = std::variant<std::vector<ColumnOfCoordinate>, ColumnsOfPoses, PosesOfModel>;
 
 /// Coordinates of every frame, by name.
 struct NamedCoordinates {

@@ -13,6 +13,7 @@
 #include "io/file/in_quotes.hpp"
 #include "io/file/whole_file.hpp"
 #include "io/joint/contact_table.hpp"
+#include "io/joint/load_joint.hpp"
 #include "io/joint/mesh_path.hpp"
 #include "io/joint/pose_matrix.hpp"
 #include "io/joint/recorded_motion_table.hpp"
@@ -95,6 +96,10 @@ Pose body_pose(io::TomlTable& body, std::string_view key, CoordinateSystem syste
 
 MeshEntry mesh_entry(io::TomlTable& table) {
   MeshEntry entry{{}, io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh"))), {}};
+  if (const auto scale = table.triple("scale")) {
+    if (scale->cwiseAbs().minCoeff() == 0) table.fail("scale", "must have no 0 in it");
+    entry.scale = *scale;
+  }
   for (const std::string& word : table.texts("repair").value_or(std::vector<std::string>{})) {
     try {
       entry.repairs.push_back(repair_named(word));
@@ -105,13 +110,30 @@ MeshEntry mesh_entry(io::TomlTable& table) {
   return entry;
 }
 
-std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key) {
+/// Where one mesh of several lies in the body's frame.
+Pose mesh_pose(io::TomlTable& mesh, std::vector<std::string>& notes) {
+  const auto rows = mesh.sixteen("pose");
+  if (!rows) return Pose::Identity();
+  try {
+    auto [X, skew] = io::pose_of_rows(*rows);
+    if (skew > 0)
+      notes.push_back(fmt::format("{}: its rotation was off by {:.2g}; the nearest one is used",
+                                  mesh.full("pose"), skew));
+    return X;
+  } catch (const UsageError& error) {
+    mesh.fail("pose", error.what());
+  }
+}
+
+std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key,
+                                    std::vector<std::string>& notes) {
   if (!body.has("meshes")) return {mesh_entry(body)};
-  for (const auto of_one : {"mesh", "repair"})
+  for (const auto of_one : {"mesh", "repair", "scale"})
     if (body.has(of_one)) body.fail(of_one, "with meshes each of them has its own");
   std::vector<MeshEntry> entries;
   for (io::TomlTable& table : body.tables("meshes")) {
     MeshEntry entry = mesh_entry(table);
+    entry.X_BG = mesh_pose(table, notes);
     entry.part = table.required("name", table.text("name"));
     if (entry.part.empty()) table.fail("name", "must not be empty");
     entry.is_bearing = table.flag("bearing").value_or(false);
@@ -148,9 +170,26 @@ std::optional<BodyImage> body_image(io::TomlTable& body, const Lengths& lengths)
 }
 
 /// A body's table is read in two parts: its pose needs what is known of the joint.
-BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& lengths) {
-  return {table.text("name").value_or(std::string(key)), mesh_entries(table, key),
-          body_image(table, lengths)};
+BodyEntry body_entry(io::TomlTable& table, std::string_view key, const Lengths& lengths,
+                     std::vector<std::string>& notes) {
+  BodyEntry entry{table.text("name").value_or(std::string(key)), mesh_entries(table, key, notes),
+                  body_image(table, lengths)};
+  if (entry.image)
+    for (const MeshEntry& mesh : entry.meshes)
+      if (mesh.is_moved()) table.fail("image", "stands beside a mesh with a scale or a pose of its own");
+  return entry;
+}
+
+/// What lies behind a layer is in the frame of its body: it has no scale or pose of its own to follow the layer's mesh by.
+void refuse_moved_layer(const io::TomlTable& contact, std::string_view key,
+                        const std::optional<LayerEntry>& layer, const std::string& part,
+                        const BodyEntry& body) {
+  if (!layer || !layer->behind) return;
+  for (const MeshEntry& mesh : body.meshes)
+    if ((part.empty() || mesh.part == part) && mesh.is_moved())
+      contact.fail(key,
+                   "behind: the layer's mesh has a scale or a pose of its own; give thickness or "
+                   "thickness_file instead");
 }
 
 CentreFit centre_fit(io::TomlTable& frame, const Lengths& lengths) {
@@ -360,8 +399,7 @@ std::vector<Motion> own_motions(io::TomlTable& file, const JointDescription& joi
 
 }  // namespace
 
-JointFile read_joint_file(const std::filesystem::path& path) {
-  const std::string text = io::read_whole_file(path);
+JointFile io::joint_file_of(std::string_view text, const std::filesystem::path& path) {
   const toml::table root = parsed(text, path);
   io::TomlTable file(path, root, "");
   // The version comes first: what follows may be spelt otherwise in another one.
@@ -379,8 +417,8 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.units = file.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
   io::TomlTable fixed = file.required("fixed", file.table("fixed"));
   io::TomlTable mobile = file.required("mobile", file.table("mobile"));
-  out.fixed = body_entry(fixed, "fixed", Lengths(joint.units));
-  out.mobile = body_entry(mobile, "mobile", Lengths(joint.units));
+  out.fixed = body_entry(fixed, "fixed", Lengths(joint.units), out.processing);
+  out.mobile = body_entry(mobile, "mobile", Lengths(joint.units), out.processing);
   for (BodyEntry* body : {&out.fixed, &out.mobile})
     for (MeshEntry& entry : body->meshes) entry.mesh = path.parent_path() / entry.mesh;
   joint.frame = frame_description(file, Lengths(joint.units));
@@ -394,20 +432,29 @@ JointFile read_joint_file(const std::filesystem::path& path) {
   joint.reference_pose = out.reference_pose.coordinates();
   out.motions = own_motions(file, joint);
   read_uncertainty(file, Lengths(joint.units), out);
-  if (auto table = file.table("contact"))
+  if (auto table = file.table("contact")) {
     out.contact = io::contact_entry(*table, mm_per(joint.units), path.parent_path());
+    refuse_moved_layer(*table, "fixed", out.contact->fixed, out.contact->fixed_part, out.fixed);
+    refuse_moved_layer(*table, "mobile", out.contact->mobile, out.contact->mobile_part, out.mobile);
+  }
   if (auto table = file.table("recorded_motion"))
-    out.recorded_motion =
-        io::recorded_motion_mapping(*table, io::coordinate_names_of(joint.kind, joint.anatomy));
+    out.recorded_motion = io::recorded_motion_mapping(
+        *table, io::coordinate_names_of(joint.kind, joint.anatomy), path.parent_path());
   refuse_other_names(file);
   file.finish();
   return out;
+}
+
+JointFile read_joint_file(const std::filesystem::path& path) {
+  return io::joint_file_of(io::read_whole_file(path), path);
 }
 
 std::vector<std::filesystem::path> files_of(const JointFile& file) {
   std::vector<std::filesystem::path> files = {file.path};
   for (const BodyEntry* body : {&file.fixed, &file.mobile})
     for (const MeshEntry& entry : body->meshes) files.push_back(entry.mesh);
+  if (file.recorded_motion)
+    if (const auto* poses = std::get_if<PosesOfModel>(&*file.recorded_motion)) files.push_back(poses->model);
   if (!file.contact) return files;
   for (const auto* layer : {&file.contact->fixed, &file.contact->mobile})
     if (*layer)

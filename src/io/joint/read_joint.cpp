@@ -34,6 +34,14 @@ void check_mesh_exists(const MeshEntry& entry, const std::string& key,
                                 core::one_line(entry.mesh.string(), 300)));
 }
 
+/// Into the body's frame. A mirrored mesh has its triangles turned round, so that it keeps its inside.
+void move(TriMesh& mesh, const Eigen::Affine3d& body_from_file) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    mesh.vertices.set(v, body_from_file * mesh.vertices[v]);
+  if (body_from_file.linear().determinant() < 0)
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+}
+
 LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::filesystem::path& joint_file) {
   check_mesh_exists(entry, key, joint_file);
   io::check_is_file(entry.mesh);
@@ -41,6 +49,10 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::files
   const std::string bytes = io::read_whole_file(entry.mesh);
   MeshFile file = read_mesh(bytes, format, entry.mesh.string());
   BodyMeshReport report{entry.part, entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
+  if (entry.is_moved()) {
+    report.body_from_file = Eigen::Affine3d(entry.X_BG) * Eigen::Scaling(entry.scale);
+    move(file.mesh, report.body_from_file);
+  }
   try {
     report.repairs = repair_mesh(file.mesh, entry.repairs);
   } catch (const MeshError& error) {
@@ -100,6 +112,8 @@ std::string file_name(const BodyMeshReport& body) {
 void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
   if (body.welded_vertices > 0)
     notes.push_back(fmt::format("{}: merged {} duplicate vertices", file_name(body), body.welded_vertices));
+  if (body.body_from_file.linear().determinant() < 0)
+    notes.push_back(fmt::format("{}: mirrored by its scale, triangles turned round", file_name(body)));
   for (const RepairDone& done : body.repairs)
     notes.push_back(fmt::format("{}: {}", file_name(body), describe(done)));
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/joint/mesh_path.hpp"
+
 namespace condyle::io {
 namespace {
 
@@ -34,6 +36,7 @@ ColumnOfCoordinate column_of(TomlTable& file, const CoordinateName& coordinate) 
   out.sign = table.number("sign").value_or(1);
   if (out.sign != 1 && out.sign != -1) table.fail("sign", "must be 1 or -1");
   out.offset = table.number("offset").value_or(0);
+  out.otherwise = table.number("default");
   table.finish();
   return out;
 }
@@ -44,6 +47,15 @@ ColumnsOfPoses columns_of_poses(TomlTable& table) {
   out.mobile_body = table.required("mobile_body", table.text("mobile_body"));
   if (out.fixed_body == out.mobile_body) table.fail("mobile_body", "must be another body than fixed_body");
   out.unit = table.required_word("units", {"mm", "m"}) == 0 ? LengthUnit::millimetres : LengthUnit::metres;
+  table.finish();
+  return out;
+}
+
+PosesOfModel poses_of_model(TomlTable& table, const std::filesystem::path& folder) {
+  PosesOfModel out;
+  out.model = folder / mesh_path(table, "model", table.required("model", table.text("model")));
+  out.joint = table.required("joint", table.text("joint"));
+  if (const auto unit = table.word("angles", {"deg", "rad"})) out.in_degrees = *unit == 0;
   table.finish();
   return out;
 }
@@ -61,7 +73,14 @@ std::vector<CoordinateName> coordinate_names_of(JointKind kind, Anatomy joint) {
   return names;
 }
 
-RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates) {
+RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates,
+                                              const std::filesystem::path& folder) {
+  if (table.has("model") || table.has("joint")) {
+    for (const CoordinateName& coordinate : coordinates)
+      if (table.has(coordinate.name))
+        table.fail(coordinate.name, "the model gives the poses already: leave one of the two out");
+    return poses_of_model(table, folder);
+  }
   if (table.has("fixed_body") || table.has("mobile_body") || table.has("units")) {
     for (const CoordinateName& coordinate : coordinates)
       if (table.has(coordinate.name))

@@ -20,7 +20,8 @@ struct CoordinateName {
 std::vector<CoordinateName> coordinate_names_of(JointKind kind, Anatomy joint);
 
 /// The table [recorded_motion] of a joint file, whose keys are docs/motion-files.md: either columns of coordinates, of
-/// those that the joint has, or columns of poses. Raises FileError with line and key.
-RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates);
+/// those that the joint has, or columns of poses, or a model, whose file is found from the folder. Raises FileError with line and key.
+RecordedMotionMapping recorded_motion_mapping(TomlTable& table, std::span<const CoordinateName> coordinates,
+                                              const std::filesystem::path& folder);
 
 }  // namespace condyle::io

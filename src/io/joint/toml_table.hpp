@@ -59,13 +59,15 @@ class TomlTable {
 
   void finish() const;
 
+  /// The key with the names of the tables that it is in: "fixed.meshes[0].pose".
+  std::string full(std::string_view key) const;
+
  private:
   const toml::node* find(std::string_view key);
   double finite_number(const toml::node& node, std::string_view key) const;
   std::string plain(const toml::node& node, std::string_view key) const;
   template <std::size_t N>
   std::optional<std::array<double, N>> numbers(std::string_view key, std::string_view count);
-  std::string full(std::string_view key) const;
 
   const std::filesystem::path* path_;
   const toml::table* table_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "condyle/error.hpp"
@@ -23,24 +22,28 @@ std::string_view coordinate_of(std::string_view column) {
 
 }  // namespace
 
-std::size_t column_named(const MotionTable& table, std::string_view name) {
+std::optional<std::size_t> find_column(const MotionTable& table, std::string_view name) {
   const auto& columns = table.columns;
   const auto exact = std::find(columns.begin(), columns.end(), name);
   if (exact != columns.end()) return static_cast<std::size_t>(exact - columns.begin());
 
   std::optional<std::size_t> found;
-  std::vector<std::string> known = columns;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    const std::string_view coordinate = coordinate_of(columns[c]);
-    if (coordinate.empty()) continue;
-    known.emplace_back(coordinate);
-    if (coordinate != name) continue;
+    if (name.empty() || coordinate_of(columns[c]) != name) continue;
     if (found)
       throw FileError(fmt::format("{}: column {} could be {} or {}: give the whole name", table.path.string(),
                                   in_quotes(name), in_quotes(columns[*found]), in_quotes(columns[c])));
     found = c;
   }
-  if (found) return *found;
+  return found;
+}
+
+std::size_t column_named(const MotionTable& table, std::string_view name) {
+  if (const auto found = find_column(table, name)) return *found;
+  std::vector<std::string> known = table.columns;
+  for (const std::string& column : table.columns)
+    if (const std::string_view coordinate = coordinate_of(column); !coordinate.empty())
+      known.emplace_back(coordinate);
   throw FileError(fmt::format("{}: has no column {}{}", table.path.string(), in_quotes(name),
                               core::did_you_mean(name, known)));
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string_view>
 
 #include "condyle/io/recorded_motion.hpp"
@@ -8,7 +9,9 @@
 namespace condyle::io {
 
 /// The place of a column, by its name or by the coordinate of an OpenSim path ("knee_flex_r" of
-/// "/jointset/knee_r/knee_flex_r/value"). Raises FileError if there is none, or where it could be two.
+/// "/jointset/knee_r/knee_flex_r/value"); nothing if there is none. Raises FileError where it could be two.
+std::optional<std::size_t> find_column(const MotionTable& table, std::string_view name);
+/// The same; raises FileError if there is none.
 std::size_t column_named(const MotionTable& table, std::string_view name);
 
 }  // namespace condyle::io

@@ -10,6 +10,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/provenance.hpp"
 #include "io/joint/recorded_motion_table.hpp"
+#include "io/motion/model_poses.hpp"
 
 namespace condyle {
 namespace {
@@ -85,8 +86,8 @@ Pose joint_from_file(const MeshOrigin& origin, LengthUnit unit) {
   return X;
 }
 
-JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, const ColumnsOfPoses& mapping) {
-  RecordedPoses recorded = recorded_poses(table, mapping);
+/// Of poses of the mobile body's own frame in the fixed body's.
+JointMotion of_poses(const LoadedJoint& loaded, const MotionTable& table, RecordedPoses recorded) {
   JointMotion motion{std::move(recorded.times), {}, std::move(recorded.processing), {}, {}};
   const Provenance from = provenance_of(loaded, {});
   const LengthUnit unit = loaded.report.file.joint.units;
@@ -118,7 +119,10 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
   const auto& mapping = joint.report.file.recorded_motion;
   const auto read = [&] {
     if (!mapping) return of_coordinates(joint.joint, table, columns_by_name(table, joint.joint));
-    if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping)) return of_poses(joint, table, *poses);
+    if (const auto* poses = std::get_if<ColumnsOfPoses>(&*mapping))
+      return of_poses(joint, table, recorded_poses(table, *poses));
+    if (const auto* poses = std::get_if<PosesOfModel>(&*mapping))
+      return of_poses(joint, table, io::model_poses(table, *poses));
     return of_coordinates(joint.joint, table, std::get<std::vector<ColumnOfCoordinate>>(*mapping));
   };
   JointMotion motion = read();

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
@@ -45,6 +46,13 @@ double converted(double value, ColumnUnit unit) {
   }
 }
 
+/// Whether a table has none of the columns, all of which have something to stand in for them.
+bool has_none(const MotionTable& table, const std::vector<ColumnOfCoordinate>& mapping) {
+  return std::none_of(mapping.begin(), mapping.end(), [&](const ColumnOfCoordinate& entry) {
+    return !entry.otherwise || io::find_column(table, entry.column);
+  });
+}
+
 }  // namespace
 
 NamedCoordinates recorded_coordinates(const MotionTable& table,
@@ -53,8 +61,20 @@ NamedCoordinates recorded_coordinates(const MotionTable& table,
   out.times = frame_times(table);
   out.processing = table.processing;
   out.frames.assign(table.rows, std::vector<double>());
+  if (!mapping.empty() && has_none(table, mapping))
+    throw FileError(fmt::format("{}: has none of the joint's columns, {} and the others", table.path.string(),
+                                io::in_quotes(mapping.front().column)));
   for (const ColumnOfCoordinate& entry : mapping) {
     out.names.push_back(entry.coordinate);
+    if (entry.otherwise && !io::find_column(table, entry.column)) {
+      const bool is_angle = entry.kind == CoordinateKind::angle;
+      out.processing.push_back(fmt::format("{}: has no column {}: {} {} stands in for it",
+                                           table.path.string(), io::in_quotes(entry.column), *entry.otherwise,
+                                           is_angle ? "degrees" : "mm"));
+      for (auto& frame : out.frames)
+        if (frame) frame->push_back(entry.sign * *entry.otherwise + entry.offset);
+      continue;
+    }
     const std::vector<double>& column = table.values[io::column_named(table, entry.column)];
     const ColumnUnit unit = unit_of(table, entry);
     for (std::size_t row = 0; row < table.rows; ++row) {

@@ -32,7 +32,8 @@ MeshOrigin origin_of(const std::vector<BodyMeshReport>& meshes, const Pose& in_s
   const Eigen::Affine3d joint_from_source = inverted(in_source) * Eigen::Scaling(unit_mm);
   const Eigen::Affine3d source_from_joint = Eigen::Scaling(1 / unit_mm) * Eigen::Affine3d(in_source);
   MeshOrigin origin{{}, joint_from_source, source_from_joint};
-  for (const BodyMeshReport& mesh : meshes) origin.files.push_back({mesh.part, mesh.mesh, mesh.digest});
+  for (const BodyMeshReport& mesh : meshes)
+    origin.files.push_back({mesh.part, mesh.mesh, mesh.digest, mesh.body_from_file});
   return origin;
 }
 
@@ -85,14 +86,21 @@ io::Json matrix_json(const Eigen::Affine3d& X) {
   return json;
 }
 
+io::Json source_json(const MeshSource& file) {
+  io::Json json = io::file_json(file.path, file.digest);
+  if (!file.source_from_file.matrix().isIdentity(0))
+    json["source_from_file"] = matrix_json(file.source_from_file);
+  return json;
+}
+
 io::Json mesh_json(const MeshOrigin& mesh) {
   io::Json json;
   if (mesh.files.size() == 1) {
-    json = io::file_json(mesh.files.front().path, mesh.files.front().digest);
+    json = source_json(mesh.files.front());
   } else {
     for (const MeshSource& file : mesh.files) {
       io::Json part{{"name", file.part}};
-      part.update(io::file_json(file.path, file.digest));
+      part.update(source_json(file));
       json["files"].push_back(std::move(part));
     }
   }

@@ -18,7 +18,7 @@ RecordedMotionMapping mapping_of(std::string_view text) {
   const toml::table file = toml::parse(text);
   const std::filesystem::path path = "knee.toml";
   io::TomlTable table(path, *file["recorded_motion"].as_table(), "recorded_motion");
-  return io::recorded_motion_mapping(table, knee);
+  return io::recorded_motion_mapping(table, knee, {});
 }
 
 std::string refusal(std::string_view keys) {

@@ -1,0 +1,74 @@
+#include "model_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "io/mesh/parse.hpp"
+
+namespace condyle::cli {
+
+void add_geometry(CLI::App& command, std::vector<std::string>& folders) {
+  command
+      .add_option(
+          "--geometry", folders,
+          "Look for a model's meshes here too, after its own folder and its folder Geometry; any number")
+      ->allow_extra_args(false)
+      ->option_text("FOLDER");
+}
+
+void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options) {
+  command
+      .add_option_function<std::string>(
+          "--anatomy",
+          [options](const std::string& name) {
+            for (const Anatomy anatomy : all_anatomies)
+              if (name == name_of(anatomy)) options->anatomy = anatomy;
+          },
+          "Which joint a model's is. Without it by the names of joint and bodies")
+      ->check(CLI::IsMember({"hip", "knee", "ankle", "elbow", "shoulder"}))
+      ->option_text("hip|knee|ankle|elbow|shoulder");
+  command
+      .add_option("--contact", options->contact,
+                  "The contact of a model between the two bodies. Without it the first")
+      ->option_text("NAME");
+  add_geometry(command, options->geometry);
+}
+
+std::vector<std::string> model_names() {
+  return {"--anatomy", "--contact", "--geometry"};
+}
+
+void add_side(CLI::App& command, std::optional<Side>& side, const std::string& help) {
+  command
+      .add_option_function<std::string>(
+          "--side", [&side](const std::string& name) { side = name == "right" ? Side::right : Side::left; },
+          help)
+      ->check(CLI::IsMember({"right", "left"}))
+      ->option_text("right|left");
+}
+
+bool is_model(const std::string& path) {
+  return io::lower_case(path).ends_with(".osim");
+}
+
+Model model_of(const std::string& path, const std::vector<std::string>& geometry) {
+  const std::vector<std::filesystem::path> folders(geometry.begin(), geometry.end());
+  return read_model(path, folders);
+}
+
+ModelJointRequest request_of(const Model& model, const ModelOptions& options, const std::string& joint,
+                             const std::optional<Side>& side) {
+  if (joint.empty()) {
+    std::string names;
+    for (const ModelJoint& of : model.joints) names += (names.empty() ? "" : ", ") + of.name;
+    throw UsageError(fmt::format("--joint: is needed, one of {}", names.empty() ? "none" : names));
+  }
+  return {
+      .joint = joint, .joint_file = {}, .anatomy = options.anatomy, .side = side, .contact = options.contact};
+}
+
+}  // namespace condyle::cli

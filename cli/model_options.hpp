@@ -1,0 +1,44 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/io/model_file.hpp"
+
+/// Options of commands that read models of OpenSim.
+
+namespace condyle::cli {
+
+struct ModelOptions {
+  std::vector<std::string> geometry;  ///< folders
+  std::optional<Anatomy> anatomy;
+  std::string contact;
+
+  bool any() const noexcept { return !geometry.empty() || anatomy || !contact.empty(); }
+};
+
+/// --anatomy, --contact and --geometry.
+void add_model(CLI::App& command, const std::shared_ptr<ModelOptions>& options);
+std::vector<std::string> model_names();
+
+/// --geometry alone.
+void add_geometry(CLI::App& command, std::vector<std::string>& folders);
+
+/// Whether a file is a model by its name.
+bool is_model(const std::string& path);
+
+/// The model, its meshes looked for in the folders too.
+Model model_of(const std::string& path, const std::vector<std::string>& geometry);
+
+/// Throws UsageError with the joints that there are if none is named.
+ModelJointRequest request_of(const Model& model, const ModelOptions& options, const std::string& joint,
+                             const std::optional<Side>& side);
+
+/// The side that --side names.
+void add_side(CLI::App& command, std::optional<Side>& side, const std::string& help);
+
+}  // namespace condyle::cli

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/io/model_file.hpp"
+#include "condyle/io/recorded_motion.hpp"
+
+namespace condyle::io {
+
+/// A joint of a model in the terms of a joint file.
+struct JointMapping {
+  JointKind kind;
+  Pose X_WF = Pose::Identity();  ///< the joint frame in the parent's body, its centre in metres
+  /// Columns of the coordinates; empty for a joint that the model itself must pose.
+  std::vector<ColumnOfCoordinate> columns = {};
+  std::string why = {};     ///< how the kind follows from the axes, or why the model must pose it
+  std::string caveat = {};  ///< one line, or nothing
+};
+
+/// Of a joint without anatomy a hinge alone can be said: it flexes forwards.
+JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy, Side side);
+
+/// The joint that names of a model's joint and bodies speak of; nothing if they speak of none.
+std::optional<Anatomy> anatomy_of(const ModelJoint& joint);
+
+/// The side that a name's ending speaks of: "_r", "_left".
+std::optional<Side> side_of(const ModelJoint& joint);
+
+}  // namespace condyle::io

@@ -1,0 +1,404 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "condyle/error.hpp"
+#include "condyle/io/model_file.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/version.hpp"
+#include "core/near_name.hpp"
+#include "io/file/format_version.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/joint/load_joint.hpp"
+#include "io/model/joint_mapping.hpp"
+#include "io/model/spatial_transform.hpp"
+#include "io/model/welded_bodies.hpp"
+
+namespace condyle {
+namespace io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string toml_string(std::string_view text) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // no memory is an error, not half a text
+  out << toml::value<std::string>(std::string(text));
+  return out.str();
+}
+
+std::string toml_numbers(const Vec3& v) {
+  return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
+}
+
+std::string toml_pose(const Pose& X) {
+  std::vector<double> rows;
+  for (int i = 0; i < 16; ++i) rows.push_back(X.matrix()(i / 4, i % 4) + 0.0);
+  return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+/// A mesh of a body under the name that it has among the others.
+struct NamedMesh {
+  std::string name;
+  ModelMesh mesh;
+};
+
+bool is_same(const ModelMesh& a, const ModelMesh& b) {
+  return a.file == b.file && a.scale == b.scale && a.X_BG.isApprox(b.X_BG, 1e-12);
+}
+
+/// Writes the joint file of a model's joint.
+class ModelJointFile {
+ public:
+  ModelJointFile(const Model& model, const ModelJointRequest& request)
+      : model_(model), request_(request), joint_(joint_named(model, request.joint)) {
+    folder_ =
+        fs::absolute(request.joint_file.empty() ? fs::path("joint.toml") : request.joint_file).parent_path();
+    anatomy_ = request.anatomy ? request.anatomy : anatomy_of(joint_);
+    const auto side = request.side ? request.side : side_of(joint_);
+    if (!side)
+      throw UsageError(fmt::format("{}: joint {}: its name ends neither in _r nor in _l: give its side",
+                                   model.path.string(), in_quotes(joint_.name)));
+    side_ = *side;
+    mapping_ = mapping_of(joint_, anatomy_, side_);
+    if (!anatomy_ && mapping_.kind != JointKind::hinge)
+      throw UsageError(
+          fmt::format("{}: joint {}: its names are of no joint known here: say whether it is a hip, "
+                      "knee, ankle, elbow or shoulder",
+                      model.path.string(), in_quotes(joint_.name)));
+    fixed_ = meshes_of_role(BodyRole::fixed);
+    mobile_ = meshes_of_role(BodyRole::mobile);
+    choose_contact();
+  }
+
+  ModelJointProposal proposal() {
+    write_head();
+    write_body("fixed", joint_.parent_body, fixed_, std::nullopt);
+    write_body("mobile", joint_.child_body, mobile_,
+               pose_of(joint_, std::vector<double>(joint_.coordinates.size())));
+    write_frame();
+    write_reference_pose();
+    write_contact();
+    write_recorded_motion();
+    note_what_is_left_out();
+    out_.proposal.toml = std::move(text_);
+    out_.proposal.side = side_;
+    return std::move(out_);
+  }
+
+ private:
+  void add(const std::string& line) { text_ += line + "\n"; }
+  void note(std::string line) { out_.notes.push_back(std::move(line)); }
+
+  std::string path_of(const fs::path& file) const {
+    return fs::absolute(file).lexically_normal().lexically_proximate(folder_).generic_string();
+  }
+
+  /// Meshes that were found, or all of them where none was.
+  std::vector<NamedMesh> meshes_of_role(BodyRole role) {
+    std::vector<NamedMesh> meshes;
+    const std::vector<ModelMesh> all = meshes_of(model_, joint_, role);
+    const bool any_found =
+        std::any_of(all.begin(), all.end(), [](const ModelMesh& mesh) { return mesh.path.has_value(); });
+    for (const ModelMesh& mesh : all) {
+      if (!mesh.path && any_found) {
+        note(fmt::format("mesh {} of body {} is missing and left out; it was looked for as {}",
+                         in_quotes(mesh.file), in_quotes(mesh.body),
+                         fmt::join(names_of(mesh.looked_in), ", ")));
+        continue;
+      }
+      add_mesh(meshes, mesh, fs::path(mesh.file).stem().string());
+    }
+    return meshes;
+  }
+
+  static std::vector<std::string> names_of(const std::vector<fs::path>& paths) {
+    std::vector<std::string> names;
+    for (const fs::path& path : paths) names.push_back(path.string());
+    return names;
+  }
+
+  static const NamedMesh& add_mesh(std::vector<NamedMesh>& meshes, const ModelMesh& mesh, std::string name) {
+    if (name.empty()) name = "mesh";
+    const std::string base = name;
+    const auto is_taken = [&] {
+      return std::any_of(meshes.begin(), meshes.end(),
+                         [&](const NamedMesh& other) { return other.name == name; });
+    };
+    for (int n = 2; is_taken(); ++n) name = fmt::format("{}_{}", base, n);
+    return meshes.emplace_back(NamedMesh{name, mesh});
+  }
+
+  void write_head() {
+    add(fmt::format("# Proposed by condyle init {} from joint {} of {}, a model of OpenSim (version {}).",
+                    version, joint_.name, path_of(model_.path), model_.version));
+    add("# Lengths are metres and frames are those of the model's bodies.");
+    add(fmt::format("condyle = {}", format_version));
+    add("name = " +
+        toml_string(fmt::format("{} of {}", joint_.name, model_.name.empty() ? "a model" : model_.name)));
+    add(fmt::format("kind = \"{}\"  # {}", name_of(mapping_.kind), mapping_.why));
+    const bool is_hinge_of_none = mapping_.kind == JointKind::hinge &&
+                                  (!anatomy_ || anatomy_ == Anatomy::hip || anatomy_ == Anatomy::shoulder);
+    if (!is_hinge_of_none)
+      add(fmt::format("joint = \"{}\"  # {}", name_of(*anatomy_),
+                      request_.anatomy ? "given" : "by the names of the joint and its bodies"));
+    add(fmt::format("side = \"{}\"  # {}", name_of(side_),
+                    request_.side ? "given" : "by the ending of its name"));
+    add("units = \"m\"");
+    if (!mapping_.caveat.empty()) note(mapping_.caveat);
+  }
+
+  void write_mesh(const NamedMesh& named, bool has_name) {
+    if (has_name) add("name = " + toml_string(named.name));
+    add("mesh = " + toml_string(named.mesh.path ? path_of(*named.mesh.path) : named.mesh.file));
+    if (named.mesh.scale != Vec3::Ones()) add("scale = " + toml_numbers(named.mesh.scale));
+    if (!named.mesh.X_BG.matrix().isIdentity(0)) add("pose = " + toml_pose(named.mesh.X_BG));
+    if (named.mesh.scale.prod() < 0)
+      note(fmt::format("mesh {} is mirrored by its scale factors: its triangles are turned round",
+                       in_quotes(named.mesh.file)));
+  }
+
+  void write_body(std::string_view role, const std::string& name, const std::vector<NamedMesh>& meshes,
+                  const std::optional<Pose>& pose) {
+    add(fmt::format("\n[{}]", role));
+    add("name = " + toml_string(name));
+    if (pose && !pose->matrix().isIdentity(0))
+      add("pose = " + toml_pose(*pose) + "  # in the fixed body's frame, all coordinates 0");
+    const bool has_names =
+        meshes.size() > 1 || (meshes.size() == 1 && !meshes[0].mesh.X_BG.matrix().isIdentity(0));
+    for (const NamedMesh& mesh : meshes) {
+      if (has_names) add(fmt::format("\n[[{}.meshes]]", role));
+      write_mesh(mesh, has_names);
+    }
+    if (meshes.empty()) {
+      add("# mesh = \"...\"  # to fill in: the model attaches none to this body");
+      out_.proposal.to_fill_in.push_back(
+          fmt::format("{}.mesh: the model attaches none to body {}", role, in_quotes(name)));
+    } else if (!meshes[0].mesh.path && out_.missing_body.empty()) {
+      out_.missing_body = missing(name, meshes);
+    }
+  }
+
+  std::string missing(const std::string& body, const std::vector<NamedMesh>& meshes) const {
+    std::vector<std::string> places;
+    for (const NamedMesh& named : meshes)
+      for (const fs::path& place : named.mesh.looked_in) places.push_back(place.string());
+    return fmt::format("{}: no mesh of body {} was found; looked for {}", model_.path.string(),
+                       in_quotes(body), fmt::join(places, ", "));
+  }
+
+  void write_frame() {
+    const Eigen::Matrix3d R = mapping_.X_WF.linear();
+    add("\n[frame]  # in the fixed body's frame");
+    add("centre = " + toml_numbers(mapping_.X_WF.translation()));
+    add("anterior = " + toml_numbers(R.col(0)));
+    add("superior = " + toml_numbers(R.col(1)));
+  }
+
+  /// Where functions are not 0 at coordinates of 0.
+  void write_reference_pose() {
+    std::string keys;
+    for (const ColumnOfCoordinate& column : mapping_.columns) {
+      if (column.offset == 0) continue;
+      const bool is_angle = column.kind == CoordinateKind::angle;
+      keys += fmt::format("{} = {}\n", column.coordinate, is_angle ? column.offset : column.offset / 1000);
+    }
+    if (!keys.empty()) add("\n[reference_pose]\n" + keys);
+  }
+
+  void write_recorded_motion() {
+    add("\n[recorded_motion]");
+    if (mapping_.columns.empty()) {
+      add("model = " + toml_string(path_of(model_.path)) + "  # poses the joint by its functions");
+      add("joint = " + toml_string(joint_.name));
+      return;
+    }
+    for (const ColumnOfCoordinate& column : mapping_.columns) {
+      std::string line = fmt::format("{} = {{ column = {}", column.coordinate, toml_string(column.column));
+      if (column.kind == CoordinateKind::length) line += ", unit = \"m\"";
+      if (column.sign != 1) line += ", sign = -1";
+      if (column.offset != 0) line += fmt::format(", offset = {}", column.offset);
+      add(line + fmt::format(", default = {} }}", *column.otherwise));
+    }
+  }
+
+  // The contact that the model has between the two bodies.
+
+  const ModelContactMesh& contact_mesh(const std::string& name, const ModelContact& contact) const {
+    for (const ModelContactMesh& mesh : model_.contact_meshes)
+      if (mesh.name == name) return mesh;
+    throw FileError(fmt::format("{}: line {}: contact {}: there is no contact mesh {}", model_.path.string(),
+                                contact.line, in_quotes(contact.name), in_quotes(name)));
+  }
+
+  /// The role of the body that a contact mesh is attached to, and where it lies there.
+  std::optional<std::pair<BodyRole, Pose>> role_of(const ModelContactMesh& mesh) const {
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
+      for (const WeldedBody& body : welded_bodies(model_, joint_, role))
+        if (body.name == mesh.mesh.body) return std::pair(role, Pose(body.X * mesh.mesh.X_BG));
+    return std::nullopt;
+  }
+
+  void choose_contact() {
+    std::vector<std::string> names, others;
+    for (const ModelContact& contact : model_.contacts) {
+      const auto casting = role_of(contact_mesh(contact.casting, contact)),
+                 target = role_of(contact_mesh(contact.target, contact));
+      if (!casting || !target || casting->first == target->first) continue;
+      names.push_back(contact.name);
+      if (!request_.contact.empty() && contact.name != request_.contact) continue;
+      if (!contact.applies) {
+        note(fmt::format("contact {} is not applied in the model, and left out", in_quotes(contact.name)));
+        continue;
+      }
+      if (contact_) {
+        others.push_back(contact.name);
+        continue;
+      }
+      contact_ = &contact;
+    }
+    if (!request_.contact.empty() && !contact_)
+      throw UsageError(fmt::format("{}: joint {}: no contact {}{}; there are {}", model_.path.string(),
+                                   in_quotes(joint_.name), in_quotes(request_.contact),
+                                   core::did_you_mean(request_.contact, names),
+                                   names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
+    if (!others.empty())
+      note(fmt::format("of the contacts between these bodies {} is taken, and {} left out",
+                       in_quotes(contact_->name), fmt::join(others, ", ")));
+    if (contact_) attach_contact();
+  }
+
+  void refuse(const std::string& what) const {
+    throw FileError(fmt::format("{}: line {}: contact {}: {}", model_.path.string(), contact_->line,
+                                in_quotes(contact_->name), what));
+  }
+
+  /// Makes sure that both surfaces are among the meshes of their bodies.
+  void attach_contact() {
+    for (const std::string* name : {&contact_->casting, &contact_->target}) {
+      const ModelContactMesh& mesh = contact_mesh(*name, *contact_);
+      const auto [role, X] = *role_of(mesh);
+      if (!mesh.mesh.path) {
+        note(fmt::format("contact {} is left out: mesh {} of {} is missing", in_quotes(contact_->name),
+                         in_quotes(mesh.mesh.file), in_quotes(*name)));
+        contact_ = nullptr;
+        return;
+      }
+      ModelMesh placed = mesh.mesh;
+      placed.X_BG = X;
+      std::vector<NamedMesh>& meshes = role == BodyRole::fixed ? fixed_ : mobile_;
+      const auto same = std::find_if(meshes.begin(), meshes.end(),
+                                     [&](const NamedMesh& other) { return is_same(other.mesh, placed); });
+      const std::string part = same != meshes.end() ? same->name : add_mesh(meshes, placed, *name).name;
+      (role == BodyRole::fixed ? fixed_part_ : mobile_part_) = part;
+    }
+  }
+
+  void write_contact() {
+    if (!contact_) return;
+    if (contact_->least_proximity != 0)
+      refuse(fmt::format("min_proximity {} is not 0", contact_->least_proximity));
+    const ModelContactMesh& casting = contact_mesh(contact_->casting, *contact_);
+    const ModelContactMesh& target = contact_mesh(contact_->target, *contact_);
+    for (const ModelContactMesh* mesh : {&casting, &target})
+      if (!(mesh->poisson_ratio < 0.5 && mesh->poisson_ratio > -1))
+        refuse(fmt::format("poissons_ratio {} of {} is not below 0.5", mesh->poisson_ratio,
+                           in_quotes(mesh->name)));
+    const bool is_mobile = role_of(casting)->first == BodyRole::mobile;
+    add(fmt::format("\n[contact]  # {} of the model", contact_->name));
+    add(fmt::format("casting = \"{}\"", is_mobile ? "mobile" : "fixed"));
+    add("rule = \"face_centre\"  # a ray from each triangle's centre, as OpenSim-JAM casts them");
+    add(fmt::format("reach = {}", contact_->greatest_proximity));
+    add(fmt::format("law = \"{}\"", contact_->is_linear ? "linear" : "logarithmic"));
+    add("moment_on = \"target\"  # as OpenSim-JAM prints it; the force is on the casting body");
+    if (fixed_.size() > 1) add("fixed_part = " + toml_string(fixed_part_));
+    if (mobile_.size() > 1) add("mobile_part = " + toml_string(mobile_part_));
+    write_layer("fixed", is_mobile ? target : casting, is_mobile ? casting : target);
+    write_layer("mobile", is_mobile ? casting : target, is_mobile ? target : casting);
+  }
+
+  void write_layer(std::string_view role, const ModelContactMesh& mesh, const ModelContactMesh& other) {
+    double modulus = mesh.youngs_modulus_pa, ratio = mesh.poisson_ratio;
+    const bool is_mean =
+        contact_->is_lumped && (other.youngs_modulus_pa != modulus || other.poisson_ratio != ratio);
+    if (is_mean) {
+      modulus = (modulus + other.youngs_modulus_pa) / 2;
+      ratio = (ratio + other.poisson_ratio) / 2;
+    }
+    add(fmt::format("\n[contact.{}]{}", role,
+                    is_mean ? "  # the means of both: the model's contact is lumped" : ""));
+    add(fmt::format("youngs_modulus_mpa = {}", modulus / 1e6));
+    add(fmt::format("poisson_ratio = {}", ratio));
+    if (!mesh.has_variable_thickness) return add(fmt::format("thickness = {}", mesh.thickness));
+    if (!mesh.back_path)
+      refuse(
+          fmt::format("mesh_back_file {} of {} is missing", in_quotes(mesh.back_file), in_quotes(mesh.name)));
+    const auto [of_role, X] = *role_of(mesh);
+    if (mesh.mesh.scale != Vec3::Ones() || !X.matrix().isIdentity(0))
+      refuse(fmt::format("the thickness of {} varies, and its mesh is scaled or moved in its body",
+                         in_quotes(mesh.name)));
+    add("behind = " + toml_string(path_of(*mesh.back_path)));
+    add(fmt::format("thickness = {}  # of vertices with nothing behind them", mesh.least_thickness));
+    note(fmt::format(
+        "the thickness of {} is measured at its vertices and has no bounds; OpenSim-JAM measures it at "
+        "triangles, between {} and {} m: pressures are near to its own, not equal",
+        in_quotes(mesh.name), mesh.least_thickness, mesh.greatest_thickness));
+  }
+
+  void note_what_is_left_out() {
+    std::vector<std::string> kinds;
+    for (const auto& [kind, count] : model_.ignored) kinds.push_back(fmt::format("{} {}", count, kind));
+    if (!kinds.empty()) note(fmt::format("not used here: {}", fmt::join(kinds, ", ")));
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
+      std::vector<std::string> names;
+      for (const WeldedBody& body : welded_bodies(model_, joint_, role)) names.push_back(body.name);
+      if (names.size() > 1) note(fmt::format("welded to one body: {}", fmt::join(names, ", ")));
+    }
+    for (const std::string& line : model_.notes) note(line);
+    for (const ModelCoupler& coupler : model_.couplers)
+      for (const ModelCoordinate& coordinate : joint_.coordinates)
+        if (coordinate.name == coupler.dependent)
+          note(fmt::format("coordinate {} follows {} by constraint {}{}", in_quotes(coordinate.name),
+                           fmt::join(coupler.independent, ", "), in_quotes(coupler.name),
+                           mapping_.columns.empty() ? ", where a motion has no column of it"
+                                                    : ": a motion needs a column of it"));
+  }
+
+  const Model& model_;
+  const ModelJointRequest& request_;
+  const ModelJoint& joint_;
+  fs::path folder_;
+  std::optional<Anatomy> anatomy_;
+  Side side_ = Side::right;
+  JointMapping mapping_{.kind = JointKind::free};
+  std::vector<NamedMesh> fixed_, mobile_;
+  const ModelContact* contact_ = nullptr;
+  std::string fixed_part_, mobile_part_;
+  std::string text_;
+  ModelJointProposal out_;
+};
+
+}  // namespace
+}  // namespace io
+
+ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& request) {
+  return io::ModelJointFile(model, request).proposal();
+}
+
+LoadedJoint read_joint(const Model& model, const ModelJointRequest& request) {
+  ModelJointRequest beside = request;
+  beside.joint_file = model.path;
+  ModelJointProposal proposed = propose_joint(model, beside);
+  if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
+  if (!proposed.proposal.to_fill_in.empty())
+    throw FileError(fmt::format("{}: {}", model.path.string(), proposed.proposal.to_fill_in.front()));
+  JointFile file = io::joint_file_of(proposed.proposal.toml, model.path);
+  file.digest = model.digest;
+  file.processing.insert(file.processing.begin(), proposed.notes.begin(), proposed.notes.end());
+  return io::load_joint(std::move(file));
+}
+
+}  // namespace condyle

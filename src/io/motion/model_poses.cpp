@@ -1,0 +1,188 @@
+#include "io/motion/model_poses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "condyle/error.hpp"
+#include "condyle/io/model_file.hpp"
+#include "io/file/in_quotes.hpp"
+#include "io/model/spatial_transform.hpp"
+#include "io/motion/gaps.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// Couplers that follow one another are followed this far.
+constexpr int longest_chain = 20;
+
+/// The column of a joint's coordinate: of its name, or of a path that ends in joint, coordinate and "value".
+std::optional<std::size_t> column_of(const MotionTable& table, const std::string& joint,
+                                     const std::string& coordinate) {
+  const std::string end = joint + "/" + coordinate + "/value";
+  std::optional<std::size_t> found;
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const std::string& name = table.columns[c];
+    if (name == coordinate) return c;
+    if (name == end || name.ends_with("/" + end)) found = c;
+  }
+  return found;
+}
+
+class ModelMotion {
+ public:
+  ModelMotion(const MotionTable& table, const PosesOfModel& mapping)
+      : table_(table), mapping_(mapping), model_(read_model(mapping.model)) {
+    joint_ = &named();
+  }
+
+  RecordedPoses poses() {
+    RecordedPoses out{.times = frame_times(table_), .X_FM = {}, .processing = table_.processing};
+    processing_ = &out.processing;
+    out.processing.push_back(fmt::format("posed by joint {} of {} (sha256 {})", in_quotes(joint_->name),
+                                         mapping_.model.string(), model_.digest.sha256));
+    require_columns();
+    std::vector<std::vector<double>> values;
+    for (const ModelCoordinate& coordinate : joint_->coordinates) {
+      values.push_back(values_of(*joint_, coordinate, 0));
+      note_beyond(coordinate, values.back());
+    }
+    std::vector<double> q(values.size());
+    for (std::size_t row = 0; row < table_.rows; ++row) {
+      for (std::size_t i = 0; i < q.size(); ++i) q[i] = values[i][row];
+      if (std::any_of(q.begin(), q.end(), [](double value) { return std::isnan(value); })) {
+        out.X_FM.emplace_back();
+        continue;
+      }
+      Pose X = pose_of(*joint_, q);
+      X.translation() *= mm_per(LengthUnit::metres);
+      out.X_FM.emplace_back(X);
+    }
+    note_gaps(table_, out.X_FM, out.processing);
+    return out;
+  }
+
+ private:
+  const ModelJoint& named() const {
+    try {
+      return joint_named(model_, mapping_.joint);
+    } catch (const UsageError& error) {
+      throw FileError(error.what());
+    }
+  }
+
+  void require_columns() const {
+    if (joint_->coordinates.empty())
+      throw FileError(
+          fmt::format("{}: joint {} does not move", mapping_.model.string(), in_quotes(joint_->name)));
+    for (const ModelCoordinate& coordinate : joint_->coordinates)
+      if (column_of(table_, joint_->name, coordinate.name) || coupler_of(coordinate.name)) return;
+    throw FileError(fmt::format("{}: has no column of joint {}: {} or the like", table_.path.string(),
+                                in_quotes(joint_->name), in_quotes(joint_->coordinates.front().name)));
+  }
+
+  const ModelCoupler* coupler_of(const std::string& dependent) const {
+    for (const ModelCoupler& coupler : model_.couplers)
+      if (coupler.dependent == dependent) return &coupler;
+    return nullptr;
+  }
+
+  /// The joint that has a coordinate of this name, and the coordinate.
+  std::pair<const ModelJoint*, const ModelCoordinate*> owner_of(const std::string& coordinate) const {
+    for (const ModelJoint& joint : model_.joints)
+      for (const ModelCoordinate& own : joint.coordinates)
+        if (own.name == coordinate) return {&joint, &own};
+    return {nullptr, nullptr};
+  }
+
+  bool in_degrees(const ModelCoordinate& coordinate) const {
+    if (coordinate.motion == CoordinateMotion::translational) return false;
+    if (table_.in_degrees && mapping_.in_degrees && *table_.in_degrees != *mapping_.in_degrees)
+      throw FileError(fmt::format("{}: angles are given in {}, and the header says inDegrees={}",
+                                  table_.path.string(), *mapping_.in_degrees ? "degrees" : "radians",
+                                  *table_.in_degrees ? "yes" : "no"));
+    const auto unit = table_.in_degrees ? table_.in_degrees : mapping_.in_degrees;
+    if (!unit)
+      throw FileError(
+          fmt::format("{}: column {}: the file does not say whether angles are in degrees: give "
+                      "angles = \"deg\" or \"rad\" in [recorded_motion]",
+                      table_.path.string(), in_quotes(coordinate.name)));
+    if (*unit && coordinate.motion == CoordinateMotion::coupled)
+      processing_->push_back(
+          fmt::format("{}: coordinate {} turns the joint through a function: its column is "
+                      "in radians, whatever the header says",
+                      table_.path.string(), in_quotes(coordinate.name)));
+    return *unit && coordinate.motion == CoordinateMotion::rotational;
+  }
+
+  /// In radians and metres, NaN for gaps.
+  std::vector<double> values_of(const ModelJoint& joint, const ModelCoordinate& coordinate, int steps) {
+    if (const auto column = column_of(table_, joint.name, coordinate.name)) {
+      std::vector<double> values = table_.values[*column];
+      if (in_degrees(coordinate))
+        for (double& value : values) value *= std::numbers::pi / 180;
+      return values;
+    }
+    if (const ModelCoupler* coupler = coupler_of(coordinate.name)) return coupled(*coupler, steps);
+    processing_->push_back(
+        fmt::format("{}: has no column of coordinate {}: its default, {}, stands in for it",
+                    table_.path.string(), in_quotes(coordinate.name), coordinate.default_value));
+    return std::vector<double>(table_.rows, coordinate.default_value);
+  }
+
+  std::vector<double> coupled(const ModelCoupler& coupler, int steps) {
+    if (!coupler.function) throw FileError(coupler.why_not);
+    if (steps == longest_chain)
+      throw FileError(fmt::format("{}: constraint {}: couplers follow one another in a circle",
+                                  mapping_.model.string(), in_quotes(coupler.name)));
+    std::vector<std::vector<double>> of;
+    for (const std::string& name : coupler.independent) {
+      const auto [joint, coordinate] = owner_of(name);
+      if (!coordinate)
+        throw FileError(fmt::format("{}: constraint {}: there is no coordinate {}", mapping_.model.string(),
+                                    in_quotes(coupler.name), in_quotes(name)));
+      of.push_back(values_of(*joint, *coordinate, steps + 1));
+    }
+    processing_->push_back(fmt::format("{}: has no column of coordinate {}: constraint {} gives it",
+                                       table_.path.string(), in_quotes(coupler.dependent),
+                                       in_quotes(coupler.name)));
+    std::vector<double> values(table_.rows), q(of.size());
+    for (std::size_t row = 0; row < table_.rows; ++row) {
+      for (std::size_t i = 0; i < q.size(); ++i) q[i] = of[i][row];
+      values[row] = coupler.function->scale * value_of(coupler.function->function, q);
+    }
+    return values;
+  }
+
+  /// None of this changes a pose.
+  void note_beyond(const ModelCoordinate& coordinate, const std::vector<double>& values) {
+    const bool has_column = column_of(table_, joint_->name, coordinate.name).has_value();
+    if (coordinate.is_locked && has_column)
+      processing_->push_back(fmt::format("coordinate {} is locked in the model; its column is used",
+                                         in_quotes(coordinate.name)));
+    if (!coordinate.range) return;
+    const auto [low, high] = *coordinate.range;
+    const auto beyond = std::count_if(values.begin(), values.end(),
+                                      [&](double value) { return value < low || value > high; });
+    if (beyond > 0)
+      processing_->push_back(
+          fmt::format("coordinate {} is beyond its range, {} to {}, in {} frames; it is used as it is",
+                      in_quotes(coordinate.name), low, high, beyond));
+  }
+
+  const MotionTable& table_;
+  const PosesOfModel& mapping_;
+  Model model_;
+  const ModelJoint* joint_ = nullptr;
+  std::vector<std::string>* processing_ = nullptr;
+};
+
+}  // namespace
+
+RecordedPoses model_poses(const MotionTable& table, const PosesOfModel& mapping) {
+  return ModelMotion(table, mapping).poses();
+}
+
+}  // namespace condyle::io

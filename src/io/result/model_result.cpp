@@ -1,0 +1,142 @@
+#include "io/result/model_result.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "condyle/error.hpp"
+#include "condyle/io/pose_text.hpp"
+#include "condyle/version.hpp"
+#include "io/file/plain_text.hpp"
+#include "io/model/joint_mapping.hpp"
+#include "io/result/json.hpp"
+
+namespace condyle::io {
+namespace {
+
+/// What a joint file would say of a joint's kind; nothing for a joint that cannot be read.
+std::optional<JointMapping> mapping_of_names(const ModelJoint& joint) {
+  if (!joint.transform || joint.coordinates.empty()) return std::nullopt;
+  return mapping_of(joint, anatomy_of(joint), side_of(joint).value_or(Side::right));
+}
+
+std::pair<std::size_t, std::size_t> meshes_found(const Model& model, const ModelJoint& joint, BodyRole role) {
+  const std::vector<ModelMesh> meshes = meshes_of(model, joint, role);
+  const auto found = std::count_if(meshes.begin(), meshes.end(),
+                                   [](const ModelMesh& mesh) { return mesh.path.has_value(); });
+  return {static_cast<std::size_t>(found), meshes.size()};
+}
+
+std::string joint_text(const Model& model, const ModelJoint& joint) {
+  if (!joint.transform) return fmt::format("  {}: {}\n", joint.name, joint.why_not);
+  std::string coordinates;
+  for (const ModelCoordinate& coordinate : joint.coordinates)
+    coordinates += (coordinates.empty() ? "" : ", ") + coordinate.name;
+  const auto mapping = mapping_of_names(joint);
+  const auto fixed = meshes_found(model, joint, BodyRole::fixed),
+             mobile = meshes_found(model, joint, BodyRole::mobile);
+  return fmt::format(
+      "  {}: {} in {}, {}{}; meshes found {} of {} and {} of {}{}\n", joint.name, joint.child_body,
+      joint.parent_body, mapping ? fmt::format("{} ({})", name_of(mapping->kind), joint.type) : joint.type,
+      mapping && mapping->columns.empty() ? ", posed by the model" : "", fixed.first, fixed.second,
+      mobile.first, mobile.second, coordinates.empty() ? "" : "; coordinates " + coordinates);
+}
+
+std::string model_text(const Model& model) {
+  std::string text = fmt::format("{}\n  model {}, version {}: {} bodies, {} joints\n", model.path.string(),
+                                 model.name, model.version, model.bodies.size(), model.joints.size());
+  for (const ModelJoint& joint : model.joints) text += joint_text(model, joint);
+  for (const ModelContact& contact : model.contacts)
+    text += fmt::format("  contact {}: {} on {}{}\n", contact.name, contact.casting, contact.target,
+                        contact.applies ? "" : ", not applied");
+  for (const ModelCoupler& coupler : model.couplers)
+    text += fmt::format("  constraint {}: {} follows {}\n", coupler.name, coupler.dependent,
+                        fmt::join(coupler.independent, ", "));
+  for (const ModelMesh& mesh : model.meshes)
+    if (!mesh.path) text += fmt::format("  missing: {} of {}\n", mesh.file, mesh.body);
+  for (const auto& [kind, count] : model.ignored) text += fmt::format("  not used: {} {}\n", count, kind);
+  for (const std::string& line : model.notes) text += fmt::format("  note: {}\n", line);
+  return text;
+}
+
+Json coordinate_json(const ModelCoordinate& coordinate) {
+  Json json{{"name", coordinate.name},
+            {"motion", name_of(coordinate.motion)},
+            {"default", coordinate.default_value},
+            {"range", nullptr},
+            {"clamped", coordinate.is_clamped},
+            {"locked", coordinate.is_locked},
+            {"prescribed", coordinate.is_prescribed}};
+  if (coordinate.range) json["range"] = *coordinate.range;
+  return json;
+}
+
+Json mesh_json(const ModelMesh& mesh) {
+  Json json{{"body", mesh.body}, {"file", mesh.file}, {"path", nullptr}, {"scale", numbers(mesh.scale)}};
+  if (mesh.path) json["path"] = mesh.path->string();
+  return json;
+}
+
+Json joint_json(const ModelJoint& joint) {
+  Json json{{"name", joint.name},
+            {"type", joint.type},
+            {"line", joint.line},
+            {"parent_body", joint.parent_body},
+            {"child_body", joint.child_body},
+            {"kind", nullptr},
+            {"anatomy", nullptr},
+            {"side", nullptr},
+            {"posed_by_model", nullptr},
+            {"coordinates", Json::array()},
+            {"refused", nullptr}};
+  for (const ModelCoordinate& coordinate : joint.coordinates)
+    json["coordinates"].push_back(coordinate_json(coordinate));
+  if (!joint.transform) json["refused"] = joint.why_not;
+  if (const auto anatomy = anatomy_of(joint)) json["anatomy"] = name_of(*anatomy);
+  if (const auto side = side_of(joint)) json["side"] = name_of(*side);
+  if (const auto mapping = mapping_of_names(joint)) {
+    json["kind"] = name_of(mapping->kind);
+    json["posed_by_model"] = mapping->columns.empty();
+  }
+  return json;
+}
+
+Json model_json(const Model& model) {
+  Json json{{"file", model.path.string()}, {"name", model.name}, {"version", model.version}};
+  json["bodies"] = model.bodies;
+  for (const char* list : {"joints", "meshes", "contacts", "couplers"}) json[list] = Json::array();
+  for (const ModelJoint& joint : model.joints) json["joints"].push_back(joint_json(joint));
+  for (const ModelMesh& mesh : model.meshes) json["meshes"].push_back(mesh_json(mesh));
+  for (const ModelContact& contact : model.contacts)
+    json["contacts"].push_back({{"name", contact.name},
+                                {"casting", contact.casting},
+                                {"target", contact.target},
+                                {"applies", contact.applies}});
+  for (const ModelCoupler& coupler : model.couplers)
+    json["couplers"].push_back(
+        {{"name", coupler.name}, {"dependent", coupler.dependent}, {"independent", coupler.independent}});
+  json["not_used"] = Json(model.ignored);
+  json["notes"] = model.notes;
+  return json;
+}
+
+}  // namespace
+
+std::string models_text(std::span<const Model> models) {
+  std::string text;
+  for (const Model& model : models) text += plain_text(model_text(model), LineEnds::keep);
+  return text;
+}
+
+std::string models_json(std::span<const Model> models, const std::vector<std::string>& command) {
+  Json list = Json::array(), files = Json::array();
+  for (const Model& model : models) {
+    list.push_back(model_json(model));
+    files.push_back(file_json(model.path, model.digest));
+  }
+  return document(
+      {{"models", std::move(list)},
+       {"provenance", {{"version", version}, {"command", command}, {"models", std::move(files)}}}});
+}
+
+}  // namespace condyle::io

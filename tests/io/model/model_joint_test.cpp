@@ -1,0 +1,372 @@
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
+#include "condyle/io/model_file.hpp"
+#include "condyle/io/provenance.hpp"
+#include "support/mesh_bytes.hpp"
+#include "support/shared_data.hpp"
+#include "support/temporary_folder.hpp"
+#include "support/test_meshes.hpp"
+
+// Joint files for joints of models: wherever a joint's coordinates are, they place the child's body where the model does.
+
+namespace condyle {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+Pose pose_of_rows(const Json& rows) {
+  Pose X;
+  for (int i = 0; i < 16; ++i) X.matrix()(i / 4, i % 4) = rows[static_cast<std::size_t>(i)].get<double>();
+  return X;
+}
+
+/// The model in a folder of its own, every mesh it names a box of some centimetres.
+Model with_boxes(const fs::path& file, const fs::path& folder) {
+  const fs::path copy = folder / file.filename();
+  fs::copy_file(file, copy, fs::copy_options::overwrite_existing);
+  const TriMesh box = test::box({-0.02, -0.03, -0.02}, {0.03, 0.02, 0.01});
+  for (const ModelMesh& mesh : read_model(copy).meshes) {
+    std::string name = mesh.file;
+    std::replace(name.begin(), name.end(), '\\', '/');
+    const fs::path path = folder / "Geometry" / name;
+    fs::create_directories(path.parent_path());
+    if (fs::exists(path)) continue;
+    if (path.extension() == ".vtp")
+      write_mesh(path, box);
+    else
+      std::ofstream(path, std::ios::binary) << test::stl_files(box).front().bytes;
+  }
+  return read_model(copy);
+}
+
+MotionTable table_of(const Json& joint) {
+  MotionTable table;
+  table.path = "poses.sto";
+  table.in_degrees = false;
+  table.rows = joint["poses"].size();
+  table.columns = {"time"};
+  table.values.resize(1 + joint["coordinates"].size());
+  for (const Json& coordinate : joint["coordinates"])
+    table.columns.push_back(fmt::format("/jointset/{}/{}/value", joint["joint"].get<std::string>(),
+                                        coordinate["name"].get<std::string>()));
+  for (std::size_t row = 0; row < table.rows; ++row) {
+    table.line_of_row.push_back(row + 2);
+    table.values[0].push_back(static_cast<double>(row));
+    for (std::size_t i = 0; i < joint["coordinates"].size(); ++i)
+      table.values[i + 1].push_back(joint["poses"][row]["q"][i].get<double>());
+  }
+  return table;
+}
+
+class ModelJoints : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ModelJoints, PlaceTheChildWhereTheModelDoes) {
+  const auto data = test::shared_data();
+  if (!data || !fs::exists(*data / GetParam())) GTEST_SKIP() << "no models";
+  const fs::path source = *data / GetParam();
+  std::ifstream file(source / "reference_poses.json");
+  std::size_t joints = 0, by_columns = 0;
+  const Json reference = Json::parse(file);
+  for (const Json& of_model : reference["models"]) {
+    const test::TemporaryFolder folder;
+    const Model model = with_boxes(source / of_model["model"].get<std::string>(), folder.path());
+    for (const Json& expected : of_model["joints"]) {
+      if (expected["coordinates"].empty()) continue;
+      const auto name = expected["joint"].get<std::string>();
+      SCOPED_TRACE(model.path.string() + " " + name);
+      ModelJointRequest request{.joint = name, .joint_file = {}};
+      if (source.filename() == "osim_small") request.anatomy = Anatomy::knee, request.side = Side::left;
+      if (name.find("subtalar") != name.npos || name.find("mtp") != name.npos)
+        request.anatomy = Anatomy::ankle;
+      if (meshes_of(model, joint_named(model, name), BodyRole::fixed).empty() ||
+          meshes_of(model, joint_named(model, name), BodyRole::mobile).empty())
+        continue;
+      const LoadedJoint loaded = read_joint(model, request);
+      const JointMotion motion = motion_of(loaded, table_of(expected));
+      const Provenance from = provenance_of(loaded, {});
+      for (std::size_t i = 0; i < motion.X_FM.size(); ++i) {
+        const Eigen::Affine3d X =
+            from.fixed.source_from_joint * Eigen::Affine3d(*motion.X_FM[i]) * from.mobile.joint_from_source;
+        const Pose wanted = pose_of_rows(expected["poses"][i]["child_in_parent"]);
+        EXPECT_LE((X.matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-12) << expected["poses"][i]["q"];
+      }
+      ++joints;
+      if (std::holds_alternative<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion))
+        ++by_columns;
+    }
+  }
+  RecordProperty("joints", static_cast<int>(joints));
+  EXPECT_GE(joints, 3u);
+  EXPECT_GE(by_columns, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, ModelJoints, ::testing::Values("osim_lenhart2015", "osim_gait2354"),
+                         [](const auto& test) { return std::string(test.param); });
+
+// A small model of our own: a pelvis, a femur and a shin, one of each kind of joint.
+
+constexpr std::string_view offset =
+    R"(<PhysicalOffsetFrame name="parent"><socket_parent>/bodyset/{0}</socket_parent>
+<translation>0.1 -0.2 0.3</translation><orientation>0.1 0.2 -0.3</orientation></PhysicalOffsetFrame>)";
+
+std::string axis(std::string_view name, std::string_view coordinate, std::string_view direction,
+                 std::string_view function = "") {
+  return fmt::format(
+      R"(<TransformAxis name="{}"><coordinates>{}</coordinates><axis>{}</axis>{}</TransformAxis>)", name,
+      coordinate, direction, function);
+}
+
+std::string coordinates(std::initializer_list<std::string_view> names) {
+  std::string text = "<coordinates>";
+  for (const std::string_view name : names) text += fmt::format(R"(<Coordinate name="{}"/>)", name);
+  return text + "</coordinates>";
+}
+
+struct Hip {
+  std::string joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0") +
+                      axis("rotation3", "rot", "0 1 0");
+  std::string name = "hip_r", body = "femur_r";
+  std::string mesh = "<mesh_file>femur.ply</mesh_file>";
+  std::string more = "";
+  std::string version = "40500";
+
+  std::string text() const {
+    return fmt::format(
+        R"(<?xml version="1.0"?>
+<OpenSimDocument Version="{}"><Model name="small &amp; plain"><!-- one -- comment --><BodySet><objects>
+<Body name="pelvis"><attached_geometry><Mesh name="p"><mesh_file>pelvis.ply</mesh_file></Mesh></attached_geometry></Body>
+<Body name="{}"><attached_geometry><Mesh name="f">{}</Mesh></attached_geometry></Body>
+</objects></BodySet><JointSet><objects><CustomJoint name="{}"><socket_parent_frame>parent</socket_parent_frame>
+<socket_child_frame>/bodyset/{}</socket_child_frame>{}<frames>{}</frames>
+<SpatialTransform>{}</SpatialTransform></CustomJoint></objects></JointSet>{}</Model></OpenSimDocument>)",
+        version, body, mesh, name, body, coordinates({"flex", "add", "rot"}),
+        fmt::format(fmt::runtime(offset), "pelvis"), joint, more);
+  }
+};
+
+class SmallModel : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const TriMesh box = test::box({-0.02, -0.03, -0.02}, {0.03, 0.02, 0.01});
+    write_mesh(folder_.path() / "pelvis.ply", box);
+    write_mesh(folder_.path() / "femur.ply", box);
+  }
+
+  fs::path written(const std::string& text) const {
+    const fs::path path = folder_.path() / "model.osim";
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  Model model(const Hip& hip) const { return read_model(written(hip.text())); }
+
+  /// What a model is refused with, or its only joint.
+  std::string refusal(const std::string& text) const {
+    try {
+      const Model model = read_model(written(text));
+      for (const ModelJoint& joint : model.joints) {
+        if (!joint.transform) return joint.why_not;
+        propose_joint(model, {.joint = joint.name, .joint_file = {}});
+      }
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+MotionTable one_frame(std::vector<std::string> columns, std::vector<std::vector<double>> values,
+                      bool in_degrees) {
+  MotionTable table;
+  table.path = "walk.mot";
+  table.columns = std::move(columns);
+  table.values = std::move(values);
+  table.rows = 1;
+  table.line_of_row = {9};
+  table.in_degrees = in_degrees;
+  return table;
+}
+
+TEST_F(SmallModel, IsAHip) {
+  const Model model = this->model({});
+  EXPECT_EQ(model.name, "small & plain");
+  const LoadedJoint loaded = read_joint(model, {.joint = "hip_r", .joint_file = {}});
+  EXPECT_EQ(loaded.joint.kind, JointKind::ball);
+  EXPECT_EQ(loaded.joint.side, Side::right);
+  EXPECT_TRUE(loaded.joint.is_hip());
+  const auto& columns = std::get<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion);
+  ASSERT_EQ(columns.size(), 3u);
+  for (const ColumnOfCoordinate& column : columns) EXPECT_EQ(column.sign, 1);
+  EXPECT_EQ(columns[2].column, "rot");
+}
+
+TEST_F(SmallModel, OfALeftSideHasTheSignsOfItsAxes) {
+  Hip hip{.name = "hip_l", .body = "femur_l"};
+  const auto signs = [&] {
+    const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_l", .joint_file = {}});
+    std::string text;
+    for (const auto& column : std::get<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion))
+      text += column.sign > 0 ? '+' : '-';
+    return text;
+  };
+  EXPECT_EQ(signs(), "+--");
+  hip.joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "-1 0 0") +
+              axis("rotation3", "rot", "0 -2 0");
+  EXPECT_EQ(signs(), "+++");
+}
+
+TEST_F(SmallModel, OfAnotherOrderIsPosedByTheModel) {
+  const Hip hip{.joint = axis("rotation1", "add", "1 0 0") + axis("rotation2", "flex", "0 0 1") +
+                         axis("rotation3", "rot", "0 1 0")};
+  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  EXPECT_EQ(loaded.joint.kind, JointKind::ball);
+  EXPECT_TRUE(std::holds_alternative<PosesOfModel>(*loaded.report.file.recorded_motion));
+}
+
+TEST_F(SmallModel, MirroredByItsScaleKeepsItsInside) {
+  const Model model =
+      this->model({.mesh = "<mesh_file>femur.ply</mesh_file><scale_factors>2 1 -1</scale_factors>"});
+  const LoadedJoint loaded = read_joint(model, {.joint = "hip_r", .joint_file = {}});
+  const MeshReport report = inspect(loaded.joint.mobile.mesh);
+  EXPECT_NEAR(report.signed_volume.value(), 2 * 50.0 * 50 * 30, 1e-6);
+  bool said = false;
+  for (const std::string& line : loaded.report.processing) said |= line.find("mirrored") != line.npos;
+  EXPECT_TRUE(said);
+}
+
+TEST_F(SmallModel, DegreesAreOfRotationalCoordinatesOnly) {
+  const std::string spline = "<SimmSpline name=\"function\"><x>-1 0 1</x><y>1 0 -1</y></SimmSpline>";
+  const Hip hip{.joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0", spline) +
+                         axis("rotation3", "rot", "0 1 0")};
+  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  MotionTable table =
+      one_frame({"time", "flex", "hip_r/add/value", "rot", "rot_u"}, {{0}, {30}, {0.2}, {NAN}, {5}}, true);
+  EXPECT_FALSE(motion_of(loaded, table).X_FM[0].has_value()) << "a gap is no pose";
+  table.values[3] = {-10};
+  const JointMotion motion = motion_of(loaded, table);
+  const JointAngles angles = angles_at(loaded.joint.coordinates(), *motion.X_FM[0]);
+  EXPECT_NEAR(angles.flexion.degrees(), 30, 1e-12);
+  EXPECT_NEAR(angles.adduction.radians(), -0.2, 1e-14);
+  EXPECT_NEAR(angles.internal_rotation.degrees(), -10, 1e-12);
+  bool said = false;
+  for (const std::string& line : motion.processing)
+    said |= line.find("'add' turns the joint through") != line.npos;
+  EXPECT_TRUE(said);
+}
+
+TEST_F(SmallModel, CoordinatesWithoutAColumnHaveTheirDefaults) {
+  Hip hip;
+  std::string text = hip.text();
+  text.replace(text.find(R"(<Coordinate name="add"/>)"), 24,
+               R"(<Coordinate name="add"><default_value>0.1</default_value></Coordinate>)");
+  const LoadedJoint loaded = read_joint(read_model(written(text)), {.joint = "hip_r", .joint_file = {}});
+  MotionTable table = one_frame({"time", "flex"}, {{0}, {30}}, true);
+  const JointMotion motion = motion_of(loaded, table);
+  EXPECT_NEAR(angles_at(loaded.joint.coordinates(), *motion.X_FM[0]).adduction.radians(), 0.1, 1e-14);
+  table.columns[1] = "nothing";
+  EXPECT_THROW(motion_of(loaded, table), FileError);
+}
+
+TEST_F(SmallModel, CouplersGiveWhatHasNoColumn) {
+  const std::string spline = "<SimmSpline name=\"function\"><x>-1 0 1</x><y>-1 0 1</y></SimmSpline>";
+  const Hip hip{
+      .joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0", spline) +
+               axis("rotation3", "rot", "0 1 0"),
+      .more = R"(<ConstraintSet><objects><CoordinateCouplerConstraint name="c"><isEnforced>true</isEnforced>
+<coupled_coordinates_function><LinearFunction><coefficients>0.5 0.1</coefficients></LinearFunction></coupled_coordinates_function>
+<independent_coordinate_names>flex</independent_coordinate_names><dependent_coordinate_name>rot</dependent_coordinate_name>
+<scale_factor>2</scale_factor></CoordinateCouplerConstraint></objects></ConstraintSet>)"};
+  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  MotionTable table = one_frame({"time", "flex"}, {{0}, {0.3}}, false);
+  const JointAngles angles = angles_at(loaded.joint.coordinates(), *motion_of(loaded, table).X_FM[0]);
+  EXPECT_NEAR(angles.internal_rotation.radians(), 2 * (0.5 * 0.3 + 0.1), 1e-14);
+}
+
+TEST_F(SmallModel, FindsMeshesInAnyCaseAndSaysSo) {
+  const Model model = this->model({.mesh = "<mesh_file>FEMUR.PLY</mesh_file>"});
+  ASSERT_TRUE(model.meshes[1].path);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_EQ(model.notes[0], "mesh 'FEMUR.PLY' was found as 'femur.ply'");
+}
+
+TEST_F(SmallModel, WithoutMeshesNamesWhereTheyWereLookedFor) {
+  const Model model = this->model({.mesh = "<mesh_file>none.vtp</mesh_file>"});
+  const ModelJointProposal proposed = propose_joint(model, {.joint = "hip_r", .joint_file = {}});
+  EXPECT_NE(proposed.missing_body.find("no mesh of body 'femur_r' was found; looked for"), std::string::npos);
+  EXPECT_NE(proposed.missing_body.find("Geometry/none.vtp"), std::string::npos);
+  EXPECT_NE(proposed.proposal.toml.find("none.vtp"), std::string::npos);
+  EXPECT_THROW(read_joint(model, {.joint = "hip_r", .joint_file = {}}), FileError);
+}
+
+TEST_F(SmallModel, RefusesInOneLine) {
+  const Hip hip;
+  const auto replaced = [&](std::string_view what, std::string_view with) {
+    std::string text = hip.text();
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, text.npos) << what;
+    return text.replace(at, what.size(), with);
+  };
+  const std::string deep = [] {
+    std::string open, close;
+    for (int i = 0; i < 300; ++i) open += "<a>", close += "</a>";
+    return open + close;
+  }();
+  const std::pair<std::string, std::string> cases[] = {
+      {replaced("40500", "40700"), "line 2: version 40700 is after 40600"},
+      {replaced("40500", "10400"), "line 2: version 10400 is before 10500"},
+      {replaced("40500", "new"), "Version 'new' is no number"},
+      {replaced("<Model name", "<Muddle name"), "'</Model>' closes what is not open"},
+      {replaced("0.1 -0.2 0.3", "0.1 -0.2"), "translation: three numbers are needed, not 2"},
+      {replaced("0.1 -0.2 0.3", "0.1 nan 0.3"), "translation: 'nan' is not finite"},
+      {replaced("0.1 -0.2 0.3", "0.1 x 0.3"), "translation: 'x' is no number"},
+      {replaced("<axis>1 0 0</axis>", "<axis>0 0 0</axis>"),
+       "joint 'hip_r': rotation2: axis: has no direction"},
+      {replaced("<axis>1 0 0</axis>", "<axis>0 0 3</axis>"), "rotation1 and rotation2 are about one axis"},
+      {replaced("<coordinates>add</coordinates>", "<coordinates>ad</coordinates>"),
+       "rotation2: coordinate 'ad' is none of this joint's"},
+      {replaced("<coordinates>add</coordinates>", "<coordinates/>"), "coordinate 'add' is used by no axis"},
+      {replaced("<coordinates>add</coordinates>", "<coordinates>add rot</coordinates>"),
+       "2 coordinates and no function of them"},
+      {replaced("rotation2", "rotation4"), "'rotation4' is no name of a TransformAxis"},
+      {replaced("rotation2", "rotation1"), "rotation1 is given twice"},
+      {replaced("socket_parent_frame>parent<", "socket_parent_frame>other<"),
+       "there is no body or frame 'other'"},
+      {[&] {
+         std::string text = hip.text();
+         for (const char* tag : {"<CustomJoint", "</CustomJoint"})
+           text.replace(text.find(tag), std::strlen(tag),
+                        tag[1] == '/' ? "</EllipsoidJoint" : "<EllipsoidJoint");
+         return text;
+       }(),
+       "a joint of type EllipsoidJoint is not read"},
+      {replaced("<objects>\n<Body", "<!DOCTYPE a><objects>\n<Body"), "'<!DOCTYPE' is not read"},
+      {replaced("<objects>\n<Body", deep + "<objects>\n<Body"), "elements nested deeper than 200"},
+      {"{}", "no XML tag"},
+      {"<html></html>", "no OpenSim model: it begins with 'html'"},
+  };
+  for (const auto& [text, wanted] : cases) {
+    std::string line = refusal(text);
+    EXPECT_NE(line.find("model.osim: "), std::string::npos) << line;
+    EXPECT_NE(line.find(wanted), std::string::npos) << line << "\n  wanted: " << wanted;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+}
+
+TEST_F(SmallModel, AsksForWhatNamesDoNotTell) {
+  EXPECT_NE(refusal(Hip{.name = "hip", .body = "femur"}.text()).find("give its side"), std::string::npos);
+  EXPECT_NE(refusal(Hip{.name = "joint_r", .body = "body_r"}.text()).find("say whether it is a hip, knee"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace condyle
