@@ -29,6 +29,7 @@ struct Options {
   std::vector<std::string> meshes;  ///< or label maps, or models
   std::shared_ptr<LabelOptions> labels = std::make_shared<LabelOptions>();
   std::vector<std::string> geometry;  ///< folders with meshes of models
+  PolygonRule polygons = PolygonRule::refuse;
   std::vector<std::string> repairs;
   std::string out;
   AnswerForm form = AnswerForm::text;
@@ -59,8 +60,11 @@ FileKind kind_of(const Options& options) {
   for (const std::string& path : options.meshes)
     if (kind_of(path) != kind)
       throw UsageError("MESH: meshes, label maps and models are inspected one after the other, not together");
-  if (kind != FileKind::mesh && (!options.repairs.empty() || !options.out.empty()))
-    throw UsageError("--repair, --out: are for meshes; condyle surface extracts one from a label map");
+  const bool is_of_meshes =
+      !options.repairs.empty() || !options.out.empty() || options.polygons == PolygonRule::split;
+  if (kind != FileKind::mesh && is_of_meshes)
+    throw UsageError(
+        "--repair, --polygons, --out: are for meshes; condyle surface extracts one from a label map");
   if (kind != FileKind::model && !options.geometry.empty())
     throw UsageError("--geometry: is for models of OpenSim, .osim");
   return kind;
@@ -100,7 +104,7 @@ void run(const Options& options, const CLI::App& command) {
   std::vector<MeshInspection> inspections;
   std::vector<TriMesh> repaired;
   for (const std::string& path : options.meshes) {
-    InspectedMesh inspected = inspect_file(path, repairs);
+    InspectedMesh inspected = inspect_file(path, repairs, options.polygons);
     inspections.push_back(std::move(inspected.inspection));
     if (!options.out.empty()) repaired.push_back(std::move(inspected.mesh));
   }
@@ -133,6 +137,15 @@ void add_inspect(CLI::App& app) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->option_text("weld,drop_unreferenced,flip_inverted");
+  command
+      ->add_option_function<std::string>(
+          "--polygons",
+          [options](const std::string& rule) {
+            options->polygons = rule == "split" ? PolygonRule::split : PolygonRule::refuse;
+          },
+          "What to do with polygons of more than three corners: a file does not say what surface is inside")
+      ->check(CLI::IsMember({"refuse", "split"}))
+      ->option_text("refuse|split (refuse)");
   command->add_option("--out", options->out, "Write the meshes into this folder, as read and repaired, .ply")
       ->option_text("FOLDER");
   command->add_flag_callback(
@@ -140,7 +153,7 @@ void add_inspect(CLI::App& app) {
       "Print the answer as JSON, with every number in full");
   add_label_file(*command, options->labels);
   add_geometry(*command, options->geometry);
-  group_help(*command, {{"Meshes", {"--repair", "--out"}},
+  group_help(*command, {{"Meshes", {"--repair", "--polygons", "--out"}},
                         {"Label maps", label_file_names()},
                         {"Models", {"--geometry"}},
                         {"Output", {"--json"}}});

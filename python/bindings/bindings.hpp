@@ -12,6 +12,7 @@ void bind_mesh(py::module_& module);
 void bind_inspect(py::module_& module);
 void bind_fit(py::module_& module);
 void bind_labels(py::module_& module);
+void bind_model(py::module_& module);
 void bind_joint(py::module_& module);
 void bind_penetration(py::module_& module);
 void bind_gaps(py::module_& module);

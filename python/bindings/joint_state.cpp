@@ -116,8 +116,8 @@ void members(T& value, const Each& each) {
         value;
     each(X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes);
   } else if constexpr (std::is_same_v<Struct, MeshEntry>) {
-    auto& [part, mesh, repairs, is_bearing] = value;
-    each(part, mesh, repairs, is_bearing);
+    auto& [part, mesh, repairs, is_bearing, polygons, scale, X_BG] = value;
+    each(part, mesh, repairs, is_bearing, polygons, scale, X_BG);
   } else if constexpr (std::is_same_v<Struct, BodyEntry>) {
     auto& [name, meshes, image] = value;
     each(name, meshes, image);
@@ -143,11 +143,14 @@ void members(T& value, const Each& each) {
     auto& [fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions] = value;
     each(fixed_part, mobile_part, casting, rays, law, fixed, mobile, moment_on, regions);
   } else if constexpr (std::is_same_v<Struct, ColumnOfCoordinate>) {
-    auto& [coordinate, kind, column, unit, sign, offset] = value;
-    each(coordinate, kind, column, unit, sign, offset);
+    auto& [coordinate, kind, column, unit, sign, offset, otherwise] = value;
+    each(coordinate, kind, column, unit, sign, offset, otherwise);
   } else if constexpr (std::is_same_v<Struct, ColumnsOfPoses>) {
     auto& [fixed_body, mobile_body, unit] = value;
     each(fixed_body, mobile_body, unit);
+  } else if constexpr (std::is_same_v<Struct, PosesOfModel>) {
+    auto& [model, joint, in_degrees] = value;
+    each(model, joint, in_degrees);
   } else if constexpr (std::is_same_v<Struct, FileDigest>) {
     auto& [bytes, sha256] = value;
     each(bytes, sha256);
@@ -159,8 +162,8 @@ void members(T& value, const Each& each) {
     auto& [repair, count] = value;
     each(repair, count);
   } else if constexpr (std::is_same_v<Struct, BodyMeshReport>) {
-    auto& [part, mesh, vertices, triangles, welded, repairs, digest] = value;
-    each(part, mesh, vertices, triangles, welded, repairs, digest);
+    auto& [part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, split] = value;
+    each(part, mesh, vertices, triangles, welded, repairs, digest, body_from_file, split);
   } else if constexpr (std::is_same_v<Struct, JointReport>) {
     auto& [file, fixed, mobile, placement, notes] = value;
     each(file, fixed, mobile, placement, notes);
@@ -188,7 +191,7 @@ class Writer {
       put_bytes(value.data(), 3 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Eigen::Matrix3d>) {
       put_bytes(value.data(), 9 * sizeof(double));
-    } else if constexpr (std::is_same_v<T, Pose>) {
+    } else if constexpr (std::is_same_v<T, Pose> || std::is_same_v<T, Eigen::Affine3d>) {
       put_bytes(value.matrix().data(), 16 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Mesh>) {
       put(value.arrays());
@@ -233,7 +236,7 @@ class Reader {
       get_bytes(value.data(), 3 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Eigen::Matrix3d>) {
       get_bytes(value.data(), 9 * sizeof(double));
-    } else if constexpr (std::is_same_v<T, Pose>) {
+    } else if constexpr (std::is_same_v<T, Pose> || std::is_same_v<T, Eigen::Affine3d>) {
       get_bytes(value.matrix().data(), 16 * sizeof(double));
     } else if constexpr (std::is_same_v<T, Mesh>) {
       value = Mesh(made<TriMesh>());

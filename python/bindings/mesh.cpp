@@ -55,13 +55,13 @@ py::tuple merged(const Mesh& mesh) {
   return py::make_tuple(std::move(result), array_of(std::move(number)));
 }
 
-py::tuple read_arrays(const std::filesystem::path& path) {
-  auto [mesh, welded] = [&] {
+py::tuple read_arrays(const std::filesystem::path& path, bool split_polygons) {
+  auto [mesh, welded, split] = [&] {
     const py::gil_scoped_release released;
-    MeshFile file = read_mesh(path);
-    return std::pair(Mesh(std::move(file.mesh)), file.welded_vertices);
+    MeshFile file = read_mesh(path, split_polygons ? PolygonRule::split : PolygonRule::refuse);
+    return std::tuple(Mesh(std::move(file.mesh)), file.welded_vertices, file.split_polygons);
   }();
-  return py::make_tuple(std::move(mesh), welded);
+  return py::make_tuple(std::move(mesh), welded, split);
 }
 
 py::tuple repaired(const Mesh& mesh, const std::vector<std::string>& names) {

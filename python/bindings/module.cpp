@@ -10,6 +10,7 @@ PYBIND11_MODULE(_native, module) {
   bind_inspect(module);
   bind_fit(module);
   bind_labels(module);
+  bind_model(module);
   bind_joint(module);
   bind_penetration(module);
   bind_gaps(module);

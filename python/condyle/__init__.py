@@ -23,6 +23,7 @@ from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, Surfa
 from ._limit_band import LimitBand
 from ._limits import KINDS, REASONS, Caveat, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
+from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, read_model
 from ._motion import Motion
 from ._motion_contact import ContactFrames, FrameContact
 from ._motion_map import MapEnds, MotionMap
@@ -46,14 +47,14 @@ __all__ = [
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",
     "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
     "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
-    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Motion", "MotionLimit",
+    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",
     "SampleHip", "SphereFit", "Study", "StudyLoad", "StudyTable", "SurfaceContact", "SurfaceCut", "TriMesh",
     "UnknownNameError", "UsageError", "VertexDepths", "VertexGaps", "VerticesInside", "WAYS", "__version__",
     "clock_face", "find_cylinder", "find_neck_axis", "find_rim_clock", "find_sphere", "fit_cylinder", "fit_sphere",
-    "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh",
+    "inspect", "merge_study", "neck_clock", "propose_joint", "read_joint", "read_labels", "read_mesh", "read_model",
     "read_motion_table", "read_study", "run_study", "sagittal_clock", "sample_cartilages", "sample_cohort",
     "sample_hip", "surface", "thickness_to", "write_mesh",
 ]

@@ -17,6 +17,7 @@ from ._joint_description import description_of
 from ._labels import LabelLike, LabelMap, LabelSurface, joint_bones
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
+from ._model import Model, read_model
 from ._motion import MotionLike
 from ._motion_contact import ContactFrames, contact_along
 from ._native import Joint as NativeJoint
@@ -129,6 +130,19 @@ class Joint(DescribedJoint):
                                          progress)
         return cls(bone, other, name=f"{other.name} in {bone.name}", side=found, axes="LPS",
                    centre="fit", fixed_name=bone.name, mobile_name=other.name)
+
+    @classmethod
+    def from_model(cls, model: Union[Model, Path], joint: str, *, anatomy: Optional[Anatomy] = None,
+                   side: Optional[Side] = None, contact: Optional[str] = None) -> Joint:
+        """The joint of a model of OpenSim: what :func:`read_joint` reads from the file that `condyle init` proposes for it.
+
+        What of the model is not used, and what was read otherwise than it stands, is in :attr:`processing`. Raises as
+        :meth:`Model.propose_joint` does, and FileError where no mesh of a body is there.
+
+        C++: `condyle::read_joint` in condyle/io/model_file.hpp; `condyle motion MODEL --joint`.
+        """
+        read = model if isinstance(model, Model) else read_model(model)
+        return cls._of_native(read._joint(joint, anatomy, side, contact))
 
     # Copies. Nothing changes a joint: a copy is the joint itself, with the tables that it has built.
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _native
 from ._errors import UsageError
 from ._native import Mesh as NativeMesh
-from ._words import Path, Repair, path_of, refuse_masked, word
+from ._words import Path, PolygonRule, Repair, path_of, refuse_masked, word
 
 
 class TriMesh:
@@ -289,11 +289,13 @@ def _arrays_of(mesh: Any) -> tuple[Any, Any]:
                      "trimesh, PyVista, meshio or VTK is needed")
 
 
-def read_mesh(path: Path) -> TriMesh:
+def read_mesh(path: Path, *, polygons: PolygonRule = "refuse") -> TriMesh:
     """Reads .stl, .obj, .ply, .vtp or .vtk (legacy PolyData), in the file's own unit.
 
     Vertices keep the file's order and every bit. STL has corners and no vertices: those of the same coordinates are
-    one, numbered by their first, and corner k of triangle t is vertex `triangles[t, k]`. Raises FileError.
+    one, numbered by their first, and corner k of triangle t is vertex `triangles[t, k]`. Polygons of more than three corners are refused, for a file does
+    not say what surface is inside; "split" takes the triangles round the first corner from which all turn one way, and the
+    mesh says how many in its `processing`. Raises FileError.
 
     C++: `condyle::read_mesh` in condyle/io/mesh_file.hpp.
 
@@ -302,8 +304,9 @@ def read_mesh(path: Path) -> TriMesh:
         ...
     condyle.FileError: nowhere.stl: no such file
     """
-    mesh, merged = _native.read_mesh(path_of(path))
-    return TriMesh._of_native(mesh, [f"merged {merged} corners of the same coordinates"] if merged else [])
+    mesh, merged, split = _native.read_mesh(path_of(path), word(polygons, "polygons", PolygonRule) == "split")
+    processing = [f"merged {merged} corners of the same coordinates"] if merged else []
+    return TriMesh._of_native(mesh, processing + ([f"split {split} polygons into triangles"] if split else []))
 
 
 def write_mesh(path: Path, mesh: MeshLike) -> None:

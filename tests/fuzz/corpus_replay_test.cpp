@@ -59,7 +59,8 @@ TEST_P(KeptInputs, AreFewBytes) {
 INSTANTIATE_TEST_SUITE_P(
     EveryTarget, KeptInputs,
     testing::Values(Target{"mesh_reader", test::fuzz_mesh_reader},
-                    Target{"label_file", test::fuzz_label_file}, Target{"joint_file", test::fuzz_joint_file},
+                    Target{"label_file", test::fuzz_label_file}, Target{"model_file", test::fuzz_model_file},
+                    Target{"joint_file", test::fuzz_joint_file},
                     Target{"motion_file", test::fuzz_motion_file},
                     Target{"study_table", test::fuzz_study_table}, Target{"text", test::fuzz_text},
                     Target{"inspect", test::fuzz_inspect}, Target{"radial", test::fuzz_radial},

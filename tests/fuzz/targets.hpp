@@ -15,6 +15,8 @@ namespace condyle::test {
 std::string fuzz_mesh_reader(std::string_view bytes);
 /// The first byte chooses the format of a label map and what a user may choose, the rest is the file.
 std::string fuzz_label_file(std::string_view bytes);
+/// A model of OpenSim: its joints have poses, and what is proposed for them is a joint file.
+std::string fuzz_model_file(std::string_view bytes);
 /// A joint file, beside a mesh for both its bodies.
 std::string fuzz_joint_file(std::string_view bytes);
 /// The first byte chooses .mot, .sto or .csv, the rest is the file: columns, times, coordinates and poses.

@@ -292,11 +292,11 @@ TEST(BadMeshFile, VerticesWithoutTrianglesAreNoMesh) {
 
 TEST(BadMeshFile, PolygonsThatAreNoTrianglesAreRefusedByName) {
   EXPECT_EQ(complaint(with(ply_text, "3 0 1 2", "4 0 1 2 1"), MeshFormat::ply),
-            "bone: face 0 has 4 corners: only triangles are read");
+            "bone: face 0 has 4 corners: only triangles are read, unless polygons are to be split");
   EXPECT_EQ(complaint(with(obj_text, "f 1 2 3", "f 1 2 3\nf 1 2 3 1"), MeshFormat::obj),
-            "bone: line 5: face 1 has 4 corners: only triangles are read");
+            "bone: line 5: face 1 has 4 corners: only triangles are read, unless polygons are to be split");
   EXPECT_EQ(complaint(with(with(vtp_text, "0 1 2", "0 1 2 1"), ">3<", ">4<"), MeshFormat::vtp),
-            "bone: polygon 0 has 4 corners: only triangles are read");
+            "bone: polygon 0 has 4 corners: only triangles are read, unless polygons are to be split");
   EXPECT_EQ(complaint(with(vtp_text, "NumberOfStrips=\"0\"", "NumberOfStrips=\"1\""), MeshFormat::vtp),
             "bone: line 4: triangle strip 0: only triangles are read");
   EXPECT_EQ(complaint(with(vtk_text, "POLYGONS 1 4\n3 0 1 2", "POLYGONS 1 3\n2 0 1"), MeshFormat::vtk),

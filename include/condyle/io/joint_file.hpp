@@ -9,6 +9,7 @@
 #include "condyle/inspect.hpp"
 #include "condyle/io/contact_entry.hpp"
 #include "condyle/io/file_digest.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/io/recorded_motion.hpp"
 #include "condyle/joint_coordinates.hpp"
@@ -29,6 +30,7 @@ struct MeshEntry {
   std::filesystem::path mesh;  ///< found from the joint file's folder
   std::vector<Repair> repairs;
   bool is_bearing = false;  ///< one of several of the mobile body that slides on the fixed one
+  PolygonRule polygons = PolygonRule::refuse;
   /// Where it lies in the body's frame: p_B = X_BG diag(scale) v, in the file's unit.
   Vec3 scale = Vec3::Ones();
   Pose X_BG = Pose::Identity();
@@ -72,6 +74,7 @@ struct BodyMeshReport {
   FileDigest digest = {};  ///< of the file before anything was done to the mesh
   /// p_B = body_from_file v, in the file's unit: the identity for a mesh without a scale or a pose of its own.
   Eigen::Affine3d body_from_file = Eigen::Affine3d::Identity();
+  std::size_t split_polygons = 0;  ///< into triangles
 };
 
 /// Steps that made a joint from a file, for reading and for checking.

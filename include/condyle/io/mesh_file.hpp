@@ -22,17 +22,22 @@ struct MeshFile {
   TriMesh mesh;  ///< every index in range, every coordinate finite, at least one triangle
   /// STL only: duplicate corners that were merged with an earlier one.
   std::size_t welded_vertices = 0;
+  std::size_t split_polygons = 0;  ///< into triangles, as asked
 };
+
+/// Polygons of more than three corners. A file does not say what surface is inside of one: `split` takes the triangles round
+/// its first corner from which all of them turn one way, and refuses one that is not convex from any corner.
+enum class PolygonRule { refuse, split };
 
 enum class MeshFormat { stl, obj, ply, vtp, vtk };
 
 /// Reads .stl (text and binary), .obj, .ply, .vtp (XML PolyData) or .vtk (legacy PolyData); the extension
-/// decides, in upper or lower case. Coordinates keep every bit the file gives. A polygon that is not a
-/// triangle is refused.
-MeshFile read_mesh(const std::filesystem::path& path);
+/// decides, in upper or lower case. Coordinates keep every bit the file gives.
+MeshFile read_mesh(const std::filesystem::path& path, PolygonRule polygons = PolygonRule::refuse);
 
 /// The same from memory; `name` is what errors call the file.
-MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name);
+MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name,
+                   PolygonRule polygons = PolygonRule::refuse);
 
 /// The format that the extension names.
 MeshFormat mesh_format_of(const std::filesystem::path& path);

@@ -121,6 +121,10 @@ struct Model {
 Model read_model(const std::filesystem::path& path,
                  std::span<const std::filesystem::path> geometry_folders = {});
 
+/// The same from memory; the path is what errors call it, and what meshes are found from.
+Model read_model(std::string_view bytes, const std::filesystem::path& path,
+                 std::span<const std::filesystem::path> geometry_folders = {});
+
 /// The joint of that name. Throws UsageError with the names there are, and FileError for one that cannot be read.
 const ModelJoint& joint_named(const Model& model, std::string_view name);
 

@@ -96,6 +96,9 @@ Pose body_pose(io::TomlTable& body, std::string_view key, CoordinateSystem syste
 
 MeshEntry mesh_entry(io::TomlTable& table) {
   MeshEntry entry{{}, io::mesh_path(table, "mesh", table.required("mesh", table.text("mesh"))), {}};
+  if (table.has("polygons"))
+    entry.polygons =
+        table.required_word("polygons", {"refuse", "split"}) == 0 ? PolygonRule::refuse : PolygonRule::split;
   if (const auto scale = table.triple("scale")) {
     if (scale->cwiseAbs().minCoeff() == 0) table.fail("scale", "must have no 0 in it");
     entry.scale = *scale;
@@ -128,7 +131,7 @@ Pose mesh_pose(io::TomlTable& mesh, std::vector<std::string>& notes) {
 std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key,
                                     std::vector<std::string>& notes) {
   if (!body.has("meshes")) return {mesh_entry(body)};
-  for (const auto of_one : {"mesh", "repair", "scale"})
+  for (const auto of_one : {"mesh", "repair", "scale", "polygons"})
     if (body.has(of_one)) body.fail(of_one, "with meshes each of them has its own");
   std::vector<MeshEntry> entries;
   for (io::TomlTable& table : body.tables("meshes")) {

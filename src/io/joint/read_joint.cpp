@@ -47,8 +47,9 @@ LoadedMesh load(const MeshEntry& entry, const std::string& key, const std::files
   io::check_is_file(entry.mesh);
   const MeshFormat format = mesh_format_of(entry.mesh);
   const std::string bytes = io::read_whole_file(entry.mesh);
-  MeshFile file = read_mesh(bytes, format, entry.mesh.string());
+  MeshFile file = read_mesh(bytes, format, entry.mesh.string(), entry.polygons);
   BodyMeshReport report{entry.part, entry.mesh, 0, 0, file.welded_vertices, {}, digest_of(bytes)};
+  report.split_polygons = file.split_polygons;
   if (entry.is_moved()) {
     report.body_from_file = Eigen::Affine3d(entry.X_BG) * Eigen::Scaling(entry.scale);
     move(file.mesh, report.body_from_file);
@@ -112,6 +113,9 @@ std::string file_name(const BodyMeshReport& body) {
 void note_repairs(const BodyMeshReport& body, std::vector<std::string>& notes) {
   if (body.welded_vertices > 0)
     notes.push_back(fmt::format("{}: merged {} duplicate vertices", file_name(body), body.welded_vertices));
+  if (body.split_polygons > 0)
+    notes.push_back(
+        fmt::format("{}: split {} polygons into triangles", file_name(body), body.split_polygons));
   if (body.body_from_file.linear().determinant() < 0)
     notes.push_back(fmt::format("{}: mirrored by its scale, triangles turned round", file_name(body)));
   for (const RepairDone& done : body.repairs)

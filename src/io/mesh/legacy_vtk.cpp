@@ -42,7 +42,9 @@ class Reader {
       if (section == "points") {
         raw.vertices = read_points();
       } else if (section == "polygons") {
-        raw.triangles = triangles_from(read_cells("polygons"));
+        const Cells cells = read_cells("polygons");
+        check_ends(cells.ends, source_);
+        append_cells(raw, cells.corners, cells.ends, source_);
       } else if (section == "vertices" || section == "lines") {
         read_cells(section);  // they bound nothing
       } else if (section == "triangle_strips") {
@@ -126,20 +128,6 @@ class Reader {
       at += 1 + static_cast<std::size_t>(row[at]);
     }
     return cells;
-  }
-
-  std::vector<std::array<std::int64_t, 3>> triangles_from(const Cells& cells) const {
-    check_are_triangles(cells.ends, source_);
-    if (cells.corners.size() != 3 * cells.ends.size()) {
-      source_.fail(
-          fmt::format("polygons: {} corners for {} triangles", cells.corners.size(), cells.ends.size()));
-    }
-    std::vector<std::array<std::int64_t, 3>> triangles;
-    triangles.reserve(cells.ends.size());
-    for (std::size_t i = 0; i < cells.corners.size(); i += 3) {
-      triangles.push_back({cells.corners[i], cells.corners[i + 1], cells.corners[i + 2]});
-    }
-    return triangles;
   }
 
   void skip_field() {

@@ -65,6 +65,7 @@ std::int64_t corner_from(std::string_view word, std::size_t vertices_so_far, con
 RawMesh read_obj(const Source& source) {
   RawMesh raw;
   std::vector<std::size_t> line_of;  // by triangle: a face may come before its vertices
+  std::vector<std::int64_t> corners;
   TextCursor text(source);
   while (!text.at_end()) {
     const std::size_t line = text.line();
@@ -73,17 +74,13 @@ RawMesh read_obj(const Source& source) {
     if (keyword == "v") {
       raw.vertices.push_back(vertex_from(words, text));
     } else if (keyword == "f") {
-      std::array<std::int64_t, 3> corners;
-      std::size_t count = 0;
-      for (auto word = words.next(); !word.empty() && !word.starts_with('#'); word = words.next(), ++count) {
-        const auto corner = corner_from(word, raw.vertices.size(), text);
-        if (count < 3) corners[count] = corner;
-      }
-      if (count != 3)
-        text.fail(
-            fmt::format("face {} has {} corners: only triangles are read", raw.triangles.size(), count));
-      raw.triangles.push_back(corners);
-      line_of.push_back(line);
+      corners.clear();
+      for (auto word = words.next(); !word.empty() && !word.starts_with('#'); word = words.next())
+        corners.push_back(corner_from(word, raw.vertices.size(), text));
+      const std::size_t triangles = raw.triangles.size();
+      if (!append_face(raw, corners, source.polygons))
+        text.fail(refused_face("face", triangles + raw.polygons.size(), corners.size()));
+      if (raw.triangles.size() > triangles) line_of.push_back(line);
     } else if (!keyword.empty() && !keyword.starts_with('#') && !moves_no_vertex(keyword)) {
       text.fail(in_quotes(keyword) + " is no OBJ statement that is read");
     }

@@ -69,15 +69,42 @@ const char* ByteCursor::take(std::size_t bytes) noexcept {
   return first;
 }
 
-void check_are_triangles(std::span<const std::int64_t> ends, const Source& source) {
+bool append_face(RawMesh& raw, std::span<const std::int64_t> corners, PolygonRule rule) {
+  if (corners.size() == 3)
+    raw.triangles.push_back({corners[0], corners[1], corners[2]});
+  else if (corners.size() > 3 && rule == PolygonRule::split)
+    raw.polygons.push_back({raw.triangles.size(), {corners.begin(), corners.end()}});
+  else
+    return false;
+  return true;
+}
+
+std::string refused_face(std::string_view kind, std::uint64_t number, std::size_t corners) {
+  return fmt::format("{} {} has {} corners: only triangles are read{}", kind, number, corners,
+                     corners > 3 ? ", unless polygons are to be split" : "");
+}
+
+void check_ends(std::span<const std::int64_t> ends, const Source& source) {
   std::int64_t first = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     if (ends[i] < first)
       source.fail(fmt::format("polygon {} ends at corner {}, before it begins", i, ends[i]));
-    const auto corners = ends[i] - first;
-    if (corners != 3)
-      source.fail(fmt::format("polygon {} has {} corners: only triangles are read", i, corners));
+    const auto corners = static_cast<std::size_t>(ends[i] - first);
+    if (corners < 3 || (corners > 3 && source.polygons == PolygonRule::refuse))
+      source.fail(refused_face("polygon", i, corners));
     first = ends[i];
+  }
+}
+
+void append_cells(RawMesh& raw, std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
+                  const Source& source) {
+  if (!ends.empty() && std::cmp_not_equal(ends.back(), corners.size()))
+    source.fail(fmt::format("polygons: {} corners, and {} are used", corners.size(), ends.back()));
+  raw.triangles.reserve(raw.triangles.size() + ends.size());
+  std::size_t first = 0;
+  for (const std::int64_t end : ends) {
+    append_face(raw, corners.subspan(first, static_cast<std::size_t>(end) - first), source.polygons);
+    first = static_cast<std::size_t>(end);
   }
 }
 

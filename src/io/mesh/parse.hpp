@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "condyle/error.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/mesh.hpp"
 #include "io/file/in_quotes.hpp"
 
@@ -31,12 +32,20 @@ namespace condyle::io {
 struct RawMesh {
   Points vertices;
   std::vector<std::array<std::int64_t, 3>> triangles;
+
+  /// A polygon of more than three corners, and how many triangles stand before it.
+  struct Polygon {
+    std::size_t triangles_before;
+    std::vector<std::int64_t> corners;
+  };
+  std::vector<Polygon> polygons = {};
 };
 
 /// The bytes of a file and the name under which to complain about them.
 struct Source {
   std::string_view bytes;
   std::string_view name;
+  PolygonRule polygons = PolygonRule::refuse;
 
   [[noreturn]] void fail(std::string_view what) const { throw FileError(fmt::format("{}: {}", name, what)); }
 };
@@ -131,8 +140,18 @@ Out as(T value) noexcept {
   return static_cast<Out>(value);
 }
 
-/// Holds that cells which end at these places in the row of all corners are triangles.
-void check_are_triangles(std::span<const std::int64_t> ends, const Source& source);
+/// Appends a face. False, and nothing done, for fewer than three corners, and for more where the rule refuses them.
+bool append_face(RawMesh& raw, std::span<const std::int64_t> corners, PolygonRule rule);
+
+/// What is said then: "face 12 has 4 corners: ...".
+std::string refused_face(std::string_view kind, std::uint64_t number, std::size_t corners);
+
+/// Holds that cells which end at these places in the row of all corners are faces that are read.
+void check_ends(std::span<const std::int64_t> ends, const Source& source);
+
+/// Appends cells that check_ends() has let pass.
+void append_cells(RawMesh& raw, std::span<const std::int64_t> corners, std::span<const std::int64_t> ends,
+                  const Source& source);
 
 // One reader per format; each raises FileError only.
 RawMesh read_stl(const Source& source);

@@ -278,12 +278,11 @@ bool is_corner_list(const Property& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
 
-std::vector<std::array<std::int64_t, 3>> read_faces(const Element& element, Values& values,
-                                                    const Source& source) {
+void read_faces(const Element& element, Values& values, RawMesh& raw, const Source& source) {
   const auto lists = std::count_if(element.properties.begin(), element.properties.end(), is_corner_list);
   if (lists != 1) source.fail("header: a face needs one property 'vertex_indices'");
-  std::vector<std::array<std::int64_t, 3>> triangles;
-  triangles.reserve(element.count);
+  raw.triangles.reserve(element.count);
+  std::vector<std::int64_t> corners;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (const auto& property : element.properties) {
       if (!is_corner_list(property)) {
@@ -293,14 +292,15 @@ std::vector<std::array<std::int64_t, 3>> read_faces(const Element& element, Valu
       if (!property.count_type || is_floating(property.type)) {
         source.fail(fmt::format("header: face property '{}' should be a list of integers", property.name));
       }
-      const auto corners = list_length(property, element, i, values, source);
-      if (corners != 3)
-        source.fail(fmt::format("face {} has {} corners: only triangles are read", i, corners));
-      auto& triangle = triangles.emplace_back();
-      for (auto& corner : triangle) corner = values.integer(property.type, element.name, i);
+      const auto count = list_length(property, element, i, values, source);
+      if (count < 3 || (count > 3 && source.polygons == PolygonRule::refuse))
+        source.fail(refused_face("face", i, count));
+      corners.clear();
+      for (std::uint64_t k = 0; k < count; ++k)
+        corners.push_back(values.integer(property.type, element.name, i));
+      append_face(raw, corners, source.polygons);
     }
   }
-  return triangles;
 }
 
 }  // namespace
@@ -319,7 +319,7 @@ RawMesh read_ply(const Source& source) {
       raw.vertices = read_vertices(element, values, source);
     } else if (element.name == "face") {
       if (std::exchange(has_faces, true)) source.fail("header: element 'face' twice");
-      raw.triangles = read_faces(element, values, source);
+      read_faces(element, values, raw, source);
     } else {
       skip_element(element, values, source);
     }

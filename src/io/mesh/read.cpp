@@ -10,6 +10,7 @@
 #include "condyle/inspect.hpp"
 #include "core/coordinate_range.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/mesh/split_polygon.hpp"
 
 namespace condyle {
 namespace {
@@ -38,7 +39,8 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
   const auto count = raw.vertices.size();
   if (count == 0) source.fail("holds no vertices");
   if (count >= no_index) source.fail(fmt::format("holds {} vertices, more than can be numbered", count));
-  if (raw.triangles.empty()) source.fail(fmt::format("holds {} vertices but no triangles", count));
+  if (raw.triangles.empty() && raw.polygons.empty())
+    source.fail(fmt::format("holds {} vertices but no triangles", count));
   for (std::size_t v = 0; v < count; ++v) {
     for (const auto& [axis, value] :
          {std::pair{'x', raw.vertices.x[v]}, {'y', raw.vertices.y[v]}, {'z', raw.vertices.z[v]}}) {
@@ -49,7 +51,12 @@ TriMesh checked(RawMesh&& raw, const Source& source) {
   }
   TriMesh mesh{std::move(raw.vertices), {}};
   mesh.triangles.reserve(raw.triangles.size());
-  for (std::size_t t = 0; t < raw.triangles.size(); ++t) {
+  auto polygon = raw.polygons.begin();
+  for (std::size_t t = 0; t <= raw.triangles.size(); ++t) {
+    for (; polygon != raw.polygons.end() && polygon->triangles_before == t; ++polygon)
+      io::append_split(mesh, polygon->corners, static_cast<std::size_t>(polygon - raw.polygons.begin()) + t,
+                       source);
+    if (t == raw.triangles.size()) break;
     auto& triangle = mesh.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       const auto v = raw.triangles[t][k];
@@ -92,10 +99,12 @@ MeshFormat mesh_format_of(const std::filesystem::path& path) {
                               path.string(), path.extension().string()));
 }
 
-MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name) {
-  const Source source{bytes, name};
+MeshFile read_mesh(std::string_view bytes, MeshFormat format, std::string_view name, PolygonRule polygons) {
+  const Source source{bytes, name, polygons};
   if (bytes.empty()) source.fail("the file is empty");
-  MeshFile file{checked(read_raw(source, format), source), 0};
+  RawMesh raw = read_raw(source, format);
+  MeshFile file{.mesh = {}, .split_polygons = raw.polygons.size()};
+  file.mesh = checked(std::move(raw), source);
   if (format == MeshFormat::stl) file.welded_vertices = weld_exactly(file.mesh);
   return file;
 }

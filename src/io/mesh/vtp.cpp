@@ -183,15 +183,12 @@ RawMesh mesh_from(const Piece& piece, const VtkEncoding& encoding,
     for (std::size_t i = 0; i < xyz.size(); i += 3) raw.vertices.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
   }
   if (piece.polygons > 0) {
-    check_are_triangles(read_integers(located(piece.offsets, appended, "Polys offsets", source), encoding,
-                                      piece.polygons, source),
-                        source);
+    const auto ends = read_integers(located(piece.offsets, appended, "Polys offsets", source), encoding,
+                                    piece.polygons, source);
+    check_ends(ends, source);
     const auto corners = read_integers(located(piece.connectivity, appended, "Polys connectivity", source),
-                                       encoding, 3 * piece.polygons, source);
-    raw.triangles.reserve(piece.polygons);
-    for (std::size_t i = 0; i < corners.size(); i += 3) {
-      raw.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
-    }
+                                       encoding, static_cast<std::uint64_t>(ends.back()), source);
+    append_cells(raw, corners, ends, source);
   }
   return raw;
 }

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "condyle/error.hpp"
@@ -13,7 +14,9 @@
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/load_joint.hpp"
+#include "io/mesh/parse.hpp"
 #include "io/model/joint_mapping.hpp"
+#include "io/model/model_joint_file.hpp"
 #include "io/model/spatial_transform.hpp"
 #include "io/model/welded_bodies.hpp"
 
@@ -75,6 +78,7 @@ class ModelJointFile {
   }
 
   ModelJointProposal proposal() {
+    require_finite();
     write_head();
     write_body("fixed", joint_.parent_body, fixed_, std::nullopt);
     write_body("mobile", joint_.child_body, mobile_,
@@ -132,10 +136,28 @@ class ModelJointFile {
     return meshes.emplace_back(NamedMesh{name, mesh});
   }
 
+  /// A joint file holds finite numbers only, and lengths of it are computed in mm.
+  void require_finite() const {
+    constexpr double largest = 1e6;  // m
+    bool holds = mapping_.X_WF.matrix().cwiseAbs().maxCoeff() < largest;
+    const Pose X = pose_of(joint_, std::vector<double>(joint_.coordinates.size()));
+    holds &= X.matrix().cwiseAbs().maxCoeff() < largest;
+    for (const ColumnOfCoordinate& column : mapping_.columns)
+      holds &= std::abs(column.offset) < 1000 * largest && std::abs(*column.otherwise) < 1000 * largest;
+    for (const auto* meshes : {&fixed_, &mobile_})
+      for (const NamedMesh& named : *meshes)
+        holds &= named.mesh.X_BG.matrix().cwiseAbs().maxCoeff() < largest &&
+                 named.mesh.scale.cwiseAbs().maxCoeff() < largest;
+    if (!holds)
+      throw FileError(fmt::format("{}: line {}: joint {}: its numbers are beyond {:g} m, or make such",
+                                  model_.path.string(), joint_.line, in_quotes(joint_.name), largest));
+  }
+
   void write_head() {
     add(fmt::format("# Proposed by condyle init {} from joint {} of {}, a model of OpenSim (version {}).",
                     version, joint_.name, path_of(model_.path), model_.version));
-    add("# Lengths are metres and frames are those of the model's bodies.");
+    add("# Lengths are metres and frames are those of the model's bodies. OpenSim's meshes have polygons: "
+        "they are split.");
     add(fmt::format("condyle = {}", format_version));
     add("name = " +
         toml_string(fmt::format("{} of {}", joint_.name, model_.name.empty() ? "a model" : model_.name)));
@@ -154,6 +176,7 @@ class ModelJointFile {
   void write_mesh(const NamedMesh& named, bool has_name) {
     if (has_name) add("name = " + toml_string(named.name));
     add("mesh = " + toml_string(named.mesh.path ? path_of(*named.mesh.path) : named.mesh.file));
+    if (!lower_case(named.mesh.file).ends_with(".stl")) add("polygons = \"split\"");
     if (named.mesh.scale != Vec3::Ones()) add("scale = " + toml_numbers(named.mesh.scale));
     if (!named.mesh.X_BG.matrix().isIdentity(0)) add("pose = " + toml_pose(named.mesh.X_BG));
     if (named.mesh.scale.prod() < 0)
@@ -388,17 +411,20 @@ ModelJointProposal propose_joint(const Model& model, const ModelJointRequest& re
   return io::ModelJointFile(model, request).proposal();
 }
 
-LoadedJoint read_joint(const Model& model, const ModelJointRequest& request) {
-  ModelJointRequest beside = request;
-  beside.joint_file = model.path;
-  ModelJointProposal proposed = propose_joint(model, beside);
+JointFile io::joint_file_of(const Model& model, ModelJointRequest request) {
+  request.joint_file = model.path;
+  ModelJointProposal proposed = propose_joint(model, request);
   if (!proposed.missing_body.empty()) throw FileError(proposed.missing_body);
   if (!proposed.proposal.to_fill_in.empty())
     throw FileError(fmt::format("{}: {}", model.path.string(), proposed.proposal.to_fill_in.front()));
-  JointFile file = io::joint_file_of(proposed.proposal.toml, model.path);
+  JointFile file = joint_file_of(proposed.proposal.toml, model.path);
   file.digest = model.digest;
   file.processing.insert(file.processing.begin(), proposed.notes.begin(), proposed.notes.end());
-  return io::load_joint(std::move(file));
+  return file;
+}
+
+LoadedJoint read_joint(const Model& model, const ModelJointRequest& request) {
+  return io::load_joint(io::joint_file_of(model, request));
 }
 
 }  // namespace condyle

@@ -315,15 +315,19 @@ void check_length_units(const XmlElement& model, const Source& source) {
 
 Model read_model(const std::filesystem::path& path, std::span<const std::filesystem::path> geometry_folders) {
   io::check_is_file(path);
-  const std::string name = path.string();
   std::error_code ignored;
   if (std::filesystem::file_size(path, ignored) > io::largest_file)
-    throw FileError(fmt::format("{}: larger than {} MB", name, io::largest_file / 1'000'000));
-  std::string bytes = io::read_whole_file(path);
+    throw FileError(fmt::format("{}: larger than {} MB", path.string(), io::largest_file / 1'000'000));
+  return read_model(io::read_whole_file(path), path, geometry_folders);
+}
+
+Model read_model(std::string_view bytes, const std::filesystem::path& path,
+                 std::span<const std::filesystem::path> geometry_folders) {
+  const std::string name = path.string();
   Model model{.path = path, .digest = digest_of(bytes)};
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  const bool has_mark = bytes.starts_with(byte_order_mark);
-  const io::Source source{std::string_view(bytes).substr(has_mark ? byte_order_mark.size() : 0), name};
+  if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
+  const io::Source source{bytes, name};
   const io::XmlElement root = io::xml_tree(source);
   if (root.name != "OpenSimDocument")
     source.fail(

@@ -51,6 +51,7 @@ void add_mesh(Json& json, const BodyMeshReport& report) {
   json["vertices"] = report.vertices;
   json["triangles"] = report.triangles;
   json["welded_vertices"] = report.welded_vertices;
+  json["split_polygons"] = report.split_polygons;
   json["repairs"] = std::move(repairs);
 }
 

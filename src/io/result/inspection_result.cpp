@@ -77,6 +77,8 @@ void append(std::string& out, const MeshInspection& mesh) {
   out += fmt::format("{}\n  {} vertices, {} triangles, {}\n", io::plain_text(mesh.path.string()), r.vertices,
                      r.triangles, r.is_closed() ? "closed" : "not closed");
   if (mesh.welded_vertices > 0) out += fmt::format("  merged {} duplicate vertices\n", mesh.welded_vertices);
+  if (mesh.split_polygons > 0)
+    out += fmt::format("  split {} polygons into triangles\n", mesh.split_polygons);
   for (const RepairDone& done : mesh.repairs) out += fmt::format("  repair {}\n", condyle::describe(done));
   out += fmt::format("  {} component{}\n", r.components.size(), r.components.size() == 1 ? "" : "s");
   for (std::size_t i = 0; i < std::min(r.components.size(), components_listed); ++i)
@@ -110,7 +112,8 @@ Json json_of(const MeshInspection& mesh) {
            {"vertices", r.vertices},
            {"triangles", r.triangles},
            {"closed", r.is_closed()},
-           {"welded_vertices", mesh.welded_vertices}};
+           {"welded_vertices", mesh.welded_vertices},
+           {"split_polygons", mesh.split_polygons}};
   out["repairs"] = Json::array();
   for (const RepairDone& done : mesh.repairs)
     out["repairs"].push_back({{"repair", name_of(done.repair)}, {"count", done.count}});
@@ -133,12 +136,13 @@ Json json_of(const MeshInspection& mesh) {
 
 }  // namespace
 
-InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs) {
+InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs,
+                           PolygonRule polygons) {
   io::check_is_file(path);
   const MeshFormat format = mesh_format_of(path);
   const std::string bytes = io::read_whole_file(path);
-  MeshFile file = read_mesh(bytes, format, path.string());
-  MeshInspection inspection{path, digest_of(bytes), file.welded_vertices, {}, {}};
+  MeshFile file = read_mesh(bytes, format, path.string(), polygons);
+  MeshInspection inspection{path, digest_of(bytes), file.welded_vertices, file.split_polygons, {}, {}};
   try {
     inspection.repairs = repair_mesh(file.mesh, repairs);
   } catch (const MeshError& error) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "condyle/inspect.hpp"
+#include "condyle/io/mesh_file.hpp"
 #include "condyle/io/file_digest.hpp"
 
 /// Results of `condyle inspect`. Keys of the JSON are listed in docs/mesh-files.md.
@@ -17,6 +18,7 @@ struct MeshInspection {
   std::filesystem::path path;
   FileDigest digest;
   std::size_t welded_vertices;  ///< duplicate corners of an STL file that were merged
+  std::size_t split_polygons;
   std::vector<RepairDone> repairs;
   MeshReport report;  ///< after the repairs
 };
@@ -28,7 +30,8 @@ struct InspectedMesh {
 
 /// Reads a mesh, makes the repairs in their order and inspects what came of it. Throws FileError, and
 /// MeshError if a repair cannot be made.
-InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs);
+InspectedMesh inspect_file(const std::filesystem::path& path, const std::vector<Repair>& repairs,
+                           PolygonRule polygons = PolygonRule::refuse);
 
 /// For people, and for programs: whole documents that end with a newline. `command`: the command line word by word, without
 /// the program; empty if there is none.

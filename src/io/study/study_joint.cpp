@@ -11,24 +11,27 @@
 #include "io/file/whole_file.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/mesh/parse.hpp"
+#include "io/model/model_joint_file.hpp"
 #include "io/study/json_digest.hpp"
 
 namespace condyle::io {
 namespace {
 
 /// Where a row's joint comes from.
-enum class JointSource { joint_file, meshes, labels, sample };
+enum class JointSource { joint_file, meshes, labels, model, sample };
 
 JointSource source_of(const StudyTable& table, const StudyRow& row) {
   const auto has = [&](std::string_view column) { return !table.field(row, column).empty(); };
   const bool meshes = has("fixed") && has("mobile"), one_mesh = has("fixed") != has("mobile");
-  if (!one_mesh && has("joint") + meshes + has("labels") + has("sample") == 1)
-    return has("joint")    ? JointSource::joint_file
-           : meshes        ? JointSource::meshes
-           : has("labels") ? JointSource::labels
-                           : JointSource::sample;
+  if (!one_mesh && has("joint") + meshes + has("labels") + has("opensim_model") + has("sample") == 1)
+    return has("joint")           ? JointSource::joint_file
+           : meshes               ? JointSource::meshes
+           : has("labels")        ? JointSource::labels
+           : has("opensim_model") ? JointSource::model
+                                  : JointSource::sample;
   throw FileError(fmt::format(
-      "{}: line {}: a row needs joint, or fixed and mobile, or labels, or sample, and only one of them",
+      "{}: line {}: a row needs joint, or fixed and mobile, or labels, or opensim_model, or sample, and "
+      "only one of them",
       table.path.string(), row.line));
 }
 
@@ -159,6 +162,21 @@ StudyJoint segmented(const StudyTable& table, const StudyRow& row) {
   }
 }
 
+/// The joint file that condyle init proposes for a joint of a model.
+JointFile of_model(const StudyTable& table, const StudyRow& row) {
+  const std::filesystem::path path = file_in(table, row, "opensim_model");
+  ModelJointRequest request{.joint = std::string(table.field(row, "opensim_joint")), .joint_file = {}};
+  if (request.joint.empty())
+    throw FileError(
+        fmt::format("{}: a joint is needed beside opensim_model", table.place(row, "opensim_joint")));
+  if (!table.field(row, "side").empty()) request.side = side_of(table, row);
+  try {
+    return joint_file_of(read_model(path), request);
+  } catch (const UsageError& error) {
+    throw FileError(fmt::format("{}: line {}: {}", table.path.string(), row.line, error.what()));
+  }
+}
+
 std::string sha256_of(const StudyRow& row, const std::vector<std::string>& files) {
   return io::sha256_of(nlohmann::json{row.fields, files});
 }
@@ -200,6 +218,8 @@ StudyJoint load_joint(const StudyTable& table, const StudyRow& row) {
     }
     case JointSource::labels:
       return segmented(table, row);
+    case JointSource::model:
+      return {load_joint(of_model(table, row))};
     case JointSource::sample:
       break;
   }
@@ -217,7 +237,7 @@ bool is_sample(const StudyTable& table, const StudyRow& row) {
 
 std::vector<std::filesystem::path> files_of(const StudyTable& table, const StudyRow& row) {
   std::vector<std::filesystem::path> files;
-  for (const std::string_view column : {"joint", "fixed", "mobile", "labels"})
+  for (const std::string_view column : {"joint", "fixed", "mobile", "labels", "opensim_model"})
     if (!table.field(row, column).empty()) files.push_back(path_in(table, row, column));
   if (table.field(row, "joint").empty()) return files;
   try {
@@ -242,6 +262,10 @@ std::string inputs_sha256(const StudyTable& table, const StudyRow& row) {
     const JointSource source = source_of(table, row);
     if (source == JointSource::meshes) add_files(described(table, row), files);
     if (source == JointSource::labels) files.assign(2, sha256_of_file(path_in(table, row, "labels")));
+    if (source == JointSource::model) {
+      files.push_back(sha256_of_file(path_in(table, row, "opensim_model")));
+      add_files(of_model(table, row), files);
+    }
     if (source == JointSource::joint_file) {
       files.push_back(sha256_of_file(path_in(table, row, "joint")));
       add_files(read_joint_file(path_in(table, row, "joint")), files);

@@ -23,9 +23,9 @@ namespace condyle::io {
 namespace {
 
 /// Columns that give the source of a joint; not carried.
-constexpr std::string_view source_columns[] = {"id",     "joint",       "fixed",        "mobile",
-                                               "side",   "units",       "axes",         "sample",
-                                               "labels", "fixed_label", "mobile_label", "task"};
+constexpr std::string_view source_columns[] = {
+    "id",     "joint",  "fixed",       "mobile",       "side", "units",         "axes",
+    "sample", "labels", "fixed_label", "mobile_label", "task", "opensim_model", "opensim_joint"};
 
 bool is_source(std::string_view name) {
   return std::find(std::begin(source_columns), std::end(source_columns), name) != std::end(source_columns);
@@ -41,13 +41,16 @@ std::vector<std::string> missing_columns(const StudyTable& table) {
     for (const std::string_view name : more)
       if (!has(name)) names.emplace_back(name);
   };
-  const bool of_samples = has("sample"), of_meshes = has("fixed") || has("mobile"), of_labels = has("labels");
-  if (of_samples || of_meshes || of_labels) add({"side"});
+  const bool of_samples = has("sample"), of_meshes = has("fixed") || has("mobile"), of_labels = has("labels"),
+             of_models = has("opensim_model");
+  if (of_samples || of_meshes || of_labels || of_models) add({"side"});
+  if (of_models) add({"opensim_joint"});
   if (of_labels) add({"fixed_label", "mobile_label", "task"});
   if (of_meshes) add({"fixed", "mobile", "units", "axes"});
   if (of_samples)
     for (const HipMeasure& measure : hip_measures()) add({measure.name});
-  if (!of_samples && !of_meshes && !of_labels) add({"joint", "fixed", "mobile", "labels", "sample"});
+  if (!of_samples && !of_meshes && !of_labels && !of_models)
+    add({"joint", "fixed", "mobile", "labels", "opensim_model", "sample"});
   return names;
 }
 
