@@ -28,6 +28,9 @@ inline constexpr double farthest_head_centre_mm = 5;
 /// its bone, they belong to it too, and the head is the sphere found on them. A vertex or an edge is bearing when all its
 /// triangles are.
 ///
+/// The socket of a shoulder does not close round its head, and other surface of the scapula is near: the margin ends before
+/// that too, wherever a rotation about the joint centre brings the head. What touches is then in the socket as well.
+///
 ///        ____
 ///      /  M   .   .  rim: farther out than the head's radius and the margin,
 ///     |   head .---+----  so what touches within touches inside the socket
@@ -39,6 +42,9 @@ struct BearingSurface {
   double margin_mm = 0;                 ///< as used
   std::vector<std::string> parts = {};  ///< the meshes called bearing
   std::optional<double> rim_gap_mm;     ///< between head and rim; empty if no rim was found
+  /// Of a shoulder: between the head, wherever a rotation brings it, and what lies beside its socket, as an acromion does. Below 0
+  /// if the two can meet; empty for hips.
+  std::optional<double> beside_gap_mm = {};
   std::optional<Sphere> socket;         ///< in F, fitted; empty if the fixed body has no spherical socket
   std::vector<std::uint8_t> triangles;  ///< of the mobile mesh: 1 for bearing
 
@@ -55,24 +61,29 @@ enum class BearingRule : std::uint8_t {
 struct BearingOptions {
   BearingRule rule = BearingRule::leave_out;
   /// How far outside the head's sphere the bearing surface reaches, mm, 0 or more; default: the smaller of
-  /// usual_bearing_margin_mm and the gap at the rim less rim_reserve_mm. If meshes are called bearing, nothing is taken off
-  /// the gap, and the margin is at least 0: the bone under a cartilage is within its sphere.
+  /// usual_bearing_margin_mm and the gaps at the rim and, of a shoulder, beside its socket less rim_reserve_mm. If meshes are
+  /// called bearing, nothing is taken off the gaps, and the margin is at least 0: the bone under a cartilage is within its
+  /// sphere.
   std::optional<double> margin_mm = {};
   /// As found before, of the same mobile mesh; else it is found, which costs more than the rest of making a joint
   /// ready.
   std::optional<BearingSurface> surface = {};
 };
 
-/// A margin that the gap at the rim limits; below 0 if the gap is smaller than rim_reserve_mm.
+/// What limits a margin.
+enum class MarginLimit : std::uint8_t { rim, beside_socket };
+
+/// A margin that the gap at the rim limits, or that beside the socket; below 0 if the gap is smaller than rim_reserve_mm.
 struct NarrowMargin {
-  double rim_gap_mm, margin_mm;
+  double gap_mm, margin_mm;
+  MarginLimit by = MarginLimit::rim;
 };
 
 /// The bearing surface of a joint, or one sentence with the reason why none can be inferred.
 struct BearingFinding {
   std::optional<BearingSurface> surface = {};
   std::string why_none = {};
-  /// If the gap at the rim makes the usual margin smaller than narrow_bearing_margin_mm.
+  /// If a gap makes the usual margin smaller than narrow_bearing_margin_mm.
   std::optional<NarrowMargin> narrow_margin = {};
 
   /// Faces that close the bones where their images end: contact on them is not contact of bones.
@@ -83,9 +94,9 @@ struct BearingFinding {
   ContactKind kind_of(const TriMesh& mobile, const ContactWitness& contact) const noexcept;
 };
 
-/// Searches for the head around the joint centre. None for a hinge, if no head is found, if its centre is farther
-/// than farthest_head_centre_mm from the joint centre, if the joint space leaves no margin, and if the whole mobile
-/// body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
+/// Searches for the head of a hip or shoulder around the joint centre. None for other joints (Joint::has_head()), if no head is
+/// found, if its centre is farther than farthest_head_centre_mm from the joint centre, if the joint space or what lies beside a
+/// shoulder's socket leaves no margin, and if the whole mobile body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
 ///
 /// Some milliseconds per 10,000 triangles: both bodies are searched for spheres, once, which are kept with their meshes.
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});

@@ -76,7 +76,11 @@ struct Joint {
   CoordinateSystem coordinates() const noexcept { return {anatomy, side}; }
   /// False of a hinge that flexes forwards and is no joint in particular.
   bool names_its_joint() const noexcept { return anatomy != Anatomy::hip || kind != JointKind::hinge; }
-  /// Whether the joint has a head in a socket, for everything inferred from those.
+  /// Whether a head slides in a socket: only there bearing contact is distinguished from impingement.
+  bool has_head() const noexcept {
+    return kind != JointKind::hinge && (anatomy == Anatomy::hip || anatomy == Anatomy::shoulder);
+  }
+  /// Whether its socket is a hip's, for everything inferred from that: clock faces, normal ranges, the checks of its axes.
   bool is_hip() const noexcept { return anatomy == Anatomy::hip && names_its_joint(); }
 };
 

@@ -111,6 +111,7 @@ py::object bearing_of(const RangeHandle& handle) {
   dict["margin_mm"] = surface->margin_mm;
   dict["parts"] = surface->parts;
   dict["rim_gap_mm"] = surface->rim_gap_mm;
+  dict["beside_gap_mm"] = surface->beside_gap_mm;
   dict["triangles"] = array_of(std::vector<std::uint8_t>(surface->triangles));
   return dict;
 }

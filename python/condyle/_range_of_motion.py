@@ -37,6 +37,7 @@ class Bearing(TypedDict):
     margin_mm: Optional[float]
     parts: Sequence[str]
     rim_gap_mm: Optional[float]
+    beside_gap_mm: Optional[float]
     triangles: NDArray[np.uint8]
 
 
@@ -231,7 +232,8 @@ class RangeOfMotion:
 
     @property
     def bearing(self) -> Optional[Bearing]:
-        """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `rim_gap_mm`, `triangles` (T,) uint8.
+        """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `rim_gap_mm`, of a shoulder `beside_gap_mm` (what
+        an acromion leaves of the head's way), `triangles` (T,) uint8.
 
         Told by `margin_mm` around the head; or by `parts`, names of meshes that are called bearing, and then the margin
         is None.

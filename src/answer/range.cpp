@@ -26,7 +26,9 @@ std::vector<MotionLimit> limits_of(const RangeOfMotion& range, std::span<const M
 
 ClockFace clock_of(const Joint& joint, ClockPlane plane, const BearingFinding& bearing) {
   if (plane == ClockPlane::sagittal) return sagittal_clock();
-  const auto clock = bearing.surface ? find_rim_clock(joint.fixed.mesh, bearing.surface->head) : std::nullopt;
+  const auto clock = bearing.surface && joint.is_hip()
+                         ? find_rim_clock(joint.fixed.mesh, bearing.surface->head)
+                         : std::nullopt;
   if (!clock)
     throw MeshError(joint.fixed.name + ": no rim with a notch was found: there is only the sagittal clock");
   return *clock;

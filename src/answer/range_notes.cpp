@@ -71,6 +71,51 @@ void note_cuts(const Joint& joint, std::span<const MotionLimit> limits, std::vec
   }
 }
 
+std::string_view with_article(const Joint& joint) noexcept {
+  if (!joint.names_its_joint()) return "a hinge";
+  switch (joint.anatomy) {
+    case Anatomy::knee:
+      return "a knee";
+    case Anatomy::ankle:
+      return "an ankle";
+    case Anatomy::elbow:
+      return "an elbow";
+    case Anatomy::hip:
+      return "a hip";
+    case Anatomy::shoulder:
+      break;
+  }
+  return "a shoulder";
+}
+
+/// Where nothing tells bearing contact from impingement because there is no head, and surfaces ended a motion.
+void note_sliding(const Joint& joint, std::span<const MotionLimit> limits, std::vector<RangeNote>& notes) {
+  const bool any_contact = std::any_of(limits.begin(), limits.end(), [](const MotionLimit& limit) {
+    return limit.end.reason != LimitReason::end_of_range;
+  });
+  if (joint.has_head() || !any_contact) return;
+  notes.push_back(
+      {RangeNoteCode::sliding_surfaces,
+       "the surfaces of " + std::string(with_article(joint)) +
+           " slide on each other by nature, and a motion ends where the meshes first touch, sliding "
+           "contact included: limits are lower bounds of how far the joint turns, unless the space of "
+           "its cartilage is among the meshes"});
+}
+
+void note_narrow_margin(const Joint& joint, const NarrowMargin& narrow, std::vector<RangeNote>& notes) {
+  const bool is_rim = narrow.by == MarginLimit::rim;
+  std::string text = is_rim
+                         ? formatted("head and rim are only %.2f mm apart: ", narrow.gap_mm)
+                         : joint.fixed.name + formatted(" leaves the head only %.2f mm beside its socket: ",
+                                                        std::max(0.0, narrow.gap_mm));
+  text += formatted(
+      "contact counts as bearing within %.2f mm of the head only, and contact inside the socket may be "
+      "called "
+      "impingement",
+      std::max(0.0, narrow.margin_mm));
+  notes.push_back({RangeNoteCode::narrow_bearing_margin, std::move(text)});
+}
+
 }  // namespace
 
 std::string_view name_of(RangeNoteCode code) noexcept {
@@ -81,6 +126,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "narrow_bearing_margin";
     case RangeNoteCode::limit_on_cut:
       return "limit_on_cut";
+    case RangeNoteCode::sliding_surfaces:
+      return "sliding_surfaces";
   }
   return "";
 }
@@ -91,14 +138,11 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLim
   note_cuts(joint, limits, notes);
   std::vector<Motion> motions;
   for (const MotionLimit& limit : limits) motions.push_back(limit.motion);
-  if (bearing.surface) note_centres(joint, motions, range, *bearing.surface, notes);
+  // A shallow socket is wider than its head and has another centre by nature, about which nothing turns.
+  if (bearing.surface && joint.is_hip()) note_centres(joint, motions, range, *bearing.surface, notes);
   if (range.bearing.rule == BearingRule::leave_out && bearing.narrow_margin)
-    notes.push_back(
-        {RangeNoteCode::narrow_bearing_margin,
-         formatted(
-             "head and rim are only %.2f mm apart: contact counts as bearing within %.2f mm of the head "
-             "only, and contact inside the socket may be called impingement",
-             bearing.narrow_margin->rim_gap_mm, std::max(0.0, bearing.narrow_margin->margin_mm))});
+    note_narrow_margin(joint, *bearing.narrow_margin, notes);
+  note_sliding(joint, limits, notes);
   return notes;
 }
 

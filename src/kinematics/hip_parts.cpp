@@ -30,6 +30,7 @@ struct KeptParts {
   core::Lazy<std::optional<SphericalPatch>> fitted_head, head_near_centre, head_anywhere;
   core::LatestFew<HeadKey, std::optional<SphericalPatch>, heads_kept> sockets;
   core::LatestFew<HeadKey, std::optional<SocketRim>, heads_kept> rims;
+  core::LatestFew<HeadKey, std::optional<ShallowSocket>, heads_kept> shallow_sockets;
 };
 
 const KeptParts& kept_with(const Mesh& mesh) {
@@ -76,6 +77,12 @@ std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& f
 std::shared_ptr<const std::optional<SocketRim>> rim_around(const Mesh& fixed, const Sphere& head) {
   return kept_with(fixed).rims.get(key_of(head),
                                    [&](std::optional<SocketRim>& rim) { rim = socket_rim(fixed, head); });
+}
+
+std::shared_ptr<const std::optional<ShallowSocket>> shallow_socket_around(const Mesh& fixed,
+                                                                          const Sphere& head) {
+  return kept_with(fixed).shallow_sockets.get(
+      key_of(head), [&](std::optional<ShallowSocket>& socket) { socket = find_shallow_socket(fixed, head); });
 }
 
 }  // namespace condyle::kinematics

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "condyle/fit.hpp"
+#include "kinematics/shallow_socket.hpp"
 #include "kinematics/socket_rim.hpp"
 
-/// Head, socket and rim of a joint, each found when it is first needed and kept with the mesh it is on, as a mesh keeps its
+/// Head, socket and rim of a hip or shoulder, each found when it is first needed and kept with the mesh it is on, as a mesh keeps its
 /// edges: checks, bearing surfaces, zones and clocks share them. From any thread.
 
 namespace condyle::kinematics {
@@ -25,5 +26,8 @@ const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile);
 /// sphere_around(), into which the head may not fit, and socket_rim(); for the latest few heads.
 std::shared_ptr<const std::optional<SphericalPatch>> socket_around(const Mesh& fixed, const Sphere& head);
 std::shared_ptr<const std::optional<SocketRim>> rim_around(const Mesh& fixed, const Sphere& head);
+/// find_shallow_socket(), likewise.
+std::shared_ptr<const std::optional<ShallowSocket>> shallow_socket_around(const Mesh& fixed,
+                                                                          const Sphere& head);
 
 }  // namespace condyle::kinematics

@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
 #include "motion/joint_scenes.hpp"
+#include "support/parametric_shoulder.hpp"
 #include "support/test_meshes.hpp"
 
 /// One answer for every shell: limits as their own functions give them, with the notes that they must be read with.
@@ -101,6 +103,57 @@ TEST(RangeNotes, SayThatANarrowGapLeavesLittleMargin) {
   EXPECT_EQ(notes_at(22.7), narrow);  // no margin at all
   EXPECT_EQ(notes_at(21.6, {.margin_mm = 1.0}), none) << "the margin is stated";
   EXPECT_EQ(notes_at(21.6, {.rule = BearingRule::count}), none) << "any contact counts";
+}
+
+TEST(RangeNotes, SayThatSurfacesSlideByNatureWhereNoHeadTellsContactApart) {
+  const auto notes_of = [](JointKind kind, Anatomy anatomy, double range_deg) {
+    Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
+    joint.kind = kind, joint.anatomy = anatomy;
+    Motion forwards = hip_motions().front();
+    forwards.range = Angle::degrees(range_deg);
+    return answered(joint, {.motions = {forwards}}).notes;
+  };
+  for (const auto& [kind, anatomy, name] : {std::tuple(JointKind::ball, Anatomy::elbow, "an elbow"),
+                                            {JointKind::free, Anatomy::ankle, "an ankle"},
+                                            {JointKind::hinge, Anatomy::elbow, "an elbow"},
+                                            {JointKind::hinge, Anatomy::hip, "a hinge"}}) {
+    const auto notes = notes_of(kind, anatomy, 120);
+    ASSERT_EQ(codes(notes), std::vector<std::string>{"sliding_surfaces"}) << name;
+    EXPECT_EQ(
+        notes.front().text.find("the surfaces of " + std::string(name) + " slide on each other by nature"),
+        0u)
+        << notes.front().text;
+    EXPECT_TRUE(notes_of(kind, anatomy, 1).empty()) << "nothing touched";
+  }
+  EXPECT_TRUE(notes_of(JointKind::ball, Anatomy::hip, 120).empty());
+  EXPECT_TRUE(notes_of(JointKind::ball, Anatomy::shoulder, 120).empty());
+}
+
+TEST(RangeNotes, OfAShoulderSayWhatLeavesLittleMargin) {
+  ParametricShoulder shape;
+  shape.acromion_y = 25.2;
+  const Motion abduction = motion_named(built_in_motions(JointKind::ball, Anatomy::shoulder), "abduction");
+  const auto notes = answered(shoulder(shape), {.motions = {abduction}}).notes;
+  ASSERT_EQ(codes(notes), std::vector<std::string>{"narrow_bearing_margin"});
+  EXPECT_EQ(
+      notes.front().text.find("scapula leaves the head only 1.20 mm beside its socket: contact counts as "
+                              "bearing within 0.70 mm of the head only"),
+      0u)
+      << notes.front().text;
+}
+
+TEST(RangeNotes, DoNotTurnAShoulderAboutItsGlenoidsCentre) {
+  // A dish of 30 mm whose middle is 2 mm from the ball has its centre 4 mm off.
+  Joint joint = shoulder({});
+  TriMesh slab = slab_with_dish(30);
+  for (double& z : slab.vertices.z) z += 4;
+  joint.fixed.mesh = joined(slab, box({-15, 34, -10}, {15, 40, 30}));
+  const Motion abduction = motion_named(built_in_motions(JointKind::ball, Anatomy::shoulder), "abduction");
+  const RangeAnswer answer = answered(joint, {.motions = {abduction}});
+  ASSERT_TRUE(answer.bearing.surface && answer.bearing.surface->socket);
+  EXPECT_NEAR(answer.bearing.surface->socket->centre.z(), 4, 1e-8);
+  EXPECT_TRUE(answer.notes.empty());
+  EXPECT_NEAR(answer.limits.front().end.turned.radians(), shaft_limit({}), 5e-12);
 }
 
 TEST(AnswerRange, GivesWhatItsPartsGive) {

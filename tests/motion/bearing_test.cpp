@@ -136,12 +136,14 @@ TEST(BearingSurface, IsNotInvented) {
   Joint joint = head_and_post_joint({0, -6, 0});
   EXPECT_NE(why_none(joint).find("6.0 mm from the joint centre"), std::string::npos) << why_none(joint);
   joint = head_and_post_joint(Vec3::Zero());
-  const std::string not_of_a_hip = "bearing contact is not told apart in this joint";
-  joint.kind = JointKind::hinge;
-  EXPECT_EQ(why_none(joint), not_of_a_hip);
+  const std::string not_of_a_head = "bearing contact is not told apart in this joint";
+  for (const Anatomy other : {Anatomy::knee, Anatomy::ankle, Anatomy::elbow}) {
+    joint.anatomy = other;
+    EXPECT_EQ(why_none(joint), not_of_a_head);
+  }
   joint = head_and_post_joint(Vec3::Zero());
-  joint.anatomy = Anatomy::shoulder;
-  EXPECT_EQ(why_none(joint), not_of_a_hip);
+  joint.kind = JointKind::hinge;
+  EXPECT_EQ(why_none(joint), not_of_a_head);
   EXPECT_NE(why_none(post_joint(JointAngle::flexion, Side::right).joint).find("no head"), std::string::npos);
   joint = head_and_post_joint(Vec3::Zero());
   joint.mobile.mesh = sphere({0, 0, 0}, 22.7, 4);

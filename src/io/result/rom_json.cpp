@@ -107,6 +107,7 @@ Json bearing_json(const RomResult& result) {
   json["parts"] = surface->parts;
   json["margin_mm"] = surface->margin_mm;
   json["rim_gap_mm"] = io::nullable(surface->rim_gap_mm);
+  if (surface->beside_gap_mm) json["beside_gap_mm"] = *surface->beside_gap_mm;
   json["triangles"] = surface->count();
   return json;
 }

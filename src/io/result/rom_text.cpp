@@ -71,11 +71,15 @@ std::string bearing_text(const RomResult& result) {
                                  ? within
                                  : fmt::format("{}, as the joint file says, and what lies {}",
                                                fmt::join(surface->parts, " and "), within);
+  const std::string beside =
+      surface->beside_gap_mm && *surface->beside_gap_mm < usual_bearing_margin_mm + rim_reserve_mm
+          ? fmt::format(", {} {:.2f} mm beside its socket", result.joint.fixed.name, *surface->beside_gap_mm)
+          : "";
   return fmt::format(
       "  bearing surface: {} of {} triangles of {}, {}\n"
-      "    ({} {:.2f} mm{}); contact on it {}\n",
+      "    ({} {:.2f} mm{}{}); contact on it {}\n",
       surface->count(), surface->triangles.size(), result.joint.mobile.name, extent,
-      surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim,
+      surface->parts.empty() ? "radius" : "its sphere has radius", surface->head.radius, rim, beside,
       result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "condyle/error.hpp"
@@ -40,6 +41,51 @@ TriMesh marked_part(const TriMesh& mesh, const std::vector<std::uint8_t>& marks)
   for (std::size_t t = 0; t < marks.size(); ++t)
     if (marks[t]) part.triangles.push_back(mesh.triangles[t]);
   return part;
+}
+
+/// The socket round the head, and the gaps that limit a margin.
+void find_socket(const Joint& joint, BearingSurface& surface) {
+  const Sphere& head = surface.head;
+  if (joint.is_hip()) {
+    if (const auto socket = kinematics::socket_around(joint.fixed.mesh, head);
+        *socket && kinematics::fits_into(head, **socket))
+      surface.socket = (*socket)->fit.sphere;
+    if (const auto rim = kinematics::rim_around(joint.fixed.mesh, head); *rim)
+      surface.rim_gap_mm = (*rim)->gap_mm;
+    return;
+  }
+  const auto socket = kinematics::shallow_socket_around(joint.fixed.mesh, head);
+  if (*socket) {
+    surface.rim_gap_mm = (*socket)->rim_gap_mm;
+    if (const auto& sphere = (*socket)->sphere; sphere && kinematics::is_socket_of(head, *sphere))
+      surface.socket = sphere->fit.sphere;
+  }
+  // No rotation about the joint centre brings a point of the head farther from it than this.
+  const double farthest = head.radius + head.centre.norm();
+  const double beside = kinematics::nearest_beside(joint.fixed.mesh, head, *socket) - farthest;
+  if (std::isfinite(beside)) surface.beside_gap_mm = beside;
+}
+
+struct LimitingGap {
+  double gap_mm;
+  MarginLimit by;
+};
+
+/// Infinite if nothing limits the margin.
+LimitingGap narrowest_gap(const BearingSurface& surface) {
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const double rim = surface.rim_gap_mm.value_or(none), beside = surface.beside_gap_mm.value_or(none);
+  return beside < rim ? LimitingGap{beside, MarginLimit::beside_socket} : LimitingGap{rim, MarginLimit::rim};
+}
+
+std::string no_margin(const Joint& joint, double gap_mm, MarginLimit by) {
+  if (by == MarginLimit::rim)
+    return core::formatted("head and rim are only %.2f mm apart: no margin to tell bearing surfaces by",
+                           gap_mm);
+  return joint.fixed.name +
+         core::formatted(
+             " leaves the head only %.2f mm beside its socket: no margin to tell bearing surfaces by",
+             std::max(gap_mm, 0.0));
 }
 
 }  // namespace
@@ -82,7 +128,7 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   };
   if (options.margin_mm && !(*options.margin_mm >= 0 && std::isfinite(*options.margin_mm)))
     throw UsageError("bearing margin: must be 0 mm or more");
-  if (!joint.is_hip()) return none("bearing contact is not told apart in this joint");
+  if (!joint.has_head()) return none("bearing contact is not told apart in this joint");
   const TriMesh& mobile = joint.mobile.mesh;
   if (options.surface) {
     if (options.surface->triangles.size() != mobile.triangles.size())
@@ -106,22 +152,16 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
         core::formatted(": the sphere found as its head has its centre %.1f mm from the joint centre, "
                         "more than %g",
                         off, farthest_head_centre_mm));
-  if (const auto socket = kinematics::socket_around(joint.fixed.mesh, surface.head);
-      *socket && kinematics::fits_into(surface.head, **socket))
-    surface.socket = (*socket)->fit.sphere;
-  if (const auto rim = kinematics::rim_around(joint.fixed.mesh, surface.head); *rim)
-    surface.rim_gap_mm = (*rim)->gap_mm;
+  find_socket(joint, surface);
   // A bearing cartilage reaches nearly to the rim's, and its own contact is none of impingement: no reserve is kept there.
-  const double reserve = has_parts ? 0 : rim_reserve_mm;
-  surface.margin_mm = options.margin_mm.value_or(std::min(
-      usual_bearing_margin_mm, surface.rim_gap_mm.value_or(usual_bearing_margin_mm + reserve) - reserve));
+  const auto [gap, by] = narrowest_gap(surface);
+  const double room = gap - (has_parts ? 0 : rim_reserve_mm);
+  surface.margin_mm = options.margin_mm.value_or(std::min(usual_bearing_margin_mm, room));
   if (!options.margin_mm && !has_parts && surface.margin_mm < narrow_bearing_margin_mm)
-    found.narrow_margin = {*surface.rim_gap_mm, surface.margin_mm};
-  // Bone under a bearing cartilage is within its sphere, with a margin or without.
-  if (has_parts) surface.margin_mm = std::max(surface.margin_mm, 0.0);
-  if (!(surface.margin_mm >= 0))
-    return none(core::formatted("head and rim are only %.2f mm apart: no margin to tell bearing surfaces by",
-                                *surface.rim_gap_mm));
+    found.narrow_margin = {gap, surface.margin_mm, by};
+  // Bone under a bearing cartilage is within its sphere, with a margin or without; but what meets an acromion is not bearing.
+  if (has_parts && by == MarginLimit::rim) surface.margin_mm = std::max(surface.margin_mm, 0.0);
+  if (!(surface.margin_mm >= 0)) return none(no_margin(joint, gap, by));
   const auto within = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
   if (has_parts)
     for (std::size_t t = 0; t < within.size(); ++t) surface.triangles[t] |= within[t];

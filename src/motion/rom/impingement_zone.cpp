@@ -79,7 +79,7 @@ ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
     throw UsageError("impingement zone: past the limit must be between 0 and 180 degrees");
   std::optional<BearingSurface> bearing = find_bearing_surface(joint, options.bearing).surface;
   std::optional<NeckAxis> neck = options.neck;
-  if (!neck && bearing) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
+  if (!neck && bearing && joint.is_hip()) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
   parts_ = std::make_unique<Parts>(
       Parts{joint.coordinates(), joint.is_hip(), options.past,
             options.socket_clock ? *options.socket_clock : sagittal_clock(), bearing, neck,
