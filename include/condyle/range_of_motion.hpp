@@ -87,11 +87,16 @@ std::vector<Motion> hip_motions();
 ///     knee      flexion 0 to 180, extension, adduction, abduction, internal_rotation, external_rotation
 ///     ankle     dorsiflexion, plantarflexion, inversion, eversion, internal_rotation, external_rotation
 ///     elbow     flexion 0 to 180, extension, varus, valgus, pronation and supination 0 to 180
-///     shoulder  abduction and flexion 0 to 180, extension 0 to 90: elevation in the planes 0, 90 and -90 degrees;
-///               horizontal_flexion and _extension: the plane of elevation from 0 at elevation 90; rotations, and again
-///               _at_90_abduction
+///     shoulder  abduction and flexion 0 to 180, extension 0 to 90: elevation from where the arm hangs, in the planes
+///               0, 90 and -90 degrees with internal rotation held at 0, -90 and 90; horizontal_flexion and _extension:
+///               the plane of elevation from 0 at elevation 90; rotations, and again _at_90_abduction
 ///
-/// A hinge has the two of its first angle, 0 to 180 degrees each. Normal ranges are known here of hips only.
+/// Abduction, flexion and extension of a shoulder are rotations about the X axis and, either way, about the Z axis, and begin
+/// with the identity: the arm is not turned about its own axis on the way. The horizontal motions begin where 90 degrees of
+/// abduction end, and are rotations about the Y axis.
+///
+/// A hinge has the two of its first angle, 0 to 180 degrees each. Normal ranges are known here of hips only: those that are
+/// published of shoulders are of the arm against the trunk, to which the scapula adds.
 std::vector<Motion> built_in_motions(JointKind kind, Anatomy joint);
 
 /// Built-in motions with the user's: one of a known name replaces it in its place, others follow in order.

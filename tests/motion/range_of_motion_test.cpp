@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -296,6 +298,53 @@ TEST(Motions, OfAShoulderElevateInPlanes) {
     const Motion& motion = motion_named(motions, name);
     EXPECT_EQ(motion.vary, JointAngle::adduction);
     EXPECT_EQ(motion.start.flexion, Angle::degrees(plane));
+  }
+}
+
+/// The pose of a shoulder's motion after `turned`.
+Eigen::Matrix3d shoulder_pose(const char* name, Side side, double turned_deg) {
+  const Motion motion = motion_named(built_in_motions(JointKind::ball, Anatomy::shoulder), name);
+  const Angle by = Angle::degrees(turned_deg) * sign_of(motion.sense);
+  return pose_at({Anatomy::shoulder, side}, turned_by(motion.start, motion.vary, by)).linear();
+}
+
+TEST(Motions, OfAShoulderBeginWithTheArmAsItHangs) {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const std::array from_hanging{"abduction", "flexion", "extension", "internal_rotation",
+                                "external_rotation"};
+  const std::array from_abduction{"horizontal_flexion", "horizontal_extension",
+                                  "internal_rotation_at_90_abduction", "external_rotation_at_90_abduction"};
+  for (const Side side : {Side::right, Side::left}) {
+    const double right = side == Side::right ? 1 : -1;
+    for (const char* name : from_hanging)
+      EXPECT_EQ(shoulder_pose(name, side, 0), Eigen::Matrix3d::Identity()) << name;
+    for (const char* name : from_abduction)
+      EXPECT_EQ(shoulder_pose(name, side, 0), shoulder_pose("abduction", side, 90)) << name;
+    // About one axis of the scapula each: the hand goes forwards, backwards, outwards.
+    for (const double turned : {0.0, 20.0, 90.0, 135.0}) {
+      const double rad = Angle::degrees(turned).radians();
+      const auto expect_rotation = [&](const char* name, double sense, const Vec3& axis) {
+        const Eigen::Matrix3d start = shoulder_pose(name, side, 0);
+        const Eigen::Matrix3d expected = Eigen::AngleAxisd(sense * rad, axis) * start;
+        EXPECT_LT((shoulder_pose(name, side, turned) - expected).cwiseAbs().maxCoeff(), 4e-16)
+            << name << ' ' << turned;
+      };
+      expect_rotation("abduction", -right, x);
+      expect_rotation("flexion", 1, z);
+      expect_rotation("extension", -1, z);
+      expect_rotation("internal_rotation", right, y);
+      expect_rotation("external_rotation", -right, y);
+      expect_rotation("horizontal_flexion", right, y);
+      expect_rotation("horizontal_extension", -right, y);
+    }
+    const Vec3 thumb = x, hand = -y;
+    EXPECT_EQ(shoulder_pose("flexion", side, 90) * thumb, y) << "up";
+    EXPECT_EQ(shoulder_pose("flexion", side, 90) * hand, x) << "forwards";
+    EXPECT_EQ(shoulder_pose("extension", side, 90) * hand, -x) << "backwards";
+    EXPECT_EQ(shoulder_pose("abduction", side, 90) * hand, right * z) << "outwards";
+    EXPECT_EQ(shoulder_pose("horizontal_flexion", side, 90) * hand, x) << "forwards";
+    EXPECT_EQ(shoulder_pose("external_rotation_at_90_abduction", side, 90) * thumb, y) << "up";
+    EXPECT_EQ(shoulder_pose("internal_rotation", side, 90) * thumb, -right * z) << "to the midline";
   }
 }
 

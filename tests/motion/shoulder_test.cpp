@@ -80,6 +80,17 @@ TEST(ShoulderLimits, AreThoseOfTheAcromionInClosedForm) {
   }
 }
 
+TEST(ShoulderLimits, InFlexionAndExtensionAreThoseOfTheArmAsItHangs) {
+  ParametricShoulder in_front, behind;
+  in_front.tubercle = Vec3(35, 10, 0), behind.tubercle = Vec3(-35, 10, 0);
+  for (const auto& [shape, name] : {std::pair(in_front, "flexion"), {behind, "extension"}})
+    for (const Joint& joint : {shoulder(shape), mirrored(shoulder(shape))}) {
+      const MotionLimit limit = RangeOfMotion(joint).limit(motion(name));
+      EXPECT_EQ(limit.end.kind(), ContactKind::impingement) << name;
+      EXPECT_NEAR(limit.end.turned.radians(), tubercle_limit(shape, 10, 35), angle_tolerance) << name;
+    }
+}
+
 TEST(ShoulderLimits, AreNoneOfTheGlenoidThatTheHeadSlidesIn) {
   // The ball starts 2 mm lateral of the joint centre, before a dish with a radius of 25 mm. Abduction by e brings its centre to
   // (0, 2 sin e, 2 cos e), and it meets the upper rim, 35 degrees above -Z, where r^2 = R^2 + 2^2 - 2 R 2 cos(145 - e): at 87.

@@ -14,8 +14,8 @@ constexpr auto flexion = JointAngle::flexion, adduction = JointAngle::adduction,
                rotation = JointAngle::internal_rotation;
 constexpr auto positive = RotationSense::positive, negative = RotationSense::negative;
 
-constexpr JointAngles at(double flexion_deg, double adduction_deg = 0) {
-  return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle()};
+constexpr JointAngles at(double flexion_deg, double adduction_deg = 0, double rotation_deg = 0) {
+  return {Angle::degrees(flexion_deg), Angle::degrees(adduction_deg), Angle::degrees(rotation_deg)};
 }
 
 /// Latin letters become small; blanks and hyphens as the names have them.
@@ -59,14 +59,16 @@ std::vector<Motion> with_rotations_at_90_flexion(std::vector<Motion> motions, An
   return motions;
 }
 
-/// Angles are the plane of elevation, the elevation and rotation.
+/// Angles are the plane of elevation, the elevation and rotation. An arm that is lifted in the plane p from where it hangs is
+/// turned by -p about its own axis: R_y(p) R_x(-e) R_y(-p) is the identity at e = 0, and goes on as the rotation by e about
+/// one axis across that plane, X for abduction, Z for flexion.
 std::vector<Motion> shoulder_motions() {
   const auto plane = JointAngle::flexion, elevation = JointAngle::adduction;
   const auto half = Angle::degrees(180), quarter = Angle::degrees(90), third = Angle::degrees(120);
   return {
       {"abduction", elevation, positive, at(0), half},
-      {"flexion", elevation, positive, at(90), half},
-      {"extension", elevation, positive, at(-90), quarter},
+      {"flexion", elevation, positive, at(90, 0, -90), half},
+      {"extension", elevation, positive, at(-90, 0, 90), quarter},
       {"horizontal_flexion", plane, positive, at(0, 90), half},
       {"horizontal_extension", plane, negative, at(0, 90), quarter},
       {"internal_rotation", rotation, positive, at(0), third},
