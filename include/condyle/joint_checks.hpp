@@ -13,18 +13,19 @@
 namespace condyle {
 
 enum class JointNoteCode : std::uint8_t {
-  unlikely_size,             ///< No bone is so large or small.
-  open_mesh,                 ///< It has no inside.
-  inverted_mesh,             ///< Its volume is negative.
-  self_crossings,            ///< Over more than a sliver of its surface.
-  cut_by_view,               ///< It ends where its image ends: what is missing may end a motion earlier.
-  same_mesh,                 ///< Both bodies are one mesh.
-  swapped_bodies,            ///< The head is on the fixed body.
-  unlikely_joint,            ///< A head in a socket, and another joint or a hinge stated.
-  low_coverage,              ///< Little of a sphere or of a turn was there to fit.
-  uncertain_fit,             ///< Parts of the surface give different centres or axes.
-  centre_off_head,           ///< The joint centre is not that of the head.
-  head_socket_apart,         ///< Head and socket have different centres.
+  unlikely_size,      ///< No bone is so large or small.
+  open_mesh,          ///< It has no inside.
+  inverted_mesh,      ///< Its volume is negative.
+  self_crossings,     ///< Over more than a sliver of its surface.
+  cut_by_view,        ///< It ends where its image ends: what is missing may end a motion earlier.
+  same_mesh,          ///< Both bodies are one mesh.
+  swapped_bodies,     ///< The head is on the fixed body.
+  unlikely_joint,     ///< A head in a socket, and another joint or a hinge stated.
+  low_coverage,       ///< Little of a sphere or of a turn was there to fit.
+  uncertain_fit,      ///< Parts of the surface give different centres or axes.
+  far_centre,         ///< The bones of a knee, ankle or elbow are nearest each other far from it.
+  centre_off_head,    ///< The joint centre is not that of the head.
+  head_socket_apart,  ///< Head and socket have different centres, or a humeral head is beside its glenoid.
   socket_smaller_than_head,  ///< By their fitted radii.
   axes_not_upright,          ///< Superior does not point up the bones.
   axes_turned,               ///< Front and side are both exchanged, as where LPS is read as RAS.
@@ -47,8 +48,9 @@ inline constexpr double farthest_from_head_mm = 1;
 inline constexpr double farthest_head_from_socket_mm = 1.5;
 
 /// Looks at a joint as make_joint() placed it. Changes nothing and decides nothing: an answer stays what it is. Checks
-/// that do not apply say nothing: those of anatomy are for hips, known by a ball joint with most of a head on the
-/// mobile body, a shaft beyond it, and a socket round it on the fixed one.
+/// that do not apply say nothing: most of those of anatomy are for hips, known by a ball joint with most of a head on the
+/// mobile body, a shaft beyond it, and a socket round it on the fixed one. Shoulders have those of head and glenoid and
+/// of the side, long bones of other joints those that their shafts allow.
 ///
 ///           hip bone
 ///         |  mass: above and medial     ^ superior

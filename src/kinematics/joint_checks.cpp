@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -10,6 +11,8 @@
 #include "core/rounded.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "kinematics/long_bone_checks.hpp"
+#include "kinematics/shoulder_checks.hpp"
 #include "mesh/enclosed_volume.hpp"
 #include "mesh/self_crossings.hpp"
 
@@ -48,6 +51,9 @@ constexpr double wrong_way = -0.1, upright = 0.3;
 class Notes {
  public:
   void add(JointNoteCode code, std::string text) { notes_.push_back({code, std::move(text)}); }
+  void add(std::vector<JointNote> others) {
+    std::move(others.begin(), others.end(), std::back_inserter(notes_));
+  }
   std::vector<JointNote> take() { return std::move(notes_); }
 
  private:
@@ -155,8 +161,9 @@ void check_fit(const Joint& joint, const JointPlacement& placement, Notes& notes
   const std::string& fixed = joint.fixed.name;
   const std::string& name = placement.fitted_body == BodyRole::fixed ? fixed : joint.mobile.name;
   if (const auto& sphere = placement.sphere) {
-    const double least =
-        placement.fitted_body == BodyRole::fixed ? least_socket_coverage : fullest_stray_sphere;
+    const double least = placement.fitted_body == BodyRole::fixed ? least_socket_coverage
+                         : joint.anatomy == Anatomy::shoulder     ? kinematics::least_humeral_coverage
+                                                                  : fullest_stray_sphere;
     if (sphere->coverage < least)
       notes.add(JointNoteCode::low_coverage,
                 "the centre was fitted to " + formatted("%.0f %% of a sphere on ", 100 * sphere->coverage) +
@@ -289,7 +296,7 @@ bool are_one_mesh(const Mesh& a, const Mesh& b) {
   return true;
 }
 
-/// A femoral head in its socket is neither a hinge nor a knee, ankle or elbow. A shoulder has a head too, and says nothing here.
+/// A femoral head in its socket is neither a hinge nor a knee, ankle or elbow. A shoulder has a head too, and checks of its own.
 void check_stated_joint(const Joint& joint, Notes& notes) {
   if (joint.anatomy == Anatomy::shoulder) return;
   const auto& head = kinematics::head_near_centre(joint.mobile.mesh);
@@ -330,6 +337,8 @@ std::string_view name_of(JointNoteCode code) noexcept {
       return "low_coverage";
     case JointNoteCode::uncertain_fit:
       return "uncertain_fit";
+    case JointNoteCode::far_centre:
+      return "far_centre";
     case JointNoteCode::centre_off_head:
       return "centre_off_head";
     case JointNoteCode::head_socket_apart:
@@ -363,10 +372,13 @@ std::vector<JointNote> check_joint(const Joint& joint, const JointPlacement& pla
     notes.add(JointNoteCode::same_mesh, joint.fixed.name + " and " + joint.mobile.name +
                                             " are one mesh: is one file given for both bodies?");
   if (is_same || !fixed_is_bone || !mobile_is_bone) return notes.take();
-  if (joint.is_hip())
+  if (joint.is_hip()) {
     check_ball(joint, placement, notes);
-  else
-    check_stated_joint(joint, notes);
+    return notes.take();
+  }
+  check_stated_joint(joint, notes);
+  if (joint.has_head()) notes.add(kinematics::shoulder_notes(joint, placement));
+  notes.add(kinematics::long_bone_notes(joint, placement));
   return notes.take();
 }
 

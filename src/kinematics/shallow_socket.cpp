@@ -163,9 +163,13 @@ std::optional<double> rim_gap(const TriMesh& fixed, const std::vector<Index>& wi
 std::optional<ShallowSocket> find_shallow_socket(const TriMesh& fixed, const Sphere& head) {
   const Dish dish = dish_facing(fixed, head);
   if (dish.coverage < least_coverage) return std::nullopt;
-  Vec3 into_dish = Vec3::Zero();
-  for (const Index v : dish.vertices) into_dish += (fixed.vertices[v] - head.centre).normalized();
-  ShallowSocket socket{-into_dish.normalized(), 0, dish.coverage, sphere_through(fixed, dish.vertices), {}};
+  Vec3 into_dish = Vec3::Zero(), middle = Vec3::Zero();
+  for (const Index v : dish.vertices) {
+    into_dish += (fixed.vertices[v] - head.centre).normalized();
+    middle += fixed.vertices[v] / static_cast<double>(dish.vertices.size());
+  }
+  ShallowSocket socket{
+      middle, -into_dish.normalized(), 0, dish.coverage, sphere_through(fixed, dish.vertices), {}};
   std::vector<double> off_axis;  // negative cosines: the widest last
   for (const Index v : dish.vertices)
     off_axis.push_back((fixed.vertices[v] - head.centre).normalized().dot(socket.opening));

@@ -20,6 +20,7 @@ namespace condyle::kinematics {
 ///       | (       )
 ///      /   `  -  '
 struct ShallowSocket {
+  Vec3 middle;   ///< the mean of its vertices, mm
   Vec3 opening;  ///< unit: from the middle of the dish to the head's centre
   double
       cone_cosine;  ///< of the angle about -opening, seen from the head's centre, within which nearly all of it lies

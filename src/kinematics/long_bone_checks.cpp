@@ -1,0 +1,147 @@
+#include "kinematics/long_bone_checks.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/formatted.hpp"
+#include "kinematics/hip_anatomy.hpp"
+#include "mesh/surface_to_surface.hpp"
+#include "mesh/triangle_tree.hpp"
+
+namespace condyle::kinematics {
+namespace {
+
+using core::formatted;
+
+/// Ratio of the standard deviations along a shaft and across it: a whole femur has 6.9, the upper 15 cm of one 1.8, femur and tibia
+/// cut 9 cm from the knee 1.5 and 1.4.
+constexpr double least_slenderness = 2;
+
+/// How far beyond the joint a shaft may reach, and how far from the joint it may begin, in parts of its length.
+constexpr double farthest_from_end = 0.25;
+
+/// Two bones end to end overlap by no more than this along the line between their middles, in parts of the shorter one: an
+/// olecranon reaches some 25 mm past the end of its humerus.
+constexpr double most_overlap = 0.4;
+
+/// How far the line of a shaft may pass beside the joint centre, in parts of the distance of its middle.
+constexpr double farthest_beside = 0.5;
+
+/// Cosines: as for hips; and of two bones of which one is above the other.
+constexpr double upright = 0.3, straight = 0.7;
+
+/// A knee's bones are nearest 20 to 40 mm from its axis, an ankle's 20, an elbow's 10.
+constexpr double farthest_from_axis_mm = 60;
+
+/// Where the area of a bone is, and the line along which it is spread most.
+struct Bone {
+  Vec3 middle;
+  bool is_shaft;
+  Vec3 along;  ///< unit, away from the origin
+};
+
+/// Empty if the body has no area.
+std::optional<Bone> bone_of(const TriMesh& mesh) {
+  const Vec3 middle = area_centroid(mesh);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    const double size = (b - a).cross(c - a).norm() / 2;
+    // Second moments of a triangle: those of its corners and its middle, a twelfth and three quarters.
+    for (const Vec3& corner : {a, b, c})
+      spread += size / 12 * (corner - middle) * (corner - middle).transpose();
+    const Vec3 mean = (a + b + c) / 3 - middle;
+    spread += 0.75 * size * mean * mean.transpose();
+  }
+  if (!(spread.trace() > 0)) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(spread);
+  const Vec3 moments = solved.eigenvalues();
+  const bool is_shaft = moments[2] > least_slenderness * least_slenderness * std::max(moments[1], 0.0);
+  const Vec3 axis = solved.eigenvectors().col(2);
+  return Bone{middle, is_shaft, axis.dot(middle) < 0 ? Vec3(-axis) : axis};
+}
+
+/// How far a surface reaches along a direction from the origin, mm.
+struct Reach {
+  double begin = HUGE_VAL, end = -HUGE_VAL;
+
+  double length() const noexcept { return end - begin; }
+};
+
+Reach reach_along(const Vec3& direction, const TriMesh& mesh, const Pose& X) {
+  Reach reach;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const double along = (X * mesh.corner(t, k)).dot(direction);
+      reach.begin = std::min(reach.begin, along), reach.end = std::max(reach.end, along);
+    }
+  return reach;
+}
+
+/// Whether the bone is a shaft that begins about the origin.
+bool begins_at_joint(const Bone& bone, const TriMesh& mesh) {
+  if (!bone.is_shaft) return false;
+  const double lever = bone.middle.dot(bone.along);
+  const Reach reach = reach_along(bone.along, mesh, Pose::Identity());
+  return std::abs(reach.begin) <= farthest_from_end * reach.length() &&
+         (bone.middle - lever * bone.along).norm() <= farthest_beside * lever;
+}
+
+/// Whether the fixed bone stands below the mobile one in the reference pose, end to end with it.
+bool is_below(const Joint& joint, const Bone& fixed, const Bone& mobile, const Pose& X_FM) {
+  const Vec3 up = (X_FM * mobile.middle - fixed.middle).normalized();
+  if (!(up.y() > straight)) return false;
+  const Reach lower = reach_along(up, joint.fixed.mesh, Pose::Identity()),
+              upper = reach_along(up, joint.mobile.mesh, X_FM);
+  return lower.end - upper.begin <= most_overlap * std::min(lower.length(), upper.length());
+}
+
+/// The distance from a hinge's axis, or a ball's centre, to where the bodies are nearest each other; 0 if they have no surface.
+double distance_to_bones(const Joint& joint, const Pose& X_FM) {
+  const auto nearest =
+      mesh::closest_points(*mesh::tree_of(joint.fixed.mesh), *mesh::tree_of(joint.mobile.mesh), X_FM);
+  if (!nearest) return 0;
+  const Vec3 middle = (nearest->a_point + nearest->b_point) / 2;
+  return joint.kind == JointKind::hinge ? std::hypot(middle.x(), middle.y()) : middle.norm();
+}
+
+}  // namespace
+
+std::vector<JointNote> long_bone_notes(const Joint& joint, const JointPlacement& placement) {
+  std::vector<JointNote> notes;
+  if (!joint.names_its_joint() || joint.anatomy == Anatomy::hip) return notes;
+  const std::string &fixed_name = joint.fixed.name, &mobile_name = joint.mobile.name;
+  const auto fixed = bone_of(joint.fixed.mesh), mobile = bone_of(joint.mobile.mesh);
+  if (!fixed || !mobile) return notes;
+  const Pose X_FM = pose_at(joint.coordinates(), placement.reference_pose, joint.translation_frame);
+  if (joint.anatomy != Anatomy::shoulder && is_below(joint, *fixed, *mobile, X_FM)) {
+    notes.push_back(
+        {JointNoteCode::swapped_bodies, fixed_name + " lies below " + mobile_name +
+                                            ": are the bodies exchanged, or does superior point down?"});
+    return notes;
+  }
+  if (joint.kind == JointKind::free) return notes;
+  if (joint.anatomy != Anatomy::shoulder && begins_at_joint(*fixed, joint.fixed.mesh) &&
+      fixed->along.y() < upright)
+    notes.push_back({JointNoteCode::axes_not_upright,
+                     fixed_name +
+                         " does not lie above the joint: superior does not point up, or the centre is at "
+                         "its other end"});
+  if (joint.anatomy != Anatomy::ankle && begins_at_joint(*mobile, joint.mobile.mesh) &&
+      -mobile->along.y() < upright)
+    notes.push_back({JointNoteCode::axes_not_upright,
+                     mobile_name +
+                         " does not hang down from the joint at zero angles: superior or the reference "
+                         "pose is wrong"});
+  if (joint.anatomy == Anatomy::shoulder) return notes;
+  if (const double off = distance_to_bones(joint, X_FM); off > farthest_from_axis_mm)
+    notes.push_back({JointNoteCode::far_centre,
+                     std::string(joint.kind == JointKind::hinge ? "the axis" : "the joint centre") +
+                         formatted(" is %.0f mm from where ", off) + fixed_name + " and " + mobile_name +
+                         " are nearest each other"});
+  return notes;
+}
+
+}  // namespace condyle::kinematics

@@ -1,0 +1,253 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numbers>
+
+#include "condyle/joint_checks.hpp"
+#include "support/parametric_shoulder.hpp"
+#include "support/shared_data.hpp"
+#include "support/test_meshes.hpp"
+
+/// Wrong set-ups of shoulders, knees, ankles and elbows of parts are each answered with their note, right ones with none.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+using Code = JointNoteCode;
+
+std::vector<Code> codes_of(const Joint& joint, const JointPlacement& placement = {}) {
+  std::vector<Code> codes;
+  for (const JointNote& note : check_joint(joint, placement)) {
+    codes.push_back(note.code);
+    EXPECT_EQ(note.text.find('\n'), std::string::npos) << note.text;
+  }
+  return codes;
+}
+
+using Codes = std::vector<Code>;
+
+/// Triangles that cross are not what is asked here: a body of several meshes may have them.
+Body of_parts(const char* name, const std::vector<TriMesh>& meshes) {
+  std::vector<BodyPart> parts;
+  TriMesh all;
+  for (const TriMesh& mesh : meshes) {
+    parts.push_back({"part " + std::to_string(parts.size() + 1), all.vertices.size(), mesh.vertices.size(),
+                     all.triangles.size(), mesh.triangles.size()});
+    all = joined(all, mesh);
+  }
+  return {name, Mesh(all), parts};
+}
+
+TriMesh moved(TriMesh mesh, const Vec3& by) {
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, mesh.vertices[v] + by);
+  return mesh;
+}
+Body moved(Body body, const Vec3& by) {
+  body.mesh = Mesh(moved(TriMesh(body.mesh), by));
+  return body;
+}
+Body turned(Body body, const Eigen::Matrix3d& by) {
+  TriMesh mesh = body.mesh;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices.set(v, by * mesh.vertices[v]);
+  body.mesh = Mesh(mesh);
+  return body;
+}
+Joint mirrored(Joint joint) {
+  joint.side = joint.side == Side::right ? Side::left : Side::right;
+  for (Body* body : {&joint.fixed, &joint.mobile}) {
+    TriMesh mesh = body->mesh;
+    for (double& z : mesh.vertices.z) z = -z;
+    body->mesh = Mesh(flipped(std::move(mesh)));
+  }
+  return joint;
+}
+Eigen::Matrix3d half_turn(const Vec3& axis) {
+  return Eigen::AngleAxisd(std::numbers::pi, axis).toRotationMatrix();
+}
+
+/// A right shoulder whose scapula has a blade medial of the glenoid.
+Joint whole_shoulder() {
+  constexpr double w = ParametricShoulder::shaft_half_width;
+  Joint joint{"right shoulder", JointKind::ball, Side::right,
+              of_parts("scapula", {slab_with_dish(26), box({-15, 34, -10}, {15, 40, 30}),
+                                   box({-20, -110, -130}, {-12, 30, -30})}),
+              of_parts("humerus", {sphere(Vec3::Zero(), 24, 4), box({-w, -250, -w}, {w, -15, w})})};
+  joint.anatomy = Anatomy::shoulder;
+  return joint;
+}
+
+TEST(ShoulderChecks, SayNothingOfARightShoulder) {
+  EXPECT_EQ(codes_of(whole_shoulder()), Codes{});
+  EXPECT_EQ(codes_of(mirrored(whole_shoulder())), Codes{});
+  Joint glides = whole_shoulder();
+  glides.mobile = moved(glides.mobile, {0, 0.9, 0});
+  EXPECT_EQ(codes_of(glides), Codes{});
+  Joint worn = whole_shoulder();  // a head of a third of a sphere, 1.2 mm before a larger dish
+  worn.fixed.parts.clear(), worn.mobile.parts.clear();
+  worn.fixed.mesh = Mesh(joined(moved(slab_with_dish(32), {0, 0, 6.8}), box({-15, 34, -10}, {15, 40, 30})));
+  EXPECT_EQ(codes_of(worn), Codes{Code::self_crossings}) << "of ball and shaft";
+}
+
+TEST(ShoulderChecks, NoteWhatIsWrong) {
+  const auto codes_after = [](const std::function<void(Joint&)>& wrong) {
+    Joint joint = whole_shoulder();
+    wrong(joint);
+    return codes_of(joint);
+  };
+  EXPECT_EQ(codes_after([](Joint& s) { std::swap(s.fixed, s.mobile); }), Codes{Code::swapped_bodies});
+  EXPECT_EQ(codes_after([](Joint& s) { s.side = Side::left; }), Codes{Code::wrong_side});
+  EXPECT_EQ(codes_after([](Joint& s) {
+              s.fixed = moved(s.fixed, {0, 3, 0}), s.mobile = moved(s.mobile, {0, 3, 0});
+            }),
+            Codes{Code::centre_off_head});
+  EXPECT_EQ(codes_after([](Joint& s) {
+              s.fixed = moved(s.fixed, {0, 7, 0});
+            }),
+            Codes{Code::head_socket_apart});
+  EXPECT_EQ(codes_after([](Joint& s) {
+              const Eigen::Matrix3d upside_down = half_turn(Vec3::UnitZ());
+              s.fixed = turned(s.fixed, upside_down), s.mobile = turned(s.mobile, upside_down);
+            }),
+            Codes{Code::axes_not_upright});
+  EXPECT_EQ(codes_after([](Joint& s) {
+              s.mobile = turned(s.mobile,
+                                Eigen::AngleAxisd(-std::numbers::pi / 2, Vec3::UnitX()).toRotationMatrix());
+            }),
+            Codes{Code::axes_not_upright})
+      << "an arm that is held out in the scan";
+}
+
+TEST(ShoulderChecks, AskForLessOfAHeadThanThoseOfHips) {
+  Joint joint = whole_shoulder();
+  JointPlacement placement;
+  const auto fitted_with = [&](double coverage) {
+    placement.sphere.emplace(SphericalPatch{{{Vec3::Zero(), 24}, 0, 0, {}}, coverage});
+    return codes_of(joint, placement);
+  };
+  EXPECT_EQ(fitted_with(0.3), Codes{});
+  EXPECT_EQ(fitted_with(0.2), Codes{Code::low_coverage});
+}
+
+/// Two rods with rounded ends 4 mm apart, 25 mm below an axis along Z: no bones, and slender as bones are.
+Joint rods(JointKind kind, Anatomy anatomy) {
+  Joint joint{"rods", kind, Side::right, of_parts("upper", {box({-15, -23, -30}, {15, 400, 30})}),
+              of_parts("lower", {box({-15, -380, -30}, {15, -27, 30})})};
+  joint.anatomy = anatomy;
+  return joint;
+}
+
+TEST(LongBoneChecks, SayNothingOfARightJoint) {
+  for (const Anatomy anatomy : {Anatomy::knee, Anatomy::elbow, Anatomy::ankle})
+    for (const JointKind kind : {JointKind::hinge, JointKind::ball, JointKind::free})
+      EXPECT_EQ(codes_of(rods(kind, anatomy)), Codes{});
+  Joint stumps = rods(JointKind::hinge, Anatomy::knee);
+  stumps.fixed = of_parts("upper", {box({-30, -23, -40}, {30, 60, 40})});
+  stumps.mobile = of_parts("lower", {box({-30, -90, -40}, {30, -27, 40})});
+  EXPECT_EQ(codes_of(stumps), Codes{});
+  stumps.fixed = turned(stumps.fixed, half_turn(Vec3::UnitX()));
+  EXPECT_EQ(codes_of(stumps), Codes{}) << "what is no shaft says nothing";
+}
+
+TEST(LongBoneChecks, NoteWhatIsWrong) {
+  const Eigen::Matrix3d forwards = Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()).toRotationMatrix();
+  for (const JointKind kind : {JointKind::hinge, JointKind::ball, JointKind::free}) {
+    const auto codes_after = [&](Anatomy anatomy, const std::function<void(Joint&)>& wrong) {
+      Joint joint = rods(kind, anatomy);
+      wrong(joint);
+      return codes_of(joint);
+    };
+    const bool is_free = kind == JointKind::free;
+    const auto unless_free = [&](Code code) { return is_free ? Codes{} : Codes{code}; };
+    for (const Anatomy anatomy : {Anatomy::knee, Anatomy::elbow}) {
+      EXPECT_EQ(codes_after(anatomy, [](Joint& j) { std::swap(j.fixed, j.mobile); }),
+                Codes{Code::swapped_bodies});
+      EXPECT_EQ(codes_after(anatomy, [&](Joint& j) { j.mobile = turned(j.mobile, forwards); }),
+                unless_free(Code::axes_not_upright))
+          << "bent in the scan";
+    }
+    EXPECT_EQ(codes_after(Anatomy::ankle, [&](Joint& j) { j.fixed = turned(j.fixed, forwards); }),
+              unless_free(Code::axes_not_upright));
+    EXPECT_EQ(codes_after(Anatomy::ankle, [&](Joint& j) { j.mobile = turned(j.mobile, forwards); }), Codes{})
+        << "a foot has no shaft";
+    EXPECT_EQ(codes_after(Anatomy::knee,
+                          [](Joint& j) {
+                            j.fixed = moved(j.fixed, {20, 0, 0}), j.mobile = moved(j.mobile, {20, 0, 0});
+                          }),
+              Codes{})
+        << "43 mm from the axis at most";
+    EXPECT_EQ(codes_after(Anatomy::knee,
+                          [](Joint& j) {
+                            j.fixed = moved(j.fixed, {80, 0, 0}), j.mobile = moved(j.mobile, {80, 0, 0});
+                          }),
+              unless_free(Code::far_centre));
+  }
+  Joint unnamed = rods(JointKind::hinge, Anatomy::hip);
+  std::swap(unnamed.fixed, unnamed.mobile);
+  EXPECT_EQ(codes_of(unnamed), Codes{}) << "a hinge of no joint";
+}
+
+TEST(LongBoneChecks, TakeAFreeJointInItsReferencePose) {
+  // Both bones in the frame of the upper one, whose origin is at its other end, as in OpenSim; the lower one is brought there.
+  Joint joint = rods(JointKind::free, Anatomy::knee);
+  joint.fixed = moved(joint.fixed, {0, -400, 0});
+  JointPlacement placement;
+  placement.reference_pose.translation_mm = Vec3(0, -400, 0);
+  EXPECT_EQ(codes_of(joint, placement), Codes{});
+  placement.reference_pose.translation_mm = Vec3(0, 400, 0);
+  EXPECT_EQ(codes_of(joint, placement), Codes{Code::swapped_bodies});
+}
+
+TEST(LongBoneChecks, KnowAWholeFemurByItsShaft) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const TriMesh femur = read_ply(*data / "hip_vhf_right" / "femur.ply");  // its head at the origin
+  double lowest = 0;
+  for (const double y : femur.vertices.y) lowest = std::min(lowest, y);
+  const Body tibia = of_parts("tibia", {box({-35, -60, -35}, {35, -30, 35})});
+  Joint knee{"knee", JointKind::hinge, Side::right, {"femur", moved(femur, {0, -lowest - 25, 0})}, tibia};
+  knee.anatomy = Anatomy::knee;
+  const auto of_shape = [](const Joint& joint) {
+    Codes codes = codes_of(joint);
+    std::erase(codes, Code::open_mesh), std::erase(codes, Code::self_crossings);
+    return codes;
+  };
+  EXPECT_EQ(of_shape(knee), Codes{});
+  knee.fixed = turned(knee.fixed, half_turn(Vec3::UnitX()));
+  EXPECT_EQ(of_shape(knee), Codes{Code::axes_not_upright});
+  knee.fixed = {"femur", femur};  // the hip's frame
+  EXPECT_EQ(of_shape(knee), (Codes{Code::axes_not_upright}));
+  knee.fixed = {"femur", femur};
+  knee.mobile = moved(tibia, {0, lowest + 25, 0});
+  EXPECT_EQ(of_shape(knee), (Codes{Code::axes_not_upright, Code::far_centre}));
+}
+
+TEST(LongBoneChecks, SayNothingOfTheSharedKnee) {
+  const auto data = shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  const auto mesh = [&](const char* name) { return read_ply(*data / "knee_lenhart2015_right" / name); };
+  const std::array femurs{mesh("femur_cartilage.ply"), mesh("femur_bone.ply")};
+  const std::array others{mesh("tibia_cartilage.ply"), mesh("patella_cartilage.ply"), mesh("tibia_bone.ply"),
+                          mesh("patella_bone.ply")};
+  for (const TriMesh& femur : femurs)
+    for (const TriMesh& other : others) {
+      Joint joint{"knee", JointKind::hinge, Side::right, {"femur", femur}, {"other", other}};
+      const Codes of_a_hinge_of_no_joint = codes_of(joint);
+      joint.anatomy = Anatomy::knee;
+      for (const JointKind kind : {JointKind::free, JointKind::hinge, JointKind::ball}) {
+        joint.kind = kind;
+        EXPECT_EQ(codes_of(joint), of_a_hinge_of_no_joint);
+      }
+    }
+  for (const JointKind kind : {JointKind::free, JointKind::hinge, JointKind::ball}) {
+    Joint exchanged{"knee", kind, Side::right, {"tibia", others[2]}, {"femur", femurs[1]}};
+    exchanged.anatomy = Anatomy::knee;
+    EXPECT_EQ(codes_of(exchanged), Codes{Code::swapped_bodies}) << "bones cut 9 cm from the joint";
+  }
+}
+
+}  // namespace
+}  // namespace condyle
