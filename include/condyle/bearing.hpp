@@ -96,7 +96,8 @@ struct BearingFinding {
 
 /// Searches for the head of a hip or shoulder around the joint centre. None for other joints (Joint::has_head()), if no head is
 /// found, if its centre is farther than farthest_head_centre_mm from the joint centre, if the joint space or what lies beside a
-/// shoulder's socket leaves no margin, and if the whole mobile body would be bearing, as a cartilage is. Throws UsageError for a margin below 0 or not finite.
+/// shoulder's socket leaves no margin, and if the whole mobile body would be bearing, as a cartilage is. Throws UsageError
+/// for a margin below 0 or not finite.
 ///
 /// Some milliseconds per 10,000 triangles: both bodies are searched for spheres, once, which are kept with their meshes.
 BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options = {});

@@ -99,7 +99,7 @@ void note_sliding(const Joint& joint, std::span<const MotionLimit> limits, std::
        "the surfaces of " + std::string(with_article(joint)) +
            " slide on each other by nature, and a motion ends where the meshes first touch, sliding "
            "contact included: limits are lower bounds of how far the joint turns, unless the space of "
-           "its cartilage is among the meshes"});
+           "its cartilage keeps those surfaces apart"});
 }
 
 void note_narrow_margin(const Joint& joint, const NarrowMargin& narrow, std::vector<RangeNote>& notes) {
@@ -110,8 +110,7 @@ void note_narrow_margin(const Joint& joint, const NarrowMargin& narrow, std::vec
                                                         std::max(0.0, narrow.gap_mm));
   text += formatted(
       "contact counts as bearing within %.2f mm of the head only, and contact inside the socket may be "
-      "called "
-      "impingement",
+      "called impingement",
       std::max(0.0, narrow.margin_mm));
   notes.push_back({RangeNoteCode::narrow_bearing_margin, std::move(text)});
 }

@@ -64,6 +64,23 @@ def test_notes_of_limits_are_the_same_everywhere(command, hip_file, tmp_path):
     assert row["notes"] == note["code"]
 
 
+def test_surfaces_that_slide_by_nature_are_noted_everywhere(command, hip_file, tmp_path):
+    """The sample hip called an elbow: every contact ends a motion."""
+    text = hip_file.read_text().replace('kind = "ball"', 'kind = "ball"\njoint = "elbow"')
+    for mesh in ("hip_bone", "femur"):
+        text = text.replace(f'"{mesh}', f'"{hip_file.parent}/{mesh}')
+    elbow = tmp_path / "elbow.toml"
+    elbow.write_text(text)
+    ran = subprocess.run([command, "rom", elbow, "--json"], check=True, capture_output=True, text=True)
+    note, = [each for each in json.loads(ran.stdout)["notes"] if each["code"] == "sliding_surfaces"]
+    assert note["text"].startswith("the surfaces of an elbow slide on each other by nature")
+    assert f"note: {note['code']}: {note['text']}" in ran.stderr
+    with pytest.warns(condyle.JointWarning, match="sliding_surfaces"):
+        rom = condyle.read_joint(elbow).range_of_motion()
+    assert [vars(each) for each in rom.notes] == [note]
+    assert rom.bearing is None
+
+
 def test_a_map_is_that_of_the_command(hip, rom, command, hip_file, tmp_path):
     subprocess.run([command, "rom", hip_file, "--motion", "flexion", "--map", "flexion=0:120:40", "adduction=-20:20:20",
                     "--out", tmp_path], check=True, capture_output=True)
