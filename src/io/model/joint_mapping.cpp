@@ -21,9 +21,12 @@ struct Drive {
   double slope, offset;
 };
 
-std::optional<Drive> drive_of(const TransformAxis& axis) {
+/// `motion`: what the coordinate must do, for the unit of its column.
+std::optional<Drive> drive_of(const ModelJoint& joint, std::size_t i, CoordinateMotion motion) {
+  const TransformAxis& axis = joint.transform->axes[i];
   const auto line = straight_line(axis.function);
   if (!line || axis.coordinates.size() != 1 || std::abs(line->slope) != 1) return std::nullopt;
+  if (joint.coordinates[axis.coordinates[0]].motion != motion) return std::nullopt;
   return Drive{axis.coordinates[0], line->slope, line->offset};
 }
 
@@ -64,7 +67,7 @@ std::optional<std::vector<ColumnOfCoordinate>> angle_columns(const ModelJoint& j
   const auto& names = coordinate_names(anatomy);
   std::vector<ColumnOfCoordinate> columns;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto drive = drive_of(axes[i]);
+    const auto drive = drive_of(joint, i, CoordinateMotion::rotational);
     const double direction = along(axes[i].axis, units[i]);
     if (!drive || direction == 0) return std::nullopt;
     const double sense = direction * senses[i];
@@ -80,7 +83,7 @@ std::optional<std::vector<ColumnOfCoordinate>> length_columns(const ModelJoint& 
   constexpr std::string_view names[] = {"x", "y", "z"};
   std::vector<ColumnOfCoordinate> columns;
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto drive = drive_of(axes[3 + i]);
+    const auto drive = drive_of(joint, 3 + i, CoordinateMotion::translational);
     const double direction = along(axes[3 + i].axis, units[i]);
     if (!drive || direction == 0) return std::nullopt;
     columns.push_back(column(joint.coordinates[drive->coordinate], names[i], CoordinateKind::length,
@@ -116,7 +119,7 @@ JointMapping hinge(const ModelJoint& joint, std::size_t turning, JointMapping ma
   const std::string_view angle = coordinate_names(named)[0].positive;
   mapping.kind = JointKind::hinge;
   mapping.why = "one rotation about an axis at rest";
-  if (const auto drive = drive_of(axes[turning])) {
+  if (const auto drive = drive_of(joint, turning, CoordinateMotion::rotational)) {
     const double sense = direction * senses_of(named, side)[0];
     mapping.columns = {column(joint.coordinates[drive->coordinate], angle, CoordinateKind::angle,
                               drive->slope * sense, drive->offset * sense)};

@@ -8,6 +8,11 @@
 #include "io/model/spatial_transform.hpp"
 
 namespace condyle::io {
+namespace {
+
+constexpr std::size_t longest_chain_of_frames = 1000;
+
+}  // namespace
 
 Pose offset_of(const ModelElement& element, std::initializer_list<std::string_view> translation,
                std::initializer_list<std::string_view> orientation) {
@@ -29,23 +34,20 @@ void ModelFrames::add_frame(const XmlElement& frame, std::string owner) {
     for (const XmlElement& connector : parent->children)
       if (const XmlElement* connectee = connector.child("connectee_name")) socket = connectee->text();
   if (socket.empty()) element.fail("socket_parent is missing");
-  frames_.push_back(
-      {name, std::move(owner), std::move(socket), offset_of(element, {"translation"}, {"orientation"})});
+  frames_.emplace(
+      name, Frame{std::move(owner), std::move(socket), offset_of(element, {"translation"}, {"orientation"})});
 }
 
-bool ModelFrames::is_body(std::string_view name) const noexcept {
-  return std::find(bodies_.begin(), bodies_.end(), name) != bodies_.end();
-}
-
-const ModelFrames::Frame* ModelFrames::frame_named(std::string_view name, std::string_view owner,
+/// Of the component that it stands in, else of the owner that the path names, else the only one.
+const ModelFrames::Frame* ModelFrames::frame_named(const std::string& name, std::string_view owner,
                                                    std::string_view stands_in, const ModelElement& of) const {
+  const auto [first, last] = frames_.equal_range(name);
   const Frame *of_owner = nullptr, *only = nullptr;
   std::size_t count = 0;
-  for (const Frame& frame : frames_) {
-    if (frame.name != name) continue;
-    only = &frame;
-    ++count;
-    if (frame.owner == owner || (!of_owner && frame.owner == stands_in)) of_owner = &frame;
+  for (auto at = first; at != last; ++at, ++count) {
+    only = &at->second;
+    if (only->owner == stands_in) return only;
+    if (only->owner == owner) of_owner = only;
   }
   if (of_owner || count < 2) return of_owner ? of_owner : only;
   of.fail(fmt::format("{} could be one of {} frames", in_quotes(name), count));
@@ -55,7 +57,7 @@ BodyPlace ModelFrames::place_of(std::string_view socket, std::string_view owner,
                                 const ModelElement& of) const {
   BodyPlace place;
   std::string path(socket), stands_in(owner);
-  for (std::size_t steps = 0; steps <= frames_.size(); ++steps) {
+  for (std::size_t steps = 0; steps <= std::min(frames_.size(), longest_chain_of_frames); ++steps) {
     while (path.ends_with('/')) path.pop_back();
     const std::size_t slash = path.rfind('/');
     std::string name = slash == path.npos ? path : path.substr(slash + 1);
@@ -63,20 +65,21 @@ BodyPlace ModelFrames::place_of(std::string_view socket, std::string_view owner,
     std::string in(before.substr(before.rfind('/') + 1));  // all of it where there is no slash
     if (name == "..") name = stands_in, in.clear();
 
-    const auto own = std::find_if(frames_.begin(), frames_.end(), [&](const Frame& frame) {
-      return frame.name == name && frame.owner == stands_in;
-    });
-    if (own == frames_.end() && is_body(name)) {
+    const auto [first, last] = frames_.equal_range(name);
+    const bool is_own =
+        std::any_of(first, last, [&](const auto& each) { return each.second.owner == stands_in; });
+    if (!is_own && is_body(name)) {
       place.body = name;
       return place;
     }
-    const Frame* frame = own != frames_.end() ? &*own : frame_named(name, in, stands_in, of);
+    const Frame* frame = frame_named(name, in, stands_in, of);
     if (!frame) of.fail(fmt::format("there is no body or frame {}", in_quotes(path)));
     place.X = frame->X * place.X;
     path = frame->parent;
     stands_in = frame->owner;
   }
-  of.fail(fmt::format("the frame {} goes round in a circle", in_quotes(socket)));
+  of.fail(fmt::format("the frame {} goes round in a circle, or hangs on more than {} others",
+                      in_quotes(socket), longest_chain_of_frames));
 }
 
 }  // namespace condyle::io

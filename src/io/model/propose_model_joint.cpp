@@ -67,14 +67,22 @@ class ModelJointFile {
                                    model.path.string(), in_quotes(joint_.name)));
     side_ = *side;
     mapping_ = mapping_of(joint_, anatomy_, side_);
+    if (const ModelCoupler* coupler = coupler_of_joint(); coupler && !mapping_.columns.empty()) {
+      mapping_.columns.clear();
+      mapping_.why += fmt::format("; constraint {} moves it too", coupler->name);
+    }
     if (!anatomy_ && mapping_.kind != JointKind::hinge)
       throw UsageError(
           fmt::format("{}: joint {}: its names are of no joint known here: say whether it is a hip, "
                       "knee, ankle, elbow or shoulder",
                       model.path.string(), in_quotes(joint_.name)));
-    fixed_ = meshes_of_role(BodyRole::fixed);
-    mobile_ = meshes_of_role(BodyRole::mobile);
+    fixed_bodies_ = welded_bodies(model_, joint_, BodyRole::fixed);
+    mobile_bodies_ = welded_bodies(model_, joint_, BodyRole::mobile);
+    for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
+      for (const ModelMesh& mesh : meshes_of(model_, joint_, role))
+        add_mesh(meshes_of_role(role), mesh, fs::path(mesh.file).stem().string());
     choose_contact();
+    leave_out_missing();
   }
 
   ModelJointProposal proposal() {
@@ -101,22 +109,30 @@ class ModelJointFile {
     return fs::absolute(file).lexically_normal().lexically_proximate(folder_).generic_string();
   }
 
-  /// Meshes that were found, or all of them where none was.
-  std::vector<NamedMesh> meshes_of_role(BodyRole role) {
-    std::vector<NamedMesh> meshes;
-    const std::vector<ModelMesh> all = meshes_of(model_, joint_, role);
-    const bool any_found =
-        std::any_of(all.begin(), all.end(), [](const ModelMesh& mesh) { return mesh.path.has_value(); });
-    for (const ModelMesh& mesh : all) {
-      if (!mesh.path && any_found) {
-        note(fmt::format("mesh {} of body {} is missing and left out; it was looked for as {}",
-                         in_quotes(mesh.file), in_quotes(mesh.body),
-                         fmt::join(names_of(mesh.looked_in), ", ")));
-        continue;
-      }
-      add_mesh(meshes, mesh, fs::path(mesh.file).stem().string());
+  std::vector<NamedMesh>& meshes_of_role(BodyRole role) { return role == BodyRole::fixed ? fixed_ : mobile_; }
+  const std::vector<WeldedBody>& bodies_of_role(BodyRole role) const {
+    return role == BodyRole::fixed ? fixed_bodies_ : mobile_bodies_;
+  }
+
+  const ModelCoupler* coupler_of_joint() const {
+    for (const ModelCoupler& coupler : model_.couplers)
+      for (const ModelCoordinate& coordinate : joint_.coordinates)
+        if (coordinate.name == coupler.dependent) return &coupler;
+    return nullptr;
+  }
+
+  /// Meshes that are not there, unless all of a body's are.
+  void leave_out_missing() {
+    for (std::vector<NamedMesh>* meshes : {&fixed_, &mobile_}) {
+      const auto is_missing = [](const NamedMesh& named) { return !named.mesh.path; };
+      if (std::all_of(meshes->begin(), meshes->end(), is_missing)) continue;
+      for (const NamedMesh& named : *meshes)
+        if (is_missing(named))
+          note(fmt::format("mesh {} of body {} is missing and left out; it was looked for as {}",
+                           in_quotes(named.mesh.file), in_quotes(named.mesh.body),
+                           fmt::join(names_of(named.mesh.looked_in), ", ")));
+      std::erase_if(*meshes, is_missing);
     }
-    return meshes;
   }
 
   static std::vector<std::string> names_of(const std::vector<fs::path>& paths) {
@@ -250,17 +266,18 @@ class ModelJointFile {
 
   // The contact that the model has between the two bodies.
 
-  const ModelContactMesh& contact_mesh(const std::string& name, const ModelContact& contact) const {
+  const ModelContactMesh* find_contact_mesh(const std::string& name) const {
     for (const ModelContactMesh& mesh : model_.contact_meshes)
-      if (mesh.name == name) return mesh;
-    throw FileError(fmt::format("{}: line {}: contact {}: there is no contact mesh {}", model_.path.string(),
-                                contact.line, in_quotes(contact.name), in_quotes(name)));
+      if (mesh.name == name) return &mesh;
+    return nullptr;
   }
+
+  const ModelContactMesh& contact_mesh(const std::string& name) const { return *find_contact_mesh(name); }
 
   /// The role of the body that a contact mesh is attached to, and where it lies there.
   std::optional<std::pair<BodyRole, Pose>> role_of(const ModelContactMesh& mesh) const {
     for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
-      for (const WeldedBody& body : welded_bodies(model_, joint_, role))
+      for (const WeldedBody& body : bodies_of_role(role))
         if (body.name == mesh.mesh.body) return std::pair(role, Pose(body.X * mesh.mesh.X_BG));
     return std::nullopt;
   }
@@ -268,8 +285,14 @@ class ModelJointFile {
   void choose_contact() {
     std::vector<std::string> names, others;
     for (const ModelContact& contact : model_.contacts) {
-      const auto casting = role_of(contact_mesh(contact.casting, contact)),
-                 target = role_of(contact_mesh(contact.target, contact));
+      const ModelContactMesh *of_casting = find_contact_mesh(contact.casting),
+                             *of_target = find_contact_mesh(contact.target);
+      if (!of_casting || !of_target) {
+        note(fmt::format("contact {} is left out: there is no contact mesh {}", in_quotes(contact.name),
+                         in_quotes(of_casting ? contact.target : contact.casting)));
+        continue;
+      }
+      const auto casting = role_of(*of_casting), target = role_of(*of_target);
       if (!casting || !target || casting->first == target->first) continue;
       names.push_back(contact.name);
       if (!request_.contact.empty() && contact.name != request_.contact) continue;
@@ -302,7 +325,7 @@ class ModelJointFile {
   /// Makes sure that both surfaces are among the meshes of their bodies.
   void attach_contact() {
     for (const std::string* name : {&contact_->casting, &contact_->target}) {
-      const ModelContactMesh& mesh = contact_mesh(*name, *contact_);
+      const ModelContactMesh& mesh = contact_mesh(*name);
       const auto [role, X] = *role_of(mesh);
       if (!mesh.mesh.path) {
         note(fmt::format("contact {} is left out: mesh {} of {} is missing", in_quotes(contact_->name),
@@ -312,7 +335,7 @@ class ModelJointFile {
       }
       ModelMesh placed = mesh.mesh;
       placed.X_BG = X;
-      std::vector<NamedMesh>& meshes = role == BodyRole::fixed ? fixed_ : mobile_;
+      std::vector<NamedMesh>& meshes = meshes_of_role(role);
       const auto same = std::find_if(meshes.begin(), meshes.end(),
                                      [&](const NamedMesh& other) { return is_same(other.mesh, placed); });
       const std::string part = same != meshes.end() ? same->name : add_mesh(meshes, placed, *name).name;
@@ -324,8 +347,8 @@ class ModelJointFile {
     if (!contact_) return;
     if (contact_->least_proximity != 0)
       refuse(fmt::format("min_proximity {} is not 0", contact_->least_proximity));
-    const ModelContactMesh& casting = contact_mesh(contact_->casting, *contact_);
-    const ModelContactMesh& target = contact_mesh(contact_->target, *contact_);
+    const ModelContactMesh& casting = contact_mesh(contact_->casting);
+    const ModelContactMesh& target = contact_mesh(contact_->target);
     for (const ModelContactMesh* mesh : {&casting, &target})
       if (!(mesh->poisson_ratio < 0.5 && mesh->poisson_ratio > -1))
         refuse(fmt::format("poissons_ratio {} of {} is not below 0.5", mesh->poisson_ratio,
@@ -377,17 +400,14 @@ class ModelJointFile {
     if (!kinds.empty()) note(fmt::format("not used here: {}", fmt::join(kinds, ", ")));
     for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
       std::vector<std::string> names;
-      for (const WeldedBody& body : welded_bodies(model_, joint_, role)) names.push_back(body.name);
+      for (const WeldedBody& body : bodies_of_role(role)) names.push_back(body.name);
       if (names.size() > 1) note(fmt::format("welded to one body: {}", fmt::join(names, ", ")));
     }
     for (const std::string& line : model_.notes) note(line);
-    for (const ModelCoupler& coupler : model_.couplers)
-      for (const ModelCoordinate& coordinate : joint_.coordinates)
-        if (coordinate.name == coupler.dependent)
-          note(fmt::format("coordinate {} follows {} by constraint {}{}", in_quotes(coordinate.name),
-                           fmt::join(coupler.independent, ", "), in_quotes(coupler.name),
-                           mapping_.columns.empty() ? ", where a motion has no column of it"
-                                                    : ": a motion needs a column of it"));
+    if (const ModelCoupler* coupler = coupler_of_joint())
+      note(fmt::format("coordinate {} follows {} by constraint {}, where a motion has no column of it",
+                       in_quotes(coupler->dependent), fmt::join(coupler->independent, ", "),
+                       in_quotes(coupler->name)));
   }
 
   const Model& model_;
@@ -397,6 +417,7 @@ class ModelJointFile {
   std::optional<Anatomy> anatomy_;
   Side side_ = Side::right;
   JointMapping mapping_{.kind = JointKind::free};
+  std::vector<WeldedBody> fixed_bodies_, mobile_bodies_;
   std::vector<NamedMesh> fixed_, mobile_;
   const ModelContact* contact_ = nullptr;
   std::string fixed_part_, mobile_part_;

@@ -73,8 +73,11 @@ std::vector<ModelCoordinate> coordinates_of(const ModelElement& joint, const std
   if (!set) return {};
   if (const XmlElement* objects = set->child("objects")) set = objects;
   std::vector<ModelCoordinate> coordinates;
+  constexpr std::size_t most_coordinates = 6;
   for (const XmlElement& child : set->children) {
     if (child.name != "Coordinate") continue;
+    if (coordinates.size() == most_coordinates)
+      joint.fail_at(child, fmt::format("more than {} coordinates", most_coordinates));
     coordinates.push_back(coordinate_of(joint.source(), child, name));
     for (std::size_t i = 0; i + 1 < coordinates.size(); ++i)
       if (coordinates[i].name == coordinates.back().name)
