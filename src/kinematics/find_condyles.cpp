@@ -1,0 +1,315 @@
+#include "kinematics/find_condyles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+#include "kinematics/joint_cylinder.hpp"
+#include "kinematics/resampling.hpp"
+#include "kinematics/surface_points.hpp"
+
+namespace condyle::kinematics {
+namespace {
+
+/// Around the facing part, mm: the condyles of large knees are 95 mm wide.
+constexpr double search_reach = 70;
+constexpr double smallest_radius = 8, largest_radius = 40;
+
+/// The search looks at means over cells of this side, mm, a tenth of a turn on a small condyle: fine meshes have noise.
+constexpr double cell = 4;
+
+constexpr std::size_t first_points = 260, partners = 90, candidates_kept = 16;
+
+/// As in find_cylinder(): normals this far from parallel (sine) give a direction, radii seen from both may differ by this part.
+constexpr double smallest_sine = 0.2, radius_agreement = 0.15;
+/// The axis lies across the shaft, to within 30 degrees; the way to the centroid of a cut femur is 25 off (sine of 60).
+constexpr double most_along_shaft = 0.5;
+
+/// A vertex belongs to a cylinder while its normal is within 30 degrees of its ray (cosine), and within these parts of the
+/// radius: at first, and once the fit has settled.
+constexpr double smallest_cosine = 0.866, first_band = 0.08, last_band = 0.05;
+constexpr int first_rounds = 4, most_rounds = 30;
+
+/// Requirements. The right knee of Lenhart et al. and the Visible Human's femur have 180 degrees in common, a width of 3.2
+/// radii, and nothing between. Cylinders through two parts of other surfaces (tibial plateau, femoral neck and trochanter,
+/// patella, along one condyle) have 0.28 times as much between as on a side, or more.
+constexpr double least_common_arc_deg = 140, least_width = 2.2, largest_width = 4.5, most_between = 0.1;
+
+constexpr int arcs = 36;
+/// An arc of 10 degrees is there if it has a strip of this width, mm.
+constexpr double least_strip = 3;
+constexpr std::size_t fewest_points = 12;
+
+/// What of the points lies on a cylinder, and how both ends of it share the turn.
+struct Support {
+  std::vector<Index> points;  ///< positions, ascending
+  double common_arc_deg = 0, between = 0, length = 0, area_of_smaller = 0;
+  double middle = 0;  ///< along the axis, between the centroids of both outer thirds
+
+  bool has_two_condyles(double radius) const {
+    return common_arc_deg >= least_common_arc_deg && between <= most_between &&
+           length >= least_width * radius && length <= largest_width * radius;
+  }
+};
+
+struct Place {
+  double height, turn, area;
+};
+
+std::optional<Place> place_on(const SurfacePoint& p, const Cylinder& c, const Vec3& e1, const Vec3& e2,
+                              double band) {
+  const Vec3 q = p.position - c.point;
+  const double height = q.dot(c.direction);
+  const Vec3 ray = q - height * c.direction;
+  const double distance = ray.norm();
+  if (std::abs(distance - c.radius) > band || p.normal.dot(ray) < smallest_cosine * distance)
+    return std::nullopt;
+  return Place{height, std::atan2(ray.dot(e2), ray.dot(e1)) / two_pi + 0.5, p.area};
+}
+
+/// The length between the second and the 98th hundredth: single vertices of other surfaces lie on every cylinder.
+std::pair<double, double> ends_of(const std::vector<Place>& places) {
+  std::vector<double> heights;
+  for (const Place& place : places) heights.push_back(place.height);
+  const auto at = [&](std::size_t hundredth) {
+    const auto nth = heights.begin() + static_cast<std::ptrdiff_t>(hundredth * (heights.size() - 1) / 100);
+    std::nth_element(heights.begin(), nth, heights.end());
+    return *nth;
+  };
+  const double low = at(2);
+  return {low, at(98)};
+}
+
+Support support_of(const std::vector<SurfacePoint>& points, const Cylinder& c, double band) {
+  Support support;
+  std::vector<Place> places;
+  const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const auto place = place_on(points[i], c, e1, e2, band * c.radius)) {
+      places.push_back(*place);
+      support.points.push_back(static_cast<Index>(i));
+    }
+  if (places.size() < fewest_points) return support;
+  const auto [low, high] = ends_of(places);
+  support.length = high - low;
+  std::array<std::array<double, arcs>, 2> by_arc{};
+  std::array<double, 2> area{}, moment{};
+  double between = 0;
+  for (const Place& place : places) {
+    const bool first = place.height<low + support.length / 3, last = place.height> high - support.length / 3;
+    if (!first && !last) {
+      between += place.area;
+      continue;
+    }
+    by_arc[last][std::min(static_cast<std::size_t>(place.turn * arcs), std::size_t{arcs - 1})] += place.area;
+    area[last] += place.area, moment[last] += place.area * place.height;
+  }
+  support.area_of_smaller = std::min(area[0], area[1]);
+  if (!(support.area_of_smaller > 0)) return support;
+  const double least_area = least_strip * c.radius * two_pi / arcs;
+  for (std::size_t k = 0; k < arcs; ++k)
+    if (by_arc[0][k] >= least_area && by_arc[1][k] >= least_area) support.common_arc_deg += 360.0 / arcs;
+  support.between = between / support.area_of_smaller;
+  support.middle = (moment[0] / area[0] + moment[1] / area[1]) / 2;
+  return support;
+}
+
+/// One point for each cell: means by area of what lies in it and faces one way.
+std::vector<SurfacePoint> cell_means(const std::vector<SurfacePoint>& points) {
+  std::map<std::array<std::int64_t, 3>, SurfacePoint> cells;
+  for (const SurfacePoint& p : points) {
+    const Vec3 at = (p.position - points.front().position) / cell;
+    const auto along = [&](int k) { return static_cast<std::int64_t>(std::floor(at[k])); };
+    auto& mean = cells
+                     .try_emplace({along(0), along(1), along(2)},
+                                  SurfacePoint{p.vertex, Vec3::Zero(), Vec3::Zero(), 0})
+                     .first->second;
+    mean.position += p.area * p.position;
+    mean.normal += p.area * p.normal;
+    mean.area += p.area;
+  }
+  constexpr double one_way = 0.6;  // less where two surfaces, or an edge, share the cell
+  std::vector<SurfacePoint> means;
+  for (const auto& numbered : cells) {
+    SurfacePoint mean = numbered.second;
+    const double length = mean.normal.norm();
+    if (!(length > one_way * mean.area)) continue;
+    mean.position /= mean.area;
+    mean.normal /= length;
+    means.push_back(mean);
+  }
+  return means;
+}
+
+/// The cylinder through two points with these normals, as in find_cylinder().
+std::optional<Cylinder> through(const SurfacePoint& p, const SurfacePoint& q, const Vec3& towards_shaft) {
+  const Vec3 across = p.normal.cross(q.normal);
+  const double sine = across.norm();
+  if (sine < smallest_sine) return std::nullopt;
+  const Vec3 a = across / sine;
+  if (std::abs(a.dot(towards_shaft)) > most_along_shaft) return std::nullopt;
+  const Vec3 between = p.position - q.position;
+  const double s = between.cross(q.normal).dot(a) / sine, t = between.cross(p.normal).dot(a) / sine;
+  const double radius = (s + t) / 2;
+  if (!(radius >= smallest_radius && radius <= largest_radius)) return std::nullopt;
+  if (std::abs(s - t) > radius_agreement * radius) return std::nullopt;
+  return Cylinder{p.position - s * p.normal, a, radius};
+}
+
+struct Candidate {
+  Cylinder cylinder;
+  double arc, area;  ///< in common, less for what is between; of the smaller part, in squared radii
+};
+
+/// Near enough to end in the same fit.
+bool alike(const Cylinder& a, const Cylinder& b) {
+  constexpr double same_direction = 0.99, same_place = 0.2;  // 8 degrees; radii
+  return std::abs(a.direction.dot(b.direction)) > same_direction &&
+         (a.point - b.point).cross(b.direction).norm() < same_place * b.radius &&
+         std::abs(a.radius - b.radius) < same_place * b.radius;
+}
+
+/// The best that are not alike.
+std::vector<Candidate> candidates(const std::vector<SurfacePoint>& points, const Vec3& towards_shaft) {
+  const auto means = cell_means(points);
+  std::vector<Candidate> found;
+  const std::size_t step = std::max<std::size_t>(1, means.size() / first_points);
+  for (std::size_t i = 0; i < means.size(); i += step)
+    for (std::size_t k = 0; k < partners; ++k) {
+      // Shifted with i, so that partners are not always the same.
+      const std::size_t j = (k * means.size() / partners + i) % means.size();
+      const auto cylinder = through(means[i], means[j], towards_shaft);
+      if (!cylinder) continue;
+      const Support support = support_of(means, *cylinder, first_band);
+      if (support.length >= least_width * cylinder->radius && support.common_arc_deg > 0)
+        found.push_back({*cylinder, support.common_arc_deg / (1 + support.between),
+                         support.area_of_smaller / (cylinder->radius * cylinder->radius)});
+    }
+  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.arc != b.arc ? a.arc > b.arc : a.area > b.area;
+  });
+  std::vector<Candidate> kept;
+  for (const Candidate& candidate : found) {
+    const auto like_it = [&](const Candidate& other) { return alike(candidate.cylinder, other.cylinder); };
+    if (std::none_of(kept.begin(), kept.end(), like_it)) kept.push_back(candidate);
+    if (kept.size() == candidates_kept) break;
+  }
+  return kept;
+}
+
+struct Fitted {
+  CylinderFit fit;
+  Support support;
+};
+
+/// Fits what lies on the cylinder, and again, until the same vertices come back.
+std::optional<Fitted> settled(const TriMesh& femur, const std::vector<SurfacePoint>& points,
+                              Cylinder cylinder) {
+  std::optional<Fitted> found;
+  for (int round = 0; round < most_rounds; ++round) {
+    Support support = support_of(points, cylinder, round < first_rounds ? first_band : last_band);
+    if (support.points.size() < fewest_points) return std::nullopt;
+    const bool same = round > first_rounds && support.points == found->support.points;
+    try {
+      auto fit = fit_cylinder(femur.vertices, vertices_of(points, support.points), cylinder);
+      cylinder = fit.cylinder;
+      found = Fitted{std::move(fit), std::move(support)};
+    } catch (const MeshError&) {
+      return std::nullopt;
+    }
+    if (!(cylinder.radius >= smallest_radius && cylinder.radius <= largest_radius)) return std::nullopt;
+    if (same) break;
+  }
+  found->support = support_of(points, cylinder, last_band);
+  return found;
+}
+
+/// As those of find_cylinder(): patches are sectors of a turn on either condyle.
+void add_bounds(const TriMesh& femur, CylinderFit& fit, double middle) {
+  constexpr int sectors = 12;
+  constexpr std::size_t unknowns = 5;
+  const Cylinder c = fit.cylinder;
+  const Vec3 e1 = c.direction.unitOrthogonal(), e2 = c.direction.cross(e1);
+  const auto block_of = [&](Index v) {
+    const Vec3 q = femur.vertices[v] - c.point;
+    const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
+    return std::int64_t{std::min(static_cast<int>(turn * sectors), sectors - 1)} * 2 +
+           (q.dot(c.direction) > middle);
+  };
+  const auto resamples = resampled(fit.vertices, usual_resamples, unknowns, block_of);
+  std::vector<double> turns, shifts;
+  for (const std::vector<Index>& drawn : resamples.draws) {
+    try {
+      const Cylinder other = fit_cylinder(femur.vertices, drawn, c).cylinder;
+      shifts.push_back((other.point - c.point).cross(other.direction).norm());
+      turns.push_back(
+          std::atan2(other.direction.cross(c.direction).norm(), std::abs(other.direction.dot(c.direction))));
+    } catch (const MeshError&) {  // no axis at all
+      shifts.push_back(c.radius);
+      turns.push_back(two_pi / 4);
+    }
+  }
+  fit.direction_bound = Angle::radians(upper_bound_of(std::move(turns)) * resamples.widening);
+  fit.axis_bound_mm = upper_bound_of(std::move(shifts)) * resamples.widening;
+}
+
+/// The better of two fits: that with condyles, then that with more in common.
+bool better(const Fitted& a, const Fitted& b) {
+  const bool a_has = a.support.has_two_condyles(a.fit.cylinder.radius),
+             b_has = b.support.has_two_condyles(b.fit.cylinder.radius);
+  if (a_has != b_has) return a_has;
+  if (a.support.common_arc_deg != b.support.common_arc_deg)
+    return a.support.common_arc_deg > b.support.common_arc_deg;
+  return a.fit.rms_residual / a.fit.cylinder.radius < b.fit.rms_residual / b.fit.cylinder.radius;
+}
+
+void require_condyles(const Fitted& best) {
+  const Support& s = best.support;
+  if (s.has_two_condyles(best.fit.cylinder.radius)) return;
+  throw MeshError(core::formatted(
+      "the best common cylinder of two condyles, of radius %.1f mm, has %.0f degrees of "
+      "a turn in common (needs %.0f), is %.1f radii wide (needs %.1f to %.1f) and has "
+      "%.2f as much between as on a side (needs %.1f or less)",
+      best.fit.cylinder.radius, s.common_arc_deg, least_common_arc_deg, s.length / best.fit.cylinder.radius,
+      least_width, largest_width, s.between, most_between));
+}
+
+void require_bounds(const CylinderFit& fit) {
+  if (*fit.direction_bound <= largest_axis_bound && *fit.axis_bound_mm <= largest_place_bound_mm) return;
+  throw MeshError(
+      core::formatted("parts of the condyles give axes up to %.1f degrees and %.1f mm off (needs %.0f and "
+                      "%.0f)",
+                      fit.direction_bound->degrees(), *fit.axis_bound_mm, largest_axis_bound.degrees(),
+                      largest_place_bound_mm));
+}
+
+}  // namespace
+
+Condyles find_condyles(const TriMesh& femur, const Vec3& facing, const Vec3& towards_shaft) {
+  auto points = surface_points(femur, Sphere{facing, search_reach});
+  average_normals(points, cell);
+  std::optional<Fitted> best;
+  if (points.size() >= fewest_points)
+    for (const Candidate& candidate : candidates(points, towards_shaft))
+      if (auto fitted = settled(femur, points, candidate.cylinder);
+          fitted && (!best || better(*fitted, *best)))
+        best = std::move(fitted);
+  if (!best)
+    throw MeshError(core::formatted(
+        "no cylinder common to two condyles among the %zu vertices that face the other bone", points.size()));
+  require_condyles(*best);
+  CylinderFit& fit = best->fit;
+  const double middle = best->support.middle;
+  add_bounds(femur, fit, middle);
+  require_bounds(fit);
+  fit.cylinder.point += middle * fit.cylinder.direction;
+  fit.coverage = best->support.common_arc_deg / 360;
+  return {std::move(fit), best->support.length, best->support.common_arc_deg, best->support.between};
+}
+
+}  // namespace condyle::kinematics

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/joint_coordinates.hpp"
+#include "kinematics/find_condyles.hpp"
+#include "kinematics/shaft_line.hpp"
+#include "kinematics/shown_axes.hpp"
+
+namespace condyle::kinematics {
+
+/// The most medial and most lateral vertices of a femur near its condyles, in the order of the condyles' axis.
+struct Epicondyles {
+  Vec3 first, last;
+  double to_axis_deg;  ///< from the line through both to the condyles' axis
+};
+
+/// What a femur shows of its knee, before any frame is known, and why it does not show the rest.
+///
+///        superior
+///          |  .-.      seen from the right: the shaft runs in front of the condyles' axis o, and behind the
+///        .-|--' |      condyles stand clear of what lies between them, in front they do not.
+///       / o|    |
+///      (   |   / anterior
+///       `-----'
+///
+/// Z = X x Y points to the right on either side, so that axes need no side; the side is which end of Z is medial.
+struct KneeAnatomy {
+  std::optional<Condyles> condyles;
+  std::string why_no_condyles;
+  std::optional<Epicondyles> epicondyles;  ///< with condyles
+  std::optional<ShaftLine> shaft;          ///< with condyles
+  std::optional<SphericalPatch> head;      ///< of a whole femur
+  std::optional<ShownAxes>
+      axes;  ///< right along the condyles' axis, superior towards the head, else along the shaft
+  std::string why_no_axes;
+  std::optional<Side> side;  ///< with axes
+  std::string why_no_side;
+  std::vector<std::string> evidence;  ///< one line each, for axes and side, with what it needs
+};
+
+/// Of meshes in mm. Less than two seconds for 60,000 triangles.
+KneeAnatomy knee_anatomy(const TriMesh& femur, const TriMesh& tibia);
+
+}  // namespace condyle::kinematics

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "condyle/fit.hpp"
+
+namespace condyle::kinematics {
+
+/// The articular face of a scapula.
+struct Glenoid {
+  SphereFit fit;
+  double area_mm2;
+  Vec3 faces;  ///< unit: the mean of its normals by area, roughly to the side
+};
+
+/// What a humerus and a scapula show of their joint, before any frame is known. Axes of the ISB need landmarks that
+/// two meshes do not show (acromial angle, inferior angle, root of the spine; epicondyles of the humerus), and are not told.
+struct ShoulderAnatomy {
+  std::optional<SphericalPatch> head;
+  std::string why_no_head;
+  std::optional<Glenoid> glenoid;
+  std::string why_no_glenoid;
+  std::optional<Vec3>
+      towards_humerus;  ///< unit: from the head to the centroid of the humerus' surface, down a hanging arm
+};
+
+/// Of meshes in mm.
+ShoulderAnatomy shoulder_anatomy(const TriMesh& scapula, const TriMesh& humerus);
+
+}  // namespace condyle::kinematics
