@@ -38,7 +38,7 @@ constexpr int first_rounds = 4, most_rounds = 30;
 /// Requirements. The right knee of Lenhart et al. and the Visible Human's femur have 180 degrees in common, a width of 3.2
 /// radii, and nothing between. Cylinders through two parts of other surfaces (tibial plateau, femoral neck and trochanter,
 /// patella, along one condyle) have 0.28 times as much between as on a side, or more.
-constexpr double least_common_arc_deg = 140, least_width = 2.2, largest_width = 4.5, most_between = 0.1;
+constexpr double least_common_arc_deg = 150, least_width = 2.2, largest_width = 4.5, most_between = 0.1;
 
 constexpr int arcs = 36;
 /// An arc of 10 degrees is there if it has a strip of this width, mm.
@@ -268,6 +268,20 @@ bool better(const Fitted& a, const Fitted& b) {
   return a.fit.rms_residual / a.fit.cylinder.radius < b.fit.rms_residual / b.fit.cylinder.radius;
 }
 
+/// The best of its fits from starts a few degrees off: on rough surfaces a search ends beside the best fit.
+Fitted polished(const TriMesh& femur, const std::vector<SurfacePoint>& points, Fitted best) {
+  const Cylinder found = best.fit.cylinder;
+  const Vec3 middle = found.point + best.support.middle * found.direction;
+  constexpr double off = 0.06;  // radians, 3.4 degrees: as far as the nearest other fits have been found
+  const Vec3 e1 = found.direction.unitOrthogonal(), e2 = found.direction.cross(e1);
+  for (const Vec3& side : {e1, Vec3(-e1), e2, Vec3(-e2)}) {
+    const Cylinder start{middle, (found.direction + off * side).normalized(), found.radius};
+    if (auto fitted = settled(femur, points, start); fitted && better(*fitted, best))
+      best = std::move(*fitted);
+  }
+  return best;
+}
+
 void require_condyles(const Fitted& best) {
   const Support& s = best.support;
   if (s.has_two_condyles(best.fit.cylinder.radius)) return;
@@ -302,6 +316,7 @@ Condyles find_condyles(const TriMesh& femur, const Vec3& facing, const Vec3& tow
   if (!best)
     throw MeshError(core::formatted(
         "no cylinder common to two condyles among the %zu vertices that face the other bone", points.size()));
+  best = polished(femur, points, std::move(*best));
   require_condyles(*best);
   CylinderFit& fit = best->fit;
   const double middle = best->support.middle;

@@ -101,6 +101,7 @@ struct ProposalRequest {
   std::filesystem::path joint_file;      ///< where it is to lie: meshes are named from its folder
   std::optional<Side> side = {};         ///< default: inferred from the bones
   std::optional<LengthUnit> units = {};  ///< default: inferred from their size
+  std::optional<Anatomy> anatomy = {};   ///< which joint it is; default: a hip
 };
 
 /// A joint file, complete but for what could not be inferred.
@@ -115,7 +116,8 @@ struct JointProposal {
 /// inferred among the frames in use: RAS, LPS, and X anterior, Y superior, Z right. Where femur, neck, hip bone and the
 /// socket's opening lie about the head votes for up and outwards, and so do the far ends of whole bones; the neck's angle
 /// in the socket and the hip bone's shape vote for the side. What the votes do not settle, or settle against the given
-/// side, is left to fill in; nothing is guessed. Throws FileError if a mesh cannot be read.
+/// side, is left to fill in; nothing is guessed. Other joints have their axis from condyles, dome or trochlea, their directions
+/// from shafts, where the bones show them: docs/other-joints.md. Throws FileError if a mesh cannot be read.
 JointProposal propose_joint(const ProposalRequest& request);
 
 // A recorded motion of a joint: from the columns of a table to poses X_FM in the joint frame.

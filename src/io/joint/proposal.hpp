@@ -34,6 +34,7 @@ struct ProposalFacts {
   std::optional<Stated<LengthUnit>> units = {};  ///< default: inferred from their size
   std::optional<std::string> axes_by =
       {};  ///< who stated that the meshes are in LPS; default: inferred from the bones
+  std::optional<Anatomy> anatomy = {};  ///< default: a hip
 };
 
 JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts);

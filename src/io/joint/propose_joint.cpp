@@ -1,21 +1,19 @@
 #include "condyle/io/joint_file.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "condyle/inspect.hpp"
 #include "condyle/io/mesh_file.hpp"
 #include "condyle/io/pose_text.hpp"
 #include "condyle/make_joint.hpp"
-#include "condyle/version.hpp"
 #include "core/rounded.hpp"
-#include "io/file/format_version.hpp"
 #include "io/joint/proposal.hpp"
+#include "io/joint/proposal_lines.hpp"
+#include "io/joint/propose_other_joint.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_axes.hpp"
 #include "mesh/scale.hpp"
@@ -31,75 +29,8 @@ double degrees_forwards(double forwards, double outwards) {
   return std::atan2(forwards, outwards) * 180 / std::numbers::pi;
 }
 
-/// As TOML writes it, whatever it holds.
-std::string toml_text(std::string_view text) {
-  std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // no memory is an error, not half a text
-  out << toml::value<std::string>(std::string(text));
-  return out.str();
-}
-
-std::string toml_vector(const Vec3& v) {
-  return fmt::format("[{:g}, {:g}, {:g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
-}
-
-/// Writes lines of a joint file: keys that were inferred, and the other keys as comments.
-class Lines {
- public:
-  void add(const std::string& line) { text_ += line + "\n"; }
-  void key(std::string_view key, const std::string& value, const std::string& evidence) {
-    add(fmt::format("{} = {}  # {}", key, value, evidence));
-  }
-  void missing(std::string_view key, std::string_view choices, const std::string& why) {
-    add(fmt::format("# {} = {}  # to fill in: {}", key, choices, why));
-    to_fill_in_.push_back(fmt::format("{}: {}", key, why));
-  }
-
-  void evidence(const std::string& line) {
-    add("# " + line);
-    evidence_.push_back(line);
-  }
-
-  JointProposal proposal(std::optional<Side> side) && {
-    return {std::move(text_), std::move(to_fill_in_), side, std::move(evidence_)};
-  }
-
- private:
-  std::string text_;
-  std::vector<std::string> to_fill_in_, evidence_;
-};
-
-void add_body(Lines& lines, std::string_view role, const ProposedBody& body,
-              const std::filesystem::path& joint_file) {
-  const auto folder = std::filesystem::absolute(joint_file).parent_path();
-  const auto from_folder =
-      std::filesystem::absolute(body.file).lexically_normal().lexically_proximate(folder);
-  lines.add(fmt::format("\n[{}]", role));
-  for (const std::string& comment : body.comments) lines.add("# " + comment);
-  lines.add("name = " + toml_text(body.name));
-  lines.add("mesh = " + toml_text(from_folder.generic_string()));
-}
-
-/// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
-void add_image(Lines& lines, std::string_view role, const ProposedBody& body) {
-  if (!body.image) return;
-  const auto exact = [](const Vec3& v) {
-    return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
-  };
-  lines.add(fmt::format(
-      "\n[{}.image]  # the edges of a voxel, mm: bands take a quarter of it as the surface's uncertainty",
-      role));
-  constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
-  for (int i = 0; i < 3; ++i) lines.add(fmt::format("{} = {}", edges[i], exact(body.image->voxel.col(i))));
-  for (const ImageCut& cut : body.image->cuts) {
-    lines.add(fmt::format("[[{}.image.cut]]  # a flat face that closes the bone where the image ends", role));
-    lines.add("normal = " + exact(cut.normal));
-    lines.add(fmt::format("offset = {}", cut.offset_mm));
-  }
-}
-
-void add_side(Lines& lines, const std::optional<Stated<Side>>& stated, const std::optional<Side>& inferred,
-              const std::string& why_none) {
+void add_side(ProposalLines& lines, const std::optional<Stated<Side>>& stated,
+              const std::optional<Side>& inferred, const std::string& why_none) {
   if (stated)
     lines.key("side", toml_text(name_of(stated->value)), stated->by);
   else if (inferred)
@@ -108,7 +39,8 @@ void add_side(Lines& lines, const std::optional<Stated<Side>>& stated, const std
     lines.missing("side", "\"right\" or \"left\"", why_none);
 }
 
-void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics::AgreeingAxes& inferred) {
+void add_axes(ProposalLines& lines, const kinematics::HipAnatomy& hip,
+              const kinematics::AgreeingAxes& inferred) {
   const auto& [axes, side] = inferred;
   const Vec3 lateral = inferred.lateral();
   lines.key("anterior", toml_vector(axes->anterior()),
@@ -125,18 +57,7 @@ void add_axes(Lines& lines, const kinematics::HipAnatomy& hip, const kinematics:
         core::rounded(degrees_forwards(hip.opening->dot(axes->anterior()), hip.opening->dot(lateral)), 0)));
 }
 
-void add_units(Lines& lines, const std::optional<Stated<LengthUnit>>& stated, const LikelyUnit& of_fixed,
-               const LikelyUnit& of_mobile) {
-  const auto text = [](LengthUnit unit) { return unit == LengthUnit::metres ? "\"m\"" : "\"mm\""; };
-  if (stated)
-    lines.key("units", text(stated->value), stated->by);
-  else if (of_mobile.unit && of_fixed.unit == of_mobile.unit)
-    lines.key("units", text(*of_mobile.unit), "inferred from the size of the meshes: " + of_mobile.reason);
-  else
-    lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
-}
-
-void add_kind(Lines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
+void add_kind(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
   if (!hip)
     return lines.missing("kind", "\"ball\" or \"hinge\"",
                          "no head was found on the mobile body near the fixed one");
@@ -148,7 +69,7 @@ void add_kind(Lines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
                             : std::string(", without a spherical socket round it")));
 }
 
-void add_centre(Lines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
+void add_centre(ProposalLines& lines, const std::optional<kinematics::HipAnatomy>& hip) {
   if (!hip) return lines.missing("centre", "[x, y, z]", "nothing was fitted");
   const Sphere& head = hip->head.fit.sphere;
   lines.key("centre", "\"fit\"",
@@ -162,14 +83,11 @@ void add_centre(Lines& lines, const std::optional<kinematics::HipAnatomy>& hip) 
 }  // namespace
 
 JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const ProposalFacts& facts) {
+  if (facts.anatomy && *facts.anatomy != Anatomy::hip)
+    return proposal_of_other(std::move(fixed), std::move(mobile), *facts.anatomy, facts);
   const LikelyUnit of_fixed = likely_unit(fixed.mesh), of_mobile = likely_unit(mobile.mesh);
-  Lines lines;
-  lines.add(fmt::format("# Proposed by condyle init {} from {}. Each value has a comment with its evidence;",
-                        version, facts.from));
-  lines.add("# lines that begin with # and a key could not be inferred and are to be filled in.");
-  lines.add(fmt::format("condyle = {}", io::format_version));
-  lines.add("name = " + toml_text(mobile.name + " in " + fixed.name));
-
+  ProposalLines lines;
+  add_head(lines, fixed, mobile, facts);
   const LengthUnit units =
       facts.units ? facts.units->value : of_mobile.unit.value_or(LengthUnit::millimetres);
   mesh::scale(fixed.mesh, mm_per(units));
@@ -203,9 +121,7 @@ JointProposal proposal_of(ProposedBody fixed, ProposedBody mobile, const Proposa
   add_units(lines, facts.units, of_fixed, of_mobile);
 
   add_body(lines, "fixed", fixed, facts.joint_file);
-  add_image(lines, "fixed", fixed);
   add_body(lines, "mobile", mobile, facts.joint_file);
-  add_image(lines, "mobile", mobile);
 
   lines.add("\n[frame]");
   add_centre(lines, hip);
@@ -232,6 +148,7 @@ JointProposal propose_joint(const ProposalRequest& request) {
   io::ProposalFacts facts{.joint_file = request.joint_file, .from = "the two meshes below"};
   if (request.side) facts.side = {*request.side, "given"};
   if (request.units) facts.units = {*request.units, "given"};
+  facts.anatomy = request.anatomy;
   return io::proposal_of(body(request.fixed), body(request.mobile), facts);
 }
 

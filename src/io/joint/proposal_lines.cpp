@@ -1,0 +1,81 @@
+#include "io/joint/proposal_lines.hpp"
+
+#include <toml++/toml.h>
+
+#include <sstream>
+
+#include "condyle/version.hpp"
+#include "io/file/format_version.hpp"
+
+namespace condyle::io {
+namespace {
+
+void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& body,
+              const std::filesystem::path& joint_file) {
+  const auto folder = std::filesystem::absolute(joint_file).parent_path();
+  const auto from_folder =
+      std::filesystem::absolute(body.file).lexically_normal().lexically_proximate(folder);
+  lines.add(fmt::format("\n[{}]", role));
+  for (const std::string& comment : body.comments) lines.add("# " + comment);
+  lines.add("name = " + toml_text(body.name));
+  lines.add("mesh = " + toml_text(from_folder.generic_string()));
+}
+
+/// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.
+void add_image(ProposalLines& lines, std::string_view role, const ProposedBody& body) {
+  if (!body.image) return;
+  const auto exact = [](const Vec3& v) {
+    return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+  };
+  lines.add(fmt::format(
+      "\n[{}.image]  # the edges of a voxel, mm: bands take a quarter of it as the surface's uncertainty",
+      role));
+  constexpr std::string_view edges[] = {"voxel_i", "voxel_j", "voxel_k"};
+  for (int i = 0; i < 3; ++i) lines.add(fmt::format("{} = {}", edges[i], exact(body.image->voxel.col(i))));
+  for (const ImageCut& cut : body.image->cuts) {
+    lines.add(fmt::format("[[{}.image.cut]]  # a flat face that closes the bone where the image ends", role));
+    lines.add("normal = " + exact(cut.normal));
+    lines.add(fmt::format("offset = {}", cut.offset_mm));
+  }
+}
+
+}  // namespace
+
+std::string toml_text(std::string_view text) {
+  std::ostringstream out;
+  out.exceptions(std::ios::badbit);  // no memory is an error, not half a text
+  out << toml::value<std::string>(std::string(text));
+  return out.str();
+}
+
+std::string toml_vector(const Vec3& v) {
+  return fmt::format("[{:g}, {:g}, {:g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
+}
+
+void add_head(ProposalLines& lines, const ProposedBody& fixed, const ProposedBody& mobile,
+              const ProposalFacts& facts) {
+  lines.add(fmt::format("# Proposed by condyle init {} from {}. Each value has a comment with its evidence;",
+                        version, facts.from));
+  lines.add("# lines that begin with # and a key could not be inferred and are to be filled in.");
+  lines.add(fmt::format("condyle = {}", io::format_version));
+  lines.add("name = " + toml_text(mobile.name + " in " + fixed.name));
+}
+
+void add_units(ProposalLines& lines, const std::optional<Stated<LengthUnit>>& stated,
+               const LikelyUnit& of_fixed, const LikelyUnit& of_mobile) {
+  const auto text = [](LengthUnit unit) { return unit == LengthUnit::metres ? "\"m\"" : "\"mm\""; };
+  if (stated)
+    lines.key("units", text(stated->value), stated->by);
+  else if (of_mobile.unit && of_fixed.unit == of_mobile.unit)
+    lines.key("units", text(*of_mobile.unit), "inferred from the size of the meshes: " + of_mobile.reason);
+  else
+    lines.missing("units", "\"mm\" or \"m\"", "the sizes of the meshes do not speak for one unit");
+}
+
+void add_body(ProposalLines& lines, std::string_view role, const ProposedBody& body,
+              const std::filesystem::path& joint_file) {
+  add_keys(lines, role, body, joint_file);
+  add_image(lines, role, body);
+}
+
+}  // namespace condyle::io
