@@ -185,5 +185,5 @@ def read_model(path: Path, *, geometry: Union[Path, Sequence[Path]] = ()) -> Mod
 
     C++: `condyle::read_model` in condyle/io/model_file.hpp; `condyle inspect MODEL`.
     """
-    folders = [geometry] if isinstance(geometry, str) or hasattr(geometry, "__fspath__") else list(cast("Sequence[Path]", geometry))
+    folders = [geometry] if isinstance(geometry, str) or hasattr(geometry, "__fspath__") else list(geometry)
     return Model(_native.read_model(path_of(path), [path_of(cast(Path, folder), "geometry") for folder in folders]))

@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
@@ -14,6 +12,7 @@
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/load_joint.hpp"
+#include "io/joint/proposal_lines.hpp"
 #include "io/mesh/parse.hpp"
 #include "io/model/joint_mapping.hpp"
 #include "io/model/model_joint_file.hpp"
@@ -25,13 +24,6 @@ namespace io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string toml_string(std::string_view text) {
-  std::ostringstream out;
-  out.exceptions(std::ios::badbit);  // no memory is an error, not half a text
-  out << toml::value<std::string>(std::string(text));
-  return out.str();
-}
 
 std::string toml_numbers(const Vec3& v) {
   return fmt::format("[{}, {}, {}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);  // no -0
@@ -176,7 +168,7 @@ class ModelJointFile {
         "they are split.");
     add(fmt::format("condyle = {}", format_version));
     add("name = " +
-        toml_string(fmt::format("{} of {}", joint_.name, model_.name.empty() ? "a model" : model_.name)));
+        toml_text(fmt::format("{} of {}", joint_.name, model_.name.empty() ? "a model" : model_.name)));
     add(fmt::format("kind = \"{}\"  # {}", name_of(mapping_.kind), mapping_.why));
     const bool is_hinge_of_none = mapping_.kind == JointKind::hinge &&
                                   (!anatomy_ || anatomy_ == Anatomy::hip || anatomy_ == Anatomy::shoulder);
@@ -190,8 +182,8 @@ class ModelJointFile {
   }
 
   void write_mesh(const NamedMesh& named, bool has_name) {
-    if (has_name) add("name = " + toml_string(named.name));
-    add("mesh = " + toml_string(named.mesh.path ? path_of(*named.mesh.path) : named.mesh.file));
+    if (has_name) add("name = " + toml_text(named.name));
+    add("mesh = " + toml_text(named.mesh.path ? path_of(*named.mesh.path) : named.mesh.file));
     if (!lower_case(named.mesh.file).ends_with(".stl")) add("polygons = \"split\"");
     if (named.mesh.scale != Vec3::Ones()) add("scale = " + toml_numbers(named.mesh.scale));
     if (!named.mesh.X_BG.matrix().isIdentity(0)) add("pose = " + toml_pose(named.mesh.X_BG));
@@ -203,7 +195,7 @@ class ModelJointFile {
   void write_body(std::string_view role, const std::string& name, const std::vector<NamedMesh>& meshes,
                   const std::optional<Pose>& pose) {
     add(fmt::format("\n[{}]", role));
-    add("name = " + toml_string(name));
+    add("name = " + toml_text(name));
     if (pose && !pose->matrix().isIdentity(0))
       add("pose = " + toml_pose(*pose) + "  # in the fixed body's frame, all coordinates 0");
     const bool has_names =
@@ -251,12 +243,12 @@ class ModelJointFile {
   void write_recorded_motion() {
     add("\n[recorded_motion]");
     if (mapping_.columns.empty()) {
-      add("model = " + toml_string(path_of(model_.path)) + "  # poses the joint by its functions");
-      add("joint = " + toml_string(joint_.name));
+      add("model = " + toml_text(path_of(model_.path)) + "  # poses the joint by its functions");
+      add("joint = " + toml_text(joint_.name));
       return;
     }
     for (const ColumnOfCoordinate& column : mapping_.columns) {
-      std::string line = fmt::format("{} = {{ column = {}", column.coordinate, toml_string(column.column));
+      std::string line = fmt::format("{} = {{ column = {}", column.coordinate, toml_text(column.column));
       if (column.kind == CoordinateKind::length) line += ", unit = \"m\"";
       if (column.sign != 1) line += ", sign = -1";
       if (column.offset != 0) line += fmt::format(", offset = {}", column.offset);
@@ -360,8 +352,8 @@ class ModelJointFile {
     add(fmt::format("reach = {}", contact_->greatest_proximity));
     add(fmt::format("law = \"{}\"", contact_->is_linear ? "linear" : "logarithmic"));
     add("moment_on = \"target\"  # as OpenSim-JAM prints it; the force is on the casting body");
-    if (fixed_.size() > 1) add("fixed_part = " + toml_string(fixed_part_));
-    if (mobile_.size() > 1) add("mobile_part = " + toml_string(mobile_part_));
+    if (fixed_.size() > 1) add("fixed_part = " + toml_text(fixed_part_));
+    if (mobile_.size() > 1) add("mobile_part = " + toml_text(mobile_part_));
     write_layer("fixed", is_mobile ? target : casting, is_mobile ? casting : target);
     write_layer("mobile", is_mobile ? casting : target, is_mobile ? target : casting);
   }
@@ -386,7 +378,7 @@ class ModelJointFile {
     if (mesh.mesh.scale != Vec3::Ones() || !X.matrix().isIdentity(0))
       refuse(fmt::format("the thickness of {} varies, and its mesh is scaled or moved in its body",
                          in_quotes(mesh.name)));
-    add("behind = " + toml_string(path_of(*mesh.back_path)));
+    add("behind = " + toml_text(path_of(*mesh.back_path)));
     add(fmt::format("thickness = {}  # of vertices with nothing behind them", mesh.least_thickness));
     note(fmt::format(
         "the thickness of {} is measured at its vertices and has no bounds; OpenSim-JAM measures it at "

@@ -1,6 +1,7 @@
 #include "io/result/model_result.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -10,6 +11,7 @@
 #include "io/file/plain_text.hpp"
 #include "io/model/joint_mapping.hpp"
 #include "io/result/json.hpp"
+#include "io/result/provenance_forms.hpp"
 
 namespace condyle::io {
 namespace {
@@ -27,7 +29,7 @@ std::pair<std::size_t, std::size_t> meshes_found(const Model& model, const Model
   return {static_cast<std::size_t>(found), meshes.size()};
 }
 
-std::string joint_text(const Model& model, const ModelJoint& joint) {
+std::string model_joint_text(const Model& model, const ModelJoint& joint) {
   if (!joint.transform) return fmt::format("  {}: {}\n", joint.name, joint.why_not);
   std::string coordinates;
   for (const ModelCoordinate& coordinate : joint.coordinates)
@@ -45,7 +47,7 @@ std::string joint_text(const Model& model, const ModelJoint& joint) {
 std::string model_text(const Model& model) {
   std::string text = fmt::format("{}\n  model {}, version {}: {} bodies, {} joints\n", model.path.string(),
                                  model.name, model.version, model.bodies.size(), model.joints.size());
-  for (const ModelJoint& joint : model.joints) text += joint_text(model, joint);
+  for (const ModelJoint& joint : model.joints) text += model_joint_text(model, joint);
   for (const ModelContact& contact : model.contacts)
     text += fmt::format("  contact {}: {} on {}{}\n", contact.name, contact.casting, contact.target,
                         contact.applies ? "" : ", not applied");
@@ -59,7 +61,7 @@ std::string model_text(const Model& model) {
   return text;
 }
 
-Json coordinate_json(const ModelCoordinate& coordinate) {
+Json model_coordinate_json(const ModelCoordinate& coordinate) {
   Json json{{"name", coordinate.name},
             {"motion", name_of(coordinate.motion)},
             {"default", coordinate.default_value},
@@ -71,13 +73,13 @@ Json coordinate_json(const ModelCoordinate& coordinate) {
   return json;
 }
 
-Json mesh_json(const ModelMesh& mesh) {
+Json model_mesh_json(const ModelMesh& mesh) {
   Json json{{"body", mesh.body}, {"file", mesh.file}, {"path", nullptr}, {"scale", numbers(mesh.scale)}};
   if (mesh.path) json["path"] = mesh.path->string();
   return json;
 }
 
-Json joint_json(const ModelJoint& joint) {
+Json model_joint_json(const ModelJoint& joint) {
   Json json{{"name", joint.name},
             {"type", joint.type},
             {"line", joint.line},
@@ -90,7 +92,7 @@ Json joint_json(const ModelJoint& joint) {
             {"coordinates", Json::array()},
             {"refused", nullptr}};
   for (const ModelCoordinate& coordinate : joint.coordinates)
-    json["coordinates"].push_back(coordinate_json(coordinate));
+    json["coordinates"].push_back(model_coordinate_json(coordinate));
   if (!joint.transform) json["refused"] = joint.why_not;
   if (const auto anatomy = anatomy_of(joint)) json["anatomy"] = name_of(*anatomy);
   if (const auto side = side_of(joint)) json["side"] = name_of(*side);
@@ -105,8 +107,8 @@ Json model_json(const Model& model) {
   Json json{{"file", model.path.string()}, {"name", model.name}, {"version", model.version}};
   json["bodies"] = model.bodies;
   for (const char* list : {"joints", "meshes", "contacts", "couplers"}) json[list] = Json::array();
-  for (const ModelJoint& joint : model.joints) json["joints"].push_back(joint_json(joint));
-  for (const ModelMesh& mesh : model.meshes) json["meshes"].push_back(mesh_json(mesh));
+  for (const ModelJoint& joint : model.joints) json["joints"].push_back(model_joint_json(joint));
+  for (const ModelMesh& mesh : model.meshes) json["meshes"].push_back(model_mesh_json(mesh));
   for (const ModelContact& contact : model.contacts)
     json["contacts"].push_back({{"name", contact.name},
                                 {"casting", contact.casting},
