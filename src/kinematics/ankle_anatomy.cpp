@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/formatted.hpp"
+#include "kinematics/corners.hpp"
 #include "kinematics/hip_anatomy.hpp"
 
 namespace condyle::kinematics {
@@ -16,14 +17,33 @@ constexpr double dome_reach_mm = 30, smallest_dome = 10, largest_dome = 35;
 constexpr double shaft_begins = 2;
 /// The talus reaches in front of its dome's axis by so much more than behind it, radii.
 constexpr double least_head = 0.5;
+/// A talus reaches less far than a tibia, but for one cut close to the joint; parts of its reach.
+constexpr double largest_talus = 1.3;
 /// The axis lies across the shaft, to within 30 degrees.
 constexpr double most_along_shaft = 0.5;
 
+double farthest_from(const TriMesh& bone, const Vec3& point) {
+  double farthest = 0;
+  for_each_corner(bone, [&](const Vec3& p) { farthest = std::max(farthest, (p - point).norm()); });
+  return farthest;
+}
+
 double reach_towards(const TriMesh& bone, const Vec3& from, const Vec3& direction) {
   double reach = 0;
-  for (std::size_t v = 0; v < bone.vertices.size(); ++v)
-    reach = std::max(reach, (bone.vertices[v] - from).dot(direction));
+  for_each_corner(bone, [&](const Vec3& p) { reach = std::max(reach, (p - from).dot(direction)); });
   return reach;
+}
+
+/// What speaks against a tibia on a talus; empty if nothing does.
+std::string why_no_ankle(const TriMesh& tibia, const TriMesh& talus, const AnkleAnatomy& ankle) {
+  if (!lies_across(*ankle.dome.fit, ankle.centre, tibia))
+    return "the cylinder of the mobile body points to the fixed one, and a dome lies across";
+  const double of_talus = farthest_from(talus, ankle.centre), of_tibia = farthest_from(tibia, ankle.centre);
+  if (of_talus > largest_talus * of_tibia)
+    return core::formatted(
+        "the mobile body reaches %.0f mm from the joint and the fixed one %.0f: it is no talus", of_talus,
+        of_tibia);
+  return {};
 }
 
 void find_axes(const TriMesh& talus, AnkleAnatomy& ankle) {
@@ -58,6 +78,11 @@ AnkleAnatomy ankle_anatomy(const TriMesh& tibia, const TriMesh& talus) {
     return ankle;
   }
   ankle.centre = middle_of(talus, *ankle.dome.fit);
+  if (const std::string why = why_no_ankle(tibia, talus, ankle); !why.empty()) {
+    ankle.dome = {{}, why};
+    ankle.why_no_axes = "no dome was found";
+    return ankle;
+  }
   ankle.shaft =
       shaft_line(tibia, ankle.centre, (area_centroid(tibia) - ankle.centre).normalized(),
                  shaft_begins * ankle.dome.fit->cylinder.radius, std::numeric_limits<double>::infinity());

@@ -9,7 +9,7 @@ namespace condyle::kinematics {
 namespace {
 
 /// Trochlea and capitellum are some 45 mm wide.
-constexpr double trochlea_reach_mm = 30, smallest_trochlea = 5, largest_trochlea = 18;
+constexpr double trochlea_reach_mm = 30, smallest_trochlea = 5, largest_trochlea = 14;
 /// The shaft begins beyond the epicondyles and the fossae; in radii of the trochlea.
 constexpr double shaft_begins = 4.5;
 /// The axis lies across the shaft, to within 30 degrees.
@@ -24,8 +24,13 @@ ElbowAnatomy elbow_anatomy(const TriMesh& humerus, const TriMesh& ulna) {
     elbow.why_no_superior = "no trochlea was found";
     return elbow;
   }
-  const Cylinder& axis = elbow.trochlea.fit->cylinder;
+  const Cylinder axis = elbow.trochlea.fit->cylinder;
   elbow.centre = middle_of(humerus, *elbow.trochlea.fit);
+  if (!lies_across(*elbow.trochlea.fit, elbow.centre, humerus)) {
+    elbow.trochlea = {{}, "the cylinder of the fixed body points along it, and a trochlea lies across"};
+    elbow.why_no_superior = "no trochlea was found";
+    return elbow;
+  }
   elbow.shaft = shaft_line(humerus, elbow.centre, (area_centroid(humerus) - elbow.centre).normalized(),
                            shaft_begins * axis.radius, std::numeric_limits<double>::infinity());
   if (!elbow.shaft) {

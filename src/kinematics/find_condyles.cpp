@@ -27,7 +27,7 @@ constexpr std::size_t first_points = 260, partners = 90, candidates_kept = 16;
 
 /// As in find_cylinder(): normals this far from parallel (sine) give a direction, radii seen from both may differ by this part.
 constexpr double smallest_sine = 0.2, radius_agreement = 0.15;
-/// The axis lies across the shaft, to within 30 degrees; the way to the centroid of a cut femur is 25 off (sine of 60).
+/// The axis lies across the shaft, to within 30 degrees (sine): the way to the centroid of a cut femur is 25 off.
 constexpr double most_along_shaft = 0.5;
 
 /// A vertex belongs to a cylinder while its normal is within 30 degrees of its ray (cosine), and within these parts of the

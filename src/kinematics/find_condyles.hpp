@@ -17,7 +17,7 @@ struct Condyles {
   double between = 0;  ///< area of the middle third of that length, over that of the smaller outer third
 };
 
-/// Condyles of a bone whose joint surface is near `facing` and whose shaft goes roughly along `towards_shaft` (unit, 60
+/// Condyles of a bone whose joint surface is near `facing` and whose shaft goes roughly along `towards_shaft` (unit, 30
 /// degrees off at most): of cylinders through pairs of vertices the one that both parts have the largest arc of.
 /// Deterministic. Throws MeshError, which says what is missing: two parts with 150 degrees of the cylinder in common, more than
 /// two radii wide, apart by a notch, that fix the axis within largest_axis_bound and largest_place_bound_mm.

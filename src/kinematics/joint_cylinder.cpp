@@ -1,10 +1,12 @@
 #include "kinematics/joint_cylinder.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/hip_anatomy.hpp"
 
 namespace condyle::kinematics {
 
@@ -29,6 +31,11 @@ JointCylinder joint_cylinder(const TriMesh& bone, const TriMesh& other, double r
   } catch (const MeshError& error) {
     return {{}, error.what()};
   }
+}
+
+bool lies_across(const CylinderFit& fit, const Vec3& middle, const TriMesh& bone) {
+  constexpr double most_along = 0.5;
+  return std::abs((area_centroid(bone) - middle).normalized().dot(fit.cylinder.direction)) <= most_along;
 }
 
 Vec3 middle_of(const TriMesh& bone, const CylinderFit& fit) {

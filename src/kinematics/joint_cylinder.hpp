@@ -24,6 +24,10 @@ struct JointCylinder {
 JointCylinder joint_cylinder(const TriMesh& bone, const TriMesh& other, double reach_mm, double smallest,
                              double largest);
 
+/// Whether the cylinder lies across the way from its middle to the centroid of a bone, to within 30 degrees: a joint's does,
+/// and that of a shaft goes along it.
+bool lies_across(const CylinderFit& fit, const Vec3& middle, const TriMesh& bone);
+
 /// The middle of the length of a cylinder's surface, on its axis.
 Vec3 middle_of(const TriMesh& bone, const CylinderFit& fit);
 

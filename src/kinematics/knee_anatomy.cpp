@@ -7,6 +7,7 @@
 
 #include "condyle/error.hpp"
 #include "core/formatted.hpp"
+#include "kinematics/corners.hpp"
 #include "kinematics/facing_part.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/joint_cylinder.hpp"
@@ -50,13 +51,13 @@ struct Epicondyle {
 Epicondyles find_epicondyles(const TriMesh& femur, const Cylinder& axis) {
   constexpr double none = std::numeric_limits<double>::infinity();
   Epicondyle first{Vec3::Zero(), none}, last{Vec3::Zero(), -none};
-  for (std::size_t v = 0; v < femur.vertices.size(); ++v) {
-    const Vec3 q = femur.vertices[v] - axis.point;
+  for_each_corner(femur, [&](const Vec3& p) {
+    const Vec3 q = p - axis.point;
     const double height = q.dot(axis.direction);
-    if ((q - height * axis.direction).norm() > near_axis * axis.radius) continue;
-    if (height < first.height) first = {femur.vertices[v], height};
-    if (height > last.height) last = {femur.vertices[v], height};
-  }
+    if ((q - height * axis.direction).norm() > near_axis * axis.radius) return;
+    if (height < first.height) first = {p, height};
+    if (height > last.height) last = {p, height};
+  });
   const double cosine = (last.at - first.at).normalized().dot(axis.direction);
   return {first.at, last.at, std::acos(std::clamp(cosine, -1.0, 1.0)) * degrees_per_radian};
 }
@@ -71,13 +72,13 @@ Reach reach_of(const TriMesh& femur, const Condyles& condyles, const Vec3& ahead
   constexpr double none = -std::numeric_limits<double>::infinity();
   const Cylinder& axis = condyles.fit.cylinder;
   Reach reach{none, none, none};
-  for (std::size_t v = 0; v < femur.vertices.size(); ++v) {
-    const Vec3 q = femur.vertices[v] - axis.point;
+  for_each_corner(femur, [&](const Vec3& p) {
+    const Vec3 q = p - axis.point;
     const double share = q.dot(axis.direction) / condyles.length_mm;
-    if (std::abs(share) > 0.6 || std::abs(q.dot(up)) > 2 * axis.radius) continue;
+    if (std::abs(share) > 0.6 || std::abs(q.dot(up)) > 2 * axis.radius) return;
     double& part = std::abs(share) <= middle_share ? reach.between : share < 0 ? reach.first : reach.last;
     part = std::max(part, q.dot(ahead));
-  }
+  });
   return reach;
 }
 

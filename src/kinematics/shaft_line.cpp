@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "kinematics/corners.hpp"
+
 namespace condyle::kinematics {
 namespace {
 
@@ -30,14 +32,14 @@ double whole_reach(const TriMesh& bone, const Vec3& joint, const ShaftLine& line
   constexpr int sectors = 8;
   const Vec3 e1 = line.direction.unitOrthogonal(), e2 = line.direction.cross(e1);
   std::array<double, sectors> reach{};
-  for (std::size_t v = 0; v < bone.vertices.size(); ++v) {
-    const double height = (bone.vertices[v] - joint).dot(line.direction);
-    if (height < begins) continue;
-    const Vec3 q = bone.vertices[v] - line.point;
+  for_each_corner(bone, [&](const Vec3& p) {
+    const double height = (p - joint).dot(line.direction);
+    if (height < begins) return;
+    const Vec3 q = p - line.point;
     const double turn = std::atan2(q.dot(e2), q.dot(e1)) / two_pi + 0.5;
     double& of_sector = reach[std::min(static_cast<std::size_t>(turn * sectors), std::size_t{sectors - 1})];
     of_sector = std::max(of_sector, height);
-  }
+  });
   return *std::min_element(reach.begin(), reach.end());
 }
 
@@ -45,8 +47,7 @@ double whole_reach(const TriMesh& bone, const Vec3& joint, const ShaftLine& line
 std::optional<Slices> slices_of(const TriMesh& bone, const Vec3& joint, const Vec3& direction,
                                 const std::optional<ShaftLine>& line, double begins, double most) {
   double reach = 0;
-  for (std::size_t v = 0; v < bone.vertices.size(); ++v)
-    reach = std::max(reach, (bone.vertices[v] - joint).dot(direction));
+  for_each_corner(bone, [&](const Vec3& p) { reach = std::max(reach, (p - joint).dot(direction)); });
   const double ends =
       std::min((line ? whole_reach(bone, joint, *line, begins) : reach) - end_mm, std::min(most, longest_mm));
   if (ends - begins < shortest_shaft_mm) return std::nullopt;

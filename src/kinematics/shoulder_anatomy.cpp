@@ -11,6 +11,8 @@ namespace {
 
 /// Humeral heads, mm.
 constexpr double smallest_head = 14, largest_head = 34;
+/// A humeral head is a third of a sphere or more.
+constexpr double least_coverage = 0.25;
 
 /// The glenoid faces the head (cosine of 35 degrees) across the cartilages, within so many head radii of its centre.
 constexpr double faces_head = 0.82, nearest = 0.85, farthest = 1.6;
@@ -75,7 +77,11 @@ ShoulderAnatomy shoulder_anatomy(const TriMesh& scapula, const TriMesh& humerus)
                                           .largest_radius = largest_head,
                                           .within = Sphere{facing->centre, 2 * largest_head},
                                           .resamples = 50});
-    if (*shoulder.head->centre_bound_mm > largest_place_bound_mm) {
+    if (shoulder.head->coverage < least_coverage) {
+      shoulder.why_no_head = core::formatted("the best head has %.0f %% of a sphere (needs %.0f)",
+                                             100 * shoulder.head->coverage, 100 * least_coverage);
+      shoulder.head.reset();
+    } else if (*shoulder.head->centre_bound_mm > largest_place_bound_mm) {
       shoulder.why_no_head =
           core::formatted("parts of the best head give centres up to %.1f mm off (needs %.0f)",
                           *shoulder.head->centre_bound_mm, largest_place_bound_mm);

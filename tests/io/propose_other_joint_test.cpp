@@ -109,6 +109,21 @@ TEST_F(ProposedOther, KneeOfExchangedBonesSaysSo) {
   EXPECT_NE(proposal.toml.find("fixed and mobile look exchanged"), std::string::npos) << proposal.toml;
 }
 
+TEST_F(ProposedOther, OthersOfExchangedBonesSaySo) {
+  struct Exchanged {
+    Anatomy anatomy;
+    TriMesh fixed, mobile;
+  };
+  for (const auto& [anatomy, fixed, mobile] :
+       {Exchanged{Anatomy::ankle, talus(), tibia_of_ankle()},
+        Exchanged{Anatomy::elbow, ulna(), humerus_at_elbow()},
+        Exchanged{Anatomy::shoulder, humerus_at_shoulder(), scapula()}}) {
+    const JointProposal proposal = proposed(fixed, mobile, anatomy);
+    EXPECT_EQ(keys_to_fill_in(proposal), (Keys{"side", "centre", "anterior", "superior"}));
+    EXPECT_NE(proposal.toml.find("fixed and mobile look exchanged"), std::string::npos) << proposal.toml;
+  }
+}
+
 TEST_F(ProposedOther, KneeOfAGivenSideThatItsBonesContradictHasNone) {
   const TriMesh femur = femur_of({}), tibia = tibia_of_knee();
   EXPECT_EQ(keys_to_fill_in(proposed(femur, tibia, Anatomy::knee, Side::left)), Keys{"side"});

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+
 #include "support/drawn_bones.hpp"
 #include "support/shared_data.hpp"
 #include "support/test_meshes.hpp"
@@ -119,6 +124,60 @@ TEST_F(SharedKnee, HasTheAxesOfItsModelInAnyPose) {
 TEST_F(SharedKnee, HasNoCondylesOnItsTibia) {
   const KneeAnatomy exchanged = knee_anatomy(tibia_, femur_);
   EXPECT_FALSE(exchanged.condyles);
+}
+
+/// The triangles whose corners are all on one side of a plane.
+TriMesh cut(const TriMesh& mesh, const Vec3& normal, double offset) {
+  TriMesh kept = mesh;
+  std::erase_if(kept.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(), [&](Index v) { return normal.dot(mesh.vertices[v]) > offset; });
+  });
+  return kept;
+}
+
+/// Both real femora, whole and cut at several heights by oblique planes, smooth and rough: what is said agrees with what the
+/// whole smooth bone shows. CONDYLE_LONG_TESTS=1 makes 480 scans.
+TEST(KneeAnatomy, OfCutAndRoughFemoraAgreesWithTheWholeOnes) {
+  const auto data = test::shared_data();
+  if (!data) GTEST_SKIP() << "no shared data: set CONDYLE_DATA";
+  struct Knee {
+    TriMesh femur, tibia;
+  };
+  const Knee knees[] = {
+      {test::read_ply(*data / "hip_vhf_right/femur.ply"), test::box({-50, -440, -35}, {0, -405, 35})},
+      {test::read_ply(*data / "knee_lenhart2015_right/femur_bone.ply"),
+       test::read_ply(*data / "knee_lenhart2015_right/tibia_bone.ply")}};
+  const bool is_long = std::getenv("CONDYLE_LONG_TESTS") != nullptr;
+  for (const auto& [femur, tibia] : std::span(knees).first(is_long ? 2 : 1)) {
+    const KneeAnatomy whole = knee_anatomy(femur, tibia);
+    ASSERT_TRUE(whole.axes);
+    const Cylinder& axis = whole.condyles->fit.cylinder;
+    for (const double rough : {0.0, 0.3, 0.6})
+      for (const double height : {1000.0, 85.0, 70.0, 60.0, 45.0})
+        for (unsigned i = 0; i < (is_long ? 16u : 1u); ++i) {
+          SCOPED_TRACE(testing::Message() << rough << " mm rough, cut at " << height << ", pose " << i);
+          const Vec3 normal = (Vec3::UnitY() + 0.15 * Vec3(std::sin(i), 0, std::cos(3.0 * i))).normalized();
+          const Pose X = test::any_pose(i);
+          const KneeAnatomy knee = knee_anatomy(
+              scanned(cut(femur, normal, normal.dot(axis.point) + height), X, rough, i), posed(X, tibia));
+          if (!knee.condyles) continue;
+          const Cylinder& found = knee.condyles->fit.cylinder;
+          const Vec3 expected = X.linear() * axis.direction;
+          EXPECT_LT(degrees_between(found.direction,
+                                    found.direction.dot(expected) < 0 ? Vec3(-expected) : expected),
+                    most_deg);
+          EXPECT_LT((found.point - X * axis.point).cross(expected).norm(), most_mm);
+          // Without its head a femur's up is its shaft's, some degrees off.
+          constexpr double head_or_shaft_deg = 10;
+          if (knee.axes) {
+            EXPECT_LT(degrees_between(knee.axes->anterior, X.linear() * whole.axes->anterior),
+                      head_or_shaft_deg);
+          }
+          if (knee.side) {
+            EXPECT_EQ(*knee.side, Side::right);
+          }
+        }
+  }
 }
 
 /// The Visible Human's femur is in the scanner's axes, leg straight; its own landmarks lie on both condyles.

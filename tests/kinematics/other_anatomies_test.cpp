@@ -52,6 +52,13 @@ TEST(AnkleAnatomy, OfATalusWithoutADomeIsEmpty) {
   EXPECT_FALSE(ankle.dome.why_none.empty());
 }
 
+/// A tibia is round about its shaft too.
+TEST(AnkleAnatomy, OfExchangedBonesIsEmpty) {
+  const AnkleAnatomy ankle = ankle_anatomy(test::talus(), test::tibia_of_ankle());
+  EXPECT_FALSE(ankle.dome.fit);
+  EXPECT_NE(ankle.dome.why_none.find("a dome lies across"), std::string::npos) << ankle.dome.why_none;
+}
+
 TEST(ElbowAnatomy, OfADrawnElbowIsFoundInAnyPose) {
   const TriMesh humerus = test::humerus_at_elbow(), ulna = test::ulna();
   for (unsigned i = 0; i < 4; ++i) {
