@@ -14,6 +14,7 @@
 #include "condyle/io/joint_file.hpp"
 #include "condyle/io/label_joint.hpp"
 #include "condyle/io/mesh_file.hpp"
+#include "condyle/io/pose_text.hpp"
 #include "followed.hpp"
 #include "help_formatter.hpp"
 #include "io/file/output_file.hpp"
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   std::string fixed, mobile;  ///< files
-  std::string joint;          ///< of a model
+  std::string joint;          ///< of a model, or which joint two meshes are
   std::shared_ptr<ModelOptions> model = std::make_shared<ModelOptions>();
   std::string fixed_label, mobile_label;
   std::optional<Side> side;
@@ -55,10 +56,22 @@ void note_to_fill_in(const JointProposal& proposal) {
   for (const std::string& missing : proposal.to_fill_in) note("to fill in: " + missing);
 }
 
+/// Which joint two meshes are; empty if it was not given.
+std::optional<Anatomy> anatomy_of(const std::string& joint) {
+  if (joint.empty()) return std::nullopt;
+  for (const Anatomy known : all_anatomies)
+    if (joint == name_of(known)) return known;
+  throw UsageError("--joint: two meshes are a hip, knee, ankle, elbow or shoulder, not " + joint);
+}
+
 void propose_from_meshes(const Options& options) {
   if (options.mobile.empty()) throw UsageError("MOBILE: the mesh of the body that moves is needed");
-  const JointProposal proposal = propose_joint(
-      ProposalRequest{options.fixed, options.mobile, options.joint_file(), options.side, options.units});
+  const JointProposal proposal = propose_joint(ProposalRequest{.fixed = options.fixed,
+                                                               .mobile = options.mobile,
+                                                               .joint_file = options.joint_file(),
+                                                               .side = options.side,
+                                                               .units = options.units,
+                                                               .anatomy = anatomy_of(options.joint)});
   note_to_fill_in(proposal);
   if (options.out.empty()) return print(proposal.toml);
   io::write_output_file(options.out, proposal.toml);
@@ -69,6 +82,10 @@ void check_labels(const Options& options) {
   if (options.out.empty())
     throw UsageError("--out: is needed, the surfaces of the bones are written beside the joint file");
   if (options.units) throw UsageError("--units: surfaces of label maps are in mm");
+  if (anatomy_of(options.joint).value_or(Anatomy::hip) != Anatomy::hip)
+    throw UsageError(
+        "--joint: bones of a label map are made a hip; write others with condyle surface and give both "
+        "meshes");
   if (options.mobile.empty() && (options.fixed_label.empty() || options.mobile_label.empty()))
     throw UsageError("--fixed, --mobile: both labels are needed, by number or by name");
 }
@@ -124,8 +141,8 @@ void propose_from_model(const Options& options) {
 void run(const Options& options) {
   check_out(options);
   if (is_model(options.fixed)) return propose_from_model(options);
-  if (!options.joint.empty() || options.model->any())
-    throw UsageError("--joint, --anatomy, --contact, --geometry: are for models of OpenSim, .osim");
+  if (options.model->any())
+    throw UsageError("--anatomy, --contact, --geometry: are for models of OpenSim, .osim");
   if (label_format_of(options.fixed)) return propose_from_labels(options);
   if (!options.fixed_label.empty() || !options.mobile_label.empty())
     throw UsageError("--fixed, --mobile: are for label maps, and " + options.fixed + " is none");
@@ -144,6 +161,7 @@ void add_init(CLI::App& app) {
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
       "         condyle init bones/labels.nii.gz --task total --fixed hip_right --mobile femur_right -o "
       "hip.toml\n"
+      "         condyle init femur.ply tibia.ply --joint knee -o knee.toml\n"
       "         condyle init model.osim --joint knee_r -o knee.toml\n"
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
@@ -164,7 +182,11 @@ void add_init(CLI::App& app) {
       ->option_text("LABEL");
   command->add_option("--mobile", options->mobile_label, "The label of the body that moves")
       ->option_text("LABEL");
-  command->add_option("--joint", options->joint, "The joint of a model, by its name there")
+  command
+      ->add_option("--joint", options->joint,
+                   "The joint of a model, by its name there; of two meshes hip, knee, ankle, elbow or "
+                   "shoulder, FIXED the "
+                   "bone nearer to the trunk. Without it two meshes are a hip")
       ->option_text("NAME");
   add_model(*command, options->model);
   add_label_surface(*command, options->labels);
@@ -187,9 +209,9 @@ void add_init(CLI::App& app) {
       ->option_text("FILE (standard output)");
   std::vector<std::string> of_labels{"--fixed", "--mobile"};
   for (const std::string& name : label_surface_names()) of_labels.push_back(name);
-  std::vector<std::string> of_models{"--joint"};
+  std::vector<std::string> of_models;
   for (const std::string& name : model_names()) of_models.push_back(name);
-  group_help(*command, {{"Joint", {"--side", "--units"}},
+  group_help(*command, {{"Joint", {"--joint", "--side", "--units"}},
                         {"Models", of_models},
                         {"Label maps", of_labels},
                         {"Images", label_file_names()},

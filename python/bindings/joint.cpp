@@ -89,10 +89,14 @@ AngleNamesList angle_names(Anatomy joint) {
   return names;
 }
 
-AngleNamesList angle_names_of(const std::string& word) {
+Anatomy anatomy_named(const std::string& word) {
   for (const Anatomy joint : all_anatomies)
-    if (word == name_of(joint)) return angle_names(joint);
+    if (word == name_of(joint)) return joint;
   throw UsageError("joint: unknown " + word);
+}
+
+AngleNamesList angle_names_of(const std::string& word) {
+  return angle_names(anatomy_named(word));
 }
 
 py::list parts_of(const Body& body) {
@@ -105,9 +109,10 @@ py::list parts_of(const Body& body) {
 
 /// The text of the file, the keys that it leaves to fill in, and the evidence for side and axes.
 py::tuple proposed(const std::filesystem::path& fixed, const std::filesystem::path& mobile,
-                   const std::filesystem::path& joint_file, const std::optional<std::string>& side,
-                   const std::optional<std::string>& units) {
-  ProposalRequest request{fixed, mobile, joint_file};
+                   const std::filesystem::path& joint_file, const std::optional<std::string>& joint,
+                   const std::optional<std::string>& side, const std::optional<std::string>& units) {
+  ProposalRequest request{.fixed = fixed, .mobile = mobile, .joint_file = joint_file};
+  if (joint) request.anatomy = anatomy_named(*joint);
   if (side) request.side = *side == name_of(Side::right) ? Side::right : Side::left;
   if (units) request.units = *units == "mm" ? LengthUnit::millimetres : LengthUnit::metres;
   const JointProposal proposal = [&] {

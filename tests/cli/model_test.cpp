@@ -178,6 +178,7 @@ TEST_F(ModelHip, SaysInOneLineWhatIsWrong) {
       {"init " + model + " femur.ply --joint hip_r", 2, "MOBILE: a model has both bodies"},
       {"init " + model + " --joint hip_r --contact tf", 2, "no contact 'tf'; there are none"},
       {"init a.ply b.ply --anatomy knee", 2, "are for models of OpenSim"},
+      {"init a.ply b.ply --joint ne", 2, "two meshes are a hip, knee, ankle, elbow or shoulder, not ne"},
       {"motion hip.toml --motion a.mot --joint hip_r", 2, "are for models of OpenSim"},
       {"inspect " + model + " femur.ply", 2, "are inspected one after the other"},
       {"inspect femur.ply --geometry .", 2, "--geometry: is for models of OpenSim"},

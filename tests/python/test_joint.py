@@ -80,6 +80,17 @@ def test_a_joint_is_proposed_as_the_command_does(command, hip_file):
         condyle.propose_joint("nowhere.stl", mobile, to)
 
 
+def test_another_joint_is_proposed_by_its_name(command, hip_file):
+    fixed, mobile, to = hip_file.parent / "hip_bone.ply", hip_file.parent / "femur.ply", hip_file.parent / "knee.toml"
+    subprocess.run([command, "init", fixed, mobile, "--joint", "knee", "-o", to], check=True, capture_output=True)
+    proposal = condyle.propose_joint(fixed, mobile, to, joint="knee")
+    assert proposal.toml == to.read_text() and 'joint = "knee"  # given' in proposal.toml
+    # A hip is no knee.
+    assert [line.split(":")[0] for line in proposal.to_fill_in] == ["side", "centre", "anterior", "superior"]
+    with pytest.raises(condyle.UsageError, match="joint: there are hip, knee"):
+        condyle.propose_joint(fixed, mobile, to, joint="wrist")
+
+
 def test_frames_of_a_motion_show_what_their_poses_show(hip):
     poses = hip.pose(flexion_deg=[0, 140, 0, 150])
     poses[2] = np.nan
