@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/file/in_quotes.hpp"
+#include "io/file/plain_text.hpp"
 #include "io/file/words.hpp"
 
 namespace condyle::io {
@@ -38,9 +39,17 @@ const XmlElement* ModelElement::first_of(std::initializer_list<std::string_view>
   return nullptr;
 }
 
+std::string ModelElement::name() const {
+  std::string name = element_->label();
+  if (has_control_character(name)) fail("its name has a control character");
+  return name;
+}
+
 std::string ModelElement::text(std::string_view child) const {
   const XmlElement* element = element_->child(child);
-  return element ? element->text() : std::string();
+  std::string text = element ? element->text() : std::string();
+  if (has_control_character(text)) fail_at(*element, fmt::format("{}: has a control character", child));
+  return text;
 }
 
 std::vector<double> ModelElement::numbers(const XmlElement& element) const {

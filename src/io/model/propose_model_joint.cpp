@@ -9,6 +9,7 @@
 #include "condyle/io/pose_text.hpp"
 #include "condyle/version.hpp"
 #include "core/near_name.hpp"
+#include "core/one_line.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/joint/load_joint.hpp"
@@ -61,7 +62,7 @@ class ModelJointFile {
     mapping_ = mapping_of(joint_, anatomy_, side_);
     if (const ModelCoupler* coupler = coupler_of_joint(); coupler && !mapping_.columns.empty()) {
       mapping_.columns.clear();
-      mapping_.why += fmt::format("; constraint {} moves it too", coupler->name);
+      mapping_.why += fmt::format("; constraint {} moves it too", in_quotes(coupler->name));
     }
     if (!anatomy_ && mapping_.kind != JointKind::hinge)
       throw UsageError(
@@ -163,7 +164,7 @@ class ModelJointFile {
 
   void write_head() {
     add(fmt::format("# Proposed by condyle init {} from joint {} of {}, a model of OpenSim (version {}).",
-                    version, joint_.name, path_of(model_.path), model_.version));
+                    version, joint_.name, core::one_line(path_of(model_.path)), model_.version));
     add("# Lengths are metres and frames are those of the model's bodies. OpenSim's meshes have polygons: "
         "they are split.");
     add(fmt::format("condyle = {}", format_version));
@@ -346,7 +347,7 @@ class ModelJointFile {
         refuse(fmt::format("poissons_ratio {} of {} is not below 0.5", mesh->poisson_ratio,
                            in_quotes(mesh->name)));
     const bool is_mobile = role_of(casting)->first == BodyRole::mobile;
-    add(fmt::format("\n[contact]  # {} of the model", contact_->name));
+    add(fmt::format("\n[contact]  # {} of the model", in_quotes(contact_->name)));
     add(fmt::format("casting = \"{}\"", is_mobile ? "mobile" : "fixed"));
     add("rule = \"face_centre\"  # a ray from each triangle's centre, as OpenSim-JAM casts them");
     add(fmt::format("reach = {}", contact_->greatest_proximity));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "condyle/error.hpp"
+#include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/words.hpp"
 #include "io/model/spatial_transform.hpp"
@@ -51,9 +52,9 @@ std::string socket_of(const ModelElement& joint, std::initializer_list<std::stri
 }
 
 ModelCoordinate coordinate_of(const Source& source, const XmlElement& element, const std::string& joint) {
-  ModelCoordinate coordinate{.name = element.label()};
   const ModelElement values(source, element,
-                            fmt::format("{}: coordinate {}", joint, in_quotes(coordinate.name)));
+                            fmt::format("{}: coordinate {}", joint, in_quotes(element.label())));
+  ModelCoordinate coordinate{.name = values.name()};
   if (coordinate.name.empty()) values.fail("has no name");
   coordinate.default_value = values.number("default_value", 0);
   if (const XmlElement* range = element.child("range"); range && !range->text().empty()) {
@@ -90,7 +91,8 @@ TransformAxis axis_of(const Source& source, const XmlElement& element, const std
                       const std::vector<ModelCoordinate>& coordinates) {
   const ModelElement values(source, element, of);
   TransformAxis axis;
-  const std::string named = values.text("coordinates");
+  const XmlElement* list = element.child("coordinates");
+  const std::string named = list ? list->text() : std::string();
   for (const std::string_view word : words_of(named)) {
     const auto found = std::find_if(coordinates.begin(), coordinates.end(),
                                     [&](const ModelCoordinate& c) { return c.name == word; });
@@ -162,7 +164,8 @@ SpatialTransform transform_of(const ModelElement& joint, const std::string& name
   if (element == "CustomJoint") return custom_transform(joint, name, coordinates);
   const auto type = std::find_if(joint_types().begin(), joint_types().end(),
                                  [&](const JointType& of) { return of.name == element; });
-  if (type == joint_types().end()) joint.fail(fmt::format("a joint of type {} is not read", element));
+  if (type == joint_types().end())
+    joint.fail(fmt::format("a joint of type {} is not read", core::one_line(element, 60)));
   if (type->axes.size() != coordinates.size())
     joint.fail(
         fmt::format("a {} has {} coordinates, not {}", element, type->axes.size(), coordinates.size()));
@@ -228,9 +231,9 @@ bool is_joint(std::string_view element) noexcept {
 
 ModelJoint joint_of(const Source& source, const XmlElement& element, const std::string& enclosing_body,
                     const ModelFrames& frames) {
-  ModelJoint out{.name = element.label(), .type = std::string(element.name), .line = element.line};
-  const std::string of = fmt::format("joint {}", in_quotes(out.name));
+  const std::string of = fmt::format("joint {}", in_quotes(element.label()));
   const ModelElement joint(source, element, of);
+  ModelJoint out{.name = joint.name(), .type = core::one_line(element.name, 60), .line = element.line};
   if (out.name.empty()) joint.fail("has no name");
   try {
     read(out, joint, of, enclosing_body, frames);

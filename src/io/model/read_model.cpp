@@ -5,7 +5,7 @@
 
 #include "condyle/error.hpp"
 #include "condyle/io/model_file.hpp"
-#include "core/near_name.hpp"
+#include "core/one_line.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/file/plain_text.hpp"
 #include "io/file/whole_file.hpp"
@@ -46,8 +46,10 @@ class ModelReader {
     return element.name == "Body" || element.name == "Ground";
   }
 
+  static bool is_list(std::string_view name) { return name == "objects" || name == "components"; }
+
   static bool is_container(std::string_view name) {
-    return name == "objects" || name == "components" || name == "frames" || name == "Joint" ||
+    return is_list(name) || name == "frames" || name == "Joint" ||
            (name.ends_with("Set") && name != "CoordinateSet" && name != "WrapObjectSet" &&
             name != "GeometrySet" && name != "PathPointSet");
   }
@@ -56,7 +58,7 @@ class ModelReader {
   void collect_frames(const XmlElement& element, const std::string& owner) {
     for (const XmlElement& child : element.children) {
       if (is_body(child)) {
-        const std::string name = child.name == "Ground" ? "ground" : child.label();
+        const std::string name = child.name == "Ground" ? "ground" : ModelElement(source_, child).name();
         if (name != "ground" && !bodies_.insert(name).second)
           ModelElement(source_, child).fail(fmt::format("body {} is given twice", in_quotes(name)));
         if (name != "ground") frames_.add_body(name);
@@ -90,29 +92,18 @@ class ModelReader {
       } else if (name == "Smith2018ArticularContactForce") {
         read_contact(child);
       } else if (is_container(name)) {
-        count_ignored(child);
         read_components(child, owner);
+      } else if (is_list(element.name) && name != "Mesh" && name != "FrameGeometry") {
+        ++model_.ignored[core::one_line(name, 60)];  // muscles, ligaments, controllers, markers
       }
     }
-  }
-
-  /// What a set holds that has no part in a joint's place: muscles, ligaments, controllers, markers.
-  void count_ignored(const XmlElement& set) {
-    constexpr std::string_view sets[] = {"ForceSet",  "ConstraintSet", "ControllerSet",     "ProbeSet",
-                                         "MarkerSet", "MiscSet",       "ContactGeometrySet"};
-    if (std::find(std::begin(sets), std::end(sets), set.name) == std::end(sets)) return;
-    const XmlElement* objects = set.child("objects");
-    if (!objects) return;
-    for (const XmlElement& object : objects->children)
-      if (object.name != "CoordinateCouplerConstraint" && !object.name.starts_with("Smith2018"))
-        ++model_.ignored[std::string(object.name)];
   }
 
   void read_body(const XmlElement& body, const std::string& name) {
     read_geometry(body, name, "");
     read_visible_object(body, name);
     if (const XmlElement* wraps = body.at({"WrapObjectSet", "objects"}))
-      for (const XmlElement& wrap : wraps->children) ++model_.ignored[std::string(wrap.name)];
+      for (const XmlElement& wrap : wraps->children) ++model_.ignored[core::one_line(wrap.name, 60)];
     read_components(body, name);
   }
 
@@ -125,7 +116,7 @@ class ModelReader {
         if (shape.name == "Mesh") {
           read_mesh_element(shape, name, owner);
         } else if (place == "attached_geometry" && shape.name != "FrameGeometry") {
-          ++shapes_[std::string(shape.name)];
+          ++shapes_[core::one_line(shape.name, 60)];
         }
       }
     }
@@ -161,7 +152,7 @@ class ModelReader {
     const Pose X_outer = transform_in(outer);
     for (const XmlElement& shape : shapes->children) {
       if (shape.name != "DisplayGeometry") {
-        ++shapes_[std::string(shape.name)];
+        ++shapes_[core::one_line(shape.name, 60)];
         continue;
       }
       const ModelElement inner(source_, shape, fmt::format("body {}", in_quotes(name)));
@@ -186,6 +177,7 @@ class ModelReader {
 
   void add_mesh(ModelMesh mesh, std::string file, const ModelElement& of) {
     if (file.empty()) return;
+    if (has_control_character(file)) of.fail("the name of its file has a control character");
     for (int i = 0; i < 3; ++i)
       if (mesh.scale[i] == 0) of.fail("scale_factors: a factor of 0 leaves no solid");
     mesh.file = std::move(file);
@@ -199,8 +191,8 @@ class ModelReader {
   }
 
   void read_contact_mesh(const XmlElement& element) {
-    const std::string name = element.label();
-    const ModelElement values(source_, element, fmt::format("contact mesh {}", in_quotes(name)));
+    const ModelElement values(source_, element, fmt::format("contact mesh {}", in_quotes(element.label())));
+    const std::string name = values.name();
     std::string socket = values.text("socket_frame");
     if (socket.empty()) values.fail("socket_frame is missing");
     const BodyPlace place = frames_.place_of(socket, "", values);
@@ -225,8 +217,8 @@ class ModelReader {
   }
 
   void read_contact(const XmlElement& element) {
-    ModelContact contact{.name = element.label(), .line = element.line};
-    const ModelElement values(source_, element, fmt::format("contact {}", in_quotes(contact.name)));
+    const ModelElement values(source_, element, fmt::format("contact {}", in_quotes(element.label())));
+    ModelContact contact{.name = values.name(), .line = element.line};
     const auto mesh = [&](const char* key) {
       const std::string socket = values.text(key);
       if (socket.empty()) values.fail(fmt::format("{} is missing", key));
@@ -246,14 +238,15 @@ class ModelReader {
   }
 
   void read_coupler(const XmlElement& element) {
-    ModelCoupler coupler{.name = element.label()};
-    const ModelElement values(source_, element, fmt::format("constraint {}", in_quotes(coupler.name)));
+    const ModelElement values(source_, element, fmt::format("constraint {}", in_quotes(element.label())));
+    ModelCoupler coupler{.name = values.name()};
     if (!values.flag("isEnforced", true) || values.flag("isDisabled", false)) {
       ++model_.ignored["CoordinateCouplerConstraint that is not enforced"];
       return;
     }
     coupler.dependent = values.text("dependent_coordinate_name");
-    const std::string names = values.text("independent_coordinate_names");
+    const XmlElement* list = element.child("independent_coordinate_names");
+    const std::string names = list ? list->text() : std::string();
     for (const std::string_view name : words_of(names)) coupler.independent.emplace_back(name);
     if (coupler.dependent.empty()) values.fail("dependent_coordinate_name is missing");
     try {

@@ -225,6 +225,82 @@ TEST_F(SmallModel, OfALeftSideHasTheSignsOfItsAxes) {
   EXPECT_EQ(signs(), "+++");
 }
 
+/// That a joint so made places the child's body where the model's functions do, at coordinates within and beyond theirs.
+void expect_poses_of_model(const Model& model, const ModelJointRequest& request, JointKind kind,
+                           bool by_columns) {
+  const ModelJoint& joint = joint_named(model, request.joint);
+  const LoadedJoint loaded = read_joint(model, request);
+  EXPECT_EQ(loaded.joint.kind, kind);
+  EXPECT_EQ(std::holds_alternative<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion),
+            by_columns);
+  const Provenance from = provenance_of(loaded, {});
+  for (const double size : {0.0, 0.3, -1.1, 2.5}) {
+    MotionTable table = one_frame({"time"}, {{0}}, false);
+    std::vector<double> q;
+    for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
+      q.push_back(size * (1 - 0.3 * static_cast<double>(i)));
+      table.columns.push_back(joint.coordinates[i].name);
+      table.values.push_back({q.back()});
+    }
+    const Eigen::Affine3d X = from.fixed.source_from_joint *
+                              Eigen::Affine3d(*motion_of(loaded, table).X_FM[0]) *
+                              from.mobile.joint_from_source;
+    EXPECT_LE((X.matrix() - pose_of(joint, q).matrix()).cwiseAbs().maxCoeff(), 1e-12) << size;
+  }
+}
+
+std::string line(double slope, double offset) {
+  return fmt::format("<LinearFunction name=\"function\"><coefficients>{} {}</coefficients></LinearFunction>",
+                     slope, offset);
+}
+
+std::string constant(double value) {
+  return fmt::format("<Constant name=\"function\"><value>{}</value></Constant>", value);
+}
+
+TEST_F(SmallModel, WithOffsetsKeepsThem) {
+  const std::string hinge =
+      axis("rotation1", "", "0 0 1", constant(0.2)) + axis("rotation2", "flex", "1 0.5 -0.2", line(-1, 0.3)) +
+      axis("rotation3", "", "0 1 0.1", constant(-0.4)) + axis("translation2", "", "0 1 0", constant(0.05));
+  const std::string angles = axis("rotation1", "flex", "0 0 -1", line(1, 0.3)) +
+                             axis("rotation2", "add", "1 0 0", line(-1, -0.1)) +
+                             axis("rotation3", "rot", "0 -1 0", line(1, 0.2));
+  const std::string moved = axis("translation1", "x", "-1 0 0", line(1, 0.01)) +
+                            axis("translation2", "y", "0 1 0", line(-1, 0.02)) +
+                            axis("translation3", "z", "0 0 1");
+  const auto with = [&](const std::string& joint, std::initializer_list<std::string_view> names) {
+    std::string text = Hip{.joint = joint}.text();
+    const std::string three = coordinates({"flex", "add", "rot"});
+    return read_model(written(text.replace(text.find(three), three.size(), coordinates(names))));
+  };
+  for (const Anatomy anatomy : {Anatomy::knee, Anatomy::ankle, Anatomy::elbow})
+    for (const Side side : {Side::right, Side::left}) {
+      const ModelJointRequest request{.joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = side};
+      expect_poses_of_model(with(hinge, {"flex"}), request, JointKind::hinge, true);
+      expect_poses_of_model(with(angles, {"flex", "add", "rot"}), request, JointKind::ball, true);
+      expect_poses_of_model(with(angles + moved, {"flex", "add", "rot", "x", "y", "z"}), request,
+                            JointKind::free, true);
+      // A coordinate that turns and moves is in two units at once.
+      expect_poses_of_model(with(angles + axis("translation1", "flex", "1 0 0"), {"flex", "add", "rot"}),
+                            request, JointKind::free, false);
+    }
+  for (const Anatomy anatomy : {Anatomy::hip, Anatomy::shoulder}) {
+    const ModelJointRequest request{
+        .joint = "hip_r", .joint_file = {}, .anatomy = anatomy, .side = Side::left};
+    expect_poses_of_model(with(hinge, {"flex"}), request, JointKind::ball, false);
+    expect_poses_of_model(with(angles, {"flex", "add", "rot"}), request, JointKind::ball,
+                          anatomy == Anatomy::hip);
+  }
+}
+
+TEST_F(SmallModel, ScaledFunctionsAreRadiansInOpenSim) {
+  const std::string twice = "<MultiplierFunction name=\"function\"><function>" + line(0.5, 0) +
+                            "</function><scale>2</scale></MultiplierFunction>";
+  const Hip hip{.joint = axis("rotation1", "flex", "0 0 1", twice) + axis("rotation2", "add", "1 0 0") +
+                         axis("rotation3", "rot", "0 1 0")};
+  expect_poses_of_model(model(hip), {.joint = "hip_r", .joint_file = {}}, JointKind::ball, false);
+}
+
 TEST_F(SmallModel, OfAnotherOrderIsPosedByTheModel) {
   const Hip hip{.joint = axis("rotation1", "add", "1 0 0") + axis("rotation2", "flex", "0 0 1") +
                          axis("rotation3", "rot", "0 1 0")};
