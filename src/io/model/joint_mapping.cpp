@@ -163,6 +163,7 @@ JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy,
     if (auto lengths = length_columns(joint); lengths && are_different(*lengths)) {
       mapping.columns = std::move(*angles);
       mapping.columns.insert(mapping.columns.end(), lengths->begin(), lengths->end());
+      mapping.X_WF.translation() = joint.X_PF.translation();  // offsets of x, y and z are in the columns
       mapping.why = "three rotations about Z, X and Y, and translations along X, Y and Z";
       return mapping;
     }

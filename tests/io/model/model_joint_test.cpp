@@ -249,9 +249,9 @@ void expect_poses_of_model(const Model& model, const ModelJointRequest& request,
   }
 }
 
-std::string line(double slope, double offset) {
+std::string line(double slope, double shift) {
   return fmt::format("<LinearFunction name=\"function\"><coefficients>{} {}</coefficients></LinearFunction>",
-                     slope, offset);
+                     slope, shift);
 }
 
 std::string constant(double value) {
