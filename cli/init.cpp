@@ -161,8 +161,8 @@ void add_init(CLI::App& app) {
       "         condyle init bones/hip_bone.ply bones/femur.ply --side right -o proposed.toml\n"
       "         condyle init bones/labels.nii.gz --task total --fixed hip_right --mobile femur_right -o "
       "hip.toml\n"
-      "         condyle init femur.ply tibia.ply --joint knee -o knee.toml\n"
-      "         condyle init model.osim --joint knee_r -o knee.toml\n"
+      "A knee is FEMUR TIBIA --joint knee, and so are ankle, elbow and shoulder; a joint of an OpenSim model "
+      "is MODEL.osim --joint NAME.\n"
       "What could not be inferred stands in the file as a comment to fill in. Read the file before you use "
       "it.");
   auto options = std::make_shared<Options>();
