@@ -199,8 +199,7 @@ class Hip {
     const auto surface =
         limit_bands(image.joint, motions_, {}, {.sigma = only_surface, .samples = options.samples});
     std::vector<condyle::LimitBand> usual;
-    if (offset == 0)
-      usual = limit_bands(own.joint, motions_, {}, {.samples = options.samples});
+    if (offset == 0) usual = limit_bands(own.joint, motions_, {}, {.samples = options.samples});
     for (std::size_t m = 0; m < motions_.size(); ++m) {
       run.outcomes.push_back({limits_[m], limits[m], own_limits[m], surface[m], {}, offset == 0});
       if (offset == 0) run.outcomes.back().usual = usual[m];

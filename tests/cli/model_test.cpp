@@ -16,7 +16,6 @@
 namespace condyle::test {
 namespace {
 
-
 std::optional<fs::path> shared_model(const char* name) {
   const auto data = shared_data();
   if (!data || !fs::exists(*data / name)) return std::nullopt;

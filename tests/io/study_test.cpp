@@ -59,7 +59,8 @@ TEST_F(StudyOfArms, SaysOfEveryFailureItsExitCodeAndWhy) {
   expect(0, "gone", "3", "nothere.toml: no such file");
   expect(1, "open", "3", "mobile.mesh: there is no file");
   expect(2, "contact", "6", "in contact in the reference pose");
-  expect(3, "empty", "3", "line 14: a row needs joint, or fixed and mobile, or labels, or opensim_model, or sample");
+  expect(3, "empty", "3",
+         "line 14: a row needs joint, or fixed and mobile, or labels, or opensim_model, or sample");
 }
 
 TEST_F(StudyOfArms, OfShardsMergedIsTheStudyOfTheWholeTableByteForByte) {

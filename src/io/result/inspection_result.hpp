@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "condyle/inspect.hpp"
-#include "condyle/io/mesh_file.hpp"
 #include "condyle/io/file_digest.hpp"
+#include "condyle/io/mesh_file.hpp"
 
 /// Results of `condyle inspect`. Keys of the JSON are listed in docs/mesh-files.md.
 
