@@ -127,7 +127,7 @@ void propose_from_model(const Options& options) {
   ModelJointRequest request = request_of(model, *options.model, options.joint, options.side);
   request.joint_file = options.joint_file();
   const ModelJointProposal proposed = propose_joint(model, request);
-  for (const std::string& line : proposed.notes) note(line);
+  for (const ModelNote& of_model : proposed.notes) note(to_text(of_model));
   note_to_fill_in(proposed.proposal);
   if (options.out.empty()) {
     print(proposed.proposal.toml);

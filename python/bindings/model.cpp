@@ -28,6 +28,12 @@ ModelJointRequest request_in(const std::string& joint, const std::string& joint_
   return request;
 }
 
+py::list notes_of_model(const std::vector<ModelNote>& notes) {
+  py::list list;
+  for (const ModelNote& note : notes) list.append(py::make_tuple(std::string(name_of(note.code)), note.text));
+  return list;
+}
+
 /// Names and types, and why some cannot be read.
 py::list model_joints(const Model& model) {
   py::list joints;
@@ -76,7 +82,7 @@ py::tuple proposed_of_model(const Model& model, const std::string& joint, const 
                             const std::string& anatomy, const std::string& side, const std::string& contact) {
   ModelJointProposal proposed = propose_joint(model, request_in(joint, joint_file, anatomy, side, contact));
   if (!proposed.missing_body.empty()) proposed.proposal.to_fill_in.push_back(proposed.missing_body);
-  return py::make_tuple(proposed.proposal.toml, proposed.proposal.to_fill_in, proposed.notes);
+  return py::make_tuple(proposed.proposal.toml, proposed.proposal.to_fill_in, notes_of_model(proposed.notes));
 }
 
 std::unique_ptr<JointHandle> joint_of_model(const Model& model, const std::string& joint,
@@ -94,7 +100,7 @@ void bind_model(py::module_& module) {
       .def_readonly("version", &Model::version)
       .def_readonly("bodies", &Model::bodies)
       .def_readonly("ignored", &Model::ignored)
-      .def_readonly("notes", &Model::notes)
+      .def_property_readonly("notes", [](const Model& model) { return notes_of_model(model.notes); })
       .def_property_readonly("contacts",
                              [](const Model& model) {
                                std::vector<std::string> names;

@@ -23,7 +23,7 @@ from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, Surfa
 from ._limit_band import LimitBand
 from ._limits import KINDS, REASONS, Caveat, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
-from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, read_model
+from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, ModelNote, read_model
 from ._motion import Motion
 from ._motion_contact import ContactFrames, FrameContact
 from ._motion_map import MapEnds, MotionMap
@@ -47,7 +47,7 @@ __all__ = [
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",
     "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
     "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
-    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "Motion", "MotionLimit",
+    "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",
     "OutOfRangeError", "PathLimit", "Penetration", "Penetrations", "Pose", "Poses", "REASONS", "RadialTable",
     "RangeOfMotion", "RecordedContact", "ReferenceContactError", "RingTable", "RotationLimits", "SampleCartilages",

@@ -34,6 +34,14 @@ class ModelCoordinate:
 
 
 @dataclass(frozen=True)
+class ModelNote:
+    """What to know of a model: `code` as in notes of the command ("missing_mesh"), `text` one sentence."""
+
+    code: str
+    text: str
+
+
+@dataclass(frozen=True)
 class ModelMesh:
     """A mesh that a model attaches to a body: its file as the model names it, and where that was found."""
 
@@ -129,7 +137,7 @@ class Model:
     meshes : tuple of ModelMesh
     ignored : dict of str to int
         How many of each kind of component are not used here: muscles, ligaments, markers.
-    notes : tuple of str
+    notes : tuple of ModelNote
     """
 
     __slots__ = ("_native", "_kinds", "name", "version", "bodies", "contacts", "joints", "refused", "meshes", "ignored", "notes")
@@ -142,7 +150,8 @@ class Model:
         self.joints = tuple(self._kinds)
         self.refused = {name: why_not for name, _, _, _, why_not in native.joints if why_not is not None}
         self.meshes = tuple(ModelMesh(*mesh) for mesh in native.meshes)
-        self.ignored, self.notes = dict(native.ignored), tuple(native.notes)
+        self.ignored = dict(native.ignored)
+        self.notes = tuple(ModelNote(*note) for note in native.notes)
 
     def __repr__(self) -> str:
         return f"Model({self.name!r}: {len(self.bodies)} bodies, {len(self.joints)} joints)"
@@ -166,7 +175,7 @@ class Model:
         """
         toml, to_fill_in, notes = self._native.proposed(text_of(joint, "joint"), path_of(joint_file, "joint_file"),
                                                         *_choices(anatomy, side, contact))
-        return JointProposal(toml, tuple(to_fill_in), tuple(notes))
+        return JointProposal(toml, tuple(to_fill_in), tuple(f"{code}: {text}" for code, text in notes))
 
     def _joint(self, joint: str, anatomy: Optional[Anatomy], side: Optional[Side], contact: Optional[str]) -> NativeJoint:
         return self._native.joint(text_of(joint, "joint"), *_choices(anatomy, side, contact))

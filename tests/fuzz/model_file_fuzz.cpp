@@ -34,8 +34,8 @@ std::string fault_of_proposal(const Model& model, const ModelJoint& joint) {
   } catch (const UsageError& error) {
     return fault_of_message(error.what());
   }
-  for (const std::string& note : proposed.notes)
-    if (auto fault = fault_of_message(note); !fault.empty()) return fault;
+  for (const ModelNote& note : proposed.notes)
+    if (auto fault = fault_of_message(to_text(note)); !fault.empty()) return fault;
   if (!proposed.proposal.to_fill_in.empty()) return {};
   try {
     io::joint_file_of(proposed.proposal.toml, "joint.toml");

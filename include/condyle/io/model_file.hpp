@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -100,6 +101,29 @@ struct ModelCoupler {
   std::string why_not = {};
 };
 
+/// What to know of a model, or of a joint file made from it.
+enum class ModelNoteCode : std::uint8_t {
+  missing_mesh,        ///< It is left out.
+  other_case,          ///< A mesh was found by a name in another case of letters.
+  mirrored,            ///< A mesh by its scale factors; its triangles are turned round.
+  not_used,            ///< Kinds of components, and how many of each.
+  welded,              ///< Bodies that are one.
+  oblique_axis,        ///< A hinge does not turn about an axis to the side.
+  contact_left_out,    ///< It is not applied, or lacks a surface.
+  several_contacts,    ///< Between the two bodies; one is taken.
+  measured_thickness,  ///< Near to OpenSim-JAM's, not equal.
+  coupled_coordinate,  ///< It follows others where a motion has no column of it.
+};
+/// As written: "missing_mesh".
+std::string_view name_of(ModelNoteCode code) noexcept;
+
+struct ModelNote {
+  ModelNoteCode code;
+  std::string text;  ///< one line
+};
+/// "missing_mesh: ...".
+std::string to_text(const ModelNote& note);
+
 struct Model {
   std::filesystem::path path;
   FileDigest digest = {};
@@ -112,7 +136,7 @@ struct Model {
   std::vector<ModelContact> contacts = {};
   std::vector<ModelCoupler> couplers = {};
   std::map<std::string, std::size_t> ignored = {};  ///< how many of each kind of component are not used here
-  std::vector<std::string> notes = {};              ///< one line each: what was read otherwise than it stands
+  std::vector<ModelNote> notes = {};                ///< what was read otherwise than it stands
 };
 
 /// Reads a model, and finds its meshes: in the model's folder, its folder Geometry, and the folders given, in this order. No
@@ -144,7 +168,7 @@ struct ModelJointRequest {
 /// A joint file for a joint of a model.
 struct ModelJointProposal {
   JointProposal proposal;
-  std::vector<std::string> notes;  ///< one line each: what the model has and the file has not
+  std::vector<ModelNote> notes = {};  ///< what the model has and the file has not
   std::string missing_body =
       {};  ///< one line if none of a body's meshes was found: the file names them as the model does
 };

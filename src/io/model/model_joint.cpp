@@ -23,6 +23,36 @@ std::string_view name_of(CoordinateMotion motion) noexcept {
   return "coupled";
 }
 
+std::string_view name_of(ModelNoteCode code) noexcept {
+  switch (code) {
+    case ModelNoteCode::missing_mesh:
+      return "missing_mesh";
+    case ModelNoteCode::other_case:
+      return "other_case";
+    case ModelNoteCode::mirrored:
+      return "mirrored";
+    case ModelNoteCode::not_used:
+      return "not_used";
+    case ModelNoteCode::welded:
+      return "welded";
+    case ModelNoteCode::oblique_axis:
+      return "oblique_axis";
+    case ModelNoteCode::contact_left_out:
+      return "contact_left_out";
+    case ModelNoteCode::several_contacts:
+      return "several_contacts";
+    case ModelNoteCode::measured_thickness:
+      return "measured_thickness";
+    case ModelNoteCode::coupled_coordinate:
+      break;
+  }
+  return "coupled_coordinate";
+}
+
+std::string to_text(const ModelNote& note) {
+  return fmt::format("{}: {}", name_of(note.code), note.text);
+}
+
 std::vector<double> ModelJoint::defaults() const {
   std::vector<double> values;
   for (const ModelCoordinate& coordinate : coordinates) values.push_back(coordinate.default_value);

@@ -96,7 +96,7 @@ class ModelJointFile {
 
  private:
   void add(const std::string& line) { text_ += line + "\n"; }
-  void note(std::string line) { out_.notes.push_back(std::move(line)); }
+  void note(ModelNoteCode code, std::string line) { out_.notes.push_back({code, std::move(line)}); }
 
   std::string path_of(const fs::path& file) const {
     return fs::absolute(file).lexically_normal().lexically_proximate(folder_).generic_string();
@@ -121,7 +121,8 @@ class ModelJointFile {
       if (std::all_of(meshes->begin(), meshes->end(), is_missing)) continue;
       for (const NamedMesh& named : *meshes)
         if (is_missing(named))
-          note(fmt::format("mesh {} of body {} is missing and left out; it was looked for as {}",
+          note(ModelNoteCode::missing_mesh,
+               fmt::format("mesh {} of body {} is missing and left out; it was looked for as {}",
                            in_quotes(named.mesh.file), in_quotes(named.mesh.body),
                            fmt::join(names_of(named.mesh.looked_in), ", ")));
       std::erase_if(*meshes, is_missing);
@@ -179,7 +180,7 @@ class ModelJointFile {
     add(fmt::format("side = \"{}\"  # {}", name_of(side_),
                     request_.side ? "given" : "by the ending of its name"));
     add("units = \"m\"");
-    if (!mapping_.caveat.empty()) note(mapping_.caveat);
+    if (!mapping_.caveat.empty()) note(ModelNoteCode::oblique_axis, mapping_.caveat);
   }
 
   void write_mesh(const NamedMesh& named, bool has_name) {
@@ -189,7 +190,8 @@ class ModelJointFile {
     if (named.mesh.scale != Vec3::Ones()) add("scale = " + toml_numbers(named.mesh.scale));
     if (!named.mesh.X_BG.matrix().isIdentity(0)) add("pose = " + toml_pose(named.mesh.X_BG));
     if (named.mesh.scale.prod() < 0)
-      note(fmt::format("mesh {} is mirrored by its scale factors: its triangles are turned round",
+      note(ModelNoteCode::mirrored,
+           fmt::format("mesh {} is mirrored by its scale factors: its triangles are turned round",
                        in_quotes(named.mesh.file)));
   }
 
@@ -281,7 +283,8 @@ class ModelJointFile {
       const ModelContactMesh *of_casting = find_contact_mesh(contact.casting),
                              *of_target = find_contact_mesh(contact.target);
       if (!of_casting || !of_target) {
-        note(fmt::format("contact {} is left out: there is no contact mesh {}", in_quotes(contact.name),
+        note(ModelNoteCode::contact_left_out,
+             fmt::format("contact {} is left out: there is no contact mesh {}", in_quotes(contact.name),
                          in_quotes(of_casting ? contact.target : contact.casting)));
         continue;
       }
@@ -290,7 +293,8 @@ class ModelJointFile {
       names.push_back(contact.name);
       if (!request_.contact.empty() && contact.name != request_.contact) continue;
       if (!contact.applies) {
-        note(fmt::format("contact {} is not applied in the model, and left out", in_quotes(contact.name)));
+        note(ModelNoteCode::contact_left_out,
+             fmt::format("contact {} is not applied in the model, and left out", in_quotes(contact.name)));
         continue;
       }
       if (contact_) {
@@ -305,7 +309,8 @@ class ModelJointFile {
                                    core::did_you_mean(request_.contact, names),
                                    names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
     if (!others.empty())
-      note(fmt::format("of the contacts between these bodies {} is taken, and {} left out",
+      note(ModelNoteCode::several_contacts,
+           fmt::format("of the contacts between these bodies {} is taken, and {} left out",
                        in_quotes(contact_->name), fmt::join(others, ", ")));
     if (contact_) attach_contact();
   }
@@ -321,7 +326,8 @@ class ModelJointFile {
       const ModelContactMesh& mesh = contact_mesh(*name);
       const auto [role, X] = *role_of(mesh);
       if (!mesh.mesh.path) {
-        note(fmt::format("contact {} is left out: mesh {} of {} is missing", in_quotes(contact_->name),
+        note(ModelNoteCode::contact_left_out,
+             fmt::format("contact {} is left out: mesh {} of {} is missing", in_quotes(contact_->name),
                          in_quotes(mesh.mesh.file), in_quotes(*name)));
         contact_ = nullptr;
         return;
@@ -381,24 +387,28 @@ class ModelJointFile {
                          in_quotes(mesh.name)));
     add("behind = " + toml_text(path_of(*mesh.back_path)));
     add(fmt::format("thickness = {}  # of vertices with nothing behind them", mesh.least_thickness));
-    note(fmt::format(
-        "the thickness of {} is measured at its vertices and has no bounds; OpenSim-JAM measures it at "
-        "triangles, between {} and {} m: pressures are near to its own, not equal",
-        in_quotes(mesh.name), mesh.least_thickness, mesh.greatest_thickness));
+    note(ModelNoteCode::measured_thickness,
+         fmt::format(
+             "the thickness of {} is measured at its vertices and has no bounds; OpenSim-JAM measures it at "
+             "triangles, between {} and {} m: pressures are near to its own, not equal",
+             in_quotes(mesh.name), mesh.least_thickness, mesh.greatest_thickness));
   }
 
   void note_what_is_left_out() {
     std::vector<std::string> kinds;
     for (const auto& [kind, count] : model_.ignored) kinds.push_back(fmt::format("{} {}", count, kind));
-    if (!kinds.empty()) note(fmt::format("not used here: {}", fmt::join(kinds, ", ")));
+    if (!kinds.empty())
+      note(ModelNoteCode::not_used, fmt::format("not used here: {}", fmt::join(kinds, ", ")));
     for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile}) {
       std::vector<std::string> names;
       for (const WeldedBody& body : bodies_of_role(role)) names.push_back(body.name);
-      if (names.size() > 1) note(fmt::format("welded to one body: {}", fmt::join(names, ", ")));
+      if (names.size() > 1)
+        note(ModelNoteCode::welded, fmt::format("welded to one body: {}", fmt::join(names, ", ")));
     }
-    for (const std::string& line : model_.notes) note(line);
+    out_.notes.insert(out_.notes.end(), model_.notes.begin(), model_.notes.end());
     if (const ModelCoupler* coupler = coupler_of_joint())
-      note(fmt::format("coordinate {} follows {} by constraint {}, where a motion has no column of it",
+      note(ModelNoteCode::coupled_coordinate,
+           fmt::format("coordinate {} follows {} by constraint {}, where a motion has no column of it",
                        in_quotes(coupler->dependent), fmt::join(coupler->independent, ", "),
                        in_quotes(coupler->name)));
   }
@@ -433,7 +443,9 @@ JointFile io::joint_file_of(const Model& model, ModelJointRequest request) {
     throw FileError(fmt::format("{}: {}", model.path.string(), proposed.proposal.to_fill_in.front()));
   JointFile file = joint_file_of(proposed.proposal.toml, model.path);
   file.digest = model.digest;
-  file.processing.insert(file.processing.begin(), proposed.notes.begin(), proposed.notes.end());
+  std::vector<std::string> processing;
+  for (const ModelNote& note : proposed.notes) processing.push_back(to_text(note));
+  file.processing.insert(file.processing.begin(), processing.begin(), processing.end());
   return file;
 }
 

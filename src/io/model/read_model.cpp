@@ -183,8 +183,9 @@ class ModelReader {
     mesh.file = std::move(file);
     FoundMesh found = find_mesh(mesh.file, folder_, folders_);
     if (found.in_another_case)
-      model_.notes.push_back(fmt::format("mesh {} was found as {}", in_quotes(mesh.file),
-                                         in_quotes(found.path->filename().string())));
+      model_.notes.push_back(
+          {ModelNoteCode::other_case, fmt::format("mesh {} was found as {}", in_quotes(mesh.file),
+                                                  in_quotes(found.path->filename().string()))});
     mesh.path = std::move(found.path);
     mesh.looked_in = std::move(found.looked_in);
     model_.meshes.push_back(std::move(mesh));

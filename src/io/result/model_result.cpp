@@ -57,7 +57,7 @@ std::string model_text(const Model& model) {
   for (const ModelMesh& mesh : model.meshes)
     if (!mesh.path) text += fmt::format("  missing: {} of {}\n", mesh.file, mesh.body);
   for (const auto& [kind, count] : model.ignored) text += fmt::format("  not used: {} {}\n", count, kind);
-  for (const std::string& line : model.notes) text += fmt::format("  note: {}\n", line);
+  for (const ModelNote& note : model.notes) text += fmt::format("  note: {}\n", to_text(note));
   return text;
 }
 
@@ -118,7 +118,9 @@ Json model_json(const Model& model) {
     json["couplers"].push_back(
         {{"name", coupler.name}, {"dependent", coupler.dependent}, {"independent", coupler.independent}});
   json["not_used"] = Json(model.ignored);
-  json["notes"] = model.notes;
+  json["notes"] = Json::array();
+  for (const ModelNote& note : model.notes)
+    json["notes"].push_back({{"code", name_of(note.code)}, {"text", note.text}});
   return json;
 }
 

@@ -372,7 +372,7 @@ TEST_F(SmallModel, FindsMeshesInAnyCaseAndSaysSo) {
   const Model model = this->model({.mesh = "<mesh_file>FEMUR.PLY</mesh_file>"});
   ASSERT_TRUE(model.meshes[1].path);
   ASSERT_EQ(model.notes.size(), 1u);
-  EXPECT_EQ(model.notes[0], "mesh 'FEMUR.PLY' was found as 'femur.ply'");
+  EXPECT_EQ(to_text(model.notes[0]), "other_case: mesh 'FEMUR.PLY' was found as 'femur.ply'");
 }
 
 TEST_F(SmallModel, WithoutMeshesNamesWhereTheyWereLookedFor) {
