@@ -163,7 +163,7 @@ class ModelMotion {
       processing_->push_back(fmt::format("coordinate {} is locked in the model; its column is used",
                                          in_quotes(coordinate.name)));
     if (!coordinate.range) return;
-    const auto [low, high] = *coordinate.range;
+    const double low = coordinate.range->front(), high = coordinate.range->back();
     const auto beyond = std::count_if(values.begin(), values.end(),
                                       [&](double value) { return value < low || value > high; });
     if (beyond > 0)
