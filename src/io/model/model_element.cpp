@@ -41,14 +41,19 @@ const XmlElement* ModelElement::first_of(std::initializer_list<std::string_view>
 
 std::string ModelElement::name() const {
   std::string name = element_->label();
-  if (has_control_character(name)) fail("its name has a control character");
+  require_plain(name, "its name");
   return name;
+}
+
+void ModelElement::require_plain(std::string_view text, std::string_view what) const {
+  if (has_control_character(text)) fail(fmt::format("{} has a control character", what));
+  if (end_of_utf8(text) != text.size()) fail(fmt::format("{} is not UTF-8", what));
 }
 
 std::string ModelElement::text(std::string_view child) const {
   const XmlElement* element = element_->child(child);
   std::string text = element ? element->text() : std::string();
-  if (has_control_character(text)) fail_at(*element, fmt::format("{}: has a control character", child));
+  require_plain(text, child);
   return text;
 }
 

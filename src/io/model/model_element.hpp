@@ -27,11 +27,14 @@ class ModelElement {
   /// The first of these children that is there; null if none is.
   const XmlElement* first_of(std::initializer_list<std::string_view> names) const noexcept;
 
-  /// Its name; fails for one with control characters, which no joint file may have.
+  /// Its name; fails for one that no joint file may have, as require_plain() does.
   std::string name() const;
 
+  /// Fails for a text with control characters, or that is not UTF-8.
+  void require_plain(std::string_view text, std::string_view what) const;
+
   // Values of children, or their defaults where a child is missing or empty.
-  std::string text(std::string_view child) const;  ///< without control characters, as name()
+  std::string text(std::string_view child) const;  ///< plain, as the name
   double number(std::string_view child, double otherwise) const;
   double above_zero(std::string_view child, double otherwise) const;
   Vec3 triple(std::initializer_list<std::string_view> children, const Vec3& otherwise) const;

@@ -177,7 +177,7 @@ class ModelReader {
 
   void add_mesh(ModelMesh mesh, std::string file, const ModelElement& of) {
     if (file.empty()) return;
-    if (has_control_character(file)) of.fail("the name of its file has a control character");
+    of.require_plain(file, "the name of its file");
     for (int i = 0; i < 3; ++i)
       if (mesh.scale[i] == 0) of.fail("scale_factors: a factor of 0 leaves no solid");
     mesh.file = std::move(file);

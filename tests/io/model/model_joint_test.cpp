@@ -427,6 +427,8 @@ TEST_F(SmallModel, RefusesInOneLine) {
        "a joint of type EllipsoidJoint is not read"},
       {replaced("<objects>\n<Body", "<!DOCTYPE a><objects>\n<Body"), "'<!DOCTYPE' is not read"},
       {replaced("<objects>\n<Body", deep + "<objects>\n<Body"), "elements nested deeper than 200"},
+      {replaced("hip_r", "hip\xe9_r"), "its name is not UTF-8"},
+      {replaced("femur.ply", "fe&#27;mur.ply"), "mesh_file has a control character"},
       {"{}", "no XML tag"},
       {"<html></html>", "no OpenSim model: it begins with 'html'"},
   };
