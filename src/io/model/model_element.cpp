@@ -17,17 +17,16 @@ constexpr std::string_view functions_read[] = {
     "Constant",   "LinearFunction",     "PolynomialFunction", "PiecewiseLinearFunction",
     "SimmSpline", "NaturalCubicSpline", "natCubicSpline",     "MultiplierFunction"};
 
-bool is_function(const XmlElement& element) {
-  const std::string_view name = element.name;
-  constexpr std::string_view others[] = {
-      "GCVSpline",       "StepFunction",   "Sine", "MultivariatePolynomialFunction",
-      "SignalGenerator", "FunctionAdapter"};
-  return std::find(std::begin(functions_read), std::end(functions_read), name) != std::end(functions_read) ||
-         std::find(std::begin(others), std::end(others), name) != std::end(others) ||
-         name.ends_with("Function") || name.ends_with("Spline");
-}
-
 }  // namespace
+
+bool is_function(std::string_view element) noexcept {
+  constexpr std::string_view others[] = {"Sine", "MultivariatePolynomialFunction", "SignalGenerator",
+                                         "FunctionAdapter"};
+  return std::find(std::begin(functions_read), std::end(functions_read), element) !=
+             std::end(functions_read) ||
+         std::find(std::begin(others), std::end(others), element) != std::end(others) ||
+         element.ends_with("Function") || element.ends_with("Spline");
+}
 
 void ModelElement::fail_at(const XmlElement& element, std::string_view what) const {
   source_->fail(fmt::format("line {}: {}{}{}", element.line, of_, of_.empty() ? "" : ": ", what));
@@ -80,12 +79,6 @@ double ModelElement::number(std::string_view child, double otherwise) const {
   return values[0];
 }
 
-double ModelElement::above_zero(std::string_view child, double otherwise) const {
-  const double value = number(child, otherwise);
-  if (!(value > 0)) fail_at(*element_->child(child), fmt::format("{}: must be above 0", child));
-  return value;
-}
-
 Vec3 ModelElement::triple(std::initializer_list<std::string_view> children, const Vec3& otherwise) const {
   const XmlElement* element = first_of(children);
   if (!element || element->text().empty()) return otherwise;
@@ -136,7 +129,8 @@ ModelFunction ModelElement::function_of(const XmlElement& element, int depth) co
     if (depth > 10) fail_at(element, "functions nested deeper than 10");
     const ModelElement inside(*source_, element, of_);
     const XmlElement* wrapper = element.child("function");
-    if (!wrapper || wrapper->children.empty()) fail_at(element, "MultiplierFunction: function is missing");
+    if (!wrapper || wrapper->children.size() != 1)
+      fail_at(element, "MultiplierFunction: one function is needed in it");
     return ScaledFunction{inside.number("scale", 1), std::make_shared<const ModelFunction>(
                                                          function_of(wrapper->children.front(), depth + 1))};
   }
@@ -150,10 +144,12 @@ ModelFunction ModelElement::function_of(const XmlElement& element, int depth) co
 
 std::optional<ModelFunction> ModelElement::function() const {
   for (const XmlElement& child : element_->children) {
-    if (child.name == "function" && !child.children.empty()) return function_of(child.children.front(), 0);
-    if (child.name == "coupled_coordinates_function" && !child.children.empty())
-      return function_of(child.children.front(), 0);
-    if (is_function(child)) return function_of(child, 0);
+    const bool is_wrapper = child.name == "function" || child.name == "coupled_coordinates_function";
+    if (is_wrapper && child.children.size() > 1)
+      fail_at(child, fmt::format("{}: is more than one", child.name));
+    if (is_wrapper && !child.children.empty()) return function_of(child.children.front(), 0);
+    if (!is_wrapper && (child.name_attribute == "function" || is_function(child.name)))
+      return function_of(child, 0);
   }
   return std::nullopt;
 }

@@ -11,6 +11,9 @@
 
 namespace condyle::io {
 
+/// Whether an element of this name is a function, read or not.
+bool is_function(std::string_view element) noexcept;
+
 /// Reads the values of elements of a model; errors name the file, the line and what they are of.
 class ModelElement {
  public:
@@ -36,7 +39,6 @@ class ModelElement {
   // Values of children, or their defaults where a child is missing or empty.
   std::string text(std::string_view child) const;  ///< plain, as the name
   double number(std::string_view child, double otherwise) const;
-  double above_zero(std::string_view child, double otherwise) const;
   Vec3 triple(std::initializer_list<std::string_view> children, const Vec3& otherwise) const;
   bool flag(std::string_view child, bool otherwise) const;
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "condyle/pose.hpp"
@@ -17,7 +18,11 @@ struct BodyPlace {
   Pose X = Pose::Identity();
 };
 
-/// Bodies of a model and the frames that hang on them, one on another.
+/// What the frames of a joint stand in, which may have a body's name.
+std::string place_of_joint(std::string_view joint);
+
+/// Bodies of a model and the frames that hang on them, one on another. Where a component stands is told by a path: a body's
+/// name, place_of_joint(), and the names of frames after it.
 class ModelFrames {
  public:
   explicit ModelFrames(const Source& source) : source_(&source) {}
@@ -26,28 +31,42 @@ class ModelFrames {
     bodies_.push_back(name);
     known_.insert(name);
   }
-  /// A PhysicalOffsetFrame; `owner` is the joint, body or frame that it stands in.
-  void add_frame(const XmlElement& frame, std::string owner);
+  /// A PhysicalOffsetFrame that stands in `owner`.
+  void add_frame(const XmlElement& frame, const std::string& owner);
 
   const std::vector<std::string>& bodies() const noexcept { return bodies_; }
   bool is_body(const std::string& name) const { return known_.contains(name); }
 
-  /// What a socket leads to, of a component that stands in `owner`: a path whose last name decides, the owner's own frames
-  /// before a body. Fails in the name of `of` for one that leads nowhere, could be two, or goes round in a circle.
-  BodyPlace place_of(std::string_view socket, std::string_view owner, const ModelElement& of) const;
+  /// What a socket leads to, of a component that stands in `owner`. A path's last name decides: with the name before it a frame
+  /// of that body or joint, else one of the owner's own, else a body, else the only frame of that name; ".." is the owner.
+  /// Fails in the name of `of` for one that leads nowhere, could be two, or goes round in a circle.
+  BodyPlace place_of(std::string_view socket, const std::string& owner, const ModelElement& of) const;
+
+  /// Where the body or frame at this path is.
+  BodyPlace place_at(const std::string& path, const ModelElement& of) const;
 
  private:
   struct Frame {
     std::string owner, parent;
     Pose X;
   };
-  const Frame* frame_named(const std::string& name, std::string_view owner, std::string_view stands_in,
-                           const ModelElement& of) const;
+  /// A body's name, or a frame.
+  struct Target {
+    std::string body;
+    const Frame* frame = nullptr;
+  };
+
+  const Frame* frame_at(const std::string& owner, const std::string& name) const;
+  Target target_at(const std::string& path, const ModelElement& of) const;
+  Target target_of(std::string path, const std::string& owner, const ModelElement& of) const;
+  BodyPlace place_of(const Target& target, std::size_t depth, const ModelElement& of) const;
 
   const Source* source_;
   std::vector<std::string> bodies_;
   std::unordered_set<std::string> known_;
-  std::multimap<std::string, Frame> frames_;  ///< by their names
+  std::multimap<std::string, Frame> frames_;                        ///< by their names
+  std::map<std::pair<std::string, std::string>, const Frame*> at_;  ///< by owner and name
+  mutable std::map<const Frame*, BodyPlace> places_;                ///< of frames that were asked for
 };
 
 /// X from a translation and body-fixed X-Y-Z angles, elements of these names.

@@ -107,6 +107,13 @@ double value_of(const ModelFunction& function, std::span<const double> q) noexce
       function);
 }
 
+std::optional<std::size_t> arguments_of(const ModelFunction& function) {
+  if (const auto* scaled = std::get_if<ScaledFunction>(&function)) return arguments_of(*scaled->of);
+  if (const auto* linear = std::get_if<LinearFunction>(&function)) return linear->slopes.size();
+  if (std::holds_alternative<ConstantFunction>(function)) return std::nullopt;
+  return 1;
+}
+
 std::optional<StraightLine> straight_line(const ModelFunction& function) {
   if (const auto* constant = std::get_if<ConstantFunction>(&function))
     return StraightLine{0, constant->value};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
@@ -61,6 +62,9 @@ struct ScaledFunction {
 
 /// Its value at these numbers; all functions but the linear one take the first alone.
 double value_of(const ModelFunction& function, std::span<const double> q) noexcept;
+
+/// How many numbers it takes; nothing if it takes any.
+std::optional<std::size_t> arguments_of(const ModelFunction& function);
 
 /// The function as slope * q + offset of one number, where it is that for every q.
 struct StraightLine {

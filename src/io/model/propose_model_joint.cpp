@@ -135,7 +135,10 @@ class ModelJointFile {
     return names;
   }
 
-  static const NamedMesh& add_mesh(std::vector<NamedMesh>& meshes, const ModelMesh& mesh, std::string name) {
+  const NamedMesh& add_mesh(std::vector<NamedMesh>& meshes, const ModelMesh& mesh, std::string name) const {
+    if (mesh.scale.cwiseAbs().minCoeff() == 0)
+      throw FileError(fmt::format("{}: line {}: mesh {}: scale_factors: a factor of 0 leaves no solid",
+                                  model_.path.string(), mesh.line, in_quotes(mesh.file)));
     if (name.empty()) name = "mesh";
     const std::string base = name;
     const auto is_taken = [&] {
@@ -348,6 +351,9 @@ class ModelJointFile {
       refuse(fmt::format("min_proximity {} is not 0", contact_->least_proximity));
     const ModelContactMesh& casting = contact_mesh(contact_->casting);
     const ModelContactMesh& target = contact_mesh(contact_->target);
+    for (const ModelContactMesh* mesh : {&casting, &target})
+      if (!(mesh->youngs_modulus_pa > 0 && mesh->thickness > 0 && mesh->least_thickness > 0))
+        refuse(fmt::format("elastic_modulus and thicknesses of {} must be above 0", in_quotes(mesh->name)));
     for (const ModelContactMesh* mesh : {&casting, &target})
       if (!(mesh->poisson_ratio < 0.5 && mesh->poisson_ratio > -1))
         refuse(fmt::format("poissons_ratio {} of {} is not below 0.5", mesh->poisson_ratio,

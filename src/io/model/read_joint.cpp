@@ -105,6 +105,10 @@ TransformAxis axis_of(const Source& source, const XmlElement& element, const std
   axis.axis.normalize();
 
   const std::size_t count = axis.coordinates.size();
+  for (const XmlElement& child : element.children)
+    if (child.name != "coordinates" && child.name != "axis" && child.name != "function" &&
+        child.name_attribute != "function" && !is_function(child.name))
+      values.fail_at(child, fmt::format("{} is not read here", in_quotes(child.name)));
   if (auto function = values.function()) {
     axis.function = std::move(*function);
   } else if (count == 1) {
@@ -112,12 +116,7 @@ TransformAxis axis_of(const Source& source, const XmlElement& element, const std
   } else if (count > 1) {
     values.fail(fmt::format("{} coordinates and no function of them", count));
   }
-  const ModelFunction* core = &axis.function;
-  while (const auto* scaled = std::get_if<ScaledFunction>(core)) core = scaled->of.get();
-  const auto* linear = std::get_if<LinearFunction>(core);
-  const std::size_t taken = linear                                            ? linear->slopes.size()
-                            : std::holds_alternative<ConstantFunction>(*core) ? count
-                                                                              : 1;
+  const std::size_t taken = arguments_of(axis.function).value_or(count);
   if (taken != count)
     values.fail(fmt::format("a function of {} coordinates, and {} are named", taken, count));
   return axis;
@@ -205,8 +204,9 @@ void read(ModelJoint& out, const ModelElement& joint, const std::string& of,
   if (parent.empty()) joint.fail("the parent body is missing");
   if (child.empty()) child = enclosing_body;
   if (child.empty()) joint.fail("the child body is missing");
-  const BodyPlace of_parent = frames.place_of(parent, out.name, joint);
-  const BodyPlace of_child = frames.place_of(child, out.name, joint);
+  const std::string here = place_of_joint(out.name);
+  const BodyPlace of_parent = frames.place_of(parent, here, joint);
+  const BodyPlace of_child = frames.place_of(child, here, joint);
   out.parent_body = of_parent.body;
   out.child_body = of_child.body;
   out.X_PF = of_parent.X * offset_of(joint, {"location_in_parent"}, {"orientation_in_parent"});

@@ -54,6 +54,10 @@ class ModelReader {
             name != "GeometrySet" && name != "PathPointSet");
   }
 
+  static std::string path_in(const std::string& owner, const XmlElement& frame) {
+    return owner + "/" + frame.label();
+  }
+
   /// Bodies, and frames wherever they stand, with what they stand in.
   void collect_frames(const XmlElement& element, const std::string& owner) {
     for (const XmlElement& child : element.children) {
@@ -65,9 +69,9 @@ class ModelReader {
         collect_frames(child, name);
       } else if (child.name == "PhysicalOffsetFrame") {
         frames_.add_frame(child, owner);
-        collect_frames(child, child.label());
+        collect_frames(child, path_in(owner, child));
       } else if (is_joint(child.name)) {
-        collect_frames(child, child.label());
+        collect_frames(child, place_of_joint(child.label()));
       } else if (is_container(child.name)) {
         collect_frames(child, owner);
       }
@@ -80,11 +84,13 @@ class ModelReader {
       if (is_body(child)) {
         read_body(child, name == "Ground" ? "ground" : child.label());
       } else if (name == "PhysicalOffsetFrame") {
-        read_geometry(child, child.label(), owner);
-        read_components(child, child.label());
+        read_geometry(child, path_in(owner, child));
+        read_components(child, path_in(owner, child));
       } else if (is_joint(name)) {
         model_.joints.push_back(joint_of(source_, child, owner, frames_));
-        read_components(child, child.label());
+        read_components(child, place_of_joint(child.label()));
+      } else if (name == "Mesh" && owner.empty()) {
+        read_mesh_element(child, "");
       } else if (name == "CoordinateCouplerConstraint") {
         read_coupler(child);
       } else if (name == "Smith2018ContactMesh") {
@@ -100,7 +106,7 @@ class ModelReader {
   }
 
   void read_body(const XmlElement& body, const std::string& name) {
-    read_geometry(body, name, "");
+    read_geometry(body, name);
     read_visible_object(body, name);
     if (const XmlElement* wraps = body.at({"WrapObjectSet", "objects"}))
       for (const XmlElement& wrap : wraps->children) ++model_.ignored[core::one_line(wrap.name, 60)];
@@ -108,13 +114,13 @@ class ModelReader {
   }
 
   /// Meshes of 4.x: in the frame that they stand in, or that their socket names.
-  void read_geometry(const XmlElement& frame, const std::string& name, const std::string& owner) {
+  void read_geometry(const XmlElement& frame, const std::string& path) {
     for (const std::string_view place : {"attached_geometry", "components"}) {
       const XmlElement* geometry = frame.child(place);
       if (!geometry) continue;
       for (const XmlElement& shape : geometry->children) {
         if (shape.name == "Mesh") {
-          read_mesh_element(shape, name, owner);
+          read_mesh_element(shape, path);
         } else if (place == "attached_geometry" && shape.name != "FrameGeometry") {
           ++shapes_[core::one_line(shape.name, 60)];
         }
@@ -122,14 +128,18 @@ class ModelReader {
     }
   }
 
-  void read_mesh_element(const XmlElement& element, const std::string& frame, const std::string& owner) {
+  void read_mesh_element(const XmlElement& element, const std::string& owner) {
     const ModelElement values(source_, element, fmt::format("mesh {}", in_quotes(element.label())));
     ModelMesh mesh{.line = element.line};
     std::string socket = values.text("socket_frame");
     if (socket.empty()) socket = values.text("socket_frame_connectee_name");
     const bool stands_here = socket.empty() || socket == "..";
+    if (stands_here && owner.empty()) {
+      ++model_.ignored["Mesh of no frame"];
+      return;
+    }
     const BodyPlace place =
-        frames_.place_of(stands_here ? frame : socket, stands_here ? owner : frame, values);
+        stands_here ? frames_.place_at(owner, values) : frames_.place_of(socket, owner, values);
     mesh.body = place.body;
     mesh.X_BG = place.X;
     mesh.scale = values.triple({"scale_factors"}, Vec3::Ones());
@@ -178,8 +188,6 @@ class ModelReader {
   void add_mesh(ModelMesh mesh, std::string file, const ModelElement& of) {
     if (file.empty()) return;
     of.require_plain(file, "the name of its file");
-    for (int i = 0; i < 3; ++i)
-      if (mesh.scale[i] == 0) of.fail("scale_factors: a factor of 0 leaves no solid");
     mesh.file = std::move(file);
     FoundMesh found = find_mesh(mesh.file, folder_, folders_);
     if (found.in_another_case)
@@ -206,14 +214,14 @@ class ModelReader {
     FoundMesh found = find_mesh(contact.mesh.file, folder_, folders_);
     contact.mesh.path = std::move(found.path);
     contact.mesh.looked_in = std::move(found.looked_in);
-    contact.youngs_modulus_pa = values.above_zero("elastic_modulus", 1e6);
+    contact.youngs_modulus_pa = values.number("elastic_modulus", 1e6);
     contact.poisson_ratio = values.number("poissons_ratio", 0.5);
-    contact.thickness = values.above_zero("thickness", 0.005);
+    contact.thickness = values.number("thickness", 0.005);
     contact.has_variable_thickness = values.flag("use_variable_thickness", false);
     contact.back_file = values.text("mesh_back_file");
     if (!contact.back_file.empty()) contact.back_path = find_mesh(contact.back_file, folder_, folders_).path;
-    contact.least_thickness = values.above_zero("min_thickness", 0.001);
-    contact.greatest_thickness = values.above_zero("max_thickness", 0.01);
+    contact.least_thickness = values.number("min_thickness", 0.001);
+    contact.greatest_thickness = values.number("max_thickness", 0.01);
     model_.contact_meshes.push_back(std::move(contact));
   }
 
@@ -253,9 +261,8 @@ class ModelReader {
     try {
       const auto function = values.function();
       if (!function) values.fail("its function is missing");
-      const auto* linear = std::get_if<LinearFunction>(&*function);
-      if (coupler.independent.empty() || (coupler.independent.size() > 1 &&
-                                          (!linear || linear->slopes.size() != coupler.independent.size())))
+      const std::size_t count = coupler.independent.size();
+      if (count == 0 || arguments_of(*function).value_or(count) != count)
         values.fail("its function is of another number of coordinates");
       coupler.function = std::make_shared<const CouplerFunction>(
           CouplerFunction{values.number("scale_factor", 1), *function});

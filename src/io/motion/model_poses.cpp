@@ -97,24 +97,32 @@ class ModelMotion {
     return {nullptr, nullptr};
   }
 
-  bool in_degrees(const ModelCoordinate& coordinate) const {
-    if (coordinate.motion == CoordinateMotion::translational) return false;
+  /// Whether the file's angles are degrees; nothing if neither it nor the joint file says so.
+  std::optional<bool> has_degrees() const {
     if (table_.in_degrees && mapping_.in_degrees && *table_.in_degrees != *mapping_.in_degrees)
       throw FileError(fmt::format("{}: angles are given in {}, and the header says inDegrees={}",
                                   table_.path.string(), *mapping_.in_degrees ? "degrees" : "radians",
                                   *table_.in_degrees ? "yes" : "no"));
-    const auto unit = table_.in_degrees ? table_.in_degrees : mapping_.in_degrees;
-    if (!unit)
+    return table_.in_degrees ? table_.in_degrees : mapping_.in_degrees;
+  }
+
+  bool in_degrees(const ModelCoordinate& coordinate) const {
+    if (coordinate.motion == CoordinateMotion::translational) return false;
+    const std::optional<bool> degrees = has_degrees();
+    if (coordinate.motion == CoordinateMotion::coupled) {
+      if (degrees.value_or(false))
+        processing_->push_back(fmt::format(
+            "{}: coordinate {} turns the joint through a function: its column is in radians, whatever the "
+            "header says",
+            table_.path.string(), in_quotes(coordinate.name)));
+      return false;
+    }
+    if (!degrees)
       throw FileError(
           fmt::format("{}: column {}: the file does not say whether angles are in degrees: give "
                       "angles = \"deg\" or \"rad\" in [recorded_motion]",
                       table_.path.string(), in_quotes(coordinate.name)));
-    if (*unit && coordinate.motion == CoordinateMotion::coupled)
-      processing_->push_back(
-          fmt::format("{}: coordinate {} turns the joint through a function: its column is "
-                      "in radians, whatever the header says",
-                      table_.path.string(), in_quotes(coordinate.name)));
-    return *unit && coordinate.motion == CoordinateMotion::rotational;
+    return *degrees;
   }
 
   /// In radians and metres, NaN for gaps.
@@ -143,6 +151,7 @@ class ModelMotion {
       if (!coordinate)
         throw FileError(fmt::format("{}: constraint {}: there is no coordinate {}", mapping_.model.string(),
                                     in_quotes(coupler.name), in_quotes(name)));
+      if (!joint->transform) throw FileError(joint->why_not);
       of.push_back(values_of(*joint, *coordinate, steps + 1));
     }
     processing_->push_back(fmt::format("{}: has no column of coordinate {}: constraint {} gives it",

@@ -440,6 +440,89 @@ TEST_F(SmallModel, RefusesInOneLine) {
   }
 }
 
+/// A joint of the body that frames hang on in many ways, each 1, 2, ... m along X.
+std::string with_frames(std::string_view parent_socket) {
+  const auto frame = [](std::string_view name, std::string_view parent, int along,
+                        std::string_view inside = "") {
+    return fmt::format(
+        R"(<PhysicalOffsetFrame name="{}"><socket_parent>{}</socket_parent><translation>{} 0 0</translation>
+<components>{}</components></PhysicalOffsetFrame>)",
+        name, parent, along, inside);
+  };
+  return fmt::format(
+      R"(<OpenSimDocument Version="40000"><Model name="m"><BodySet><objects>
+<Body name="pelvis"><components>{}{}</components></Body>
+<Body name="femur_r"><components>{}</components></Body></objects></BodySet>
+<JointSet><objects><PinJoint name="pelvis"><socket_parent_frame>{}</socket_parent_frame>
+<socket_child_frame>/bodyset/femur_r</socket_child_frame>{}<frames>{}{}</frames></PinJoint></objects></JointSet></Model></OpenSimDocument>)",
+      frame("F1", "..", 1, frame("F2", "..", 10) + frame("F3", "../..", 100)), frame("off", "..", 1000),
+      frame("F1", "..", 2, frame("F2", "..", 20)), parent_socket, coordinates({"q"}),
+      frame("off", "/bodyset/pelvis", 5), frame("femur_r", "/bodyset/femur_r", 7));
+}
+
+TEST_F(SmallModel, FollowsSocketsAsTheyArePaths) {
+  const std::pair<std::string_view, int> cases[] = {
+      {"/bodyset/pelvis", 0},
+      {"/bodyset/pelvis/F1", 1},
+      {"/bodyset/femur_r/F1", 2},
+      {"/bodyset/femur_r/F1/F2", -1},
+      {"F3", 100},
+      {"off", 5},
+      {"femur_r", 7},
+  };
+  for (const auto& [socket, along] : cases) {
+    SCOPED_TRACE(socket);
+    const Model model = read_model(written(with_frames(socket)));
+    const ModelJoint& joint = model.joints.front();
+    if (along < 0) {
+      EXPECT_NE(joint.why_not.find("could be one of several frames"), std::string::npos) << joint.why_not;
+      continue;
+    }
+    EXPECT_EQ(joint.why_not, "");
+    EXPECT_EQ(joint.X_PF.translation(), Vec3(along, 0, 0));
+  }
+  for (const char* socket : {"/bodyset/pelvis/F9", "/bodyset/femur_r/off", "F1", ".."})
+    EXPECT_FALSE(read_model(written(with_frames(socket))).joints.front().transform) << socket;
+}
+
+TEST_F(SmallModel, RefusesFunctionsThatItDoesNotRead) {
+  for (const char* function :
+       {"<FiberForceLengthCurve name=\"function\"/>", "<Polynomial name=\"function\"/>", "<GCVSpline/>",
+        "<Polynomial/>", "<function><Constant/><Constant/></function>"}) {
+    const Hip hip{.joint = axis("rotation1", "flex", "0 0 1", function) + axis("rotation2", "add", "1 0 0") +
+                           axis("rotation3", "rot", "0 1 0")};
+    const std::string said = refusal(hip.text());
+    EXPECT_NE(said.find("rotation1: "), std::string::npos) << said;
+    EXPECT_TRUE(said.find("is not read") != said.npos || said.find("more than one") != said.npos) << said;
+  }
+}
+
+TEST_F(SmallModel, RefusesCouplersOfAnotherNumberOfCoordinates) {
+  const std::string spline = "<SimmSpline name=\"function\"><x>-1 0 1</x><y>-1 0 1</y></SimmSpline>";
+  for (const char* slopes : {"1 2 0", "0", "1 2 3 0"}) {
+    const Hip hip{.joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0", spline) +
+                           axis("rotation3", "rot", "0 1 0"),
+                  .more = fmt::format(R"(<ConstraintSet><objects><CoordinateCouplerConstraint name="c">
+<coupled_coordinates_function><MultiplierFunction><function><LinearFunction><coefficients>{}</coefficients></LinearFunction></function>
+</MultiplierFunction></coupled_coordinates_function><independent_coordinate_names>flex</independent_coordinate_names>
+<dependent_coordinate_name>rot</dependent_coordinate_name></CoordinateCouplerConstraint></objects></ConstraintSet>)",
+                                      slopes)};
+    const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+    EXPECT_THROW(motion_of(loaded, one_frame({"time", "flex"}, {{0}, {0.3}}, false)), FileError) << slopes;
+  }
+}
+
+TEST_F(SmallModel, ReadsMeshesOfTheModelItself) {
+  const Model model = this->model(
+      {.more =
+           "<components><Mesh "
+           "name=\"a\"><socket_frame>/bodyset/femur_r</socket_frame><mesh_file>pelvis.ply</mesh_file></Mesh>"
+           "<Mesh name=\"b\"><mesh_file>femur.ply</mesh_file></Mesh></components>"});
+  ASSERT_EQ(model.meshes.size(), 3u);
+  EXPECT_EQ(model.meshes[2].body, "femur_r");
+  EXPECT_EQ(model.ignored.at("Mesh of no frame"), 1u);
+}
+
 TEST_F(SmallModel, AsksForWhatNamesDoNotTell) {
   EXPECT_NE(refusal(Hip{.name = "hip", .body = "femur"}.text()).find("give its side"), std::string::npos);
   EXPECT_NE(refusal(Hip{.name = "joint_r", .body = "body_r"}.text()).find("say whether it is a hip, knee"),
