@@ -24,7 +24,7 @@ inline constexpr double narrow_bearing_margin_mm = 1;
 inline constexpr double farthest_head_centre_mm = 5;
 
 /// The part of the mobile body that slides in the socket: the triangles with all three corners within the head's radius and
-/// the margin of the head's centre. If meshes of the body are called bearing (BodyPart::is_bearing), as a cartilage beside
+/// the margin of the head's centre. If meshes of the body are called bearing (PartContact::bearing), as a cartilage beside
 /// its bone, they belong to it too, and the head is the sphere found on them. A vertex or an edge is bearing when all its
 /// triangles are.
 ///
@@ -49,8 +49,25 @@ struct BearingSurface {
   std::vector<std::uint8_t> triangles;  ///< of the mobile mesh: 1 for bearing
 
   std::size_t count() const noexcept;
-  /// A feature of the mobile mesh. Linear in its triangles for vertices and edges.
-  bool holds(const TriMesh& mobile, const Feature& feature) const noexcept;
+};
+
+/// What contact of one triangle means: PartContact, and where on the mobile body it slides.
+enum class ContactRole : std::uint8_t {
+  ends,
+  bearing,  ///< Of the mobile body: it slides on whatever is not soft. Of the fixed one: what it is called.
+  soft,
+  bearing_on_bearing,  ///< Of the mobile body: it slides on what is called bearing only.
+};
+
+/// The roles of both bodies' triangles, in their order; empty where all are ContactRole::ends.
+struct ContactRoles {
+  std::vector<ContactRole> fixed = {}, mobile = {};
+
+  bool has(ContactRole role) const noexcept;
+  /// Whether some contact slides: then the rest is impingement.
+  bool distinguish_bearing() const noexcept {
+    return has(ContactRole::bearing) || has(ContactRole::bearing_on_bearing);
+  }
 };
 
 enum class BearingRule : std::uint8_t {
@@ -68,6 +85,9 @@ struct BearingOptions {
   /// As found before, of the same mobile mesh; else it is found, which costs more than the rest of making a joint
   /// ready.
   std::optional<BearingSurface> surface = {};
+  /// As found before, of the same meshes, and then no surface is searched for; else they follow from the surface and the words of
+  /// the meshes.
+  std::optional<ContactRoles> roles = {};
 };
 
 /// What limits a margin.
@@ -79,9 +99,11 @@ struct NarrowMargin {
   MarginLimit by = MarginLimit::rim;
 };
 
-/// The bearing surface of a joint, or one sentence with the reason why none can be inferred.
+/// The bearing surface of a joint, or one sentence with the reason why none can be inferred; and what contact of each triangle
+/// means, which the words of meshes may say without one.
 struct BearingFinding {
   std::optional<BearingSurface> surface = {};
+  ContactRoles roles = {};
   std::string why_none = {};
   /// If a gap makes the usual margin smaller than narrow_bearing_margin_mm.
   std::optional<NarrowMargin> narrow_margin = {};
@@ -90,11 +112,14 @@ struct BearingFinding {
   std::vector<ImageCut> fixed_cuts = {}, mobile_cuts = {};
 
   bool is_on_cut(const ContactWitness& contact) const noexcept;
-  /// Kind of a contact whose mobile feature is of this mesh. Linear in its triangles for vertices and edges.
-  ContactKind kind_of(const TriMesh& mobile, const ContactWitness& contact) const noexcept;
+  /// Kind of a contact of features of these meshes. Linear in their triangles for vertices and edges.
+  ContactKind kind_of(const TriMesh& fixed, const TriMesh& mobile,
+                      const ContactWitness& contact) const noexcept;
+  /// Kind of a contact of two triangles, whatever their place.
+  ContactKind kind_of(Index fixed_triangle, Index mobile_triangle) const noexcept;
 };
 
-/// Searches for the head of a hip or shoulder around the joint centre. None for other joints (Joint::has_head()), if no head is
+/// Searches for the head of a hip or shoulder around the joint centre. No surface for other joints (Joint::has_head()), if no head is
 /// found, if its centre is farther than farthest_head_centre_mm from the joint centre, if the joint space or what lies beside a
 /// shoulder's socket leaves no margin, and if the whole mobile body would be bearing, as a cartilage is. Throws UsageError
 /// for a margin below 0 or not finite.

@@ -32,6 +32,7 @@ enum class ContactKind : std::uint8_t {
   bearing,      ///< The bearing surfaces touch: the centre or the segmentation is off.
   impingement,  ///< Something else meets.
   cut,          ///< A face that closes a bone where its image ends meets something: no contact of bones.
+  soft,         ///< A mesh called soft touches: PartContact.
 };
 
 /// A pair of features in contact, and the point on each body in its own frame. If several pairs are in contact at the
@@ -48,8 +49,8 @@ enum class LimitReason : std::uint8_t {
   contact_at_start,  ///< The surfaces meet at the start already, or one body is inside the other.
 };
 
-/// Contact of bearing surfaces before a limit.
-struct BearingContact {
+/// Contact before a limit that does not end the motion: of bearing surfaces, or of a mesh called soft.
+struct EarlierContact {
   Angle turned = {};  ///< from the start, >= 0; 0 if they are in contact there already
   /// Empty if one surface is inside the other body and they do not meet.
   std::optional<ContactWitness> contact = {};
@@ -65,7 +66,9 @@ struct Limit {
   /// First contact is at `turned` or past it by at most this; never before.
   Angle error_bound = {};
   /// Set by RangeOfMotion if bearing contact does not count: the first one, if it comes before the limit.
-  std::optional<BearingContact> bearing_contact = {};
+  std::optional<EarlierContact> bearing_contact = {};
+  /// Set by RangeOfMotion if a mesh is called soft: its first contact, if before the limit.
+  std::optional<EarlierContact> soft_contact = {};
 
   ContactKind kind() const noexcept { return contact ? contact->kind : ContactKind::unknown; }
 };

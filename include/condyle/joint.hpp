@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,12 +12,30 @@
 
 namespace condyle {
 
+/// What contact of one of several meshes of a body means for a motion. With bone as `ends`, cartilage as `bearing` and a labrum
+/// as `soft`:
+///
+///     mobile \ fixed   ends          bearing       soft
+///     ends             ends          ends          noted         noted: where they first touch stands beside the limit
+///     bearing          ends *        slides        noted         slides: the same, as bearing contact
+///     soft             noted         noted         noted
+///
+/// * slides if no mesh of the fixed body is called bearing, and on the head of a hip or shoulder: BearingSurface.
+enum class PartContact : std::uint8_t {
+  ends,     ///< It ends a motion.
+  bearing,  ///< It slides on what is called bearing of the other body, as cartilage does.
+  soft,     ///< It gives way, as a labrum or a meniscus does.
+};
+
+/// As in files: "bearing".
+std::string_view name_of(PartContact contact) noexcept;
+
 /// Which vertices and triangles of a body's mesh came from one of several meshes.
 struct BodyPart {
   std::string name;
   std::size_t first_vertex, vertices;
   std::size_t first_triangle, triangles;
-  bool is_bearing = false;  ///< it slides on the other body, as cartilage does: find_bearing_surface()
+  PartContact contact = PartContact::ends;
 };
 
 /// A flat face that closes a bone where its image ends: the plane normal . p = offset, the normal unit and outwards.
@@ -56,6 +75,9 @@ double cut_area_mm2(const Body& body);
 
 /// The mesh of the part of this name. Throws UsageError with the names there are. Linear in the part.
 Mesh mesh_of_part(const Body& body, std::string_view part);
+
+/// Whether a mesh of this body has that word.
+bool has_part(const Body& body, PartContact contact) noexcept;
 
 /// The part that a vertex or a triangle of the body's mesh is of; null if the body is one mesh.
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept;

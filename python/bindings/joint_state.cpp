@@ -39,8 +39,8 @@ void members(T& value, const Each& each) {
     auto& [vertices, triangles] = value;
     each(vertices, triangles);
   } else if constexpr (std::is_same_v<Struct, BodyPart>) {
-    auto& [name, first_vertex, vertices, first_triangle, triangles, is_bearing] = value;
-    each(name, first_vertex, vertices, first_triangle, triangles, is_bearing);
+    auto& [name, first_vertex, vertices, first_triangle, triangles, contact] = value;
+    each(name, first_vertex, vertices, first_triangle, triangles, contact);
   } else if constexpr (std::is_same_v<Struct, Body>) {
     auto& [name, mesh, parts, image] = value;
     each(name, mesh, parts, image);
@@ -116,8 +116,8 @@ void members(T& value, const Each& each) {
         value;
     each(X_WF, sphere, cylinder, body, rotation, errors, pose, from_landmarks, fixed, mobile, notes);
   } else if constexpr (std::is_same_v<Struct, MeshEntry>) {
-    auto& [part, mesh, repairs, is_bearing, polygons, scale, X_BG] = value;
-    each(part, mesh, repairs, is_bearing, polygons, scale, X_BG);
+    auto& [part, mesh, repairs, contact, polygons, scale, X_BG] = value;
+    each(part, mesh, repairs, contact, polygons, scale, X_BG);
   } else if constexpr (std::is_same_v<Struct, BodyEntry>) {
     auto& [name, meshes, image] = value;
     each(name, meshes, image);

@@ -64,8 +64,11 @@ py::dict dict_of(const Limit& limit) {
   dict["reason"] = name_of(limit.reason);
   dict["contact"] = dict_of(limit.contact);
   dict["error_bound_deg"] = limit.error_bound.degrees();
-  dict["bearing_contact_deg"] =
-      limit.bearing_contact ? py::object(py::float_(limit.bearing_contact->turned.degrees())) : py::none();
+  const auto degrees = [](const std::optional<EarlierContact>& contact) {
+    return contact ? py::object(py::float_(contact->turned.degrees())) : py::none();
+  };
+  dict["bearing_contact_deg"] = degrees(limit.bearing_contact);
+  dict["soft_contact_deg"] = degrees(limit.soft_contact);
   return dict;
 }
 

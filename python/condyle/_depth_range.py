@@ -79,7 +79,7 @@ class DepthRange:
         return tuple(self._limit_of(each) for each in found)
 
     def _limit_of(self, found: dict[str, Any]) -> DepthLimit:
-        found["limit"] = motion_limit_of(found["limit"], self._motions, self._joint.fixed, self._joint.mobile)
+        found["limit"] = motion_limit_of(found["limit"], self._motions, self._joint)
         found["at_limit"] = self._place_of(found["at_limit"])
         return DepthLimit(**found)
 

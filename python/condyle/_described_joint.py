@@ -14,14 +14,15 @@ from ._errors import UsageError, unknown, warn
 from ._mesh import TriMesh
 from ._native import Joint as NativeJoint
 from ._poses import ManyNumbers, ManyPosesLike, OnePoseLike, Pose, PoseLike, Poses
-from ._words import Anatomy, Body, JointKind, Side, TranslationFrame, text_of, word
+from ._words import Anatomy, Body, JointKind, PartContact, Side, TranslationFrame, text_of, word
 
 
 @dataclass(frozen=True)
 class BodyPart:
     """Which vertices and triangles of a body's mesh came from one of several meshes: a first one, and how many.
 
-    `is_bearing`: it slides on the other body, as cartilage does.
+    `contact`: what touching it means for a motion. "ends": the motion ends; "bearing": it slides on what is bearing of the other
+    body, as cartilage does; "soft": it gives way, as a labrum does.
     """
 
     name: str
@@ -29,7 +30,7 @@ class BodyPart:
     vertices: int
     first_triangle: int
     triangles: int
-    is_bearing: bool
+    contact: PartContact
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from . import _native
 from ._coordinates import position_in
-from ._described_joint import DescribedJoint
+from ._described_joint import BodyPart, DescribedJoint
 from ._errors import UsageError
 from ._mesh import TriMesh
 from ._motion import Angles, Motion, Motions
@@ -56,6 +56,8 @@ class Limit:
         First contact is at `turned_deg` or past it by at most this, never before.
     bearing_contact_deg : float or None
         Where bearing contact does not count: the first one, if it comes before the limit.
+    soft_contact_deg : float or None
+        The first contact of a mesh called soft, which never counts, if it comes before the limit.
     """
 
     turned_deg: float
@@ -63,6 +65,7 @@ class Limit:
     contact: Optional[ContactWitness]
     error_bound_deg: float
     bearing_contact_deg: Optional[float]
+    soft_contact_deg: Optional[float]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.turned_deg:.6g} deg, {self.reason})"
@@ -85,7 +88,8 @@ class MotionLimit(Limit):
     """Where one motion ends.
 
     Besides what a :class:`Limit` has: `motion`; `angles_deg`, the joint's angles there by name; `centre_distance_mm`
-    between head and socket and `joint_space_mm` of the bearing surface, None where not known; `caveats`, a list of
+    between head and socket and `joint_space_mm` of the bearing surface, None where not known; `fixed_part` and
+    `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh; `caveats`, a list of
     :class:`Caveat`: whether bone usually ends such a motion of a hip, and what is not modelled; empty for other joints.
     """
 
@@ -93,6 +97,8 @@ class MotionLimit(Limit):
     angles_deg: Mapping[str, float]
     centre_distance_mm: Optional[float]
     joint_space_mm: Optional[float]
+    fixed_part: Optional[str]
+    mobile_part: Optional[str]
     caveats: list[Caveat]
 
     def __repr__(self) -> str:
@@ -163,8 +169,21 @@ def witness_of(found: Optional[dict[str, Any]], fixed: TriMesh, mobile: TriMesh)
     return ContactWitness(**found)
 
 
-def motion_limit_of(found: dict[str, Any], motions: Motions, fixed: TriMesh, mobile: TriMesh) -> MotionLimit:
-    found["contact"] = witness_of(found["contact"], fixed, mobile)
+def part_named(parts: Sequence[BodyPart], feature: Sequence[Any]) -> Optional[str]:
+    """Which of several meshes a feature of the compiled part's numbers is of."""
+    kind, number = feature[:2]
+    for part in parts:
+        first, count = ((part.first_triangle, part.triangles) if kind == "face" else (part.first_vertex, part.vertices))
+        if 0 <= number - first < count:
+            return part.name
+    return None
+
+
+def motion_limit_of(found: dict[str, Any], motions: Motions, joint: DescribedJoint) -> MotionLimit:
+    contact = found["contact"]
+    for body, parts in (("fixed", joint.fixed_parts), ("mobile", joint.mobile_parts)):
+        found[f"{body}_part"] = contact and part_named(parts, contact[f"{body}_feature"])
+    found["contact"] = witness_of(contact, joint.fixed, joint.mobile)
     found["caveats"] = [Caveat(*each) for each in motions.caveats(found["motion"])]
     found["motion"] = motions.motion_of(found["motion"])
     found["angles_deg"] = motions.named(found["angles_deg"])

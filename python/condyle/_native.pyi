@@ -5,7 +5,7 @@ from typing import Any, Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._words import Anatomy, JointKind, Progress, Side, TranslationFrame
+from ._words import Anatomy, JointKind, PartContact, Progress, Side, TranslationFrame
 
 version: str
 
@@ -54,9 +54,9 @@ class Joint:
     @property
     def mobile_name(self) -> str: ...
     @property
-    def fixed_parts(self) -> list[tuple[str, int, int, int, int, bool]]: ...
+    def fixed_parts(self) -> list[tuple[str, int, int, int, int, PartContact]]: ...
     @property
-    def mobile_parts(self) -> list[tuple[str, int, int, int, int, bool]]: ...
+    def mobile_parts(self) -> list[tuple[str, int, int, int, int, PartContact]]: ...
     @property
     def angle_names(self) -> list[tuple[str, str]]: ...
     @property

@@ -66,7 +66,7 @@ class RangeOfMotion:
         return Limit(**found)
 
     def _motion_limit_of(self, found: dict[str, Any]) -> MotionLimit:
-        return motion_limit_of(found, self._motions, self._joint.fixed, self._joint.mobile)
+        return motion_limit_of(found, self._motions, self._joint)
 
     def _limits(self, motions: Sequence[Motion]) -> tuple[MotionLimit, ...]:
         found = self._native.limits([self._motions.tuple_of(each) for each in motions])
@@ -235,7 +235,7 @@ class RangeOfMotion:
         """The bearing surface: `head_centre` (3,) in M, `head_radius_mm`, `rim_gap_mm`, of a shoulder `beside_gap_mm` (what
         an acromion leaves of the head's way), `triangles` (T,) uint8.
 
-        Told by `margin_mm` around the head; or by `parts`, names of meshes that are called bearing, and then the margin
+        It lies within `margin_mm` of the head; or it is `parts`, names of meshes that are called bearing, and then the margin
         is None.
         """
         found: Any = self._native.bearing
@@ -249,7 +249,7 @@ class RangeOfMotion:
 
     @property
     def why_no_bearing(self) -> str:
-        """Why no bearing surface can be told and every contact counts; empty where there is one."""
+        """Why no bearing surface was found and every contact counts that no mesh's word leaves out; empty where there is one."""
         return self._native.why_no_bearing
 
     @property
@@ -273,5 +273,7 @@ class RangeOfMotion:
         return pandas.DataFrame([
             {"motion": limit.motion.name, "limit_deg": limit.turned_deg, "reason": limit.reason,
              "kind": limit.contact.kind if limit.contact else "unknown", "error_bound_deg": limit.error_bound_deg,
-             "bearing_contact_deg": math.nan if limit.bearing_contact_deg is None else limit.bearing_contact_deg}
+             "bearing_contact_deg": math.nan if limit.bearing_contact_deg is None else limit.bearing_contact_deg,
+             "soft_contact_deg": math.nan if limit.soft_contact_deg is None else limit.soft_contact_deg,
+             "fixed_part": limit.fixed_part, "mobile_part": limit.mobile_part}
             for limit in self.limits])

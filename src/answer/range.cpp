@@ -43,6 +43,8 @@ void add_depth_limits(RangeAnswer& answer, const RangeRequest& request) {
   answer.caveats.push_back(
       core::formatted("allowed: a radial depth of %g mm; limits are searched for, not exact",
                       request.allowed_depth->depth_mm));
+  if (answer.bearing.roles.has(ContactRole::soft))
+    answer.caveats.emplace_back("allowed: depths are those of all meshes, the ones called soft too");
 }
 
 /// False if stopped.

@@ -88,12 +88,14 @@ std::string_view with_article(const Joint& joint) noexcept {
   return "a shoulder";
 }
 
-/// Where nothing tells bearing contact from impingement because there is no head, and surfaces ended a motion.
-void note_sliding(const Joint& joint, std::span<const MotionLimit> limits, std::vector<RangeNote>& notes) {
+/// Where nothing distinguishes bearing contact from impingement because there is no head and no mesh is called bearing, and
+/// surfaces ended a motion.
+void note_sliding(const Joint& joint, std::span<const MotionLimit> limits, const BearingFinding& bearing,
+                  std::vector<RangeNote>& notes) {
   const bool any_contact = std::any_of(limits.begin(), limits.end(), [](const MotionLimit& limit) {
     return limit.end.reason != LimitReason::end_of_range;
   });
-  if (joint.has_head() || !any_contact) return;
+  if (joint.has_head() || bearing.roles.distinguish_bearing() || !any_contact) return;
   notes.push_back(
       {RangeNoteCode::sliding_surfaces,
        "the surfaces of " + std::string(with_article(joint)) +
@@ -141,7 +143,7 @@ std::vector<RangeNote> range_notes(const Joint& joint, std::span<const MotionLim
   if (bearing.surface && joint.is_hip()) note_centres(joint, motions, range, *bearing.surface, notes);
   if (range.bearing.rule == BearingRule::leave_out && bearing.narrow_margin)
     note_narrow_margin(joint, *bearing.narrow_margin, notes);
-  note_sliding(joint, limits, notes);
+  note_sliding(joint, limits, bearing, notes);
   return notes;
 }
 

@@ -26,6 +26,23 @@ Mesh mesh_of_part(const Body& body, std::string_view part) {
   return mesh;
 }
 
+bool has_part(const Body& body, PartContact contact) noexcept {
+  return std::any_of(body.parts.begin(), body.parts.end(),
+                     [&](const BodyPart& part) { return part.contact == contact; });
+}
+
+std::string_view name_of(PartContact contact) noexcept {
+  switch (contact) {
+    case PartContact::ends:
+      return "ends";
+    case PartContact::bearing:
+      return "bearing";
+    case PartContact::soft:
+      break;
+  }
+  return "soft";
+}
+
 const BodyPart* part_of_vertex(const Body& body, std::size_t vertex) noexcept {
   for (const BodyPart& part : body.parts)
     if (vertex - part.first_vertex < part.vertices) return &part;

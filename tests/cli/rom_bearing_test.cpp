@@ -72,11 +72,14 @@ TEST_F(RomOfSampleHip, OfAHingeSaysThatEveryContactCounts) {
   edit_joint("kind = \"ball\"", "kind = \"hinge\"");
   const Ran ran = run("rom hip.toml");
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_NE(ran.out.find("  every contact counts: bearing contact is not told apart in this joint\n"),
-            std::string::npos)
+  EXPECT_NE(
+      ran.out.find(
+          "  every contact counts: bearing contact is not distinguished from impingement in this joint\n"),
+      std::string::npos)
       << ran.out;
   EXPECT_EQ(answer("")["bearing"],
-            (Json{{"rule", "count"}, {"why_none", "bearing contact is not told apart in this joint"}}));
+            (Json{{"rule", "count"},
+                  {"why_none", "bearing contact is not distinguished from impingement in this joint"}}));
 }
 
 TEST_F(RomOfSampleHip, TakesUncertaintyFromTheJointFileUnlessOptionsSay) {

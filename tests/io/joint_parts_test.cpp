@@ -71,10 +71,10 @@ TEST_F(JointParts, CanBeBearing) {
   const Body shank = read_joint(write("meshes = [{ name = \"tibia\", mesh = \"tibia.ply\" },\n"
                                       "  { name = \"meniscus\", mesh = \"meniscus.ply\", bearing = true }]"))
                          .joint.mobile;
-  EXPECT_FALSE(shank.parts[0].is_bearing);
-  EXPECT_TRUE(shank.parts[1].is_bearing);
+  EXPECT_EQ(shank.parts[0].contact, PartContact::ends);
+  EXPECT_EQ(shank.parts[1].contact, PartContact::bearing);
   EXPECT_EQ(refusal("meshes = [{ name = \"tibia\", mesh = \"tibia.ply\", bearing = true }]"),
-            "line 11: mobile.meshes: all of them are bearing: nothing would be left to end a motion");
+            "line 11: mobile.meshes: none of them ends a motion: one needs contact = \"ends\"");
   EXPECT_EQ(refusal("meshes = [{ name = \"tibia\", mesh = \"tibia.ply\", bearing = 1 }]"),
             "line 11: mobile.meshes[0].bearing: must be true or false, not a whole number");
 }

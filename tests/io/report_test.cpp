@@ -37,7 +37,7 @@ Joint odd_joint() {
     arm.vertices.set(v, arm.vertices[v] + Vec3(0.1, -1e-17, 1.0 / 3));
   arm.vertices.z[0] = -0.0;
   joint.mobile.mesh = arm;
-  joint.mobile.parts = {{"shaft", 0, 4, 0, 6, false}, {"head", 4, 4, 6, 6, true}};
+  joint.mobile.parts = {{"shaft", 0, 4, 0, 6}, {"head", 4, 4, 6, 6, PartContact::bearing}};
   return joint;
 }
 
@@ -76,7 +76,7 @@ TEST(Report, HasTheJointToTheBit) {
                                                     {"vertices", 4},
                                                     {"first_triangle", 6},
                                                     {"triangles", 6},
-                                                    {"is_bearing", true}}));
+                                                    {"contact", "bearing"}}));
 }
 
 /// Limits of the arm, and its map.
@@ -107,18 +107,21 @@ TEST(Report, SaysOfLimitsWhatRomSays) {
   said["map"].erase("intervals");  // the page has them under "map"
   EXPECT_EQ(block.json["rom"], said);
   EXPECT_FALSE(block.json.contains("rom_error"));
-  // The bearing surface has an array where it was found, and only there.
-  EXPECT_EQ(block.json["arrays"].contains("bearing"), answer.range.bearing().surface.has_value());
+  // What contact of each triangle means has arrays where not all is the same, and only there.
+  EXPECT_EQ(block.json["arrays"].contains("mobile_roles"), !answer.range.bearing().roles.mobile.empty());
 }
 
-TEST(Report, MarksTheBearingSurface) {
+TEST(Report, HasWhatContactOfEachTriangleMeans) {
   const Joint joint = arm_and_post();
-  BearingSurface surface;
-  surface.head = {Vec3::Zero(), 24};
-  surface.triangles = {1, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 1};
-  const RomResult rom{.joint = joint, .limits = {}, .bearing = {surface, {}}};
+  ContactRoles roles;
+  roles.mobile.assign(12, ContactRole::ends);
+  roles.mobile[2] = ContactRole::bearing, roles.mobile[5] = ContactRole::bearing_on_bearing;
+  roles.fixed.assign(12, ContactRole::soft);
+  const RomResult rom{.joint = joint, .limits = {}, .bearing = {.roles = roles}};
   const ReportBlock block = report_block(report_html({.title = "", .joint = joint, .rom = &rom}));
-  EXPECT_EQ(block.array<std::uint8_t>("bearing", "u8"), surface.triangles);
+  EXPECT_EQ(block.array<std::uint8_t>("mobile_roles", "u8"),
+            (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 3, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(block.array<std::uint8_t>("fixed_roles", "u8"), std::vector<std::uint8_t>(12, 2));
 }
 
 TEST(Report, HasAllFreeIntervalsOfAMap) {

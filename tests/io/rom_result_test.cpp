@@ -35,7 +35,7 @@ std::vector<MotionLimit> some_limits() {
                          {7, 8, 9},
                          ContactKind::impingement};
   contact.end.bearing_contact =
-      BearingContact{Angle::radians(1.1), ContactWitness{{}, {}, {1, 2, 3}, {4, 5, 6}}};
+      EarlierContact{Angle::radians(1.1), ContactWitness{{}, {}, {1, 2, 3}, {4, 5, 6}}};
   contact.head = HeadAtLimit{.centre_distance_mm = 1.0 / 3, .joint_space_mm = 0.1};
   contact.end.error_bound = Angle::radians(1.5e-12);
   MotionLimit ended;

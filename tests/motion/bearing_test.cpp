@@ -40,18 +40,17 @@ TEST(BearingSurface, IsTheHeadWithinTheMarginOfItsSphere) {
 }
 
 /// A head and its arm as two meshes of one body, one or both declared to be bearing.
-Joint of_two_meshes(const Vec3& offset, bool head_is_bearing, bool arm_is_bearing) {
+Joint of_two_meshes(const Vec3& offset, PartContact head, PartContact arm) {
   Joint joint = head_and_post_joint(offset);
   const std::size_t vertices = joint.mobile.mesh.vertices().size();
   const std::size_t triangles = joint.mobile.mesh.triangles().size();
-  joint.mobile.parts = {{"arm", 0, 8, 0, 12, arm_is_bearing},
-                        {"head", 8, vertices - 8, 12, triangles - 12, head_is_bearing}};
+  joint.mobile.parts = {{"arm", 0, 8, 0, 12, arm}, {"head", 8, vertices - 8, 12, triangles - 12, head}};
   return joint;
 }
 
 TEST(BearingSurface, IsTheMeshToldToBe) {
   const Vec3 offset(0.1, -0.05, 0.15);
-  const Joint joint = of_two_meshes(offset, true, false);
+  const Joint joint = of_two_meshes(offset, PartContact::bearing, PartContact::ends);
   const auto surface = find_bearing_surface(joint).surface;
   ASSERT_TRUE(surface);
   EXPECT_EQ(surface->parts, std::vector<std::string>{"head"});
@@ -60,7 +59,8 @@ TEST(BearingSurface, IsTheMeshToldToBe) {
   EXPECT_EQ(surface->count(), joint.mobile.mesh.triangles().size() - 12);
   EXPECT_EQ(surface->triangles.front(), 0);
   EXPECT_EQ(find_bearing_surface(joint, {.margin_mm = 1}).surface->margin_mm, 1);
-  const BearingFinding arm = find_bearing_surface(of_two_meshes(offset, false, true));
+  const BearingFinding arm =
+      find_bearing_surface(of_two_meshes(offset, PartContact::ends, PartContact::bearing));
   EXPECT_FALSE(arm.surface);
   EXPECT_NE(arm.why_none.find("spherical"), std::string::npos) << arm.why_none;
 }
@@ -68,7 +68,7 @@ TEST(BearingSurface, IsTheMeshToldToBe) {
 TEST(BearingSurface, ToldByMeshesLeavesMotionsToTheOthers) {
   // The head stands half a millimetre in its socket.
   const Vec3 off(3.5, 0, 0);
-  const Joint joint = of_two_meshes(off, true, false);
+  const Joint joint = of_two_meshes(off, PartContact::bearing, PartContact::ends);
   Joint arm = joint;
   arm.mobile.mesh = mesh_of_part(joint.mobile, "arm");
   arm.mobile.parts.clear();
@@ -90,7 +90,7 @@ TEST(BearingSurface, ToldByMeshesLeavesMotionsToTheOthers) {
 TEST(BearingSurface, HasTheBoneUnderABearingCartilage) {
   // The head is a cartilage half a millimetre thick over a ball of bone, which stands in the socket too.
   const Vec3 off(3.8, 0, 0);
-  Joint joint = of_two_meshes(off, true, false);
+  Joint joint = of_two_meshes(off, PartContact::bearing, PartContact::ends);
   const TriMesh bone = sphere(off, head_radius - 0.5, 3);
   const std::size_t vertices = joint.mobile.mesh.vertices().size();
   const std::size_t triangles = joint.mobile.mesh.triangles().size();
@@ -100,16 +100,18 @@ TEST(BearingSurface, HasTheBoneUnderABearingCartilage) {
   ASSERT_TRUE(range.bearing().surface);
   EXPECT_EQ(range.bearing().surface->count(), joint.mobile.mesh.triangles().size() - 12) << "all but the arm";
   EXPECT_NEAR(range.limit(flexion()).end.turned.radians(),
-              RangeOfMotion(of_two_meshes(off, true, false)).limit(flexion()).end.turned.radians(),
+              RangeOfMotion(of_two_meshes(off, PartContact::bearing, PartContact::ends))
+                  .limit(flexion())
+                  .end.turned.radians(),
               angle_tolerance);
 }
 
 /// The mesh of a bone and of its cartilage as one body.
-Body with_cartilage(const char* name, const TriMesh& bone, const TriMesh& cartilage, bool is_bearing) {
+Body with_cartilage(const char* name, const TriMesh& bone, const TriMesh& cartilage, PartContact contact) {
   Body body{name, joined(bone, cartilage)};
   body.parts = {{"bone", 0, bone.vertices.size(), 0, bone.triangles.size()},
                 {"cartilage", bone.vertices.size(), cartilage.vertices.size(), bone.triangles.size(),
-                 cartilage.triangles.size(), is_bearing}};
+                 cartilage.triangles.size(), contact}};
   return body;
 }
 
@@ -136,7 +138,7 @@ TEST(BearingSurface, IsNotInvented) {
   Joint joint = head_and_post_joint({0, -6, 0});
   EXPECT_NE(why_none(joint).find("6.0 mm from the joint centre"), std::string::npos) << why_none(joint);
   joint = head_and_post_joint(Vec3::Zero());
-  const std::string not_of_a_head = "bearing contact is not told apart in this joint";
+  const std::string not_of_a_head = "bearing contact is not distinguished from impingement in this joint";
   for (const Anatomy other : {Anatomy::knee, Anatomy::ankle, Anatomy::elbow}) {
     joint.anatomy = other;
     EXPECT_EQ(why_none(joint), not_of_a_head);
@@ -156,17 +158,18 @@ TEST(BearingSurface, IsNotInvented) {
 
 TEST(BearingSurface, HoldsAVertexOrEdgeWhenItHoldsAllItsTriangles) {
   const Joint joint = head_and_post_joint(Vec3::Zero());
-  const TriMesh& mobile = joint.mobile.mesh;
-  BearingSurface surface = *find_bearing_surface(joint).surface;
+  const TriMesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
+  BearingFinding found = find_bearing_surface(joint);
   const auto head = static_cast<Index>(mobile.triangles.size() - 1);  // the arm comes first
   const auto [a, b, c] = mobile.triangles[head];
   const auto holds = [&](FeatureKind kind, Index id, Index other = no_index) {
-    return surface.holds(mobile, {kind, id, other});
+    const ContactWitness contact{{}, {kind, id, other}, {}, {}};
+    return found.kind_of(fixed, mobile, contact) == ContactKind::bearing;
   };
   EXPECT_TRUE(holds(FeatureKind::face, head) && holds(FeatureKind::vertex, a) &&
               holds(FeatureKind::edge, a, b));
   EXPECT_FALSE(holds(FeatureKind::face, 0) || holds(FeatureKind::vertex, mobile.triangles[0][0]));
-  surface.triangles[head] = 0;
+  found.roles.mobile[head] = ContactRole::ends;
   EXPECT_FALSE(holds(FeatureKind::face, head) || holds(FeatureKind::vertex, a) ||
                holds(FeatureKind::vertex, c) || holds(FeatureKind::edge, a, b) ||
                holds(FeatureKind::edge, b, c));
@@ -330,9 +333,10 @@ TEST(BearingCartilage, BesideItsBoneLeavesLimitsToTheBones) {
   for (const std::size_t row : {0u, 4u}) {
     const Vec3 by = -bones.rows[row].centre;
     SCOPED_TRACE(testing::Message() << "moved by " << by.transpose());
-    const Joint joint{"four meshes", JointKind::ball, Side::left,
-                      with_cartilage("hip bone", moved(hip_bone, by), moved(acetabular, by), false),
-                      with_cartilage("femur", moved(femur, by), moved(femoral, by), true)};
+    const Joint joint{
+        "four meshes", JointKind::ball, Side::left,
+        with_cartilage("hip bone", moved(hip_bone, by), moved(acetabular, by), PartContact::ends),
+        with_cartilage("femur", moved(femur, by), moved(femoral, by), PartContact::bearing)};
     const RangeOfMotion range(joint);
     for (std::size_t i = 0; i < hip_motions().size(); ++i) {
       const MotionLimit limit = range.limit(hip_motions()[i]);

@@ -127,8 +127,9 @@ TEST(ShoulderBearing, EndsBeforeTheAcromion) {
   EXPECT_EQ(near.narrow_margin->by, MarginLimit::beside_socket);
   EXPECT_NEAR(near.narrow_margin->gap_mm, 1.2, 1e-9);
   low.acromion_y = 24.3;
-  EXPECT_EQ(find_bearing_surface(shoulder(low)).why_none,
-            "scapula leaves the head only 0.30 mm beside its socket: no margin to tell bearing surfaces by");
+  EXPECT_EQ(
+      find_bearing_surface(shoulder(low)).why_none,
+      "scapula leaves the head only 0.30 mm beside its socket: no margin to distinguish bearing surfaces by");
 }
 
 TEST(ShoulderBearing, IsNoneOfAHeadThatRisesToTheAcromion) {

@@ -1,5 +1,6 @@
 """What a joint says of itself, and slices of what many poses show."""
 
+import json
 import pickle
 import subprocess
 
@@ -53,7 +54,7 @@ def test_parts_of_a_body_are_told_by_name(layered):
     assert (bone.name, cartilage.name) == ("bone", "cartilage")
     assert bone.first_vertex == 0 and cartilage.first_vertex == bone.vertices == len(meshes["femur"].vertices)
     assert cartilage.triangles == len(meshes["cartilage"].triangles)
-    assert (bone.is_bearing, cartilage.is_bearing) == (False, True)
+    assert (bone.contact, cartilage.contact) == ("ends", "bearing")
     assert joint.part("cartilage") == meshes["cartilage"] and joint.part("bone", "mobile") == meshes["femur"]
     with pytest.raises(condyle.UsageError, match="cartilage"):
         joint.part("labrum")
@@ -156,3 +157,36 @@ def test_faces_in_contact_are_copied_without_their_mesh(hip):
     assert copied.totals.area_mm2 == faces.totals.area_mm2
     with pytest.raises(condyle.UsageError, match="not for a copy"):
         copied.within(([1, 0, 0], 0.0))
+
+
+def test_what_contact_of_each_mesh_means(tmp_path, command):
+    names = {"arm": ([-1, -100, -1], [1, -50, 1]), "sleeve": ([-1.2, -45, -1.2], [1.2, -25, 1.2]),
+             "post": ([40, -120, -10], [60, -80, 10]), "pad": ([9, -40, -1], [11, -30, 1]),
+             "labrum": ([5, -60, -1], [6, -55, 1])}
+    for name, (low, high) in names.items():
+        corners = np.array([[(low, high)[i >> a & 1][a] for a in range(3)] for i in range(8)], float)
+        quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+        triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
+        condyle.write_mesh(tmp_path / f"{name}.ply", condyle.TriMesh(corners, triangles))
+    (tmp_path / "joint.toml").write_text("""
+        condyle = 1
+        name = "layers"
+        kind = "hinge"
+        side = "right"
+        units = "mm"
+        fixed = { name = "frame", meshes = [{ name = "post", mesh = "post.ply" },
+                  { name = "pad", mesh = "pad.ply", contact = "bearing" },
+                  { name = "labrum", mesh = "labrum.ply", contact = "soft" }] }
+        mobile = { name = "limb", meshes = [{ name = "arm", mesh = "arm.ply" },
+                   { name = "sleeve", mesh = "sleeve.ply", contact = "bearing" }] }
+        frame = { centre = [0, 0, 0], anterior = [1, 0, 0], superior = [0, 1, 0] }
+        """)
+    joint = condyle.read_joint(tmp_path / "joint.toml")
+    assert [part.contact for part in joint.fixed_parts] == ["ends", "bearing", "soft"]
+    limit = joint.range_of_motion(["flexion"]).limits[0]
+    by_command = json.loads(subprocess.run([command, "rom", tmp_path / "joint.toml", "--motion", "flexion",
+                                            "--json"], check=True, capture_output=True, text=True).stdout)["motions"][0]
+    assert limit.turned_deg == by_command["limit_deg"] and limit.contact.kind == "impingement"
+    assert (limit.fixed_part, limit.mobile_part) == ("post", "arm")
+    assert limit.soft_contact_deg == by_command["soft_contact_deg"] < limit.bearing_contact_deg < limit.turned_deg
+    assert limit.bearing_contact_deg == by_command["bearing_contact_deg"]

@@ -106,6 +106,8 @@ int number_of(ContactKind kind) {
       return 2;
     case ContactKind::cut:
       return 3;
+    case ContactKind::soft:
+      break;  // it ends no motion
   }
   return -1;
 }
@@ -332,24 +334,31 @@ const double* condyle_intervals(const CondyleJoint* joint) {
   return joint->intervals.data();
 }
 
-int condyle_set_bearing(CondyleJoint* joint, const std::uint8_t* triangles) {
+int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t* fixed,
+                      const std::uint8_t* mobile) {
   return guarded(-1, [&] {
     joint->range.reset();
-    joint->bearing = {};
-    if (triangles)
-      joint->bearing.surface.emplace().triangles.assign(
-          triangles, triangles + joint->joint.mobile.mesh.triangles().size());
-    else
-      joint->bearing.rule = BearingRule::count;
+    const auto roles_of = [](const Body& body, const std::uint8_t* numbers) {
+      std::vector<ContactRole> roles;
+      for (std::size_t t = 0; numbers && t < body.mesh.triangles().size(); ++t)
+        roles.push_back(static_cast<ContactRole>(numbers[t]));
+      return roles;
+    };
+    joint->bearing = {
+        .rule = count_bearing ? BearingRule::count : BearingRule::leave_out,
+        .roles = ContactRoles{roles_of(joint->joint.fixed, fixed), roles_of(joint->joint.mobile, mobile)}};
     return 0;
   });
 }
 
 int condyle_bearing(CondyleJoint* joint, std::uint8_t* triangles) {
   return guarded(-1, [&] {
-    const auto& surface = range_of(*joint).bearing().surface;
-    if (!surface) return 0;
-    std::copy(surface->triangles.begin(), surface->triangles.end(), triangles);
-    return static_cast<int>(surface->count());
+    int count = 0;
+    for (const ContactRole role : range_of(*joint).bearing().roles.mobile) {
+      const bool slides = role == ContactRole::bearing || role == ContactRole::bearing_on_bearing;
+      *triangles++ = slides;
+      count += slides;
+    }
+    return count;
   });
 }

@@ -25,9 +25,11 @@ CondyleJoint* condyle_joint(int kind, int anatomy, int side, int translation_fra
                             const std::uint32_t* mobile_triangles, int mobile_triangle_count);
 void condyle_free(CondyleJoint* joint);
 
-/// The bearing surface as it was found before: 1 for each of the mobile body's triangles that does not end a motion. Null: every
-/// contact does. Without this call the surface is looked for at the first question about motions.
-int condyle_set_bearing(CondyleJoint* joint, const std::uint8_t* triangles);
+/// What contact of each triangle of either body means, as it was found before, in numbers of ContactRole; null where each ends a
+/// motion. `count_bearing` 1: bearing contact does too. Without this call a bearing surface is looked for at the first question
+/// about motions.
+int condyle_set_roles(CondyleJoint* joint, int count_bearing, const std::uint8_t* fixed,
+                      const std::uint8_t* mobile);
 
 /// The pose of three angles and a translation, in `pose`.
 int condyle_pose(const CondyleJoint* joint, const double* angles_deg, const double* translation_mm,
@@ -66,7 +68,7 @@ const std::uint32_t* condyle_pair_triangles(const CondyleJoint* joint);
 /// How far an angle turns from a pose until contact: `vary` 0 to 2 in the joint's order, `positive` 1 or 0, up to `range_deg`;
 /// the mobile body keeps the translation `held_mm`, in F.
 /// In `limit`: the angle turned, the reason (0 contact, 1 end of range, 2 in contact at the start), the kind of contact (0
-/// unknown, 1 bearing, 2 impingement), where bearing surfaces touch before (or -1), and the contact's point in F (or NaN).
+/// unknown, 1 bearing, 2 impingement, 3 cut), where bearing surfaces touch before (or -1), and the contact's point in F (or NaN).
 int condyle_limit(CondyleJoint* joint, int vary, int positive, const double* start_deg, const double* held_mm,
                   double range_deg, double limit[7]);
 /// How many intervals of an angle are free, from its start less `back_deg` to its start and `forth_deg`, half a turn at most

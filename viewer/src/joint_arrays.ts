@@ -21,7 +21,8 @@ export function jointArraysOf(report: Report): JointArrays {
 function bearingOf(report: Report): JointArrays["bearing"] {
   const { rom, arrays } = report.text;
   if (!rom) return "found";
-  return rom.bearing?.rule === "leave_out" && "bearing" in arrays ? report.array("bearing", "u8") : "count";
+  const roles = (name: string) => (name in arrays ? report.array(name, "u8") : null);
+  return { counts: rom.bearing?.rule === "count", fixed: roles("fixed_roles"), mobile: roles("mobile_roles") };
 }
 
 function layersOf(report: Report, layers: StoredLayers): Layers {

@@ -140,7 +140,7 @@ class Page {
   /// For browsers without WebAssembly: poses that the report holds.
   useStoredPoses(): void {
     warn(words.noWebAssembly);
-    if ("bearing" in this.text.arrays) this.markBearing(this.report!.array("bearing", "u8"));
+    if ("mobile_roles" in this.text.arrays) this.markBearing(this.report!.array("mobile_roles", "u8").map((role) => role % 2));
     const names = this.text.poses.map(({ name }) => name);
     if (names.length === 0) return;
     const poses = choice<string>(

@@ -24,6 +24,9 @@ export interface MotionAnswer {
   reason: "contact" | "end_of_range" | "contact_at_start";
   contact_kind: string | null;
   bearing_contact_deg: number | null;
+  soft_contact_deg?: number | null;
+  /// What meets; `part` of a body of several meshes.
+  features?: Record<"fixed" | "mobile", { part?: string }> | null;
   contact_point_mm: [number, number, number] | null;
   clock_hour: number | null;
   vary: string;

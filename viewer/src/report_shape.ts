@@ -38,11 +38,13 @@ const three = list(number, 3);
 const meshFile = object({ path: text, bytes: number, sha256: text });
 const meshFiles: Check = (value, key) => (isObject(value) && "files" in value ? object({ files: list(meshFile) }) : meshFile)(value, key);
 
+const feature = object({ part: ifThere(text) });
 const motion = object({
   name: text, limit_deg: number, reason: oneOf("contact", "end_of_range", "contact_at_start"), contact_kind: orNull(text),
   bearing_contact_deg: orNull(number), contact_point_mm: orNull(three), clock_hour: orNull(number), vary: text,
   sense: oneOf("positive", "negative"), range_deg: number, start_deg: each(number), at_limit_deg: each(number),
   normal_range_deg: orNull(number), band: orNull(object({ p5_deg: number, median_deg: number, p95_deg: number })),
+  soft_contact_deg: ifThere(orNull(number)), features: ifThere(orNull(object({ fixed: feature, mobile: feature }))),
   error_bound_deg: ifThere(number), caveats: ifThere(list(object({ code: text, text, source: orNull(text) }))),
 });
 
@@ -67,7 +69,7 @@ const surface = object({
   first_vertex: count, vertices: count, first_triangle: count, triangles: count, youngs_modulus_mpa: ifThere(number),
   poisson_ratio: ifThere(number), thickness_mm: ifThere(text),
 });
-const part = object({ name: text, first_vertex: count, vertices: count, is_bearing: flag });
+const part = object({ name: text, first_vertex: count, vertices: count, contact: oneOf("ends", "bearing", "soft") });
 
 const report = object({
   version: text, title: text,
@@ -125,7 +127,7 @@ function checkArrays(read: ReportText): void {
   for (const body of ["fixed", "mobile"] as const) {
     const vertices = needed("arrays", `${body}_vertices`, "f64", threes) / 3;
     const triangles = needed("arrays", `${body}_triangles`, "u32", threes) / 3;
-    if (body === "mobile" && "bearing" in read.arrays) needed("arrays", "bearing", "u8", many(triangles));
+    if (`${body}_roles` in read.arrays) needed("arrays", `${body}_roles`, "u8", many(triangles));
     read.poses.forEach((pose, i) => needed(`poses[${i}].${body}_gaps`, pose[`${body}_gaps`], "i16", many(vertices)));
     read.zones.forEach((zone, i) => needed(`zones[${i}].${body}`, zone[body], "u32", any));
     read.parts[body].forEach((known, i) => known.first_vertex + known.vertices <= vertices || wrong(`parts.${body}[${i}]`));

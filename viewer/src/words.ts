@@ -116,6 +116,8 @@ export const words = {
   bearingContact: "bearing contact",
   reason: "ends by",
   endsBy: (reason: string, kind: string) => `${reason} (${kind})`,
+  meshOn: (mobile: string, fixed: string) => `${mobile} on ${fixed}`,
+  softFrom: (angle: string) => `soft contact from ${angle}`,
   contactKinds: {
     impingement: "impingement", bearing: "bearing", unknown: "kind unknown", cut: "cut of the image: no limit",
   } as Record<string, string>,

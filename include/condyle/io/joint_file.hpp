@@ -29,7 +29,7 @@ struct MeshEntry {
   std::string part;            ///< its name among several; empty if it is the only one
   std::filesystem::path mesh;  ///< found from the joint file's folder
   std::vector<Repair> repairs;
-  bool is_bearing = false;  ///< one of several of the mobile body that slides on the fixed one
+  PartContact contact = PartContact::ends;  ///< of one of several
   PolygonRule polygons = PolygonRule::refuse;
   /// Where it lies in the body's frame: p_B = X_BG diag(scale) v, in the file's unit.
   Vec3 scale = Vec3::Ones();

@@ -128,6 +128,15 @@ Pose mesh_pose(io::TomlTable& mesh, std::vector<std::string>& notes) {
   }
 }
 
+/// What contact of one mesh of several means. Files of before version 1 call a bearing mesh bearing = true.
+PartContact part_contact(io::TomlTable& mesh) {
+  const bool is_bearing = mesh.flag("bearing").value_or(false);
+  if (!mesh.has("contact")) return is_bearing ? PartContact::bearing : PartContact::ends;
+  if (mesh.has("bearing")) mesh.fail("bearing", "says what contact says: one of the two");
+  constexpr std::array words{PartContact::ends, PartContact::bearing, PartContact::soft};
+  return words[mesh.required_word("contact", {"ends", "bearing", "soft"})];
+}
+
 std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key,
                                     std::vector<std::string>& notes) {
   if (!body.has("meshes")) return {mesh_entry(body)};
@@ -139,17 +148,19 @@ std::vector<MeshEntry> mesh_entries(io::TomlTable& body, std::string_view key,
     entry.X_BG = mesh_pose(table, notes);
     entry.part = table.required("name", table.text("name"));
     if (entry.part.empty()) table.fail("name", "must not be empty");
-    entry.is_bearing = table.flag("bearing").value_or(false);
-    if (entry.is_bearing && key == "fixed")
-      table.fail("bearing", "belongs to meshes of the mobile body: what they meet is bearing contact");
+    entry.contact = part_contact(table);
     for (const MeshEntry& other : entries)
       if (other.part == entry.part) table.fail("name", fmt::format("\"{}\" is given twice", entry.part));
     table.finish();
     entries.push_back(std::move(entry));
   }
   if (entries.empty()) body.fail("meshes", "must name one mesh or more");
-  if (std::all_of(entries.begin(), entries.end(), [](const MeshEntry& entry) { return entry.is_bearing; }))
-    body.fail("meshes", "all of them are bearing: nothing would be left to end a motion");
+  const auto may_end = [&](const MeshEntry& entry) {
+    return entry.contact == PartContact::ends || (key == "fixed" && entry.contact == PartContact::bearing);
+  };
+  if (std::none_of(entries.begin(), entries.end(), may_end))
+    body.fail("meshes", key == "fixed" ? "all of them are soft: nothing would be left to end a motion"
+                                       : "none of them ends a motion: one needs contact = \"ends\"");
   return entries;
 }
 

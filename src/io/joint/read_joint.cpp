@@ -85,7 +85,7 @@ LoadedBody load(const BodyEntry& entry, const std::string& key, const std::files
   for (std::size_t i = 0; i < entry.meshes.size(); ++i) {
     LoadedMesh one = load(entry.meshes[i], fmt::format("{}.meshes[{}]", key, i), joint_file);
     parts.push_back({one.report.part, whole.vertices.size(), one.report.vertices, whole.triangles.size(),
-                     one.report.triangles, entry.meshes[i].is_bearing});
+                     one.report.triangles, entry.meshes[i].contact});
     append(whole, one.mesh);
     reports.push_back(std::move(one.report));
     files += (files.empty() ? "" : " + ") + entry.meshes[i].mesh.string();

@@ -209,6 +209,9 @@ class ModelJointFile {
     for (const NamedMesh& mesh : meshes) {
       if (has_names) add(fmt::format("\n[[{}.meshes]]", role));
       write_mesh(mesh, has_names);
+      // With bone beside the cartilage of the mobile body, bone ends motions.
+      if (has_names && mobile_.size() > 1 && mesh.name == (role == "fixed" ? fixed_part_ : mobile_part_))
+        add("contact = \"bearing\"");
     }
     if (meshes.empty()) {
       add("# mesh = \"...\"  # to fill in: the model attaches none to this body");

@@ -52,6 +52,14 @@ void add_body(BlockArrays& arrays, const std::string& role, const Mesh& mesh) {
   arrays.add(role + "_triangles", corners);
 }
 
+/// Numbers as in ContactRole.
+std::vector<std::uint8_t> roles_of(const std::vector<ContactRole>& roles) {
+  std::vector<std::uint8_t> numbers;
+  numbers.reserve(roles.size());
+  for (const ContactRole role : roles) numbers.push_back(static_cast<std::uint8_t>(role));
+  return numbers;
+}
+
 Json parts_json(const Body& body) {
   Json parts = Json::array();
   for (const BodyPart& part : body.parts)
@@ -60,7 +68,7 @@ Json parts_json(const Body& body) {
                      {"vertices", part.vertices},
                      {"first_triangle", part.first_triangle},
                      {"triangles", part.triangles},
-                     {"is_bearing", part.is_bearing}});
+                     {"contact", name_of(part.contact)}});
   return parts;
 }
 
@@ -254,8 +262,11 @@ std::string data_block(const Report& report) {
   BlockArrays arrays;
   add_body(arrays, "fixed", joint.fixed.mesh);
   add_body(arrays, "mobile", joint.mobile.mesh);
-  if (report.rom && report.rom->bearing.surface)
-    arrays.add("bearing", report.rom->bearing.surface->triangles);
+  if (report.rom) {
+    const ContactRoles& roles = report.rom->bearing.roles;
+    if (!roles.fixed.empty()) arrays.add("fixed_roles", roles_of(roles.fixed));
+    if (!roles.mobile.empty()) arrays.add("mobile_roles", roles_of(roles.mobile));
+  }
 
   Json json{{"version", version},
             {"title", report.title},

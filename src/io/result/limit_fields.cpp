@@ -44,6 +44,26 @@ Json bearing_contact_point_mm(const LimitOf& of) {
   return bearing && bearing->contact ? numbers(frame_of(of.result).fixed_point(bearing->contact->fixed_point))
                                      : Json(nullptr);
 }
+Json soft_contact_deg(const LimitOf& of) {
+  const auto& soft = of.limit().end.soft_contact;
+  return soft ? Json(soft->turned.degrees()) : Json(nullptr);
+}
+Json soft_contact_point_mm(const LimitOf& of) {
+  const auto& soft = of.limit().end.soft_contact;
+  return soft && soft->contact ? numbers(frame_of(of.result).fixed_point(soft->contact->fixed_point))
+                               : Json(nullptr);
+}
+/// The mesh of a body of several that a contact is on.
+Json part_name(const Body& body, const Feature& feature) {
+  const BodyPart* part = part_of(body, feature);
+  return part ? Json(part->name) : Json(nullptr);
+}
+Json soft_contact_parts(const LimitOf& of) {
+  const auto& soft = of.limit().end.soft_contact;
+  if (!soft || !soft->contact) return nullptr;
+  return {{"fixed", part_name(of.joint().fixed, soft->contact->fixed_feature)},
+          {"mobile", part_name(of.joint().mobile, soft->contact->mobile_feature)}};
+}
 Json centre_distance_mm(const LimitOf& of) {
   return of.limit().head ? nullable(of.limit().head->centre_distance_mm) : Json(nullptr);
 }
@@ -117,13 +137,11 @@ Json mobile_feature(const LimitOf& of) {
 }
 Json fixed_part(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
-  const BodyPart* part = contact ? part_of(of.joint().fixed, contact->fixed_feature) : nullptr;
-  return part ? Json(part->name) : Json(nullptr);
+  return contact ? part_name(of.joint().fixed, contact->fixed_feature) : Json(nullptr);
 }
 Json mobile_part(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
-  const BodyPart* part = contact ? part_of(of.joint().mobile, contact->mobile_feature) : nullptr;
-  return part ? Json(part->name) : Json(nullptr);
+  return contact ? part_name(of.joint().mobile, contact->mobile_feature) : Json(nullptr);
 }
 Json hour(const LimitOf& of) {
   return nullable(clock_hour(of.result, of.limit()));
@@ -222,6 +240,13 @@ constexpr LimitField every_field[] = {
      &bearing_contact_deg, one, "bearing_contact_deg", "deg", number_column,
      "first bearing contact on the way; empty: none", studies},
     {"bearing_contact_point_mm", "where, in the fixed body's joint frame", &bearing_contact_point_mm},
+    {"soft_contact_deg", "where a mesh called soft touches first, if before the limit; else null",
+     &soft_contact_deg, one, "soft_contact_deg", "deg", number_column,
+     "first contact of a soft mesh on the way; empty: none", studies},
+    {"soft_contact_point_mm", "where, in the fixed body's joint frame", &soft_contact_point_mm},
+    {"soft_contact_parts",
+     "`fixed` and `mobile`: names of the meshes that touch there, null of a body of one mesh",
+     &soft_contact_parts},
     {"centre_distance_mm", "between the centres of head and socket at the limit; null without either",
      &centre_distance_mm, one, "centre_distance_mm", "mm", number_column,
      "between head and socket at the limit", studies},
@@ -265,9 +290,9 @@ constexpr LimitField every_field[] = {
      "what is in contact: vertex 12, edge 3-7 or face 40 of the fixed mesh", rom},
     {"", "", &mobile_feature, one, "mobile_feature", "", text_column, "the same of the mobile mesh", rom},
     {"", "", &fixed_part, one, "fixed_part", "", text_column,
-     "which mesh of the fixed body, if it has several", rom},
+     "which mesh of the fixed body, if it has several", studies},
     {"", "", &mobile_part, one, "mobile_part", "", text_column,
-     "which mesh of the mobile body, if it has several", rom},
+     "which mesh of the mobile body, if it has several", studies},
     {"clock_hour",
      "direction of the contact on the socket's clock face, in [0, 12): 0 superior, 3 anterior "
      "on either side of the body, in the plane that `clock_plane` says; null for joints other "

@@ -24,6 +24,8 @@ std::string_view name_of(ContactKind kind) noexcept {
       return "impingement";
     case ContactKind::cut:
       return "cut";
+    case ContactKind::soft:
+      return "soft";
   }
   return "unknown";
 }

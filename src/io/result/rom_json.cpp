@@ -91,8 +91,17 @@ Json sphere_json(const Vec3& centre, double radius) {
   return {{"centre_mm", io::numbers(centre)}, {"radius_mm", radius}};
 }
 
+/// What contact of each of several meshes means, by their names.
+Json contact_of_meshes(const Body& body) {
+  Json json = Json::object();
+  for (const BodyPart& part : body.parts) json[part.name] = name_of(part.contact);
+  return json;
+}
+
 Json bearing_json(const RomResult& result) {
   Json json{{"rule", result.bearing_rule == BearingRule::count ? "count" : "leave_out"}};
+  if (const Joint& joint = result.joint; !joint.fixed.parts.empty() || !joint.mobile.parts.empty())
+    json["meshes"] = {{"fixed", contact_of_meshes(joint.fixed)}, {"mobile", contact_of_meshes(joint.mobile)}};
   const auto& surface = result.bearing.surface;
   if (!surface) {
     json["why_none"] = result.bearing.why_none;

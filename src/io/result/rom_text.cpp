@@ -60,7 +60,10 @@ std::string wrapped(std::string_view lines) {
 /// One line or two: what does not count and by which numbers.
 std::string bearing_text(const RomResult& result) {
   const auto& surface = result.bearing.surface;
-  if (!surface) return fmt::format("  every contact counts: {}\n", result.bearing.why_none);
+  if (!surface)
+    return result.bearing.roles.mobile.empty()
+               ? fmt::format("  every contact counts: {}\n", result.bearing.why_none)
+               : "";
   const std::string rim = surface->rim_gap_mm ? fmt::format(", rim {:.2f} mm from it", *surface->rim_gap_mm)
                           : !surface->parts.empty() ? ""
                           : surface->margin_mm == usual_bearing_margin_mm
@@ -83,6 +86,33 @@ std::string bearing_text(const RomResult& result) {
       result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
 }
 
+/// A line for each word that the joint file has for meshes other than bone.
+std::string meshes_text(const RomResult& result) {
+  const auto meshes_of = [](const Body& body, PartContact contact) {
+    std::vector<std::string_view> names;
+    for (const BodyPart& part : body.parts)
+      if (part.contact == contact) names.push_back(part.name);
+    return names;
+  };
+  const Body &fixed = result.joint.fixed, &mobile = result.joint.mobile;
+  std::string text;
+  // The bearing surface names its meshes itself.
+  if (!result.bearing.surface || has_part(fixed, PartContact::bearing)) {
+    const auto of_mobile = meshes_of(mobile, PartContact::bearing),
+               of_fixed = meshes_of(fixed, PartContact::bearing);
+    const std::string on = of_fixed.empty() ? fixed.name : fmt::format("{}", fmt::join(of_fixed, " and "));
+    if (!of_mobile.empty())
+      text +=
+          fmt::format("  bearing: {} slides on {}; contact of the two {}\n", fmt::join(of_mobile, " and "),
+                      on, result.bearing_rule == BearingRule::count ? "counts" : "does not end a motion");
+  }
+  std::vector<std::string_view> soft = meshes_of(fixed, PartContact::soft);
+  for (const std::string_view name : meshes_of(mobile, PartContact::soft)) soft.push_back(name);
+  if (!soft.empty())
+    text += fmt::format("  soft: {}; contact on it does not end a motion\n", fmt::join(soft, " and "));
+  return text;
+}
+
 std::string_view words_of(const MotionLimit& limit) noexcept {
   switch (limit.end.reason) {
     case LimitReason::contact:
@@ -93,6 +123,8 @@ std::string_view words_of(const MotionLimit& limit) noexcept {
           return "impingement";
         case ContactKind::cut:
           return "cut of image: no limit";
+        case ContactKind::soft:
+          return "soft contact";
         case ContactKind::unknown:
           return "contact";
       }
@@ -103,6 +135,29 @@ std::string_view words_of(const MotionLimit& limit) noexcept {
       return "in contact at start";
   }
   return "";
+}
+
+/// Of bodies of several meshes, which of them ended which motions.
+std::string met_text(const RomResult& result) {
+  const Joint& joint = result.joint;
+  std::vector<std::pair<std::string, std::vector<std::string_view>>> lines;
+  for (const MotionLimit& limit : result.limits) {
+    if (!limit.end.contact) continue;
+    const BodyPart *fixed = io::part_of(joint.fixed, limit.end.contact->fixed_feature),
+                   *mobile = io::part_of(joint.mobile, limit.end.contact->mobile_feature);
+    if (!fixed && !mobile) continue;
+    std::string met = fmt::format("{} on {}", mobile ? mobile->name : joint.mobile.name,
+                                  fixed ? fixed->name : joint.fixed.name);
+    const auto same =
+        std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.first == met; });
+    if (same == lines.end())
+      lines.push_back({std::move(met), {limit.motion.name}});
+    else
+      same->second.push_back(limit.motion.name);
+  }
+  std::string text;
+  for (const auto& [met, motions] : lines) text += fmt::format("    {}: {}\n", met, fmt::join(motions, ", "));
+  return text.empty() ? "" : "  ended by:\n" + wrapped(text);
 }
 
 enum class Align { left, right };
@@ -248,7 +303,11 @@ std::string rom_text(const RomResult& result) {
   };
   Column name{Align::left, {"motion"}}, turned{Align::right, {"limit (deg)"}},
       reason{Align::left, {"ended by"}}, point{Align::left, {"contact point (mm)"}},
-      clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}};
+      clock{Align::right, {"clock"}}, bearing{Align::right, {"bearing (deg)"}},
+      soft{Align::right, {"soft (deg)"}};
+  const auto earlier_text = [](const std::optional<EarlierContact>& contact) {
+    return contact ? fmt::format("{:.2f}", contact->turned.degrees()) : "-";
+  };
   for (std::size_t i = 0; i < result.limits.size(); ++i) {
     const MotionLimit& limit = result.limits[i];
     name.cells.push_back(limit.motion.name);
@@ -257,15 +316,15 @@ std::string rom_text(const RomResult& result) {
     point.cells.push_back(limit.end.contact
                               ? core::rounded(frame_of(result).fixed_point(limit.end.contact->fixed_point), 2)
                               : "-");
-    const auto& bearing_contact = limit.end.bearing_contact;
-    bearing.cells.push_back(bearing_contact ? fmt::format("{:.2f}", bearing_contact->turned.degrees()) : "-");
+    bearing.cells.push_back(earlier_text(limit.end.bearing_contact));
+    soft.cells.push_back(earlier_text(limit.end.soft_contact));
     const auto hour = io::clock_hour(result, limit);
     clock.cells.push_back(hour ? io::clock_text(*hour) : "-");
   }
   const Joint& joint = result.joint;
   std::string text = wrapped(fmt::format("{}: {} in {}, {} side\n", joint.name, joint.mobile.name,
                                          joint.fixed.name, name_of(joint.side)));
-  text += wrapped(bearing_text(result));
+  text += wrapped(bearing_text(result) + meshes_text(result));
   for (const std::string& caveat : result.caveats) text += wrapped(fmt::format("  {}\n", caveat));
   text += clock_words(result);
   // What people quote, as wide as a terminal; the rest is in JSON and CSV.
@@ -274,7 +333,11 @@ std::string rom_text(const RomResult& result) {
   if (std::any_of(result.limits.begin(), result.limits.end(),
                   [](const MotionLimit& limit) { return limit.end.bearing_contact.has_value(); }))
     shown.push_back(std::move(bearing));
+  if (std::any_of(result.limits.begin(), result.limits.end(),
+                  [](const MotionLimit& limit) { return limit.end.soft_contact.has_value(); }))
+    shown.push_back(std::move(soft));
   text += table_text(shown);
+  text += met_text(result);
   text += zones_text(result);
   text += band_text(result);
   if (std::any_of(result.limits.begin(), result.limits.end(),

@@ -9,27 +9,16 @@
 #include "core/formatted.hpp"
 #include "kinematics/hip_anatomy.hpp"
 #include "kinematics/hip_parts.hpp"
+#include "motion/rom/contact_roles.hpp"
 
 namespace condyle {
 namespace {
-
-std::vector<std::uint8_t> triangles_within(const TriMesh& mesh, const Vec3& centre, double radius) {
-  std::vector<std::uint8_t> near_centre(mesh.vertices.size());
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    near_centre[v] = (mesh.vertices[v] - centre).norm() <= radius;
-  std::vector<std::uint8_t> within(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    within[t] = near_centre[a] & near_centre[b] & near_centre[c];
-  }
-  return within;
-}
 
 /// The meshes of the mobile body that are called bearing: names, and marks of their triangles.
 void mark_bearing_parts(const Body& mobile, BearingSurface& surface) {
   surface.triangles.assign(mobile.mesh.triangles().size(), 0);
   for (const BodyPart& part : mobile.parts) {
-    if (!part.is_bearing) continue;
+    if (part.contact != PartContact::bearing) continue;
     surface.parts.push_back(part.name);
     std::fill_n(surface.triangles.begin() + static_cast<std::ptrdiff_t>(part.first_triangle), part.triangles,
                 std::uint8_t{1});
@@ -80,55 +69,22 @@ LimitingGap narrowest_gap(const BearingSurface& surface) {
 
 std::string no_margin(const Joint& joint, double gap_mm, MarginLimit by) {
   if (by == MarginLimit::rim)
-    return core::formatted("head and rim are only %.2f mm apart: no margin to tell bearing surfaces by",
-                           gap_mm);
+    return core::formatted(
+        "head and rim are only %.2f mm apart: no margin to distinguish bearing surfaces by", gap_mm);
   return joint.fixed.name +
          core::formatted(
-             " leaves the head only %.2f mm beside its socket: no margin to tell bearing surfaces by",
+             " leaves the head only %.2f mm beside its socket: no margin to distinguish bearing surfaces by",
              std::max(gap_mm, 0.0));
 }
 
-}  // namespace
-
-std::size_t BearingSurface::count() const noexcept {
-  return static_cast<std::size_t>(std::count(triangles.begin(), triangles.end(), 1));
-}
-
-bool BearingSurface::holds(const TriMesh& mobile, const Feature& feature) const noexcept {
-  if (feature.kind == FeatureKind::face) return triangles[feature.id] != 0;
-  bool used = false;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const Triangle& corners = mobile.triangles[t];
-    const auto has = [&](Index v) { return std::find(corners.begin(), corners.end(), v) != corners.end(); };
-    if (!has(feature.id) || (feature.kind == FeatureKind::edge && !has(feature.other_end))) continue;
-    if (!triangles[t]) return false;
-    used = true;
-  }
-  return used;
-}
-
-bool BearingFinding::is_on_cut(const ContactWitness& contact) const noexcept {
-  return condyle::is_on_cut(fixed_cuts, contact.fixed_point) ||
-         condyle::is_on_cut(mobile_cuts, contact.mobile_point);
-}
-
-ContactKind BearingFinding::kind_of(const TriMesh& mobile, const ContactWitness& contact) const noexcept {
-  if (is_on_cut(contact)) return ContactKind::cut;
-  if (!surface) return ContactKind::unknown;
-  return surface->holds(mobile, contact.mobile_feature) ? ContactKind::bearing : ContactKind::impingement;
-}
-
-BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options) {
+/// The surface alone, or why there is none.
+BearingFinding surface_of(const Joint& joint, const BearingOptions& options) {
   BearingFinding found;
-  if (joint.fixed.image) found.fixed_cuts = joint.fixed.image->cuts;
-  if (joint.mobile.image) found.mobile_cuts = joint.mobile.image->cuts;
   const auto none = [&](std::string why) {
     found.why_none = std::move(why);
     return std::move(found);
   };
-  if (options.margin_mm && !(*options.margin_mm >= 0 && std::isfinite(*options.margin_mm)))
-    throw UsageError("bearing margin: must be 0 mm or more");
-  if (!joint.has_head()) return none("bearing contact is not told apart in this joint");
+  if (!joint.has_head()) return none("bearing contact is not distinguished from impingement in this joint");
   const TriMesh& mobile = joint.mobile.mesh;
   if (options.surface) {
     if (options.surface->triangles.size() != mobile.triangles.size())
@@ -162,14 +118,35 @@ BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& op
   // Bone under a bearing cartilage is within its sphere, with a margin or without; but what meets an acromion is not bearing.
   if (has_parts && by == MarginLimit::rim) surface.margin_mm = std::max(surface.margin_mm, 0.0);
   if (!(surface.margin_mm >= 0)) return none(no_margin(joint, gap, by));
-  const auto within = triangles_within(mobile, surface.head.centre, surface.head.radius + surface.margin_mm);
+  const auto within = motion::triangles_within(mobile, surface);
   if (has_parts)
     for (std::size_t t = 0; t < within.size(); ++t) surface.triangles[t] |= within[t];
   else
     surface.triangles = within;
+  for (const BodyPart& part : joint.mobile.parts)
+    if (part.contact == PartContact::soft)
+      std::fill_n(surface.triangles.begin() + static_cast<std::ptrdiff_t>(part.first_triangle),
+                  part.triangles, std::uint8_t{0});
   if (surface.count() == surface.triangles.size())
     return none(joint.mobile.name + ": all of it would be bearing surface");
   found.surface = std::move(surface);
+  return found;
+}
+
+}  // namespace
+
+std::size_t BearingSurface::count() const noexcept {
+  return static_cast<std::size_t>(std::count(triangles.begin(), triangles.end(), 1));
+}
+
+BearingFinding find_bearing_surface(const Joint& joint, const BearingOptions& options) {
+  if (options.margin_mm && !(*options.margin_mm >= 0 && std::isfinite(*options.margin_mm)))
+    throw UsageError("bearing margin: must be 0 mm or more");
+  // Roles that are given say what counts, with a surface or without.
+  BearingFinding found = options.roles && !options.surface ? BearingFinding{} : surface_of(joint, options);
+  found.roles = options.roles ? *options.roles : motion::contact_roles(joint, found.surface);
+  if (joint.fixed.image) found.fixed_cuts = joint.fixed.image->cuts;
+  if (joint.mobile.image) found.mobile_cuts = joint.mobile.image->cuts;
   return found;
 }
 

@@ -111,7 +111,9 @@ DepthLimit DepthRange::limit(const Motion& motion) const {
     end.reason = reason, end.turned = turned;
     if (reason == LimitReason::end_of_range) return out;
     end.contact = out.at_limit.contact;
-    if (end.contact) end.contact->kind = parts_->bearing.kind_of(parts_->contact.mobile(), *end.contact);
+    if (end.contact)
+      end.contact->kind =
+          parts_->bearing.kind_of(parts_->contact.fixed(), parts_->contact.mobile(), *end.contact);
     return out;
   };
   if (out.start_depth_mm > allowed.depth_mm) return finish(LimitReason::contact_at_start, Angle());

@@ -96,18 +96,28 @@ struct DisplacedJoint::Parts {
         X_ref_(pose_at(joint.coordinates(), reference)),
         motions_(motions),
         groups_(grouped(motions)),
-        fixed_(joint.fixed, parts.fixed.mesh, sigma),
-        mobile_(joint.mobile, parts.mobile.mesh, sigma) {}
+        ending_(parts.ending) {
+    for (const PartOfMesh& part : parts.fixed) fixed_.emplace_back(joint.fixed, part.mesh, sigma);
+    for (const PartOfMesh& part : parts.mobile) mobile_.emplace_back(joint.mobile, part.mesh, sigma);
+  }
 
   /// Writes one outcome per motion. The frame G of the displaced joint lies at X_FG in F; with both bodies where the
   /// reference pose q0 has them, the mobile body at the angles q is at
   ///
   ///     X_FM = X_FG R(q) A^-1,   A = R(q0)^-1 X_FG R(q0), where G's mobile frame lies in M
   void limits(const Displacement& d, std::span<DisplacedLimit> out) const {
-    const std::optional<FeatureTree> moved_fixed = fixed_.moved_by(d.fixed_surface),
-                                     moved_mobile = mobile_.moved_by(d.mobile_surface);
-    const auto &fixed = moved_fixed ? *moved_fixed : fixed_.tree(),
-               &mobile = moved_mobile ? *moved_mobile : mobile_.tree();
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = {motions_[i].range, LimitReason::end_of_range};
+    for (const PairOfParts& pair : ending_) take_limits(d, fixed_[pair.fixed], mobile_[pair.mobile], out);
+  }
+
+ private:
+  /// Where these surfaces end a motion sooner than noted.
+  void take_limits(const Displacement& d, const Surface& of_fixed, const Surface& of_mobile,
+                   std::span<DisplacedLimit> out) const {
+    const std::optional<FeatureTree> moved_fixed = of_fixed.moved_by(d.fixed_surface),
+                                     moved_mobile = of_mobile.moved_by(d.mobile_surface);
+    const auto &fixed = moved_fixed ? *moved_fixed : of_fixed.tree(),
+               &mobile = moved_mobile ? *moved_mobile : of_mobile.tree();
     RotatingBody stationary_fixed(fixed), stationary_mobile(mobile), rotating_fixed(fixed),
         rotating_mobile(mobile);
 
@@ -133,9 +143,7 @@ struct DisplacedJoint::Parts {
       const RotationLimits both = first_contact(stationary, rotating, group.range);
       for (const std::size_t i : group.motions) {
         const Limit& end = motions_[i].sense == RotationSense::positive ? both.positive : both.negative;
-        const bool reaches_end = end.turned >= motions_[i].range;
-        out[i] = {reaches_end ? motions_[i].range : end.turned,
-                  reaches_end ? LimitReason::end_of_range : end.reason};
+        if (end.turned < out[i].turned) out[i] = {end.turned, end.reason};
       }
     }
   }
@@ -144,14 +152,15 @@ struct DisplacedJoint::Parts {
   Pose X_ref_;
   std::span<const Motion> motions_;
   std::vector<Group> groups_;
-  Surface fixed_, mobile_;
+  std::vector<PairOfParts> ending_;
+  std::vector<Surface> fixed_, mobile_;
 };
 
 DisplacedJoint::DisplacedJoint(const Joint& joint, std::span<const Motion> motions, const RangeOptions& range,
                                const Uncertainty& sigma)
     : parts_(std::make_unique<Parts>(
           joint,
-          parts_that_count(joint, range.overlap, find_bearing_surface(joint, range.bearing).surface,
+          parts_that_count(joint, range.overlap, find_bearing_surface(joint, range.bearing),
                            range.bearing.rule),
           range.overlap.reference_pose, motions, sigma)) {}
 DisplacedJoint::~DisplacedJoint() = default;

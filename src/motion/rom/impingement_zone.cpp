@@ -1,10 +1,14 @@
 #include "condyle/impingement_zone.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "condyle/contact.hpp"
 #include "condyle/error.hpp"
+#include "motion/rom/contact_roles.hpp"
+#include "motion/rom/overlap.hpp"
 #include "motion/rom/socket_hour.hpp"
 
 namespace condyle {
@@ -46,20 +50,50 @@ void take_triangles(const TriMesh& mesh, std::vector<Index> triangles, BodyZone&
   if (zone.area_mm2 > 0) zone.centroid_mm = moment / zone.area_mm2;
 }
 
-/// Which triangles and vertices of the mobile body slide and do not count; none where bearing contact counts.
-struct BearingParts {
-  std::vector<std::uint8_t> triangles, vertices;
+/// Of one body: the numbers its triangles have in the whole mesh, their roles, and of each vertex that of the triangle that ends
+/// most; soft where no triangle counts.
+struct CountedBody {
+  std::vector<Index> triangle_in_whole;
+  std::vector<ContactRole> triangles, vertices;
 
-  BearingParts(const TriMesh& mobile, const std::optional<BearingSurface>& bearing, BearingRule rule)
-      : triangles(mobile.triangles.size()), vertices(mobile.vertices.size()) {
-    if (!bearing || rule == BearingRule::count) return;
-    triangles = bearing->triangles;
-    std::fill(vertices.begin(), vertices.end(), std::uint8_t{1});
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      if (!triangles[t])
-        for (const Index v : mobile.triangles[t]) vertices[v] = 0;
+  CountedBody(const TriMesh& counted, std::vector<Index> in_whole, const std::vector<ContactRole>& roles)
+      : triangle_in_whole(std::move(in_whole)), vertices(counted.vertices.size(), ContactRole::soft) {
+    constexpr std::array ends_less{ContactRole::ends, ContactRole::bearing_on_bearing, ContactRole::bearing,
+                                   ContactRole::soft};
+    const auto rank = [&](ContactRole role) {
+      return std::find(ends_less.begin(), ends_less.end(), role) - ends_less.begin();
+    };
+    for (std::size_t t = 0; t < triangle_in_whole.size(); ++t) {
+      triangles.push_back(roles.empty() ? ContactRole::ends : roles[triangle_in_whole[t]]);
+      for (const Index v : counted.triangles[t])
+        if (rank(triangles.back()) < rank(vertices[v])) vertices[v] = triangles.back();
+    }
   }
 };
+
+/// What of both bodies can meet in a zone, and which contact of it counts.
+struct CountedContact {
+  CountedBody fixed, mobile;
+  bool leaves_out_bearing;
+
+  bool counts(ContactRole of_fixed, ContactRole of_mobile) const noexcept {
+    const ContactKind kind = motion::kind_of(of_fixed, of_mobile);
+    return kind != ContactKind::soft && !(kind == ContactKind::bearing && leaves_out_bearing);
+  }
+  /// Whether a vertex of the mobile body whose ray or arc leaves the fixed one through this triangle is part of a zone.
+  bool counts_mobile(std::size_t v, Index exit) const noexcept {
+    return counts(exit == no_index ? ContactRole::ends : fixed.triangles[exit], mobile.vertices[v]);
+  }
+  bool counts_fixed(std::size_t v, Index exit) const noexcept {
+    return counts(fixed.vertices[v], exit == no_index ? ContactRole::ends : mobile.triangles[exit]);
+  }
+};
+
+/// In numbers of the whole mesh.
+std::vector<Index> in_whole(std::vector<Index> triangles, const CountedBody& body) {
+  for (Index& t : triangles) t = body.triangle_in_whole[t];
+  return triangles;
+}
 
 }  // namespace
 
@@ -70,20 +104,28 @@ struct ZoneFinder::Parts {
   ClockFace socket_clock;
   std::optional<BearingSurface> bearing;
   std::optional<NeckAxis> neck;
-  BearingParts bearing_parts;
-  JointContact contact;
+  Mesh whole_fixed, whole_mobile;
+  CountedContact counted;
+  JointContact contact;  ///< of what is not soft
 };
 
 ZoneFinder::ZoneFinder(const Joint& joint, const ZoneOptions& options) {
   if (!(options.past >= Angle() && options.past <= Angle::degrees(180)))
     throw UsageError("impingement zone: past the limit must be between 0 and 180 degrees");
-  std::optional<BearingSurface> bearing = find_bearing_surface(joint, options.bearing).surface;
+  const BearingFinding found = find_bearing_surface(joint, options.bearing);
+  const std::optional<BearingSurface>& bearing = found.surface;
   std::optional<NeckAxis> neck = options.neck;
   if (!neck && bearing && joint.is_hip()) neck = find_neck_axis(joint.mobile.mesh, bearing->head.radius);
-  parts_ = std::make_unique<Parts>(
-      Parts{joint.coordinates(), joint.is_hip(), options.past,
-            options.socket_clock ? *options.socket_clock : sagittal_clock(), bearing, neck,
-            BearingParts(joint.mobile.mesh, bearing, options.bearing.rule), JointContact(joint)});
+  motion::PartsOfJoint hard = motion::parts_that_count(joint, {}, found, BearingRule::count);
+  auto& [fixed, fixed_in_whole] = hard.fixed.front();
+  auto& [mobile, mobile_in_whole] = hard.mobile.front();
+  CountedContact counted{CountedBody(fixed, std::move(fixed_in_whole), found.roles.fixed),
+                         CountedBody(mobile, std::move(mobile_in_whole), found.roles.mobile),
+                         options.bearing.rule == BearingRule::leave_out};
+  parts_ = std::make_unique<Parts>(Parts{joint.coordinates(), joint.is_hip(), options.past,
+                                         options.socket_clock ? *options.socket_clock : sagittal_clock(),
+                                         bearing, neck, joint.fixed.mesh, joint.mobile.mesh,
+                                         std::move(counted), JointContact(fixed, mobile)});
 }
 
 ZoneFinder::~ZoneFinder() = default;
@@ -96,7 +138,8 @@ const std::optional<NeckAxis>& ZoneFinder::neck() const noexcept {
 
 std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const {
   if (limit.end.reason != LimitReason::contact || !limit.end.contact) return std::nullopt;
-  const auto& [system, has_socket, past, socket_clock, bearing, neck, bearing_parts, contact] = *parts_;
+  const auto& [system, has_socket, past, socket_clock, bearing, neck, whole_fixed, whole_mobile,
+               counted_contact, contact] = *parts_;
   ImpingementZone zone{limit, past, {}, {}, {}, {}, {}, {}};
   const Angle onwards = past * sign_of(limit.motion.sense);
   const JointAngles at = turned_by(limit.angles_at_limit(), limit.motion.vary, onwards);
@@ -106,28 +149,29 @@ std::optional<ImpingementZone> ZoneFinder::zone(const MotionLimit& limit) const 
   const TangentialContact tangential =
       both_closed ? contact.tangential(X_FM, axis_of(limit.motion.vary, system, at)) : TangentialContact{};
   // clang 14 does not let a lambda have a structured binding.
-  const BearingParts& slides = bearing_parts;
-  const auto leaves_through_bearing = [&](const std::vector<Index>& exits, std::size_t v) {
-    return exits[v] != no_index && slides.triangles[exits[v]];
-  };
+  const CountedContact& counted = counted_contact;
   take_depths(
-      radial.mobile_in_fixed, tangential.mobile_in_fixed, [&](std::size_t v) { return !slides.vertices[v]; },
+      radial.mobile_in_fixed, tangential.mobile_in_fixed,
+      [&](std::size_t v) {
+        return counted.counts_mobile(v, radial.mobile_in_fixed->triangle[v]) &&
+               counted.counts_mobile(v, tangential.mobile_in_fixed->triangle[v]);
+      },
       zone.mobile);
   take_depths(
       radial.fixed_in_mobile, tangential.fixed_in_mobile,
       [&](std::size_t v) {
-        return !leaves_through_bearing(radial.fixed_in_mobile->triangle, v) &&
-               !leaves_through_bearing(tangential.fixed_in_mobile->triangle, v);
+        return counted.counts_fixed(v, radial.fixed_in_mobile->triangle[v]) &&
+               counted.counts_fixed(v, tangential.fixed_in_mobile->triangle[v]);
       },
       zone.fixed);
   std::vector<Index> of_fixed, of_mobile;
   for (const TrianglePair& pair : radial.pairs) {
-    if (bearing_parts.triangles[pair.mobile]) continue;
+    if (!counted.counts(counted.fixed.triangles[pair.fixed], counted.mobile.triangles[pair.mobile])) continue;
     of_fixed.push_back(pair.fixed);
     of_mobile.push_back(pair.mobile);
   }
-  take_triangles(contact.fixed(), std::move(of_fixed), zone.fixed);
-  take_triangles(contact.mobile(), std::move(of_mobile), zone.mobile);
+  take_triangles(whole_fixed, in_whole(std::move(of_fixed), counted.fixed), zone.fixed);
+  take_triangles(whole_mobile, in_whole(std::move(of_mobile), counted.mobile), zone.mobile);
 
   if (has_socket)
     zone.contact_hour = motion::socket_hour(socket_clock, bearing, limit.end.contact->fixed_point);

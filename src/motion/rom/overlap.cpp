@@ -29,11 +29,6 @@ std::optional<PartOfMesh> part_of(const Mesh& mesh, const Marks& wanted) {
   return PartOfMesh{std::move(part), std::move(triangle_in_whole)};
 }
 
-PartOfMesh included_part(const Body& body, const Marks& wanted) {
-  if (auto part = part_of(body.mesh, wanted)) return std::move(*part);
-  throw MeshError(body.name + ": every triangle is left out: nothing remains that could meet the other body");
-}
-
 std::size_t left_out_by(const Marks& wanted) {
   return static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), 0));
 }
@@ -63,33 +58,103 @@ std::string deepest(const Body& body, const Body& other, const RadialBodySummary
          " mm from its surface";
 }
 
+/// Of one body: the roles of its triangles, and which of them are not left out.
+struct RolesOfBody {
+  const Body& body;
+  const std::vector<ContactRole>& roles;
+  Marks included;
+
+  ContactRole role(std::size_t triangle) const noexcept {
+    return roles.empty() ? ContactRole::ends : roles[triangle];
+  }
+  Marks where(const auto& wanted) const {
+    Marks marks(included.size());
+    for (std::size_t t = 0; t < marks.size(); ++t) marks[t] = included[t] && wanted(role(t));
+    return marks;
+  }
+};
+
+/// The parts of one body, each once.
+class Parts {
+ public:
+  Parts(const RolesOfBody& body, std::vector<PartOfMesh>& parts) : body_(body), parts_(parts) {}
+
+  /// The place of this part; empty if no triangle is in it.
+  std::optional<std::size_t> place_of(const auto& wanted) {
+    Marks marks = body_.where(wanted);
+    const auto known = std::find(marks_.begin(), marks_.end(), marks);
+    if (known != marks_.end()) return known - marks_.begin();
+    std::optional<PartOfMesh> part = part_of(body_.body.mesh, marks);
+    if (!part) return std::nullopt;
+    parts_.push_back(std::move(*part));
+    marks_.push_back(std::move(marks));
+    return parts_.size() - 1;
+  }
+
+ private:
+  const RolesOfBody& body_;
+  std::vector<PartOfMesh>& parts_;
+  std::vector<Marks> marks_;
+};
+
+Marks included_triangles(const Mesh& mesh) {
+  return Marks(mesh.triangles().size(), 1);
+}
+
+[[noreturn]] void fail_without(const RolesOfBody& body) {
+  const bool any = std::find(body.included.begin(), body.included.end(), 1) != body.included.end();
+  throw MeshError(body.body.name +
+                  (any ? ": no contact of its meshes ends a motion"
+                       : ": every triangle is left out: nothing remains that could meet the other body"));
+}
+
+void leave_out_contacts(const Joint& joint, const OverlapOptions& options, const BearingFinding& bearing,
+                        Marks& of_fixed, Marks& of_mobile) {
+  const int rings = options.leave_out_reference_contacts->rings;
+  if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
+  const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
+  const auto pairs = JointContact(fixed, mobile).pairs(pose_at(joint.coordinates(), options.reference_pose));
+  for (const TrianglePair& pair : pairs)
+    // What is soft ends no motion: the bone under it stays.
+    if (bearing.kind_of(pair.fixed, pair.mobile) != ContactKind::soft)
+      of_fixed[pair.fixed] = of_mobile[pair.mobile] = 0;
+  unmark_neighbours(fixed, rings, of_fixed);
+  unmark_neighbours(mobile, rings, of_mobile);
+}
+
 }  // namespace
 
 PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
-                              const std::optional<BearingSurface>& bearing, BearingRule rule) {
-  const Mesh &fixed = joint.fixed.mesh, &mobile = joint.mobile.mesh;
-  Marks of_fixed(fixed.triangles().size(), 1), of_mobile(mobile.triangles().size(), 1);
-  if (options.leave_out_reference_contacts) {
-    const int rings = options.leave_out_reference_contacts->rings;
-    if (rings < 0) throw UsageError("contacts in the reference pose to leave out: rings must not be below 0");
-    const auto pairs =
-        JointContact(fixed, mobile).pairs(pose_at(joint.coordinates(), options.reference_pose));
-    for (const TrianglePair& pair : pairs) of_fixed[pair.fixed] = of_mobile[pair.mobile] = 0;
-    unmark_neighbours(fixed, rings, of_fixed);
-    unmark_neighbours(mobile, rings, of_mobile);
+                              const BearingFinding& bearing, BearingRule rule) {
+  RolesOfBody of_fixed{joint.fixed, bearing.roles.fixed, included_triangles(joint.fixed.mesh)},
+      of_mobile{joint.mobile, bearing.roles.mobile, included_triangles(joint.mobile.mesh)};
+  if (options.leave_out_reference_contacts)
+    leave_out_contacts(joint, options, bearing, of_fixed.included, of_mobile.included);
+  PartsOfJoint parts;
+  parts.left_out = {left_out_by(of_fixed.included), left_out_by(of_mobile.included)};
+  Parts fixed(of_fixed, parts.fixed), mobile(of_mobile, parts.mobile);
+  const auto pair = [&](const auto& fixed_roles, const auto& mobile_roles, ContactKind kind,
+                        std::vector<PairOfParts>& pairs) {
+    const auto f = fixed.place_of(fixed_roles), m = mobile.place_of(mobile_roles);
+    if (f && m) pairs.push_back({*f, *m, kind});
+  };
+  const auto any = [](ContactRole) { return true; };
+  const auto hard = [](ContactRole role) { return role != ContactRole::soft; };
+  const auto is = [](ContactRole wanted) { return [wanted](ContactRole role) { return role == wanted; }; };
+  if (rule == BearingRule::count) {
+    pair(hard, hard, ContactKind::unknown, parts.ending);
+  } else {
+    constexpr ContactKind ends = ContactKind::impingement, slides = ContactKind::bearing;
+    const auto on_bearing = is(ContactRole::bearing_on_bearing);
+    pair(hard, is(ContactRole::ends), ends, parts.ending);
+    pair(is(ContactRole::ends), on_bearing, ends, parts.ending);
+    pair(hard, is(ContactRole::bearing), slides, parts.earlier);
+    pair(is(ContactRole::bearing), on_bearing, slides, parts.earlier);
   }
-  const LeftOut left_out{left_out_by(of_fixed), left_out_by(of_mobile)};
-  std::optional<PartOfMesh> of_bearing;
-  if (bearing && rule == BearingRule::leave_out) {
-    Marks slides(of_mobile.size());
-    for (std::size_t t = 0; t < slides.size(); ++t) {
-      slides[t] = of_mobile[t] && bearing->triangles[t];
-      of_mobile[t] = of_mobile[t] && !bearing->triangles[t];
-    }
-    of_bearing = part_of(mobile, slides);
-  }
-  return {included_part(joint.fixed, of_fixed), included_part(joint.mobile, of_mobile), std::move(of_bearing),
-          left_out};
+  if (parts.ending.empty()) fail_without(fixed.place_of(hard) ? of_mobile : of_fixed);
+  pair(is(ContactRole::soft), any, ContactKind::soft, parts.earlier);
+  pair(hard, is(ContactRole::soft), ContactKind::soft, parts.earlier);
+  return parts;
 }
 
 std::string explain_overlap(const Joint& joint, const JointAngles& at) {

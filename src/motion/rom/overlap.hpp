@@ -1,6 +1,6 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -17,18 +17,33 @@ struct PartOfMesh {
   std::vector<Index> triangle_in_whole;
 };
 
-/// The parts of a joint's bodies that are tested for contact.
-struct PartsOfJoint {
-  PartOfMesh fixed;
-  PartOfMesh mobile;                  ///< what ends motions
-  std::optional<PartOfMesh> bearing;  ///< of the mobile body, where it does not count
-  LeftOut left_out;                   ///< by the overlap options
+/// A part of either body, by its place in its list, and what contact of the two is; with ContactKind::unknown, kinds differ.
+struct PairOfParts {
+  std::size_t fixed, mobile;
+  ContactKind kind;
 };
 
-/// Both bodies without what the options leave out; where bearing contact is not to count, the mobile one without its
-/// bearing surface. Throws UsageError for fewer than 0 rings, and MeshError if nothing of a body is left.
+/// The parts of a joint's bodies that are tested for contact with each other.
+///
+///     mobile \ fixed                           not soft   not soft, not bearing   bearing   soft
+///     ends (the first part)                    ends
+///     bearing_on_bearing                                  ends                    slides
+///     bearing                                  slides
+///     soft                                     noted
+///     all                                                                                   noted
+///
+/// Parts without triangles have no place, nor have their pairs. If bearing contact counts, what is not soft is one part.
+struct PartsOfJoint {
+  std::vector<PartOfMesh> fixed, mobile;
+  std::vector<PairOfParts> ending;   ///< contact of these ends a motion; one at least
+  std::vector<PairOfParts> earlier;  ///< contact of these does not
+  LeftOut left_out;                  ///< by the overlap options
+};
+
+/// Both bodies without what the options leave out. Throws UsageError for fewer than 0 rings, and MeshError if nothing of a body is
+/// left that could end a motion.
 PartsOfJoint parts_that_count(const Joint& joint, const OverlapOptions& options,
-                              const std::optional<BearingSurface>& bearing, BearingRule rule);
+                              const BearingFinding& bearing, BearingRule rule);
 
 /// One line for people whose meshes overlap: how much, where it is deepest, and what can be done.
 std::string explain_overlap(const Joint& joint, const JointAngles& at);

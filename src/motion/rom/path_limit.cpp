@@ -55,25 +55,41 @@ double most_rotation(const JointAngles& from, const JointAngles& to) noexcept {
 struct PathFinder::Parts {
   RangeOfMotion range;
   motion::PartsOfJoint included;
-  Mesh whole_mobile;
-  motion::FeatureTree fixed, mobile;
+  Mesh whole_fixed, whole_mobile;
+  std::vector<motion::FeatureTree> fixed = {}, mobile = {};
 
   Parts(const Joint& joint, const RangeOptions& options)
       : range(joint, options),
-        included(
-            motion::parts_that_count(joint, options.overlap, range.bearing().surface, range.bearing_rule())),
-        whole_mobile(joint.mobile.mesh),
-        fixed(included.fixed.mesh),
-        mobile(included.mobile.mesh) {}
+        included(motion::parts_that_count(joint, options.overlap, range.bearing(), range.bearing_rule())),
+        whole_fixed(joint.fixed.mesh),
+        whole_mobile(joint.mobile.mesh) {
+    for (const motion::PartOfMesh& part : included.fixed) fixed.emplace_back(part.mesh);
+    for (const motion::PartOfMesh& part : included.mobile) mobile.emplace_back(part.mesh);
+  }
 
-  ContactWitness witness(const motion::Clearance& nearest, const Pose& X_FM) const {
-    const Index f = included.fixed.triangle_in_whole[fixed.mesh_triangle(nearest.fixed_triangle)];
-    const Index m = included.mobile.triangle_in_whole[mobile.mesh_triangle(nearest.mobile_triangle)];
-    ContactWitness contact{{FeatureKind::face, f},
-                           {FeatureKind::face, m},
-                           nearest.fixed_point,
-                           posed(inverted(X_FM), nearest.mobile_point)};
-    contact.kind = range.bearing().kind_of(whole_mobile, contact);
+  /// The clearance of the parts that are free for least.
+  struct Nearest {
+    motion::Clearance clearance;
+    motion::PairOfParts parts;
+  };
+  std::optional<Nearest> nearest_at(const Pose& X_FM) const {
+    std::optional<Nearest> nearest;
+    for (const motion::PairOfParts& pair : included.ending) {
+      const auto found = motion::clearance(fixed[pair.fixed], mobile[pair.mobile], X_FM, far_enough);
+      if (found && (!nearest || found->free_for < nearest->clearance.free_for)) nearest = {*found, pair};
+    }
+    return nearest;
+  }
+
+  ContactWitness witness(const Nearest& nearest, const Pose& X_FM) const {
+    const auto& [near, parts] = nearest;
+    const Index of_fixed = fixed[parts.fixed].mesh_triangle(near.fixed_triangle);
+    const Index of_mobile = mobile[parts.mobile].mesh_triangle(near.mobile_triangle);
+    ContactWitness contact{{FeatureKind::face, included.fixed[parts.fixed].triangle_in_whole[of_fixed]},
+                           {FeatureKind::face, included.mobile[parts.mobile].triangle_in_whole[of_mobile]},
+                           near.fixed_point,
+                           posed(inverted(X_FM), near.mobile_point)};
+    contact.kind = range.bearing().kind_of(whole_fixed, whole_mobile, contact);
     return contact;
   }
 };
@@ -99,15 +115,15 @@ PathLimit PathFinder::limit(std::span<const JointAngles> waypoints, Angle tolera
     for (out.fraction = 0; out.fraction < 1;) {
       out.at = between(from, to, out.fraction);
       const Pose X_FM = pose_at(range.coordinates(), out.at);
-      const auto nearest = clearance(parts_->fixed, parts_->mobile, X_FM, far_enough);
+      const auto nearest = parts_->nearest_at(X_FM);
       ++out.poses;
-      if (nearest && nearest->free_for < tolerance.radians()) {
+      if (nearest && nearest->clearance.free_for < tolerance.radians()) {
         out.reason = LimitReason::contact;
         out.contact = parts_->witness(*nearest, X_FM);
-        out.distance_mm = nearest->distance_mm;
+        out.distance_mm = nearest->clearance.distance_mm;
         return out;
       }
-      const double free = nearest ? nearest->free_for : far_enough;
+      const double free = nearest ? nearest->clearance.free_for : far_enough;
       out.fraction =
           free < rotation * (1 - out.fraction) ? out.fraction + free / rotation * (1 - step_slack) : 1;
     }

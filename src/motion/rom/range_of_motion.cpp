@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <memory>
 #include <utility>
 
 #include "condyle/error.hpp"
@@ -48,7 +49,7 @@ constexpr Angle arc_slack = Angle::radians(1e-6), narrowest_arc = Angle::degrees
 
 /// Vertices whose contact angles are computed before pairs of triangles are evaluated: more vertices add little to
 /// these.
-constexpr std::size_t probed_vertices = 512;
+constexpr std::size_t most_probed_vertices = 512;
 
 /// The body that turned in a search.
 enum class Rotating { fixed, mobile };
@@ -75,14 +76,26 @@ AxisFrame flexion_axis(CoordinateSystem system) {
 }  // namespace
 
 struct RangeOfMotion::Parts {
+  /// A part of the fixed body.
+  struct FixedPart {
+    IncludedBody body;
+    motion::RotationTable flexion_table;
+
+    FixedPart(motion::PartOfMesh part, CoordinateSystem system)
+        : body(std::move(part)), flexion_table(body.tree, flexion_axis(system)) {}
+  };
+
   /// A part of the mobile body.
   struct MobilePart {
     IncludedBody body;
     AxisFrame rotation_axis;
+    Points probed_vertices;
     core::Lazy<std::optional<motion::RotationTable>> table = {};
 
     MobilePart(motion::PartOfMesh part, CoordinateSystem system)
-        : body(std::move(part)), rotation_axis(rotation_axis_in_M(system)) {}
+        : body(std::move(part)),
+          rotation_axis(rotation_axis_in_M(system)),
+          probed_vertices(body.spread_vertices(most_probed_vertices)) {}
 
     /// The part stationary about the axis of internal rotation.
     const motion::RotationTable& rotation_table() const {
@@ -92,27 +105,30 @@ struct RangeOfMotion::Parts {
 
   JointKind kind;
   CoordinateSystem system;
-  Mesh whole_mobile;
+  Mesh whole_fixed, whole_mobile;
   BearingRule bearing_rule;
   BearingFinding bearing;
   LeftOut left_out;
-  IncludedBody fixed;
-  MobilePart impinging;  ///< the part whose contact ends motions
-  Points impinging_vertices;
-  std::unique_ptr<MobilePart> bearing_part;  ///< the bearing surface, if it does not count
-  motion::RotationTable flexion_table;
+  std::vector<motion::PairOfParts> ending, earlier;
+  // Neither moves: tables and threads refer to their trees.
+  std::vector<std::unique_ptr<FixedPart>> fixed = {};
+  std::vector<std::unique_ptr<MobilePart>> mobile = {};
 
-  /// Storage of one thread: bodies ready to rotate, and the table of the flexion of its last adduction.
+  /// Storage of one thread for a part of the fixed body: ready to rotate, and the table of the flexion of its last adduction.
+  struct FixedWorker {
+    motion::RotatingBody rotating;
+    std::optional<Angle> flexion = {};
+    std::unique_ptr<motion::RotationTable> adduction_table = {};
+    /// About the axis whose contacts it last collected.
+    std::optional<RingTable> rings = {};
+  };
   struct Worker {
-    motion::RotatingBody fixed, impinging;
-    std::optional<motion::RotatingBody> bearing_part;
-    std::optional<Angle> flexion;
-    std::unique_ptr<motion::RotationTable> adduction_table;
-    /// The fixed body's about the axis whose contacts it last collected.
-    std::optional<RingTable> rings;
+    std::vector<FixedWorker> fixed;
+    std::vector<motion::RotatingBody> mobile;
 
-    explicit Worker(const Parts& parts) : fixed(parts.fixed.tree), impinging(parts.impinging.body.tree) {
-      if (parts.bearing_part) bearing_part.emplace(parts.bearing_part->body.tree);
+    explicit Worker(const Parts& parts) {
+      for (const auto& part : parts.fixed) fixed.push_back({motion::RotatingBody(part->body.tree)});
+      for (const auto& part : parts.mobile) mobile.emplace_back(part->body.tree);
     }
   };
   mutable core::PerThread<Worker> workers;
@@ -120,90 +136,123 @@ struct RangeOfMotion::Parts {
   Parts(const Joint& joint, BearingFinding found, BearingRule rule, motion::PartsOfJoint included)
       : kind(joint.kind),
         system(joint.coordinates()),
+        whole_fixed(joint.fixed.mesh),
         whole_mobile(joint.mobile.mesh),
         bearing_rule(rule),
         bearing(std::move(found)),
         left_out(included.left_out),
-        fixed(std::move(included.fixed)),
-        impinging(std::move(included.mobile), system),
-        impinging_vertices(impinging.body.spread_vertices(probed_vertices)),
-        bearing_part(included.bearing ? std::make_unique<MobilePart>(std::move(*included.bearing), system)
-                                      : nullptr),
-        flexion_table(fixed.tree, flexion_axis(system)),
-        workers([this] { return Worker(*this); }) {}
-
-  const motion::RotationTable& adduction_table(Worker& worker, const JointAngles& start) const {
-    if (worker.flexion != start.flexion) {
-      worker.adduction_table = std::make_unique<motion::RotationTable>(
-          fixed.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, system, start)));
-      worker.flexion = start.flexion;
-    }
-    return *worker.adduction_table;
+        ending(std::move(included.ending)),
+        earlier(std::move(included.earlier)),
+        workers([this] { return Worker(*this); }) {
+    for (motion::PartOfMesh& part : included.fixed)
+      fixed.push_back(std::make_unique<FixedPart>(std::move(part), system));
+    for (motion::PartOfMesh& part : included.mobile)
+      mobile.push_back(std::make_unique<MobilePart>(std::move(part), system));
   }
 
-  /// The fixed body and one part of the mobile one, ready to turn by an angle from its start: whichever has the axis at rest
-  /// has its table.
+  const motion::RotationTable& adduction_table(Worker& worker, std::size_t part,
+                                               const JointAngles& start) const {
+    FixedWorker& of_part = worker.fixed[part];
+    if (of_part.flexion != start.flexion) {
+      of_part.adduction_table = std::make_unique<motion::RotationTable>(
+          fixed[part]->body.tree, AxisFrame(Vec3::Zero(), axis_of(JointAngle::adduction, system, start)));
+      of_part.flexion = start.flexion;
+    }
+    return *of_part.adduction_table;
+  }
+
+  /// One part of each body, ready to turn by an angle from its start: whichever has the axis at rest has its table.
   struct Rotation {
     const motion::RotationTable& stationary;
     motion::RotatingBody& rotating;
   };
-  Rotation rotation_of(Worker& worker, const MobilePart& part, motion::RotatingBody& rotating,
-                       JointAngle vary, const JointAngles& start) const {
+  Rotation rotation_of(Worker& worker, const motion::PairOfParts& pair, JointAngle vary,
+                       const JointAngles& start) const {
     const Pose X_FM = pose_at(system, start);
     const auto started = [&](const motion::RotationTable& table, motion::RotatingBody& body, const Pose& X) {
       body.start_at(table.frame(), X);
       return Rotation{table, body};
     };
-    return vary == JointAngle::internal_rotation
-               ? started(part.rotation_table(), worker.fixed, inverted(X_FM))
-           : vary == JointAngle::adduction ? started(adduction_table(worker, start), rotating, X_FM)
-                                           : started(flexion_table, rotating, X_FM);
+    motion::RotatingBody& rotating = worker.mobile[pair.mobile];
+    return vary == JointAngle::internal_rotation ? started(mobile[pair.mobile]->rotation_table(),
+                                                           worker.fixed[pair.fixed].rotating, inverted(X_FM))
+           : vary == JointAngle::adduction
+               ? started(adduction_table(worker, pair.fixed, start), rotating, X_FM)
+               : started(fixed[pair.fixed]->flexion_table, rotating, X_FM);
   }
 
-  /// First contact of the fixed body and one part of the mobile one.
-  RotationLimits first_contact(Worker& worker, const MobilePart& part, motion::RotatingBody& rotating,
-                               JointAngle vary, const JointAngles& start, const RotationRange& range) const {
-    const Rotation rotation = rotation_of(worker, part, rotating, vary, start);
+  /// First contact of one part of each body.
+  RotationLimits first_contact(Worker& worker, const motion::PairOfParts& pair, JointAngle vary,
+                               const JointAngles& start, const RotationRange& range) const {
+    const Rotation rotation = rotation_of(worker, pair, vary, start);
     RotationLimits limits = motion::first_contact(rotation.stationary, rotation.rotating, range);
     for (Limit* limit : {&limits.negative, &limits.positive})
       if (limit->contact)
-        finish(*limit->contact, part,
+        finish(*limit->contact, pair,
                vary == JointAngle::internal_rotation ? Rotating::fixed : Rotating::mobile);
     return limits;
   }
 
-  /// As the search reports it, in terms of the whole bodies and labelled.
-  void finish(ContactWitness& contact, const MobilePart& part, Rotating rotating) const {
-    if (rotating == Rotating::fixed) contact = exchanged(contact);
-    contact.fixed_feature = fixed.in_whole(contact.fixed_feature);
-    contact.mobile_feature = part.body.in_whole(contact.mobile_feature);
-    // With its parts searched apart, a contact is of the kind of its part.
-    contact.kind = bearing_rule == BearingRule::count ? bearing.kind_of(whole_mobile, contact)
-                   : bearing.is_on_cut(contact)       ? ContactKind::cut
-                   : &part == bearing_part.get()      ? ContactKind::bearing
-                                                      : ContactKind::impingement;
+  /// First contact that ends a motion.
+  RotationLimits first_end(Worker& worker, JointAngle vary, const JointAngles& start,
+                           const RotationRange& range) const {
+    RotationLimits limits = first_contact(worker, ending.front(), vary, start, range);
+    for (std::size_t i = 1; i < ending.size() && limits.free_at_start(); ++i) {
+      const RotationLimits more = first_contact(worker, ending[i], vary, start, range);
+      const auto take_sooner = [&](Limit& limit, const Limit& other) {
+        if (other.reason == LimitReason::contact_at_start || other.turned < limit.turned ||
+            limit.reason == LimitReason::end_of_range)
+          limit = other;
+      };
+      take_sooner(limits.negative, more.negative);
+      take_sooner(limits.positive, more.positive);
+      limits.work += more.work;
+    }
+    return limits;
   }
 
-  /// Angles at which the impinging part meets the fixed body's surface, over a full turn, and those at which one of its
-  /// vertices is inside. Angles in `known` are not evaluated and are in the answer.
-  core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
-                              std::vector<core::Arc> known) const {
+  /// As the search reports it, in terms of the whole bodies and labelled.
+  void finish(ContactWitness& contact, const motion::PairOfParts& pair, Rotating rotating) const {
+    if (rotating == Rotating::fixed) contact = exchanged(contact);
+    contact.fixed_feature = fixed[pair.fixed]->body.in_whole(contact.fixed_feature);
+    contact.mobile_feature = mobile[pair.mobile]->body.in_whole(contact.mobile_feature);
+    // With its parts searched apart, a contact is of the kind of its parts.
+    contact.kind = pair.kind == ContactKind::unknown || !bearing.roles.distinguish_bearing()
+                       ? bearing.kind_of(whole_fixed, whole_mobile, contact)
+                   : bearing.is_on_cut(contact) ? ContactKind::cut
+                                                : pair.kind;
+  }
+
+  /// Angles at which two parts meet each other's surface, over a full turn, and those at which a vertex of the mobile one is
+  /// inside. Angles in `known` are not evaluated and are in the answer.
+  core::ArcSet contact_angles(Worker& worker, const motion::PairOfParts& pair, JointAngle vary,
+                              const JointAngles& start, std::vector<core::Arc> known) const {
     const AxisFrame axis(Vec3::Zero(), axis_of(vary, system, start));
-    const bool has_rings = worker.rings && worker.rings->frame().direction() == axis.direction();
-    if (fixed.mesh.is_closed() && !has_rings) worker.rings.emplace(fixed.mesh, axis, coarse_rings);
+    const Mesh& stationary = fixed[pair.fixed]->body.mesh;
+    std::optional<RingTable>& rings = worker.fixed[pair.fixed].rings;
+    const bool has_rings = rings && rings->frame().direction() == axis.direction();
+    if (stationary.is_closed() && !has_rings) rings.emplace(stationary, axis, coarse_rings);
     // A vertex inside is contact: its surface crosses the fixed one, or all of it is inside. Vertices detect most
     // contact, without a pair of triangles; the ends of intervals remain.
-    if (worker.rings) {
+    if (rings) {
       const OccupiedArcs arcs =
-          worker.rings->occupied_arcs(posed(pose_at(system, start), impinging_vertices.view()));
+          rings->occupied_arcs(posed(pose_at(system, start), mobile[pair.mobile]->probed_vertices.view()));
       for (std::size_t v = 0; v < arcs.size(); ++v)
         for (const OccupiedArc& arc : arcs.of(v)) {
           const Angle width = arc.end - arc.begin - arc_slack * 2;
           if (width > narrowest_arc) known.push_back({arc.begin + arc_slack, width});
         }
     }
-    const Rotation rotation = rotation_of(worker, impinging, worker.impinging, vary, start);
+    const Rotation rotation = rotation_of(worker, pair, vary, start);
     return motion::contact_set(rotation.stationary, rotation.rotating, core::ArcSet(known));
+  }
+
+  /// Of all parts whose contact ends a motion.
+  core::ArcSet contact_angles(Worker& worker, JointAngle vary, const JointAngles& start,
+                              std::vector<core::Arc> known) const {
+    for (std::size_t i = 0; i + 1 < ending.size(); ++i)
+      known = contact_angles(worker, ending[i], vary, start, std::move(known)).arcs();
+    return contact_angles(worker, ending.back(), vary, start, std::move(known));
   }
 
   HeadAtLimit head_at(const JointAngles& angles) const {
@@ -212,28 +261,33 @@ struct RangeOfMotion::Parts {
     HeadAtLimit head;
     if (surface.socket)
       head.centre_distance_mm = (posed(X_FM, surface.head.centre) - surface.socket->centre).norm();
-    if (!bearing_part) return head;
-    if (const auto nearest =
-            mesh::closest_points(fixed.tree.triangle_tree(), bearing_part->body.tree.triangle_tree(), X_FM))
-      head.joint_space_mm = nearest->distance_mm;
+    for (const motion::PairOfParts& pair : earlier) {
+      if (pair.kind != ContactKind::bearing) continue;
+      const auto nearest = mesh::closest_points(fixed[pair.fixed]->body.tree.triangle_tree(),
+                                                mobile[pair.mobile]->body.tree.triangle_tree(), X_FM);
+      if (nearest)
+        head.joint_space_mm =
+            std::min(nearest->distance_mm, head.joint_space_mm.value_or(nearest->distance_mm));
+    }
     return head;
   }
 };
 
 namespace {
 
-/// Bearing contact before the limit.
-std::optional<BearingContact> before(const Limit& limit, const Limit& bearing) {
-  if (bearing.reason == LimitReason::end_of_range || !(bearing.turned < limit.turned)) return std::nullopt;
-  return BearingContact{bearing.turned, bearing.contact, bearing.error_bound};
+/// Notes contact that ends nothing, if it comes before the limit and before what is noted already.
+void note_before(const Limit& limit, const Limit& earlier, std::optional<EarlierContact>& noted) {
+  if (earlier.reason == LimitReason::end_of_range || !(earlier.turned < limit.turned)) return;
+  if (noted && !(earlier.turned < noted->turned)) return;
+  noted = {earlier.turned, earlier.contact, earlier.error_bound};
 }
 
 }  // namespace
 
 RangeOfMotion::RangeOfMotion(const Joint& joint, const RangeOptions& options) {
   BearingFinding bearing = find_bearing_surface(joint, options.bearing);
-  const BearingRule rule = bearing.surface ? options.bearing.rule : BearingRule::count;
-  motion::PartsOfJoint included = motion::parts_that_count(joint, options.overlap, bearing.surface, rule);
+  const BearingRule rule = bearing.roles.distinguish_bearing() ? options.bearing.rule : BearingRule::count;
+  motion::PartsOfJoint included = motion::parts_that_count(joint, options.overlap, bearing, rule);
   parts_ = std::make_unique<Parts>(joint, std::move(bearing), rule, std::move(included));
   const OverlapOptions& overlap = options.overlap;
   if (overlap.reference_contact == ReferenceContact::accept) return;
@@ -247,15 +301,18 @@ RotationLimits RangeOfMotion::both_limits(JointAngle vary, const JointAngles& st
                                           const RotationRange& range) const {
   assert(kind() != JointKind::hinge || vary == JointAngle::flexion);
   Parts::Worker& worker = parts_->workers.local();
-  RotationLimits limits =
-      parts_->first_contact(worker, parts_->impinging, worker.impinging, vary, start, range);
-  if (!worker.bearing_part || !limits.free_at_start()) return limits;
-  const RotationLimits bearing =
-      parts_->first_contact(worker, *parts_->bearing_part, *worker.bearing_part, vary, start,
-                            {-limits.negative.turned, limits.positive.turned});
-  limits.negative.bearing_contact = before(limits.negative, bearing.negative);
-  limits.positive.bearing_contact = before(limits.positive, bearing.positive);
-  limits.work += bearing.work;
+  RotationLimits limits = parts_->first_end(worker, vary, start, range);
+  if (!limits.free_at_start()) return limits;
+  for (const motion::PairOfParts& pair : parts_->earlier) {
+    const RotationLimits earlier =
+        parts_->first_contact(worker, pair, vary, start, {-limits.negative.turned, limits.positive.turned});
+    const bool is_soft = pair.kind == ContactKind::soft;
+    for (const auto limit : {&RotationLimits::negative, &RotationLimits::positive}) {
+      Limit& end = limits.*limit;
+      note_before(end, earlier.*limit, is_soft ? end.soft_contact : end.bearing_contact);
+    }
+    limits.work += earlier.work;
+  }
   return limits;
 }
 
@@ -282,9 +339,8 @@ FreeAngles RangeOfMotion::free_angles(JointAngle vary, const JointAngles& start,
       if (!(high - low > narrowest_interval)) continue;
       // The gap is free or, one body inside the other, all contact; its ends are computed as limits are.
       const Angle middle = low + (high - low) * 0.5;
-      const RotationLimits both = parts_->first_contact(worker, parts_->impinging, worker.impinging, vary,
-                                                        turned_by(start, vary, middle),
-                                                        {range.negative - middle, range.positive - middle});
+      const RotationLimits both = parts_->first_end(worker, vary, turned_by(start, vary, middle),
+                                                    {range.negative - middle, range.positive - middle});
       if (both.free_at_start())
         free.intervals.push_back(
             {middle - both.negative.turned, middle + both.positive.turned, both.negative, both.positive});

@@ -198,9 +198,9 @@ export class CoreJoint {
 
   private setBearing(bearing: JointArrays["bearing"]): void {
     if (bearing === "found") return;
-    const place = bearing === "count" ? 0 : this.memory.copied(bearing);
-    this.checked(this.core._condyle_set_bearing(this.joint, place));
-    if (place) this.memory.free(place);
+    const places = [bearing.fixed, bearing.mobile].map((roles) => (roles ? this.memory.copied(roles) : 0));
+    this.checked(this.core._condyle_set_roles(this.joint, bearing.counts ? 1 : 0, places[0]!, places[1]!));
+    this.memory.free(...places.filter((place) => place));
   }
 
   private setLayers(layers: Layers): void {

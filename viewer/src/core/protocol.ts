@@ -20,7 +20,7 @@ export interface JointArrays {
   mobile: Surface;
   /// Contact that ends motions: "found" by the core, every contact, or all but that of these mobile triangles, marked
   /// 1.
-  bearing: "found" | "count" | Uint8Array;
+  bearing: "found" | { counts: boolean; fixed: Uint8Array | null; mobile: Uint8Array | null };
   layers: Layers | null;
 }
 

@@ -25,7 +25,7 @@ declare module "page-core" {
       joint: number, vary: number, positive: number, start: number, held: number, range: number, limit: number): number;
     _condyle_free_angles(joint: number, vary: number, start: number, held: number, back: number, forth: number): number;
     _condyle_intervals(joint: number): number;
-    _condyle_set_bearing(joint: number, triangles: number): number;
+    _condyle_set_roles(joint: number, countBearing: number, fixed: number, mobile: number): number;
     _condyle_surface(
       joint: number, ofFixed: number, firstVertex: number, vertices: number, firstTriangle: number, triangles: number,
       youngsModulus: number, poissonRatio: number, thickness: number): number;

@@ -27,7 +27,7 @@ export function numbersPanel(report: ReportText, counts: { fixed: [number, numbe
       words.ofBodies(words.sides[joint.side], words.kinds[joint.kind])),
   ];
   if (rom) {
-    parts.push(limitsTable(rom), html("h3", {}, words.how), lines(howFound(rom)), html("h3", {}, words.notes));
+    parts.push(limitsTable(rom, joint), html("h3", {}, words.how), lines(howFound(rom)), html("h3", {}, words.notes));
     parts.push(rom.notes.length ? lines(rom.notes.map(({ code, text }) => `${text} (${code})`)) : html("p", {}, words.noNotes));
     const caveats = caveatsOf(rom);
     if (caveats.length) parts.push(html("h3", {}, words.caveats), lines(caveats));
@@ -62,15 +62,25 @@ function caveatsOf({ motions }: RomAnswer): string[] {
   return [...about].map(([text, { names, source }]) => words.caveat(names.join(", "), text, source));
 }
 
-function limitsTable({ motions }: RomAnswer): HTMLElement {
-  const degrees = (value: number | null) => (value === null ? "–" : `${value.toFixed(1)}°`);
+const degrees = (value: number | null) => (value === null ? "–" : `${value.toFixed(1)}°`);
+
+/// What ended a motion: of bodies of several meshes which of them, and what soft meshes it met before.
+function endOf({ reason, contact_kind, features, soft_contact_deg }: MotionAnswer, joint: ReportText["joint"]): string {
+  const fixed = features?.fixed.part, mobile = features?.mobile.part;
+  const kind = contact_kind !== null && (words.contactKinds[contact_kind] ?? contact_kind);
+  const how = [kind, (fixed || mobile) && words.meshOn(mobile ?? joint.mobile, fixed ?? joint.fixed),
+    typeof soft_contact_deg === "number" && words.softFrom(degrees(soft_contact_deg))].filter(Boolean).join(", ");
+  return how ? words.endsBy(words.reasons[reason], how) : words.reasons[reason];
+}
+
+function limitsTable({ motions }: RomAnswer, joint: ReportText["joint"]): HTMLElement {
   return table(
     ["", words.limit, words.band, words.reason, words.bearingContact, words.normal, words.errorBound],
     motions.map((motion) => {
-      const band = toldBand(motion), reason = words.reasons[motion.reason];
+      const band = toldBand(motion);
       return [
         named(spaced(motion.name)), limitAlone(motion), band ? words.bandEnds(band.p5_deg.toFixed(0), band.p95_deg.toFixed(0)) : "–",
-        motion.contact_kind === null ? reason : words.endsBy(reason, words.contactKinds[motion.contact_kind] ?? motion.contact_kind),
+        endOf(motion, joint),
         degrees(motion.bearing_contact_deg), degrees(motion.normal_range_deg),
         motion.reason !== "contact" || motion.error_bound_deg === undefined ? "–" : `${motion.error_bound_deg.toPrecision(2)}°`,
       ];

@@ -11,7 +11,7 @@ export interface Part {
   name: string;
   first_vertex: number;
   vertices: number;
-  is_bearing: boolean;
+  contact: "ends" | "bearing" | "soft";
 }
 
 /// One bone of the scene. Its vertices have the numbers they have everywhere.
@@ -36,7 +36,7 @@ export class SceneBody {
     this.tints = dynamic(count, 3);
     this.hidden = dynamic(count);
     const isCartilage = new BufferAttribute(new Float32Array(count), 1);
-    for (const { first_vertex, vertices } of parts.filter(({ is_bearing }) => is_bearing))
+    for (const { first_vertex, vertices } of parts.filter(({ contact }) => contact !== "ends"))
       isCartilage.array.fill(1, first_vertex, first_vertex + vertices);
     Object.entries({ shown: this.shown, mark: this.mark, tints: this.tints, hidden: this.hidden, isCartilage })
       .forEach(([name, attribute]) => geometry.setAttribute(name, attribute));

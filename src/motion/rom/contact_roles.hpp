@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "condyle/bearing.hpp"
+#include "condyle/joint.hpp"
+
+/// What contact of each triangle means.
+
+namespace condyle::motion {
+
+/// Marks of the triangles with all three corners within the margin of the head.
+std::vector<std::uint8_t> triangles_within(const TriMesh& mobile, const BearingSurface& surface);
+
+/// Of the words of the meshes and the bearing surface. Linear in the triangles.
+ContactRoles contact_roles(const Joint& joint, const std::optional<BearingSurface>& surface);
+
+/// Of a contact of two such triangles.
+ContactKind kind_of(ContactRole fixed, ContactRole mobile) noexcept;
+
+}  // namespace condyle::motion
