@@ -1,6 +1,6 @@
 import { html, named, section, shortened, spaced } from "../dom";
 import { limitAlone, toldBand } from "../plots/limits";
-import { scopeOf, type MeshSource, type ReportText, type RomAnswer } from "../report";
+import { scopeOf, type MeshSource, type MotionAnswer, type ReportText, type RomAnswer } from "../report";
 import { words } from "../words";
 
 /// More of a note, or of a path in the first column of a table, is not read.
