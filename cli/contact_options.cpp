@@ -82,17 +82,8 @@ ContactEntry contact_of(const ContactChanges& changes, const JointFile& file, bo
   return entry;
 }
 
-void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) {
-  command
-      .add_option("--force", given->force,
-                  "Move the mobile body to where the contact carries this force on it, in N")
-      ->expected(3)
-      ->option_text("X Y Z");
-  command
-      .add_option("--moment", given->moment,
-                  "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
-      ->expected(3)
-      ->option_text("X Y Z");
+void add_force(CLI::App& command, const std::shared_ptr<BalanceGiven>& given, const char* force_help) {
+  command.add_option("--force", given->force, force_help)->expected(3)->option_text("X Y Z");
   command
       .add_option_function<std::string>(
           "--force-frame",
@@ -107,6 +98,15 @@ void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) 
                   "With a force: move along this direction of the fixed frame only, or in the plane of two")
       ->expected(3, 6)
       ->option_text("X Y Z [X Y Z]");
+}
+
+void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given) {
+  add_force(command, given, "Move the mobile body to where the contact carries this force on it, in N");
+  command
+      .add_option("--moment", given->moment,
+                  "With --free-rotations: balance this moment about the mobile body's origin too, in N mm")
+      ->expected(3)
+      ->option_text("X Y Z");
   command.add_flag_callback(
       "--free-rotations", [given] { given->rotations = true; }, "With a force: rotate the mobile body too");
 }

@@ -32,6 +32,8 @@ struct BalanceGiven {
   bool rotations = false;
   bool any() const noexcept { return !force.empty() || !moment.empty(); }
 };
+/// --force, --force-frame and --along.
+void add_force(CLI::App& command, const std::shared_ptr<BalanceGiven>& given, const char* force_help);
 void add_balance(CLI::App& command, const std::shared_ptr<BalanceGiven>& given);
 /// Directions of --along; UsageError for a count that is not whole directions.
 std::vector<Vec3> directions_of(const std::vector<double>& along);

@@ -206,6 +206,27 @@ std::optional<std::size_t> frame_of_largest_force(const MotionAnswer& answer);
 
 // ---- the range of motion -------------------------------------------------------------------------------------------------
 
+/// The translation of a free joint follows that of a recorded motion: along a motion that varies one angle, it is that of the frame
+/// with this angle, linear between two frames.
+struct FollowRecord {
+  std::vector<JointCoordinates> frames = {};
+};
+
+/// The translation of a free joint follows a load: at each step it is where the contact of the layers carries the load, linear in
+/// between.
+struct FollowLoad {
+  const ElasticContact* layers = nullptr;  ///< outlives the query
+  Load load = {};
+  BalanceOptions balance = {};  ///< rotations are held
+  Angle step = Angle::degrees(1);
+};
+
+using Follow = std::variant<FollowRecord, FollowLoad>;
+
+/// Those of the motions along which the recorded angle begins at the motion's start or before it, goes on past it, and never turns
+/// back.
+std::vector<Motion> motions_recorded(std::span<const Motion> motions, const FollowRecord& record);
+
 /// Options of a query for the range of motion, with their defaults.
 struct RangeRequest {
   std::vector<Motion> motions = {};
@@ -216,6 +237,9 @@ struct RangeRequest {
   std::optional<AllowedDepth> allowed_depth = {};
   /// The translation that a free joint keeps, mm, in the fixed body's axes; default: that of its reference pose.
   std::optional<Vec3> translation_mm = {};
+  /// Of a free joint: its centre is not held but follows this. Limits are bounded then, not exact. Excludes a held translation, maps,
+  /// bands, zones, an allowed depth and contacts that are left out.
+  std::optional<Follow> follow = {};
   std::optional<MapGrid> map = {};
   std::optional<BandOptions> bands = {};
   /// Impingement zones this far past each limit.
@@ -229,6 +253,7 @@ enum class RangeNoteCode : std::uint8_t {
   narrow_bearing_margin,  ///< Head and rim are too close for bearing contact to be distinguished from impingement.
   limit_on_cut,           ///< A motion ends on a face that closes a bone where its image ends: no limit.
   sliding_surfaces,  ///< Surfaces slide on each other by nature, and where they first touch a motion ends.
+  translation_ends,  ///< What the translation follows ends before the motion's range does.
 };
 
 /// As in files: "centre_moves_limits".
@@ -248,6 +273,7 @@ inline constexpr double centres_apart_mm = 1;
 struct RangeAnswer {
   Joint joint;                                   ///< held at its translation
   std::optional<Vec3> held_translation_mm = {};  ///< of a free joint
+  bool follows = false;                          ///< the centre is not held: limits are bounded, not exact
   std::vector<MotionLimit> limits = {};          ///< one per motion
   std::vector<DepthLimit> depths = {};           ///< one per motion if a depth is allowed, else none
   BearingFinding bearing = {};                   ///< what contacts are classified by

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -143,6 +145,8 @@ struct MotionLimit {
   Motion motion = {};
   Limit end = {};
   std::optional<HeadAtLimit> head = {};  ///< where a bearing surface is known
+  /// Of a joint whose centre is not held, at the limit: x, y and z of its translation frame.
+  std::optional<Vec3> translation_mm = {};
 
   JointAngles angles_at_limit() const noexcept;
 };
@@ -257,6 +261,55 @@ class PathFinder {
   /// Throws UsageError for fewer than two waypoints, angles that are not finite, segments of more than a full
   /// turn, other angles than flexion on a hinge, or a tolerance below 1e-6 degrees.
   PathLimit limit(std::span<const JointAngles> waypoints, Angle tolerance = Angle::degrees(1e-3)) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// How far a free joint turns whose centre is not held: its translation follows the angle that varies.
+
+/// Where the mobile body's origin is once an angle has turned so far from a motion's start.
+struct TranslationKnot {
+  Angle turned = {};                   ///< >= 0 in the motion's sense
+  Vec3 translation_mm = Vec3::Zero();  ///< x, y and z of the joint's translation frame
+};
+
+/// Gives the knots of one motion, the first at its start, each farther than the one before; empty where it ends. Called with those
+/// given so far.
+using NextKnot = std::function<std::optional<TranslationKnot>(std::span<const TranslationKnot> before)>;
+
+struct FollowedLimit {
+  MotionLimit limit = {};  ///< its range is as far as the knots go
+  double distance_mm = 0;  ///< between the surfaces that end it, at the limit
+  std::size_t poses = 0;   ///< evaluated on the way
+};
+
+/// Limits of motions on which the mobile body's origin moves: between two knots its translation is linear in the angle. The axis
+/// moves, so there is no closed form; as with PathFinder every step is as long as is certain to be free.
+///
+/// Guarantee: the motion is free up to the limit, whatever the surfaces do between two poses. It ends where less than the
+/// tolerance is certain to be free. The error bound is then how far past the limit contact was found; or the tolerance, if
+/// none was found within 64 of it: surfaces that pass each other so close, a few micrometres, count as in contact. Contact that does not end
+/// motions is found in the same way.
+class FollowedRange {
+ public:
+  /// Throws UsageError for a joint that is not free, and for options that leave out contacts of the reference pose. What is in
+  /// contact in the reference pose is not checked.
+  explicit FollowedRange(const Joint& joint, const BearingOptions& bearing = {});
+  ~FollowedRange();
+  FollowedRange(const FollowedRange&) = delete;
+  FollowedRange& operator=(const FollowedRange&) = delete;
+
+  /// Throws UsageError as check_motion(), for knots that do not begin at the start or do not ascend, and for a tolerance below 1e-6
+  /// degrees. Empty if it was stopped. From any thread.
+  std::optional<FollowedLimit> limit(const Motion& motion, const NextKnot& next,
+                                     const std::stop_token& stop = {},
+                                     Angle tolerance = Angle::degrees(1e-3)) const;
+
+  /// What contacts are classified by.
+  const BearingFinding& bearing() const noexcept;
+  BearingRule bearing_rule() const noexcept;
 
  private:
   struct Parts;

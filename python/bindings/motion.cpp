@@ -78,6 +78,7 @@ py::dict dict_of(const MotionLimit& limit) {
   dict["angles_deg"] = degrees_of_angles(limit.angles_at_limit());
   dict["centre_distance_mm"] = limit.head ? optional_number(limit.head->centre_distance_mm) : py::none();
   dict["joint_space_mm"] = limit.head ? optional_number(limit.head->joint_space_mm) : py::none();
+  dict["translation_mm"] = optional_array(limit.translation_mm);
   return dict;
 }
 

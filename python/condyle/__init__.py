@@ -21,6 +21,7 @@ from ._inspect import Finding, MeshComponent, MeshReport, inspect
 from ._joint import Joint, read_joint
 from ._labels import Label, LabelMap, LabelNote, LabelPiece, LabelSurface, SurfaceCut, read_labels, surface
 from ._limit_band import LimitBand
+from ._followed_range import FollowedRange
 from ._limits import KINDS, REASONS, Caveat, ContactWitness, FreeAngles, Limit, MotionLimit, PathLimit
 from ._mesh import MeshLike, TriMesh, read_mesh, write_mesh
 from ._model import Model, ModelCoordinate, ModelJoint, ModelMesh, ModelNote, read_model
@@ -45,7 +46,7 @@ __all__ = [
     "ContactEnd", "ContactFrames", "ContactInterval", "ContactMeasures", "ContactNote", "ContactPatch",
     "ContactTotals", "ContactWitness", "CylinderFit", "DeepestPlace", "DepthLimit", "DepthRange", "Depths",
     "ElasticContact", "ElasticContactResults", "ElasticLayer", "FileError", "Finding", "FirstContact", "FrameContact",
-    "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
+    "FollowedRange", "FreeAngles", "Gaps", "HIP_PARAMETERS", "INSIDE", "ImpingementZone", "Joint", "JointMotion", "JointNote",
     "JointProposal", "JointWarning", "KINDS", "Label", "LabelMap", "LabelNote", "LabelPiece", "LabelSurface", "Limit",
     "LimitBand", "MapEnds", "MeshComponent", "MeshError", "MeshLike", "MeshReport", "Model", "ModelCoordinate", "ModelJoint", "ModelMesh", "ModelNote", "Motion", "MotionLimit",
     "MotionMap", "MotionTable", "NO_INDEX", "NormalContact", "ON_SURFACE", "OUTSIDE", "OccupiedArcs",

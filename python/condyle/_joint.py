@@ -15,6 +15,7 @@ from ._errors import UsageError
 from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, measures_of, of_vertices
 from ._joint_description import description_of
 from ._labels import LabelLike, LabelMap, LabelSurface, joint_bones
+from ._followed_range import FollowedRange, followed_range
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._model import Model, read_model
@@ -447,6 +448,32 @@ class Joint(DescribedJoint):
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
         return RangeOfMotion(self, _native.range_of_motion(self._asked, translation_mm, options), motions)
+
+    def range_following(self, motions: Optional[Sequence[MotionLike]] = None, *, poses: Optional[ArrayLike] = None,
+                        contact: Optional[ElasticContact] = None, force_n: Optional[ArrayLike] = None, frame: Body = "fixed",
+                        free_directions: ArrayLike = (), step_deg: float = 1, bearing: BearingRule = "leave_out",
+                        bearing_margin_mm: Optional[float] = None, progress: Progress = None) -> FollowedRange:
+        """How far a free joint turns if its centre is not held: its translation follows a recorded motion, or a load.
+
+        Parameters
+        ----------
+        motions : names or Motion objects, optional
+            With `poses`, if not given, all that the recorded motion leads along: an angle that only grows, or only falls.
+        poses : (N, 4, 4), optional
+            Of a recorded motion, as :meth:`motion` reads it: along a motion that varies one angle, the translation is that of the
+            frame with this angle, linear between two frames. The other angles are held.
+        contact, force_n : ElasticContact and (3,), optional
+            Every `step_deg` the body is where this contact carries the force on the mobile body, in N, in `frame`; linear in between.
+            `free_directions` as :meth:`ElasticContact.balance` takes them; rotations are held.
+        bearing, bearing_margin_mm :
+            As :meth:`range_of_motion` takes them.
+
+        Limits are bounded, not exact. Ctrl-C ends it; `progress` is called with (done, total).
+
+        C++: `condyle::answer_range` with `RangeRequest::follow` in condyle/answer.hpp; `condyle rom --follow`.
+        """
+        return followed_range(self, motions, poses, contact, force_n, frame, free_directions, step_deg, bearing,
+                              bearing_margin_mm, progress)
 
     def picture(self, pose: OnePoseLike, *, view: str = "anterior", colour: Colour = "depth", fixed: Look = "solid",
                 mobile: Look = "solid", width: int = 1200, height: int = 900, range_mm: Optional[float] = None,

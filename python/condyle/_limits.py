@@ -89,7 +89,8 @@ class MotionLimit(Limit):
 
     Besides what a :class:`Limit` has: `motion`; `angles_deg`, the joint's angles there by name; `centre_distance_mm`
     between head and socket and `joint_space_mm` of the bearing surface, None where not known; `fixed_part` and
-    `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh; `caveats`, a list of
+    `mobile_part`, names of the meshes that meet, None without contact and of a body of one mesh; `translation_mm` (3,) at the
+    limit of :meth:`Joint.range_following`, else None; `caveats`, a list of
     :class:`Caveat`: whether bone usually ends such a motion of a hip, and what is not modelled; empty for other joints.
     """
 
@@ -99,6 +100,7 @@ class MotionLimit(Limit):
     joint_space_mm: Optional[float]
     fixed_part: Optional[str]
     mobile_part: Optional[str]
+    translation_mm: Optional[NDArray[np.float64]]
     caveats: list[Caveat]
 
     def __repr__(self) -> str:

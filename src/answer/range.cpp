@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "answer/followed_range.hpp"
 #include "answer/staged.hpp"
 #include "condyle/answer.hpp"
 #include "condyle/error.hpp"
@@ -102,11 +103,22 @@ std::optional<Vec3> held_translation(const Joint& joint, const JointPlacement& p
 }
 
 void check_range_request(const Joint& joint, const JointPlacement& placement, const RangeRequest& request) {
-  held_translation(joint, placement, request.translation_mm);
+  if (!request.follow) held_translation(joint, placement, request.translation_mm);
   for (const Motion& motion : request.motions) check_motion(motion, joint.kind);
   if (request.map) check_grid(*request.map, joint.kind);
   if (request.allowed_depth && (request.map || request.bands || request.zones_past))
     throw UsageError("an allowed depth gives limits only: no map, bands or zones");
+  if (!request.follow) return;
+  if (joint.kind != JointKind::free)
+    throw UsageError("only the translation of a free joint follows anything");
+  if (request.allowed_depth || request.map || request.bands || request.zones_past)
+    throw UsageError(
+        "a translation that follows a recorded motion or a load gives limits only: no map, bands, zones or "
+        "allowed depth");
+  if (request.translation_mm) throw UsageError("translation: it is held, or it follows: one of the two");
+  if (request.range.overlap.leave_out_reference_contacts)
+    throw UsageError("a translation that follows: no contacts are left out");
+  answer::check_follow(request);
 }
 
 std::vector<std::string> range_caveats(const RangeOptions& options, const RangeOfMotion& range) {
@@ -127,6 +139,7 @@ std::optional<RangeAnswer> answer_range(const Joint& joint, const JointPlacement
                                         const RangeRequest& request, const AnswerControl& control) {
   check_range_request(joint, placement, request);
   const std::optional<Vec3> held = held_translation(joint, placement, request.translation_mm);
+  if (request.follow) return answer::followed_range(joint, placement, request, control);
   RangeAnswer answer{.joint = held_at(joint, held.value_or(Vec3::Zero())), .held_translation_mm = held};
   answer.clock_plane = request.clock;
   if (request.bands) answer.band_options = *request.bands;

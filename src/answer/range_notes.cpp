@@ -129,6 +129,8 @@ std::string_view name_of(RangeNoteCode code) noexcept {
       return "limit_on_cut";
     case RangeNoteCode::sliding_surfaces:
       return "sliding_surfaces";
+    case RangeNoteCode::translation_ends:
+      return "translation_ends";
   }
   return "";
 }

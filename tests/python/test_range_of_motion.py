@@ -251,3 +251,43 @@ def test_first_contact_about_the_axis_of_flexion_is_the_limit_of_flexion(hip):
     for pose, degrees in ((np.eye(3), 10), (np.eye(4), 400), ([np.eye(4)] * 2, 10)):
         with pytest.raises(condyle.UsageError):
             found.limits(pose, positive_deg=degrees)
+
+
+def test_the_centre_follows_a_recorded_motion_or_a_load(tmp_path, command):
+    layers = condyle.sample_cartilages(scenario=7)
+    for name, mesh in (("socket", layers.acetabular), ("head", layers.femoral)):
+        condyle.write_mesh(tmp_path / f"{name}.ply", mesh)
+    bones = condyle.sample_hip(scenario=1)
+    condyle.write_mesh(tmp_path / "pelvis.ply", bones.hip_bone)
+    condyle.write_mesh(tmp_path / "femur.ply", bones.femur)
+    (tmp_path / "hip.toml").write_text("""
+        condyle = 1
+        name = "hip"
+        kind = "free"
+        joint = "hip"
+        side = "right"
+        units = "mm"
+        fixed = { name = "pelvis", mesh = "pelvis.ply" }
+        mobile = { name = "femur", mesh = "femur.ply" }
+        frame = { centre = [0, 0, 0], anterior = [1, 0, 0], superior = [0, 1, 0] }
+        """)
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    degrees = np.arange(0.0, 150.0, 2.0)
+    rows = "".join(f"{i * 0.1},{d},{0.01 * d},{-0.005 * d}\n" for i, d in enumerate(degrees))
+    (tmp_path / "record.csv").write_text("time,flexion_deg,x_mm,y_mm\n" + rows)
+    found = joint.range_following(poses=joint.motion(tmp_path / "record.csv").X_FM)
+    assert [limit.motion.name for limit in found.limits] == ["flexion"]
+    by_command = json.loads(subprocess.run([command, "rom", tmp_path / "hip.toml", "--follow", tmp_path / "record.csv", "--json"],
+                                           check=True, capture_output=True, text=True).stdout)
+    assert found["flexion"].turned_deg == by_command["motions"][0]["limit_deg"]
+    assert found["flexion"].translation_mm.tolist() == by_command["motions"][0]["translation_mm"]
+    assert found.caveats == by_command["caveats"]
+    held = joint.range_of_motion(["flexion"])["flexion"]
+    assert held.translation_mm is None and 0.1 < abs(held.turned_deg - found["flexion"].turned_deg) < 20
+    contact = condyle.ElasticContact(layers.acetabular, layers.femoral, mobile_layer=condyle.ElasticLayer(12, 0.42, 1.5))
+    loaded = joint.range_following(["flexion"], contact=contact, force_n=[0, 800, 0], step_deg=20)
+    assert loaded["flexion"].reason in ("contact", "end_of_range") and "carries the load" in loaded.caveats[0]
+    with pytest.raises(condyle.UsageError, match="one of the two"):
+        joint.range_following()
+    with pytest.raises(condyle.UsageError, match="turns back"):
+        joint.range_following(["flexion"], poses=joint.pose(flexion_deg=[0, 10, 5, 20]))

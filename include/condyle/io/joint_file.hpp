@@ -137,4 +137,7 @@ struct JointMotion {
 /// for a joint that does not translate if its poses do by more than 1e-6 mm.
 JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table);
 
+/// The coordinates of its frames, without gaps.
+std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMotion& motion);
+
 }  // namespace condyle

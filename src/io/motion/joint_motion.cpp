@@ -131,4 +131,11 @@ JointMotion motion_of(const LoadedJoint& joint, const MotionTable& table) {
   return motion;
 }
 
+std::vector<JointCoordinates> coordinates_of(const Joint& joint, const JointMotion& motion) {
+  std::vector<JointCoordinates> coordinates;
+  for (const std::optional<Pose>& X_FM : motion.X_FM)
+    if (X_FM) coordinates.push_back(coordinates_at(joint.coordinates(), *X_FM, joint.translation_frame));
+  return coordinates;
+}
+
 }  // namespace condyle

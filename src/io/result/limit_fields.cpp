@@ -104,6 +104,11 @@ Json at_limit_deg(const LimitOf& of) {
                    [&](JointAngle angle) { return angle_of(of.limit().angles_at_limit(), angle).degrees(); });
 }
 
+Json translation_mm(const LimitOf& of) {
+  const auto& translation = of.limit().translation_mm;
+  return translation ? numbers(*translation) : Json(nullptr);
+}
+
 Json contact_point_mm(const LimitOf& of) {
   const auto& contact = of.limit().end.contact;
   return contact ? numbers(frame_of(of.result).fixed_point(contact->fixed_point)) : Json(nullptr);
@@ -272,6 +277,11 @@ constexpr LimitField every_field[] = {
      &definition},
     {"at_limit_deg", "all three angles at the limit", &at_limit_deg, angles, "limit", "deg", number_column,
      "at the limit", rom},
+    {"translation_mm",
+     "x, y and z of the mobile body's origin at the limit, if its translation follows a recorded motion or a "
+     "load; else null",
+     &translation_mm, point, "translation", "mm", number_column,
+     "at the limit, if it follows a recorded motion or a load", rom},
     {"contact_point_mm",
      "where the bodies are in contact at the limit, in the fixed body's joint frame; null "
      "without contact, and if one body is inside the other and their surfaces do not meet",

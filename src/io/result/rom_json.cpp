@@ -137,6 +137,7 @@ Json io::rom_object(const RomResult& result) {
             {"normal_range_source", result.joint.is_hip() ? Json(normal_hip_range_source) : Json(nullptr)},
             {"held_translation_mm",
              result.held_translation_mm ? io::numbers(*result.held_translation_mm) : Json(nullptr)},
+            {"exact", !result.follows && result.depths.empty()},
             {"caveats", result.caveats},
             {"notes", io::notes_json(result.notes, result.contact_notes, result.range_notes)},
             {"band", result.bands.empty() ? Json(nullptr) : json_of(result.band_options, result.joint)}};

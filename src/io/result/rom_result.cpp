@@ -32,6 +32,13 @@ std::string text_of(const Feature& feature) {
 }  // namespace io
 
 std::string guarantee_text(const MotionLimit& limit) {
+  const bool is_bounded = limit.translation_mm && limit.end.reason == LimitReason::contact;
+  if (is_bounded)
+    return fmt::format(
+        "bounded, not exact: free up to the limit; past it by {:.2g} deg in contact, or nearer to it than "
+        "some "
+        "micrometres",
+        limit.end.error_bound.degrees());
   switch (limit.end.reason) {
     case LimitReason::contact:
       return fmt::format("free before the limit; in contact at it or past it by at most {:.2g} deg",
@@ -72,6 +79,7 @@ RomResult rom_result_of(const RangeAnswer& answer, std::span<const JointNote> no
           .clock_plane = answer.clock_plane,
           .caveats = answer.caveats,
           .held_translation_mm = answer.held_translation_mm,
+          .follows = answer.follows,
           .notes = notes,
           .range_notes = answer.notes,
           .depths = answer.depths,

@@ -36,6 +36,8 @@ struct RomResult {
   std::vector<std::string> caveats = {};
   /// Translation at which a free `joint` is held (held_at()), along the fixed body's axes.
   std::optional<Vec3> held_translation_mm = {};
+  /// The centre is not held: limits are bounded, not exact.
+  bool follows = false;
   /// Notes on the joint's set-up.
   std::span<const JointNote> notes = {};
   /// Caveats on the limits because of the joint's shape.

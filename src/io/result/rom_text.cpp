@@ -196,7 +196,7 @@ std::string surface_text(const Uncertainty& sigma, const Joint& joint) {
 /// The bands and where they come from; without bands a line that says how to get them.
 std::string band_text(const RomResult& result) {
   if (result.bands.empty())
-    return result.depths.empty()
+    return result.depths.empty() && !result.follows
                ? "  band unknown: --band computes how far these limits move with what is uncertain\n"
                : "";
   const BandOptions& options = result.band_options;

@@ -88,17 +88,37 @@ class Search {
     if (motion < free_for_) open_.push_back({mobile, fixed, motion});
   }
 
+  /// A ball that a triangle lies in.
+  struct Around {
+    Vec3 centre;
+    double radius;
+  };
+  static Around around(const Corners3& t) noexcept {
+    const Vec3 centre = (t[0] + t[1] + t[2]) / 3;
+    return {centre, std::sqrt(std::max({(t[0] - centre).squaredNorm(), (t[1] - centre).squaredNorm(),
+                                        (t[2] - centre).squaredNorm()}))};
+  }
+
   Corners3 corners(const FeatureTree& tree, Index t) const {
     const auto [a, b, c] = tree.triangles()[t];
     return {tree.vertices()[a], tree.vertices()[b], tree.vertices()[c]};
   }
 
   void compare_leaves(const FeatureTree::Node& m, const FeatureTree::Node& f) {
+    of_fixed_.clear();
+    for (Index t = f.first; t < f.last; ++t) of_fixed_.push_back(around(corners(fixed_, t)));
     for (Index s = m.first; s < m.last; ++s) {
       const Corners3 own = corners(mobile_, s);
-      const Radii radii = radii_of(own, Vec3::Zero());
       const Corners3 placed{posed(X_FM_, own[0]), posed(X_FM_, own[1]), posed(X_FM_, own[2])};
+      const Around of_mobile = around(placed);
+      const double farthest = std::max({own[0].norm(), own[1].norm(), own[2].norm()});
+      std::optional<Radii> of_own;
       for (Index t = f.first; t < f.last; ++t) {
+        const Around& of_fixed = of_fixed_[t - f.first];
+        const double apart = (of_mobile.centre - of_fixed.centre).norm() - of_mobile.radius - of_fixed.radius;
+        if (least(apart, 0, farthest) >= free_for_) continue;
+        if (!of_own) of_own = radii_of(own, Vec3::Zero());
+        const Radii& radii = *of_own;
         const Corners3 fixed = corners(fixed_, t);
         const double radii_apart = radii.apart_from(radii_of(fixed, origin_));
         if (least(0, radii_apart, radii.high) >= free_for_) continue;
@@ -119,6 +139,7 @@ class Search {
   Speed speed_;
   double free_for_;
   std::vector<NodePair> open_;
+  std::vector<Around> of_fixed_;  ///< of the leaf that is compared
   std::optional<Clearance> found_;
 };
 

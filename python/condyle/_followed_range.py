@@ -1,0 +1,70 @@
+"""Limits of joints whose centre is not held."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Optional, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _native
+from ._contact_checks import ContactNote, reported
+from ._described_joint import DescribedJoint
+from ._errors import UsageError
+from ._limits import MotionLimit, motion_limit_of
+from ._motion import MotionLike, Motions
+from ._pressure import ElasticContact
+from ._words import BearingRule, Body, Progress, number, progress_of, word
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FollowedRange:
+    """Limits of motions on which a free joint's translation follows a recorded motion or a load.
+
+    Attributes
+    ----------
+    limits : tuple of MotionLimit
+        Bounded, not exact: the joint is free up to each, and in contact past it by `error_bound_deg`, or surfaces pass nearer to each
+        other than some micrometres. `translation_mm` (3,) is where the mobile body's origin is there.
+    notes : what they must be read with, each with a :class:`JointWarning`: where the record or the balance ends
+    caveats : list of str
+
+    `found["flexion"]` is one of the limits.
+    """
+
+    limits: tuple[MotionLimit, ...]
+    notes: tuple[ContactNote, ...]
+    caveats: list[str]
+
+    def __getitem__(self, name: str) -> MotionLimit:
+        for limit in self.limits:
+            if limit.motion.name == name:
+                return limit
+        raise UsageError(f"no limit of {name} was computed")
+
+    def __repr__(self) -> str:
+        return "FollowedRange(" + ", ".join(
+            f"{limit.motion.name} {limit.turned_deg:.1f}{'' if limit.reason == 'contact' else ' ' + limit.reason}"
+            for limit in self.limits) + ")"
+
+
+def followed_range(joint: DescribedJoint, motions: Optional[Sequence[MotionLike]], poses: Optional[ArrayLike],
+                   contact: Optional[ElasticContact], force_n: Optional[ArrayLike], frame: Body,
+                   free_directions: ArrayLike, step_deg: float, bearing: BearingRule,
+                   bearing_margin_mm: Optional[float], progress: Progress) -> FollowedRange:
+    if (poses is None) == (force_n is None):
+        raise UsageError("poses of a recorded motion or force_n: one of the two is needed")
+    if (contact is None) != (force_n is None):
+        raise UsageError("force_n: the contact that carries it is needed too, as ElasticContact.of_file(joint) makes it")
+    known = Motions(joint._native)
+    asked = known.known if motions is None else known.asked(motions)
+    options = {"count_bearing": word(bearing, "bearing", BearingRule) == "count",
+               "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
+               "only_recorded": motions is None, "force_n": np.zeros(3) if force_n is None else force_n,
+               "frame": word(frame, "frame", Body), "free_directions": np.reshape(free_directions, (-1, 3)),
+               "step_deg": number(step_deg, "step_deg")}
+    limits, notes, caveats = _native.followed_limits(
+        joint._asked, [known.tuple_of(each) for each in asked], poses, None if contact is None else contact._native, options,
+        progress_of(progress))
+    return FollowedRange(tuple(motion_limit_of(each, known, joint) for each in limits), reported(notes), caveats)

@@ -1,0 +1,281 @@
+#include "answer/followed_range.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "answer/staged.hpp"
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+
+namespace condyle {
+namespace {
+
+using core::formatted;
+using Knots = std::vector<TranslationKnot>;
+
+/// Where a recorded motion leads along a motion, from before its start; or why it does not.
+struct RecordedWay {
+  Knots knots = {};  ///< angles ascend in the motion's sense, from 0 or below
+  std::string why_none = {};
+};
+
+/// A joint that is kept still may still move by so much.
+constexpr Angle still = Angle::degrees(1e-3);
+
+/// From the last knot at the first one's angle to the first at the last one's: a joint may be kept still before a motion and
+/// after it. All of them if it was not.
+Knots without_still_ends(const Knots& knots) {
+  const Angle low = knots.front().turned, high = knots.back().turned;
+  const auto first = std::find_if(knots.rbegin(), knots.rend(),
+                                  [&](const TranslationKnot& knot) { return knot.turned <= low; })
+                         .base() -
+                     1;
+  const auto last = std::find_if(knots.begin(), knots.end(),
+                                 [&](const TranslationKnot& knot) { return knot.turned >= high; });
+  const auto stands_at = [](Angle angle) {
+    return [angle](const TranslationKnot& knot) {
+      return std::abs((knot.turned - angle).degrees()) <= still.degrees();
+    };
+  };
+  const bool holds = first < last && std::all_of(knots.begin(), first, stands_at(low)) &&
+                     std::all_of(last, knots.end(), stands_at(high));
+  return holds ? Knots(first, last + 1) : knots;
+}
+
+RecordedWay way_of(const Motion& motion, const FollowRecord& record) {
+  RecordedWay way;
+  for (const JointCoordinates& frame : record.frames) {
+    const Angle turned =
+        (angle_of(frame.angles, motion.vary) - angle_of(motion.start, motion.vary)) * sign_of(motion.sense);
+    way.knots.push_back({turned, frame.translation_mm});
+  }
+  Knots& knots = way.knots;
+  if (knots.size() < 2) return {{}, "the recorded motion has fewer than two frames"};
+  if (knots.back().turned < knots.front().turned) std::reverse(knots.begin(), knots.end());
+  knots = without_still_ends(knots);
+  const auto back = std::adjacent_find(knots.begin(), knots.end(),
+                                       [](const auto& a, const auto& b) { return !(a.turned < b.turned); });
+  if (back != knots.end())
+    return {
+        {},
+        formatted(
+            "the recorded angle turns back, or stands still, %.4g degrees past the motion's start: a part is "
+            "needed in which it only grows or only falls",
+            back->turned.degrees() + 0.0)};
+  if (knots.front().turned > Angle())
+    return {{},
+            formatted("the recorded angle begins %.4g degrees past the motion's start",
+                      knots.front().turned.degrees())};
+  if (!(knots.back().turned > Angle())) return {{}, "the recorded angle does not go past the motion's start"};
+  return way;
+}
+
+/// The knots from the motion's start on.
+Knots from_start(const Knots& all) {
+  const auto after =
+      std::find_if(all.begin(), all.end(), [](const auto& knot) { return knot.turned > Angle(); });
+  const TranslationKnot &high = *after, &low = *(after - 1);
+  const double share = -low.turned.radians() / (high.turned - low.turned).radians();
+  Knots knots{{Angle(), low.translation_mm + share * (high.translation_mm - low.translation_mm)}};
+  knots.insert(knots.end(), after, all.end());
+  return knots;
+}
+
+/// Balances one step after another; keeps why it ended.
+class BalancedWay {
+ public:
+  BalancedWay(const Joint& joint, const Motion& motion, const FollowLoad& follow, const Vec3& start_mm)
+      : joint_(joint), motion_(motion), follow_(follow), last_mm_(start_mm) {}
+
+  std::optional<TranslationKnot> next(std::span<const TranslationKnot> before) {
+    const Angle turned =
+        before.empty() ? Angle() : std::min(before.back().turned + follow_.step, motion_.range);
+    if (!before.empty() && !(before.back().turned < turned)) return std::nullopt;
+    const JointAngles angles = turned_by(motion_.start, motion_.vary, turned * sign_of(motion_.sense));
+    const CoordinateSystem system = joint_.coordinates();
+    const Pose start = pose_at(system, JointCoordinates{angles, last_mm_}, joint_.translation_frame);
+    const BalancedPose balanced = balance(*follow_.layers, start, follow_.load, follow_.balance);
+    if (!balanced.carries_load()) {
+      ended_by_ = formatted("no contact carries the load %.4g degrees past its start: ", turned.degrees()) +
+                  reason_of(balanced);
+      return std::nullopt;
+    }
+    last_mm_ = coordinates_at(system, balanced.X_FM, joint_.translation_frame).translation_mm;
+    note_bend(before, last_mm_);
+    return TranslationKnot{turned, last_mm_};
+  }
+
+  const std::string& ended_by() const noexcept { return ended_by_; }
+  /// How far the balanced way and straight pieces of it are apart, about: an eighth of its second difference.
+  double bend_mm() const noexcept { return bend_mm_; }
+
+ private:
+  void note_bend(std::span<const TranslationKnot> before, const Vec3& now) {
+    if (before.size() < 2) return;
+    const Vec3 &a = before[before.size() - 2].translation_mm, &b = before.back().translation_mm;
+    bend_mm_ = std::max(bend_mm_, (a - 2 * b + now).norm() / 8);
+  }
+
+  const Joint& joint_;
+  const Motion& motion_;
+  const FollowLoad& follow_;
+  Vec3 last_mm_;
+  double bend_mm_ = 0;
+  std::string ended_by_;
+};
+
+/// The largest difference of another angle from where motions hold it.
+double most_apart_deg(const Motion& motion, const FollowRecord& record) {
+  double most = 0;
+  for (const JointCoordinates& frame : record.frames)
+    for (const JointAngle angle : all_joint_angles)
+      if (angle != motion.vary)
+        most = std::max(most,
+                        std::abs((angle_of(frame.angles, angle) - angle_of(motion.start, angle)).degrees()));
+  return most;
+}
+
+/// Answers one motion after another.
+class Followed {
+ public:
+  Followed(const Joint& joint, const JointPlacement& placement, const RangeRequest& request, Control control)
+      : joint_(joint),
+        reference_mm_(placement.reference_pose.translation_mm),
+        request_(request),
+        control_(std::move(control)),
+        range_(joint, request.range.bearing) {}
+
+  /// Empty if stopped.
+  std::optional<MotionLimit> limit(const Motion& motion) {
+    auto limit = std::visit([&](const auto& follow) { return along(motion, follow); }, *request_.follow);
+    ++done_;
+    report(Angle(), motion);
+    return limit;
+  }
+
+  const FollowedRange& range() const noexcept { return range_; }
+  const std::vector<RangeNote>& notes() const noexcept { return notes_; }
+  double bend_mm() const noexcept { return bend_mm_; }
+
+ private:
+  std::optional<MotionLimit> along(const Motion& motion, const FollowRecord& record) {
+    const Knots knots = from_start(way_of(motion, record).knots);
+    const auto next = [&](std::span<const TranslationKnot> before) {
+      if (!before.empty()) report(before.back().turned, motion);
+      return before.size() < knots.size() ? std::optional(knots[before.size()]) : std::nullopt;
+    };
+    const auto found = range_.limit(motion, next, control_.stop);
+    if (!found) return std::nullopt;
+    if (ended_early(found->limit, motion))
+      note(motion, formatted("the recorded motion ends %.4g degrees past its start",
+                             found->limit.end.turned.degrees()));
+    return found->limit;
+  }
+
+  std::optional<MotionLimit> along(const Motion& motion, const FollowLoad& load) {
+    BalancedWay way(joint_, motion, load, reference_mm_);
+    const auto next = [&](std::span<const TranslationKnot> before) {
+      if (!before.empty()) report(before.back().turned, motion);
+      return way.next(before);
+    };
+    const auto found = range_.limit(motion, next, control_.stop);
+    if (!found) return std::nullopt;
+    bend_mm_ = std::max(bend_mm_, way.bend_mm());
+    if (ended_early(found->limit, motion)) note(motion, way.ended_by());
+    return found->limit;
+  }
+
+  /// In thousandths of motions.
+  void report(Angle turned, const Motion& motion) const {
+    constexpr std::size_t whole = 1000;
+    if (!control_.progress) return;
+    const double share = std::min(turned.radians() / motion.range.radians(), 1.0);
+    control_.progress(whole * done_ + static_cast<std::size_t>(share * whole),
+                      whole * request_.motions.size());
+  }
+
+  static bool ended_early(const MotionLimit& limit, const Motion& motion) noexcept {
+    return limit.end.reason == LimitReason::end_of_range && limit.end.turned < motion.range;
+  }
+  void note(const Motion& motion, const std::string& why) {
+    notes_.push_back({RangeNoteCode::translation_ends, motion.name + ": " + why});
+  }
+
+  const Joint& joint_;
+  Vec3 reference_mm_;
+  const RangeRequest& request_;
+  Control control_;
+  std::size_t done_ = 0;
+  FollowedRange range_;
+  std::vector<RangeNote> notes_;
+  double bend_mm_ = 0;
+};
+
+std::vector<std::string> caveats_of(const RangeRequest& request, double bend_mm) {
+  constexpr auto bounded = "limits are bounded, not exact: the centre is not held";
+  if (const auto* load = std::get_if<FollowLoad>(&*request.follow))
+    return {
+        formatted("the translation is where the contact carries the load, found every %g degrees and taken "
+                  "to be straight in between, which is off by some %.2g mm; rotations are held; ",
+                  load->step.degrees(), bend_mm) +
+        bounded};
+  double apart = 0;
+  for (const Motion& motion : request.motions)
+    apart = std::max(apart, most_apart_deg(motion, std::get<FollowRecord>(*request.follow)));
+  return {formatted(
+              "the translation is that of the recorded motion, straight between two of its frames, the other "
+              "angles are held, up to %.3g degrees from the recorded ones; ",
+              apart) +
+          bounded};
+}
+
+}  // namespace
+
+std::vector<Motion> motions_recorded(std::span<const Motion> motions, const FollowRecord& record) {
+  std::vector<Motion> recorded;
+  for (const Motion& motion : motions)
+    if (way_of(motion, record).why_none.empty()) recorded.push_back(motion);
+  return recorded;
+}
+
+void answer::check_follow(const RangeRequest& request) {
+  if (const auto* record = std::get_if<FollowRecord>(&*request.follow)) {
+    for (const Motion& motion : request.motions)
+      if (const std::string why = way_of(motion, *record).why_none; !why.empty())
+        throw UsageError(motion.name + ": " + why);
+    return;
+  }
+  const auto& load = std::get<FollowLoad>(*request.follow);
+  if (!load.layers) throw UsageError("a translation follows a load through layers, and there are none");
+  if (load.balance.free_rotations)
+    throw UsageError("a translation that follows a load: rotations are held, for the motion turns the body");
+  if (!(load.step > Angle() && load.step <= Angle::degrees(30)))
+    throw UsageError("a translation that follows a load: its step must be above 0 and at most 30 degrees");
+}
+
+std::optional<RangeAnswer> answer::followed_range(const Joint& joint, const JointPlacement& placement,
+                                                  const RangeRequest& request, const AnswerControl& control) {
+  RangeAnswer answer{.joint = joint, .follows = true};
+  answer.clock_plane = request.clock;
+  Followed followed(joint, placement, request, staged(control, "thousandths of motions"));
+  answer.bearing = followed.range().bearing();
+  answer.bearing_rule = followed.range().bearing_rule();
+  for (const Motion& motion : request.motions) {
+    auto limit = followed.limit(motion);
+    if (!limit) return std::nullopt;
+    answer.limits.push_back(std::move(*limit));
+  }
+  // Limits about other centres say nothing where the centre moves.
+  BearingFinding without_socket = answer.bearing;
+  if (without_socket.surface) without_socket.surface->socket.reset();
+  answer.notes = range_notes(joint, answer.limits, request.range, without_socket);
+  answer.notes.insert(answer.notes.end(), followed.notes().begin(), followed.notes().end());
+  answer.caveats = caveats_of(request, followed.bend_mm());
+  return answer;
+}
+
+}  // namespace condyle
