@@ -24,7 +24,8 @@ class Follow : public ::testing::Test {
     write_mesh(folder / "ball.ply", sphere({0, 0, 0}, 20, 4));
     write_mesh(folder / "cup.ply", socket({0, 0, 0}, 20.5, 24, 4));
     std::ofstream(folder / "joint.toml")
-        << "condyle = 1\nname = \"swing\"\nkind = \"free\"\njoint = \"hip\"\nside = \"right\"\nunits = \"mm\"\n"
+        << "condyle = 1\nname = \"swing\"\nkind = \"free\"\njoint = \"hip\"\nside = \"right\"\nunits = "
+           "\"mm\"\n"
            "fixed = { name = \"frame\", meshes = [{ name = \"post\", mesh = \"post.ply\" },\n"
            "  { name = \"cup\", mesh = \"cup.ply\", contact = \"bearing\" }] }\n"
            "mobile = { name = \"limb\", meshes = [{ name = \"arm\", mesh = \"arm.ply\" },\n"
