@@ -53,6 +53,7 @@ struct ModelJoint {
   std::shared_ptr<const io::ModelTransform> transform = {};  ///< null if it cannot be read
   std::string why_not = {};  ///< then one line with the reason, and where it stands
   std::size_t line = 0;
+  bool is_reversed = false;  ///< has `reverse`, which exchanges parent and child up to version 30513
 
   std::vector<double> defaults() const;
 };
@@ -112,6 +113,8 @@ enum class ModelNoteCode : std::uint8_t {
   contact_left_out,    ///< It is not applied, or lacks a surface.
   several_contacts,    ///< Between the two bodies; one is taken.
   measured_thickness,  ///< Near to OpenSim-JAM's, not equal.
+  reverse_passed_over,  ///< A joint of a later version has it, and no meaning.
+  exchanged_bodies,     ///< The child is the proximal bone: angles have the other sense.
   coupled_coordinate,  ///< It follows others where a motion has no column of it.
 };
 /// As written: "missing_mesh".

@@ -6,19 +6,17 @@
 
 #include "condyle/version.hpp"
 #include "io/file/format_version.hpp"
+#include "io/file/path_from.hpp"
 
 namespace condyle::io {
 namespace {
 
 void add_keys(ProposalLines& lines, std::string_view role, const ProposedBody& body,
               const std::filesystem::path& joint_file) {
-  const auto folder = std::filesystem::absolute(joint_file).parent_path();
-  const auto from_folder =
-      std::filesystem::absolute(body.file).lexically_normal().lexically_proximate(folder);
   lines.add(fmt::format("\n[{}]", role));
   for (const std::string& comment : body.comments) lines.add("# " + comment);
   lines.add("name = " + toml_text(body.name));
-  lines.add("mesh = " + toml_text(from_folder.generic_string()));
+  lines.add("mesh = " + toml_text(path_from(joint_file, body.file)));
 }
 
 /// [fixed.image]: every bit, as the planes of the cuts must hold the vertices on them.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -46,10 +47,11 @@ std::array<double, 3> senses_of(Anatomy anatomy, Side side) {
   return {anatomy == Anatomy::knee ? -1.0 : 1.0, sideways, sideways};
 }
 
-ColumnOfCoordinate column(const ModelCoordinate& coordinate, std::string_view name, CoordinateKind kind,
-                          double sign, double offset) {
+ColumnOfCoordinate column(const std::string& joint, const ModelCoordinate& coordinate, std::string_view name,
+                          CoordinateKind kind, double sign, double offset) {
   const double unit = kind == CoordinateKind::angle ? degrees_per_radian : mm_per(LengthUnit::metres);
-  ColumnOfCoordinate out{.coordinate = std::string(name), .kind = kind, .column = coordinate.name};
+  ColumnOfCoordinate out{
+      .coordinate = std::string(name), .kind = kind, .column = joint + "/" + coordinate.name};
   if (kind == CoordinateKind::length) out.unit = ColumnUnit::metres;
   out.sign = sign;
   out.offset = unit * offset + 0.0;
@@ -71,8 +73,8 @@ std::optional<std::vector<ColumnOfCoordinate>> angle_columns(const ModelJoint& j
     const double direction = along(axes[i].axis, units[i]);
     if (!drive || direction == 0) return std::nullopt;
     const double sense = direction * senses[i];
-    columns.push_back(column(joint.coordinates[drive->coordinate], names[i].positive, CoordinateKind::angle,
-                             drive->slope * sense, drive->offset * sense));
+    columns.push_back(column(joint.name, joint.coordinates[drive->coordinate], names[i].positive,
+                             CoordinateKind::angle, drive->slope * sense, drive->offset * sense));
   }
   return columns;
 }
@@ -86,8 +88,8 @@ std::optional<std::vector<ColumnOfCoordinate>> length_columns(const ModelJoint& 
     const auto drive = drive_of(joint, 3 + i, CoordinateMotion::translational);
     const double direction = along(axes[3 + i].axis, units[i]);
     if (!drive || direction == 0) return std::nullopt;
-    columns.push_back(column(joint.coordinates[drive->coordinate], names[i], CoordinateKind::length,
-                             drive->slope * direction, drive->offset * direction));
+    columns.push_back(column(joint.name, joint.coordinates[drive->coordinate], names[i],
+                             CoordinateKind::length, drive->slope * direction, drive->offset * direction));
   }
   return columns;
 }
@@ -121,7 +123,7 @@ JointMapping hinge(const ModelJoint& joint, std::size_t turning, JointMapping ma
   mapping.why = "one rotation about an axis at rest";
   if (const auto drive = drive_of(joint, turning, CoordinateMotion::rotational)) {
     const double sense = direction * senses_of(named, side)[0];
-    mapping.columns = {column(joint.coordinates[drive->coordinate], angle, CoordinateKind::angle,
+    mapping.columns = {column(joint.name, joint.coordinates[drive->coordinate], angle, CoordinateKind::angle,
                               drive->slope * sense, drive->offset * sense)};
   } else {
     mapping.why += ", by a function of its coordinates";
@@ -174,25 +176,52 @@ JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy,
   return mapping;
 }
 
+bool has_any(const std::string& text, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](std::string_view word) { return text.find(word) != text.npos; });
+}
+
+/// Whether a name has one of these at the beginning of a word, behind a side's letter at most: "hip_r" and "rhip", not "ship".
+bool has_word(const std::string& name, std::initializer_list<std::string_view> words) {
+  const auto begins_word = [&](std::size_t at) {
+    return at == 0 || !std::isalpha(static_cast<unsigned char>(name[at - 1])) ||
+           (at == 1 && (name[0] == 'r' || name[0] == 'l'));
+  };
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    for (std::size_t at = name.find(word); at != name.npos; at = name.find(word, at + 1))
+      if (begins_word(at)) return true;
+    return false;
+  });
+}
+
+/// By the names of a proximal and a distal body.
+std::optional<Anatomy> anatomy_between(const std::string& proximal, const std::string& distal) {
+  if (has_any(distal, {"femur", "thigh"}) && has_any(proximal, {"pelvis", "ilium", "hip"}))
+    return Anatomy::hip;
+  if (has_any(proximal, {"femur", "thigh"}) && has_any(distal, {"tibia", "shank", "patella"}))
+    return Anatomy::knee;
+  if (has_any(proximal, {"tibia", "shank"}) && has_any(distal, {"patella"})) return Anatomy::knee;
+  if (has_any(proximal, {"tibia", "shank"}) && has_any(distal, {"talus", "foot"})) return Anatomy::ankle;
+  if (has_any(distal, {"humerus"}) && has_any(proximal, {"scapula", "torso", "thorax", "clavicle"}))
+    return Anatomy::shoulder;
+  if (has_any(proximal, {"humerus"}) && has_any(distal, {"ulna", "forearm"})) return Anatomy::elbow;
+  return std::nullopt;
+}
+
+bool has_proximal_child(const ModelJoint& joint) {
+  const std::string parent = lower_case(joint.parent_body), child = lower_case(joint.child_body);
+  return !anatomy_between(parent, child) && anatomy_between(child, parent);
+}
+
 std::optional<Anatomy> anatomy_of(const ModelJoint& joint) {
   const std::string parent = lower_case(joint.parent_body), child = lower_case(joint.child_body),
                     name = lower_case(joint.name);
-  const auto has = [](const std::string& text, std::initializer_list<std::string_view> words) {
-    return std::any_of(words.begin(), words.end(),
-                       [&](std::string_view word) { return text.find(word) != text.npos; });
-  };
-  if (has(child, {"femur", "thigh"}) && has(parent, {"pelvis", "ilium", "hip"})) return Anatomy::hip;
-  if (has(parent, {"femur", "thigh"}) && has(child, {"tibia", "shank", "patella"})) return Anatomy::knee;
-  if (has(parent, {"tibia", "shank"}) && has(child, {"patella"})) return Anatomy::knee;
-  if (has(parent, {"tibia", "shank"}) && has(child, {"talus", "foot"})) return Anatomy::ankle;
-  if (has(child, {"humerus"}) && has(parent, {"scapula", "torso", "thorax", "clavicle"}))
-    return Anatomy::shoulder;
-  if (has(parent, {"humerus"}) && has(child, {"ulna", "forearm"})) return Anatomy::elbow;
-  if (has(name, {"hip"})) return Anatomy::hip;
-  if (has(name, {"knee", "patellofemoral"})) return Anatomy::knee;
-  if (has(name, {"ankle"})) return Anatomy::ankle;
-  if (has(name, {"shoulder", "glenohumeral"})) return Anatomy::shoulder;
-  if (has(name, {"elbow"})) return Anatomy::elbow;
+  if (const auto by_bodies = anatomy_between(parent, child)) return by_bodies;
+  if (has_word(name, {"hip"})) return Anatomy::hip;
+  if (has_word(name, {"knee", "patellofemoral"})) return Anatomy::knee;
+  if (has_word(name, {"ankle"})) return Anatomy::ankle;
+  if (has_word(name, {"shoulder", "glenohumeral"})) return Anatomy::shoulder;
+  if (has_word(name, {"elbow"})) return Anatomy::elbow;
   return std::nullopt;
 }
 

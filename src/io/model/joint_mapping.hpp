@@ -25,6 +25,9 @@ JointMapping mapping_of(const ModelJoint& joint, std::optional<Anatomy> anatomy,
 /// The joint that names of a model's joint and bodies speak of; nothing if they speak of none.
 std::optional<Anatomy> anatomy_of(const ModelJoint& joint);
 
+/// Whether names say that the child is the bone nearer to the trunk: angles then have the sense opposite to their names.
+bool has_proximal_child(const ModelJoint& joint);
+
 /// The side that a name's ending speaks of: "_r", "_left".
 std::optional<Side> side_of(const ModelJoint& joint);
 

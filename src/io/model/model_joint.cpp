@@ -43,6 +43,10 @@ std::string_view name_of(ModelNoteCode code) noexcept {
       return "several_contacts";
     case ModelNoteCode::measured_thickness:
       return "measured_thickness";
+    case ModelNoteCode::reverse_passed_over:
+      return "reverse_passed_over";
+    case ModelNoteCode::exchanged_bodies:
+      return "exchanged_bodies";
     case ModelNoteCode::coupled_coordinate:
       break;
   }

@@ -12,6 +12,7 @@
 #include "core/one_line.hpp"
 #include "io/file/format_version.hpp"
 #include "io/file/in_quotes.hpp"
+#include "io/file/path_from.hpp"
 #include "io/joint/load_joint.hpp"
 #include "io/joint/proposal_lines.hpp"
 #include "io/mesh/parse.hpp"
@@ -51,8 +52,6 @@ class ModelJointFile {
  public:
   ModelJointFile(const Model& model, const ModelJointRequest& request)
       : model_(model), request_(request), joint_(joint_named(model, request.joint)) {
-    folder_ =
-        fs::absolute(request.joint_file.empty() ? fs::path("joint.toml") : request.joint_file).parent_path();
     anatomy_ = request.anatomy ? request.anatomy : anatomy_of(joint_);
     const auto side = request.side ? request.side : side_of(joint_);
     if (!side)
@@ -99,7 +98,7 @@ class ModelJointFile {
   void note(ModelNoteCode code, std::string line) { out_.notes.push_back({code, std::move(line)}); }
 
   std::string path_of(const fs::path& file) const {
-    return fs::absolute(file).lexically_normal().lexically_proximate(folder_).generic_string();
+    return path_from(request_.joint_file.empty() ? fs::path("joint.toml") : request_.joint_file, file);
   }
 
   std::vector<NamedMesh>& meshes_of_role(BodyRole role) { return role == BodyRole::fixed ? fixed_ : mobile_; }
@@ -415,6 +414,12 @@ class ModelJointFile {
         note(ModelNoteCode::welded, fmt::format("welded to one body: {}", fmt::join(names, ", ")));
     }
     out_.notes.insert(out_.notes.end(), model_.notes.begin(), model_.notes.end());
+    if (has_proximal_child(joint_))
+      note(ModelNoteCode::exchanged_bodies,
+           fmt::format("the child body, {}, is the proximal bone: angles are of it in {}, so a flexion of "
+                       "the joint is negative "
+                       "here, and so on",
+                       in_quotes(joint_.child_body), in_quotes(joint_.parent_body)));
     if (const ModelCoupler* coupler = coupler_of_joint())
       note(ModelNoteCode::coupled_coordinate,
            fmt::format("coordinate {} follows {} by constraint {}, where a motion has no column of it",
@@ -425,7 +430,6 @@ class ModelJointFile {
   const Model& model_;
   const ModelJointRequest& request_;
   const ModelJoint& joint_;
-  fs::path folder_;
   std::optional<Anatomy> anatomy_;
   Side side_ = Side::right;
   JointMapping mapping_{.kind = JointKind::free};

@@ -195,7 +195,7 @@ CoordinateMotion motion_of(const SpatialTransform& axes, std::size_t coordinate,
 }
 
 void read(ModelJoint& out, const ModelElement& joint, const std::string& of,
-          const std::string& enclosing_body, const ModelFrames& frames) {
+          const std::string& enclosing_body, const ModelFrames& frames, int version) {
   const std::string parent =
       socket_of(joint, {"parent_body", "socket_parent_frame", "connector_parent_frame_connectee_name"},
                 {"parent_body", "parent_frame"});
@@ -212,7 +212,8 @@ void read(ModelJoint& out, const ModelElement& joint, const std::string& of,
   out.X_PF = of_parent.X * offset_of(joint, {"location_in_parent"}, {"orientation_in_parent"});
   out.X_CM = of_child.X *
              offset_of(joint, {"location_in_child", "location"}, {"orientation_in_child", "orientation"});
-  if (joint.flag("reverse", false)) {
+  out.is_reversed = joint.flag("reverse", false);
+  if (out.is_reversed && version <= last_version_with_reverse) {
     std::swap(out.parent_body, out.child_body);
     std::swap(out.X_PF, out.X_CM);
   }
@@ -230,13 +231,13 @@ bool is_joint(std::string_view element) noexcept {
 }
 
 ModelJoint joint_of(const Source& source, const XmlElement& element, const std::string& enclosing_body,
-                    const ModelFrames& frames) {
+                    const ModelFrames& frames, int version) {
   const std::string of = fmt::format("joint {}", in_quotes(element.label()));
   const ModelElement joint(source, element, of);
   ModelJoint out{.name = joint.name(), .type = core::one_line(element.name, 60), .line = element.line};
   if (out.name.empty()) joint.fail("has no name");
   try {
-    read(out, joint, of, enclosing_body, frames);
+    read(out, joint, of, enclosing_body, frames, version);
   } catch (const FileError& error) {
     out.why_not = error.what();
   }

@@ -78,6 +78,14 @@ class ModelReader {
     }
   }
 
+  void note_reverse(const ModelJoint& joint) {
+    if (joint.is_reversed && model_.version > last_version_with_reverse)
+      model_.notes.push_back(
+          {ModelNoteCode::reverse_passed_over,
+           fmt::format("joint {}: reverse is not of version {}, and is passed over as OpenSim does",
+                       in_quotes(joint.name), model_.version)});
+  }
+
   void read_components(const XmlElement& element, const std::string& owner) {
     for (const XmlElement& child : element.children) {
       const std::string_view name = child.name;
@@ -87,7 +95,8 @@ class ModelReader {
         read_geometry(child, path_in(owner, child));
         read_components(child, path_in(owner, child));
       } else if (is_joint(name)) {
-        model_.joints.push_back(joint_of(source_, child, owner, frames_));
+        model_.joints.push_back(joint_of(source_, child, owner, frames_, model_.version));
+        note_reverse(model_.joints.back());
         read_components(child, place_of_joint(child.label()));
       } else if (name == "Mesh" && owner.empty()) {
         read_mesh_element(child, "");

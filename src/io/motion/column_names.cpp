@@ -20,6 +20,16 @@ std::string_view coordinate_of(std::string_view column) {
   return column.substr(column.rfind('/') + 1);
 }
 
+/// Whether a path ends in the joint and the coordinate of "knee_r/knee_flex_r", and in "/value".
+bool is_path_of(std::string_view column, std::string_view joint_and_coordinate) {
+  constexpr std::string_view ending = "/value";
+  if (!column.ends_with(ending)) return false;
+  column.remove_suffix(ending.size());
+  if (!column.ends_with(joint_and_coordinate)) return false;
+  column.remove_suffix(joint_and_coordinate.size());
+  return column.empty() || column.ends_with('/');
+}
+
 }  // namespace
 
 std::optional<std::size_t> find_column(const MotionTable& table, std::string_view name) {
@@ -27,9 +37,18 @@ std::optional<std::size_t> find_column(const MotionTable& table, std::string_vie
   const auto exact = std::find(columns.begin(), columns.end(), name);
   if (exact != columns.end()) return static_cast<std::size_t>(exact - columns.begin());
 
+  // Of a joint: its coordinate by itself, or paths that end with both names.
+  const std::size_t slash = name.rfind('/');
+  if (slash != name.npos)
+    if (const auto plain = std::find(columns.begin(), columns.end(), name.substr(slash + 1));
+        plain != columns.end())
+      return static_cast<std::size_t>(plain - columns.begin());
+
   std::optional<std::size_t> found;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    if (name.empty() || coordinate_of(columns[c]) != name) continue;
+    if (name.empty() ||
+        !(slash == name.npos ? coordinate_of(columns[c]) == name : is_path_of(columns[c], name)))
+      continue;
     if (found)
       throw FileError(fmt::format("{}: column {} could be {} or {}: give the whole name", table.path.string(),
                                   in_quotes(name), in_quotes(columns[*found]), in_quotes(columns[c])));

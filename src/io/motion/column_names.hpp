@@ -8,7 +8,8 @@
 
 namespace condyle::io {
 
-/// The place of a column, by its name or by the coordinate of an OpenSim path ("knee_flex_r" of
+/// The place of a column, by its name, by joint and coordinate ("knee_r/knee_flex_r": the coordinate by itself, or a path of
+/// that joint) or by the coordinate of an OpenSim path ("knee_flex_r" of
 /// "/jointset/knee_r/knee_flex_r/value"); nothing if there is none. Raises FileError where it could be two.
 std::optional<std::size_t> find_column(const MotionTable& table, std::string_view name);
 /// The same; raises FileError if there is none.

@@ -10,6 +10,7 @@
 #include "condyle/io/model_file.hpp"
 #include "io/file/in_quotes.hpp"
 #include "io/model/spatial_transform.hpp"
+#include "io/motion/column_names.hpp"
 #include "io/motion/gaps.hpp"
 
 namespace condyle::io {
@@ -21,14 +22,7 @@ constexpr int longest_chain = 20;
 /// The column of a joint's coordinate: of its name, or of a path that ends in joint, coordinate and "value".
 std::optional<std::size_t> column_of(const MotionTable& table, const std::string& joint,
                                      const std::string& coordinate) {
-  const std::string end = joint + "/" + coordinate + "/value";
-  std::optional<std::size_t> found;
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const std::string& name = table.columns[c];
-    if (name == coordinate) return c;
-    if (name == end || name.ends_with("/" + end)) found = c;
-  }
-  return found;
+  return find_column(table, joint + "/" + coordinate);
 }
 
 class ModelMotion {
@@ -78,9 +72,19 @@ class ModelMotion {
       throw FileError(
           fmt::format("{}: joint {} does not move", mapping_.model.string(), in_quotes(joint_->name)));
     for (const ModelCoordinate& coordinate : joint_->coordinates)
-      if (column_of(table_, joint_->name, coordinate.name) || coupler_of(coordinate.name)) return;
+      if (has_source(coordinate.name, longest_chain)) return;
     throw FileError(fmt::format("{}: has no column of joint {}: {} or the like", table_.path.string(),
                                 in_quotes(joint_->name), in_quotes(joint_->coordinates.front().name)));
+  }
+
+  /// Whether a column gives this coordinate, or couplers do by columns of others.
+  bool has_source(const std::string& coordinate, int chain) const {
+    const ModelJoint* joint = owner_of(coordinate).first;
+    if (joint && column_of(table_, joint->name, coordinate)) return true;
+    const ModelCoupler* coupler = coupler_of(coordinate);
+    return coupler && chain > 0 &&
+           std::any_of(coupler->independent.begin(), coupler->independent.end(),
+                       [&](const std::string& name) { return has_source(name, chain - 1); });
   }
 
   const ModelCoupler* coupler_of(const std::string& dependent) const {

@@ -207,7 +207,7 @@ TEST_F(SmallModel, IsAHip) {
   const auto& columns = std::get<std::vector<ColumnOfCoordinate>>(*loaded.report.file.recorded_motion);
   ASSERT_EQ(columns.size(), 3u);
   for (const ColumnOfCoordinate& column : columns) EXPECT_EQ(column.sign, 1);
-  EXPECT_EQ(columns[2].column, "rot");
+  EXPECT_EQ(columns[2].column, "hip_r/rot");
 }
 
 TEST_F(SmallModel, OfALeftSideHasTheSignsOfItsAxes) {
@@ -366,6 +366,85 @@ TEST_F(SmallModel, CouplersGiveWhatHasNoColumn) {
   MotionTable table = one_frame({"time", "flex"}, {{0}, {0.3}}, false);
   const JointAngles angles = angles_at(loaded.joint.coordinates(), *motion_of(loaded, table).X_FM[0]);
   EXPECT_NEAR(angles.internal_rotation.radians(), 2 * (0.5 * 0.3 + 0.1), 1e-14);
+}
+
+TEST_F(SmallModel, CouplersWithoutAColumnEitherAreRefused) {
+  const Hip hip{
+      .joint = axis("rotation1", "flex", "0 0 1") + axis("rotation2", "add", "1 0 0") +
+               axis("rotation3", "rot", "0 1 0"),
+      .more = R"(<ConstraintSet><objects><CoordinateCouplerConstraint name="c"><isEnforced>true</isEnforced>
+<coupled_coordinates_function><LinearFunction><coefficients>0.5 0.1</coefficients></LinearFunction></coupled_coordinates_function>
+<independent_coordinate_names>flex</independent_coordinate_names><dependent_coordinate_name>rot</dependent_coordinate_name>
+<scale_factor>2</scale_factor></CoordinateCouplerConstraint></objects></ConstraintSet>)"};
+  const LoadedJoint loaded = read_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+  EXPECT_THROW(motion_of(loaded, one_frame({"time", "other"}, {{0}, {0.3}}, false)), FileError);
+}
+
+TEST_F(SmallModel, TakesColumnsOfItsJointOnly) {
+  const LoadedJoint loaded = read_joint(model({}), {.joint = "hip_r", .joint_file = {}});
+  const auto flexion = [&](std::vector<std::string> names) {
+    std::vector<std::vector<double>> values;
+    for (std::size_t i = 0; i < names.size(); ++i) values.push_back({0.1 * static_cast<double>(i)});
+    const JointMotion motion = motion_of(loaded, one_frame(std::move(names), std::move(values), false));
+    return angles_at(loaded.joint.coordinates(), *motion.X_FM[0]).flexion.radians();
+  };
+  EXPECT_NEAR(flexion({"time", "flex"}), 0.1, 1e-14);
+  EXPECT_NEAR(flexion({"time", "hip_r/flex/value"}), 0.1, 1e-14);
+  EXPECT_NEAR(flexion({"time", "/jointset/hip_l/flex/value", "/jointset/hip_r/flex/value"}), 0.2, 1e-14);
+  EXPECT_THROW(flexion({"time", "/jointset/hip_l/flex/value"}), FileError);
+  EXPECT_THROW(flexion({"time", "/jointset/chip_r/flex/value"}), FileError);
+  EXPECT_THROW(flexion({"time", "/jointset/hip_r/flex/speed"}), FileError);
+}
+
+TEST_F(SmallModel, IsReversedUpToVersion30513) {
+  const auto parent_of = [&](std::string_view version) {
+    Hip hip;
+    hip.version = version;
+    std::string text = hip.text();
+    text.replace(text.find("<SpatialTransform>"), 0, "<reverse>true</reverse>");
+    const Model model = read_model(written(text));
+    const auto says = std::any_of(model.notes.begin(), model.notes.end(), [](const ModelNote& note) {
+      return note.code == ModelNoteCode::reverse_passed_over;
+    });
+    return model.joints.front().parent_body + (says ? ", said" : "");
+  };
+  EXPECT_EQ(parent_of("40500"), "pelvis, said");
+  EXPECT_EQ(parent_of("30514"), "pelvis, said");
+  EXPECT_EQ(parent_of("30513"), "femur_r");
+}
+
+TEST_F(SmallModel, SaysThatItsChildIsTheProximalBone) {
+  const auto says = [&](const std::string& body) {
+    Hip hip;
+    hip.body = body;
+    const ModelJointProposal proposal = propose_joint(model(hip), {.joint = "hip_r", .joint_file = {}});
+    return std::any_of(proposal.notes.begin(), proposal.notes.end(),
+                       [](const ModelNote& note) { return note.code == ModelNoteCode::exchanged_bodies; });
+  };
+  EXPECT_FALSE(says("femur_r"));
+  std::string text = Hip{.name = "knee_r", .body = "tibia_r"}.text();
+  for (std::size_t at = text.find("pelvis"); at != text.npos; at = text.find("pelvis", at + 1))
+    text.replace(at, 6, "talus0");
+  const ModelJointProposal ankle = propose_joint(
+      read_model(written(text)), {.joint = "knee_r", .joint_file = {}, .anatomy = Anatomy::ankle});
+  EXPECT_TRUE(std::any_of(ankle.notes.begin(), ankle.notes.end(), [](const ModelNote& note) {
+    return note.code == ModelNoteCode::exchanged_bodies;
+  }));
+}
+
+TEST_F(SmallModel, NamesFilesFromWhereTheJointFileReallyIs) {
+  const Model model = this->model({});
+  fs::create_directories(folder_.path() / "out/deep");
+  fs::create_directory_symlink(folder_.path() / "out/deep", folder_.path() / "link");
+  const auto mesh_line = [&](const fs::path& joint_file) {
+    const std::string toml = propose_joint(model, {.joint = "hip_r", .joint_file = joint_file}).proposal.toml;
+    const std::size_t at = toml.find("mesh = ");
+    return toml.substr(at, toml.find('\n', at) - at);
+  };
+  EXPECT_EQ(mesh_line(folder_.path() / "out/hip.toml"), "mesh = '../pelvis.ply'");
+  EXPECT_EQ(mesh_line(folder_.path() / "out/deep/../../out/hip.toml"), "mesh = '../pelvis.ply'");
+  EXPECT_EQ(mesh_line(folder_.path() / "link/hip.toml"), "mesh = '../../pelvis.ply'");
+  EXPECT_EQ(mesh_line(folder_.path() / "hip.toml"), "mesh = 'pelvis.ply'");
 }
 
 TEST_F(SmallModel, FindsMeshesInAnyCaseAndSaysSo) {
