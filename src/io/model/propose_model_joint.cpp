@@ -52,6 +52,9 @@ class ModelJointFile {
  public:
   ModelJointFile(const Model& model, const ModelJointRequest& request)
       : model_(model), request_(request), joint_(joint_named(model, request.joint)) {
+    if (joint_.coordinates.empty())
+      throw FileError(fmt::format("{}: line {}: joint {}: it has no coordinates and does not move",
+                                  model.path.string(), joint_.line, in_quotes(joint_.name)));
     anatomy_ = request.anatomy ? request.anatomy : anatomy_of(joint_);
     const auto side = request.side ? request.side : side_of(joint_);
     if (!side)
@@ -70,6 +73,7 @@ class ModelJointFile {
                       model.path.string(), in_quotes(joint_.name)));
     fixed_bodies_ = welded_bodies(model_, joint_, BodyRole::fixed);
     mobile_bodies_ = welded_bodies(model_, joint_, BodyRole::mobile);
+    require_two_bodies();
     for (const BodyRole role : {BodyRole::fixed, BodyRole::mobile})
       for (const ModelMesh& mesh : meshes_of(model_, joint_, role))
         add_mesh(meshes_of_role(role), mesh, fs::path(mesh.file).stem().string());
@@ -111,6 +115,18 @@ class ModelJointFile {
       for (const ModelCoordinate& coordinate : joint_.coordinates)
         if (coordinate.name == coupler.dependent) return &coupler;
     return nullptr;
+  }
+
+  void require_two_bodies() const {
+    const auto is_fixed_too = [&](const WeldedBody& body) {
+      return std::any_of(fixed_bodies_.begin(), fixed_bodies_.end(),
+                         [&](const WeldedBody& other) { return other.name == body.name; });
+    };
+    const auto both = std::find_if(mobile_bodies_.begin(), mobile_bodies_.end(), is_fixed_too);
+    if (both != mobile_bodies_.end())
+      throw FileError(fmt::format("{}: line {}: joint {}: body {} is on both sides of it",
+                                  model_.path.string(), joint_.line, in_quotes(joint_.name),
+                                  in_quotes(both->name)));
   }
 
   /// Meshes that are not there, unless all of a body's are.

@@ -432,6 +432,20 @@ TEST_F(SmallModel, SaysThatItsChildIsTheProximalBone) {
   }));
 }
 
+TEST_F(SmallModel, NeedsTwoBodiesThatMove) {
+  std::string itself = Hip{}.text();
+  itself.replace(itself.find("/bodyset/femur_r</socket_child"), 16, "/bodyset/pelvis");
+  EXPECT_NE(refusal(itself).find("on both sides"), std::string::npos) << refusal(itself);
+  std::string weld = Hip{}.text();
+  for (const std::string_view name : {"<CustomJoint", "</CustomJoint"})
+    weld.replace(weld.find(name), name.size(), std::string(name.substr(0, name.find('C'))) + "WeldJoint");
+  weld.erase(weld.find("<coordinates><Coordinate name=\"flex\""),
+             std::string("<coordinates><Coordinate name=\"flex\"/><Coordinate name=\"add\"/><Coordinate "
+                         "name=\"rot\"/></coordinates>")
+                 .size());
+  EXPECT_NE(refusal(weld).find("does not move"), std::string::npos) << refusal(weld);
+}
+
 TEST_F(SmallModel, NamesFilesFromWhereTheJointFileReallyIs) {
   const Model model = this->model({});
   fs::create_directories(folder_.path() / "out/deep");
