@@ -5,7 +5,7 @@
 
 cmake_minimum_required(VERSION 3.25)  # a script knows IN_LIST only with a policy version
 
-set(layers core simd mesh kinematics radial tangential contact motion answer sample io)
+set(layers core simd mesh kinematics radial tangential contact motion measure answer sample io)
 set(core_uses)
 set(simd_uses core)
 set(mesh_uses core simd)
@@ -14,6 +14,7 @@ set(radial_uses core simd mesh)
 set(tangential_uses core simd mesh)
 set(contact_uses core mesh kinematics radial tangential)
 set(motion_uses core mesh kinematics radial tangential contact)
+set(measure_uses core mesh kinematics motion)
 set(answer_uses core kinematics contact motion)
 set(sample_uses core mesh)
 set(io_uses core mesh kinematics contact motion answer sample)
@@ -28,6 +29,7 @@ set(tangential_headers tangential)
 set(contact_headers contact contact_measures normal_depth pressure)
 set(motion_headers bearing first_contact impingement_zone limit_band motion_contact motion_map
                    range_of_motion recorded_contact)
+set(measure_headers hip_measures)
 set(answer_headers answer)
 set(sample_headers)
 set(io_headers)

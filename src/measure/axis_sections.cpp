@@ -1,0 +1,110 @@
+#include "measure/axis_sections.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace condyle::measure {
+namespace {
+
+/// Keeps the part of a piece between two of its parameters.
+bool keep_between(ContourPiece& piece, double low, double high) {
+  low = std::max(low, 0.0), high = std::min(high, 1.0);
+  if (!(low < high)) return false;
+  const Vec2 from = piece.from, along = piece.to - piece.from;
+  if (low > 0) piece.from = from + low * along;
+  if (high < 1) piece.to = from + high * along;
+  return true;
+}
+
+Contour half(const Contour& contour, double sign) {
+  Contour out;
+  for (ContourPiece piece : contour) {
+    piece.from.y() *= sign, piece.to.y() *= sign;
+    const double a = piece.from.y(), b = piece.to.y();
+    if (a < 0 && b < 0) continue;
+    if ((a < 0) != (b < 0)) {
+      Vec2 on_axis = piece.from + a / (a - b) * (piece.to - piece.from);
+      on_axis.y() = 0;
+      (a < 0 ? piece.from : piece.to) = on_axis;
+    }
+    out.push_back(piece);
+  }
+  return out;
+}
+
+}  // namespace
+
+AxisSections::AxisSections(const TriMesh& mesh, const Vec3& centre, const Vec3& axis, const Vec3& zero,
+                           const Vec3& quarter)
+    : triangles_(mesh.triangles),
+      centre_(centre),
+      axis_(axis),
+      zero_(zero),
+      quarter_(quarter),
+      along_(mesh.vertices.size()),
+      on_zero_(along_.size()),
+      on_quarter_(along_.size()) {
+  for (std::size_t v = 0; v < along_.size(); ++v) {
+    const Vec3 p = mesh.vertices[v] - centre;
+    along_[v] = p.dot(axis), on_zero_[v] = p.dot(zero), on_quarter_[v] = p.dot(quarter);
+  }
+}
+
+Contour AxisSections::at(double turn) const {
+  const double c = std::cos(turn), s = std::sin(turn);
+  std::vector<double> above(along_.size());
+  for (std::size_t v = 0; v < above.size(); ++v) above[v] = c * on_quarter_[v] - s * on_zero_[v];
+  const auto place = [&](Index v) { return Vec2(along_[v], c * on_zero_[v] + s * on_quarter_[v]); };
+  const auto crossing = [&](Index i, Index j) {
+    if (i > j) std::swap(i, j);  // the same bits in both triangles of an edge
+    const Vec2 p = place(i);
+    return Vec2(p + above[i] / (above[i] - above[j]) * (place(j) - p));
+  };
+  Contour contour;
+  for (const auto& [i, j, k] : triangles_) {
+    const bool a = above[i] < 0, b = above[j] < 0, d = above[k] < 0;
+    if (a == b && b == d) continue;
+    // The corner that is by itself.
+    const auto [one, next, last] = a != b && a != d   ? Triangle{i, j, k}
+                                   : b != a && b != d ? Triangle{j, k, i}
+                                                      : Triangle{k, i, j};
+    contour.push_back({crossing(one, next), crossing(one, last)});
+  }
+  return contour;
+}
+
+Vec3 AxisSections::direction(double turn) const noexcept {
+  return std::cos(turn) * zero_ + std::sin(turn) * quarter_;
+}
+
+Vec3 AxisSections::point(double turn, const Vec2& p) const noexcept {
+  return centre_ + p.x() * axis_ + p.y() * direction(turn);
+}
+
+Contour upper_half(const Contour& contour) {
+  return half(contour, 1);
+}
+
+Contour lower_half(const Contour& contour) {
+  return half(contour, -1);
+}
+
+bool clip_to_circle(ContourPiece& piece, const Vec2& centre, double radius) {
+  const Vec2 p = piece.from - centre, d = piece.to - piece.from;
+  const double dd = d.squaredNorm();
+  if (!(dd > 0)) return p.norm() <= radius;
+  const double middle = -p.dot(d) / dd, rest = (radius * radius - p.squaredNorm()) / dd + middle * middle;
+  if (!(rest > 0)) return false;
+  const double half_width = std::sqrt(rest);
+  return keep_between(piece, middle - half_width, middle + half_width);
+}
+
+bool clip_to_range(ContourPiece& piece, double low, double high) {
+  const double from = piece.from.x(), along = piece.to.x() - from;
+  if (along == 0) return from >= low && from <= high;
+  const double a = (low - from) / along, b = (high - from) / along;
+  return keep_between(piece, std::min(a, b), std::max(a, b));
+}
+
+}  // namespace condyle::measure

@@ -1,0 +1,57 @@
+#include "measure/centre_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "measure/axis_sections.hpp"
+#include "measure/rim.hpp"
+
+namespace condyle::measure {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Wall that is interrupted by less goes on: a fold of a rough surface faces away over so much.
+constexpr double widest_fold = 2 * degree;
+/// A roof that ends farther to the other side is none.
+constexpr double farthest_behind = 60 * degree;
+
+/// Angles from superior under which wall is seen, and where the larger one is.
+struct Interval {
+  double begin, end;
+  Vec2 at_end;
+};
+
+std::vector<Interval> seen(const Contour& section, double reach) {
+  std::vector<Interval> out;
+  for (ContourPiece piece : section) {
+    if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
+    const double a = std::atan2(piece.from.y(), piece.from.x()), b = std::atan2(piece.to.y(), piece.to.x());
+    if (std::abs(a - b) > std::numbers::pi) continue;  // straight below: no roof
+    out.push_back(a < b ? Interval{a, b, piece.to} : Interval{b, a, piece.from});
+  }
+  std::sort(out.begin(), out.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
+  return out;
+}
+
+}  // namespace
+
+std::optional<CentreEdge> centre_edge(const TriMesh& wall, const Sphere& head, const Vec3& superior,
+                                      const Vec3& direction) {
+  const AxisSections sections(wall, head.centre, superior, direction, superior.cross(direction));
+  std::optional<Interval> roof;
+  for (const Interval& next : seen(sections.at(0), head.radius + farthest_wall_mm)) {
+    if (roof && next.begin <= roof->end + widest_fold) {
+      if (next.end > roof->end) roof->end = next.end, roof->at_end = next.at_end;
+      continue;
+    }
+    if (next.begin > 0) break;
+    roof = next;
+  }
+  if (!roof || roof->end < -farthest_behind) return std::nullopt;
+  return CentreEdge{roof->end / degree, sections.point(0, roof->at_end)};
+}
+
+}  // namespace condyle::measure

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+
+#include "measure/found_parts.hpp"
+
+namespace condyle::measure {
+
+struct CentreEdge {
+  double angle_deg;  ///< from superior; below 0 if the roof ends before it
+  Vec3 edge;
+};
+
+/// Where the roof of a socket ends in the plane of superior and another direction, seen from the head's centre: the wall that
+/// covers superior, or nearest to it on the other side, followed towards `direction`. Empty if there is none within
+/// 60 degrees. Directions are unit and at a right angle.
+std::optional<CentreEdge> centre_edge(const TriMesh& wall, const Sphere& head, const Vec3& superior,
+                                      const Vec3& direction);
+
+}  // namespace condyle::measure

@@ -1,0 +1,26 @@
+#include "measure/found_parts.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace condyle::measure {
+
+BodyAxes body_axes(Side side, Angle tilt) {
+  // A pelvis that tilts forwards turns by -tilt about Z in its frame; its frame turns by tilt about it.
+  const double c = std::cos(tilt.radians()), s = std::sin(tilt.radians());
+  return {{c, s, 0}, {-s, c, 0}, {0, 0, side == Side::right ? 1.0 : -1.0}};
+}
+
+Measure told(double value) {
+  return {value, {}, {}};
+}
+
+Measure not_told(std::string why) {
+  return {{}, std::move(why), {}};
+}
+
+Measure told_or(const std::optional<double>& value, const std::string& why) {
+  return value ? told(*value) : not_told(why);
+}
+
+}  // namespace condyle::measure

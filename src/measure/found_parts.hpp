@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "condyle/hip_measures.hpp"
+
+namespace condyle::measure {
+
+/// Both bones as they are measured, in the frames of the joint.
+struct Bones {
+  TriMesh hip_bone, femur;
+};
+
+/// What searches of whole surfaces found, once for a joint and all joints displaced from it.
+struct FoundParts {
+  std::optional<SphericalPatch> head;
+  std::vector<Index> socket;    ///< vertices on the socket's sphere; empty if there is none
+  std::optional<Vec3> opening;  ///< of the socket, roughly
+  std::string why_no_condyles;  ///< of the femur; empty if it shows them
+};
+
+/// What angles are measured against: unit directions.
+struct BodyAxes {
+  Vec3 anterior, superior, lateral;
+};
+BodyAxes body_axes(Side side, Angle tilt = {});
+
+/// A value, or none.
+Measure told(double value);
+Measure not_told(std::string why);
+/// A value that is empty for one reason.
+Measure told_or(const std::optional<double>& value, const std::string& why);
+
+}  // namespace condyle::measure

@@ -1,0 +1,82 @@
+#include "measure/measure_acetabulum.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "measure/centre_edge.hpp"
+#include "measure/rim.hpp"
+#include "measure/rim_chord.hpp"
+
+namespace condyle::measure {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+void tell_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
+  const double front = rim.normal.dot(axes.anterior), up = rim.normal.dot(axes.superior),
+               side = rim.normal.dot(axes.lateral);
+  out.inclination = told(std::atan2(std::hypot(front, side), -up) / degree);
+  out.version = told(std::atan2(front, side) / degree);
+  out.inclination_radiographic = told(std::atan2(side, -up) / degree);
+  out.version_radiographic = told(std::atan2(front, std::hypot(side, up)) / degree);
+  out.rim_radius = told(rim.radius_mm);
+  out.rim_height = told((rim.centre - head.centre).dot(rim.normal));
+}
+
+/// The mean over all hours of the share within a cone of that hour's angle; hours without wall are between their neighbours.
+double coverage_of(const std::vector<RimHour>& rim) {
+  const std::size_t count = rim.size();
+  const auto share = [&](std::size_t i) { return (1 - std::cos(rim[i].cover_deg * degree)) / 2; };
+  double sum = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::size_t before = 0, after = 0;
+    while (!rim[(i + count - before) % count].point) ++before;
+    while (!rim[(i + after) % count].point) ++after;
+    const double a = share((i + count - before) % count), b = share((i + after) % count);
+    sum += before == 0 ? a : a + (b - a) * static_cast<double>(before) / static_cast<double>(before + after);
+  }
+  return sum / static_cast<double>(count);
+}
+
+void tell_chords(const std::vector<RimHour>& rim, const Sphere& head, const BodyAxes& axes,
+                 AcetabulumMeasures& out) {
+  const std::array<std::pair<double, Measure*>, 4> heights{
+      {{0, &out.version_0mm}, {5, &out.version_5mm}, {10, &out.version_10mm}, {15, &out.version_15mm}}};
+  for (const auto& [height, measure] : heights) {
+    const ChordFinding found = chord_at(rim, head, axes, height);
+    *measure = found.chord ? told(chord_version_deg(*found.chord, axes)) : not_told(found.why_none);
+    if (found.chord) out.chords.push_back(*found.chord);
+  }
+}
+
+void tell_edges(const TriMesh& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
+  const auto tell = [&](const Vec3& direction, Measure& measure, std::optional<Vec3>& edge) {
+    const auto found = centre_edge(wall, head, axes.superior, direction);
+    measure = found ? told(found->angle_deg) : not_told("no roof is above the head in this plane");
+    if (found) edge = found->edge;
+  };
+  tell(axes.lateral, out.centre_edge_lateral, out.lateral_edge);
+  tell(axes.anterior, out.centre_edge_anterior, out.anterior_edge);
+  tell(-axes.anterior, out.centre_edge_posterior, out.posterior_edge);
+}
+
+}  // namespace
+
+AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const FoundParts& parts,
+                                      const BodyAxes& axes) {
+  if (!parts.opening) return acetabulum_not_told("no socket faces the head", axes);
+  const TriMesh wall = socket_wall(hip_bone, head);
+  RimFinding found = find_rim(wall, head, *parts.opening, axes);
+  AcetabulumMeasures out = acetabulum_not_told(found.why_none, axes);
+  out.rim = std::move(found.hours);
+  tell_edges(wall, head, axes, out);
+  if (!found.plane) return out;
+  tell_opening(*found.plane, head, axes, out);
+  tell_chords(out.rim, head, axes, out);
+  out.coverage = told(coverage_of(out.rim));
+  out.plane = std::move(found.plane);
+  return out;
+}
+
+}  // namespace condyle::measure

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "measure/found_parts.hpp"
+
+namespace condyle::measure {
+
+/// Throws UsageError for what measure_hip() refuses.
+void check_measures(const Joint& joint, const MeasureRequest& request);
+
+/// Both bodies without their meshes that are called bearing or soft, each a mesh with its findings.
+struct BoneMeshes {
+  Mesh hip_bone, femur;
+};
+BoneMeshes bones_of(const Joint& joint);
+
+/// Searches of whole surfaces.
+FoundParts find_parts(const BoneMeshes& bones);
+
+/// All measures of bones on which these parts were found.
+HipMeasures measure_bones(const Bones& bones, const FoundParts& parts, CoordinateSystem system,
+                          const MeasureRequest& request);
+
+}  // namespace condyle::measure

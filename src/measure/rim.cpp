@@ -1,0 +1,145 @@
+#include "measure/rim.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/formatted.hpp"
+#include "measure/fit_circle.hpp"
+#include "measure/near_part.hpp"
+#include "measure/neck_hours.hpp"
+
+namespace condyle::measure {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Share of the hours that the plane is fitted to, and how often they are chosen anew.
+constexpr double kept_share = 0.7;
+constexpr int plane_rounds = 6;
+/// The rim about the opening, and about the normal of its plane: the third changes nothing that is seen.
+constexpr int rim_rounds = 3;
+
+/// Towards the opening is -x: the largest angle from the inward axis.
+std::optional<Vec2> farthest_towards_opening(const Contour& half, double reach) {
+  std::optional<Vec2> farthest;
+  double largest = -1;
+  for (ContourPiece piece : half) {
+    if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
+    for (const Vec2& p : {piece.from, piece.to})
+      if (const double angle = std::atan2(p.y(), -p.x()); angle > largest) largest = angle, farthest = p;
+  }
+  return farthest;
+}
+
+std::vector<RimHour> rim_about(const TriMesh& wall, const Sphere& head, const Vec3& opening,
+                               const ClockFace& clock, const BodyAxes& axes) {
+  const AxisSections sections(wall, head.centre, opening, clock.twelve, clock.three);
+  const double reach = head.radius + farthest_wall_mm;
+  std::vector<RimHour> rim(rim_steps);
+  const auto tell = [&](std::size_t step, const Contour& half) {
+    const double turn = two_pi * static_cast<double>(step) / rim_steps;
+    RimHour& out = rim[step];
+    out = {12.0 * static_cast<double>(step) / rim_steps, {}, 0, 0, false};
+    const auto edge = farthest_towards_opening(half, reach);
+    if (!edge) return;
+    out.point = sections.point(turn, *edge);
+    out.cover_deg = std::atan2(edge->y(), -edge->x()) / degree;
+    const Vec3 ray = *out.point - head.centre;
+    out.centre_edge_deg = std::atan2(ray.cross(axes.superior).norm(), ray.dot(axes.superior)) / degree;
+  };
+  for (std::size_t k = 0; k < rim_steps / 2; ++k) {
+    const Contour section = sections.at(two_pi * static_cast<double>(k) / rim_steps);
+    tell(k, upper_half(section));
+    tell(k + rim_steps / 2, lower_half(section));
+  }
+  return rim;
+}
+
+struct Plane {
+  Vec3 point, normal;
+};
+
+Plane plane_through(const std::vector<RimHour>& rim, const Vec3& side) {
+  Vec3 mean = Vec3::Zero();
+  double count = 0;
+  for (const RimHour& hour : rim)
+    if (hour.is_in_plane) mean += *hour.point, ++count;
+  mean /= count;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const RimHour& hour : rim)
+    if (hour.is_in_plane) spread += (*hour.point - mean) * (*hour.point - mean).transpose();
+  Vec3 normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0);
+  if (normal.dot(side) < 0) normal = -normal;
+  return {mean, normal};
+}
+
+/// Marks the hours that it is fitted to.
+Plane fit_plane(std::vector<RimHour>& rim, const Vec3& opening) {
+  for (RimHour& hour : rim) hour.is_in_plane = hour.point.has_value();
+  Plane plane = plane_through(rim, opening);
+  for (int round = 0; round < plane_rounds; ++round) {
+    std::vector<std::pair<double, std::size_t>> off;
+    for (std::size_t i = 0; i < rim.size(); ++i)
+      if (rim[i].point) off.emplace_back(std::abs((*rim[i].point - plane.point).dot(plane.normal)), i);
+    std::sort(off.begin(), off.end());
+    const auto kept = static_cast<std::size_t>(kept_share * static_cast<double>(off.size()) + 0.5);
+    for (std::size_t i = 0; i < off.size(); ++i) rim[off[i].second].is_in_plane = i < kept;
+    plane = plane_through(rim, opening);
+  }
+  return plane;
+}
+
+std::optional<RimGeometry> circle_in(const Plane& plane, const std::vector<RimHour>& rim,
+                                     const ClockFace& clock) {
+  const Vec3 x = clock.twelve, y = plane.normal.cross(x);
+  std::vector<Vec2> points;
+  for (const RimHour& hour : rim)
+    if (hour.is_in_plane)
+      points.emplace_back((*hour.point - plane.point).dot(x), (*hour.point - plane.point).dot(y));
+  const auto circle = circle_through(points);
+  if (!circle) return std::nullopt;
+  return RimGeometry{plane.point + circle->centre.x() * x + circle->centre.y() * y, plane.normal,
+                     circle->radius, clock};
+}
+
+}  // namespace
+
+TriMesh socket_wall(const TriMesh& hip_bone, const Sphere& head) {
+  return facing_part_of(near_part(hip_bone, {head.centre, head.radius + farthest_wall_mm}), head.centre);
+}
+
+RimFinding find_rim(const TriMesh& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes) {
+  RimFinding found;
+  Vec3 about = opening;
+  for (int round = 0; round < rim_rounds; ++round) {
+    const auto clock = clock_about(about, axes.superior, axes.anterior);
+    if (!clock) {
+      found.why_none = "the socket opens straight up or down: no 12 o'clock";
+      return found;
+    }
+    found.hours = rim_about(wall, head, about, *clock, axes);
+    const auto seen = static_cast<std::size_t>(
+        std::count_if(found.hours.begin(), found.hours.end(), [](const RimHour& h) { return h.point; }));
+    if (seen < fewest_rim_steps) {
+      found.plane.reset();
+      found.why_none = core::formatted("the rim is in the mesh over %.0f of 360 degrees (needs %.0f)",
+                                       360.0 * static_cast<double>(seen) / rim_steps,
+                                       360.0 * fewest_rim_steps / rim_steps);
+      return found;
+    }
+    const Plane plane = fit_plane(found.hours, about);
+    // The face about the normal: the rim that it is fitted to was found about one that is as good as it.
+    const auto face = clock_about(plane.normal, axes.superior, axes.anterior);
+    found.plane = face ? circle_in(plane, found.hours, *face) : std::nullopt;
+    if (!found.plane) {
+      found.why_none = "the points of the rim lie on no circle";
+      return found;
+    }
+    about = plane.normal;
+  }
+  return found;
+}
+
+}  // namespace condyle::measure

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/found_parts.hpp"
+
+namespace condyle::measure {
+
+/// Twelve hours in steps of ten minutes; and how many of them a plane needs.
+inline constexpr std::size_t rim_steps = 72, fewest_rim_steps = 48;
+/// Wall farther than this outside the head's sphere is not the socket's, mm: 8 and 12 give the same to 0.7 degrees.
+inline constexpr double farthest_wall_mm = 10;
+
+/// The socket's wall: triangles that face the head's centre and reach within the head's radius and farthest_wall_mm of it.
+TriMesh socket_wall(const TriMesh& hip_bone, const Sphere& head);
+
+/// The rim of a socket and its plane.
+///
+///          rim  . theta        In each half-plane about the opening the rim is the wall's farthest point towards it, seen from
+///            .-`|              the head's centre: the one at the largest angle theta from the inward axis.
+///           (   o-----> opening
+///            `-.|
+struct RimFinding {
+  std::vector<RimHour> hours;  ///< about the plane's normal if there is one
+  std::optional<RimGeometry> plane;
+  std::string why_none;
+};
+
+/// The plane is that of least squares, six times without the farthest three tenths of the hours, which a notch is; the rim is
+/// found anew about the plane's normal, and the plane from that. `opening` is the first one.
+RimFinding find_rim(const TriMesh& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes);
+
+}  // namespace condyle::measure

@@ -1,0 +1,36 @@
+#include "measure/trochanter.hpp"
+
+#include <limits>
+
+namespace condyle::measure {
+namespace {
+
+/// Share of the way to the shaft's axis, and how far beyond it a top must lie, mm.
+constexpr double begins = 0.7, least_beyond = 1;
+/// In radii of the head: a shaft under the head has no side.
+constexpr double least_offset = 0.3;
+
+}  // namespace
+
+TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head,
+                                     const kinematics::ShaftLine& shaft) {
+  const Vec3 to_line = shaft.point - head.centre;
+  const Vec3 across = to_line - to_line.dot(shaft.direction) * shaft.direction;
+  const double offset = across.norm();
+  if (!(offset >= least_offset * head.radius)) return {{}, 0, "the shaft's axis passes through the head"};
+  const Vec3 side = across / offset;
+  TrochanterFinding found;
+  double highest = -std::numeric_limits<double>::infinity(), beyond = 0;
+  for (const Triangle& t : femur.triangles)
+    for (const Index v : t) {
+      const Vec3 p = femur.vertices[v] - head.centre;
+      const double height = -p.dot(shaft.direction), out = p.dot(side) - begins * offset;
+      if (out < 0 || height <= highest) continue;
+      highest = height, beyond = out, found.top = femur.vertices[v];
+    }
+  if (!found.top || beyond < least_beyond) return {{}, 0, "no greater trochanter rises beside the neck"};
+  found.height_mm = highest;
+  return found;
+}
+
+}  // namespace condyle::measure

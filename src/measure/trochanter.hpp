@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "kinematics/shaft_line.hpp"
+#include "measure/found_parts.hpp"
+
+namespace condyle::measure {
+
+struct TrochanterFinding {
+  std::optional<Vec3> top;
+  double height_mm = 0;  ///< over the head's centre, along the shaft
+  std::string why_none;
+};
+
+/// The top of the greater trochanter: the highest point of the femur along its shaft beyond 0.7 of the way from the head's centre to
+/// the shaft's axis.
+///
+///      top  .
+///      .--.  o head     Height falls from the trochanter towards the neck: a highest point at the border of that region is
+///     |    \/           the neck's, and then there is no top.
+///     |  |
+TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head,
+                                     const kinematics::ShaftLine& shaft);
+
+}  // namespace condyle::measure
