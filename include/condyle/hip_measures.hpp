@@ -76,6 +76,8 @@ struct NeckHour {
   std::string why_no_alpha;  ///< at 0.5 mm
   /// The two differ by more than alpha_doubt_deg: where the contour leaves its circle depends on how closely one looks.
   bool is_doubtful = false;
+  /// Nearer to the head the contour is farther than 0.5 mm outside again, up to this angle: a cam with a groove behind it.
+  std::optional<double> outside_again_deg;
   std::optional<Vec3> alpha_point;  ///< where the contour comes within 0.5 mm of the circle
   std::optional<double> offset_mm;
   std::optional<Vec3> offset_point;

@@ -93,7 +93,11 @@ AlphaFinding alpha_angle(const Contour& half, const Circle& circle, double head_
   Interval reached = parts.beyond.front();
   const auto found = [&]() -> std::optional<AlphaPoint> {
     if (!goes_on_at(parts.within, reached.end)) return std::nullopt;
-    return AlphaPoint{reached.end / degree, reached.at_end};
+    AlphaPoint alpha{reached.end / degree, reached.at_end, {}};
+    for (const Interval& other : parts.beyond)
+      if (other.begin > reached.end + meeting && other.begin < std::numbers::pi / 2)
+        alpha.outside_again_deg = std::max(alpha.outside_again_deg.value_or(0), other.end / degree);
+    return alpha;
   };
   for (const Interval& next : parts.beyond) {
     if (next.begin > reached.end + meeting) {

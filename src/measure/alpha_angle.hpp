@@ -18,6 +18,8 @@ inline constexpr double neck_reach = 1.6;
 struct AlphaPoint {
   double alpha_deg;
   Vec2 point;  ///< where the contour comes within the tolerance
+  /// The largest angle below a right one at which the contour is outside again, as on a cam with a groove behind it.
+  std::optional<double> outside_again_deg;
 };
 
 struct AlphaFinding {

@@ -42,6 +42,7 @@ NeckHour on_side(const Contour& half, const std::optional<CircleFit>& fit, doubl
   out.why_no_alpha = std::move(at_half.why_none);
   if (at_half.alpha) {
     out.alpha_deg = at_half.alpha->alpha_deg;
+    out.outside_again_deg = at_half.alpha->outside_again_deg;
     out.alpha_point = sections.point(turn, at_half.alpha->point);
   }
   if (at_one.alpha) out.alpha_at_1mm_deg = at_one.alpha->alpha_deg;
@@ -54,6 +55,9 @@ Measure alpha_at(const NeckHour& hour) {
   if (hour.is_doubtful)
     out.note = core::formatted("%.1f at a tolerance of 1 mm: the contour leaves its circle slowly",
                                *hour.alpha_at_1mm_deg);
+  if (hour.outside_again_deg)
+    out.note += core::formatted("%sthe contour is outside its circle again up to %.1f",
+                                out.note.empty() ? "" : "; ", *hour.outside_again_deg);
   return out;
 }
 
