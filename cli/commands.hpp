@@ -20,6 +20,7 @@ void add_picture(CLI::App& app);
 void add_report(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_study(CLI::App& app);
+void add_measure(CLI::App& app);
 void add_merge(CLI::App& app);
 
 }  // namespace condyle::cli

@@ -16,6 +16,7 @@ from ._gaps import ContactMeasures, Depths, Gaps, VertexDepths, VertexGaps, meas
 from ._joint_description import description_of
 from ._labels import LabelLike, LabelMap, LabelSurface, joint_bones
 from ._followed_range import FollowedRange, followed_range
+from ._hip_measures import HipMeasures
 from ._limits import PathLimit, path_limit
 from ._mesh import MeshLike, TriMesh
 from ._model import Model, read_model
@@ -448,6 +449,24 @@ class Joint(DescribedJoint):
             "bearing_margin_mm": None if bearing_margin_mm is None else number(bearing_margin_mm, "bearing_margin_mm"),
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
         return RangeOfMotion(self, _native.range_of_motion(self._asked, translation_mm, options), motions)
+
+    def measures(self, *, pelvic_tilt_deg: float = 0) -> HipMeasures:
+        """The shape of a hip in numbers: alpha angles, versions, centre-edge angles, coverage, distances.
+
+        Each is None where the meshes do not show it, with the reason. `pelvic_tilt_deg` tilts the pelvis forwards before
+        acetabular angles are measured, which are those of the joint's frame else. UsageError for joints other than hips.
+
+        C++: `condyle::measure_hip` in condyle/hip_measures.hpp; `condyle measure`.
+
+        >>> import condyle
+        >>> bones = condyle.sample_hip()
+        >>> shape = condyle.Joint(bones.hip_bone, bones.femur).measures()
+        >>> round(shape["centre_edge_lateral_section_deg"].value)
+        34
+        >>> shape["femoral_version_deg"].why_none
+        'the mesh ends above the knee, 138 mm from the head'
+        """
+        return HipMeasures(self, pelvic_tilt_deg)
 
     def range_following(self, motions: Optional[Sequence[MotionLike]] = None, *, poses: Optional[ArrayLike] = None,
                         contact: Optional[ElasticContact] = None, force_n: Optional[ArrayLike] = None, frame: Body = "fixed",

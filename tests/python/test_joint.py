@@ -190,3 +190,21 @@ def test_what_contact_of_each_mesh_means(tmp_path, command):
     assert (limit.fixed_part, limit.mobile_part) == ("post", "arm")
     assert limit.soft_contact_deg == by_command["soft_contact_deg"] < limit.bearing_contact_deg < limit.turned_deg
     assert limit.bearing_contact_deg == by_command["bearing_contact_deg"]
+
+
+def test_measures_are_those_of_the_command(tmp_path, command):
+    subprocess.run([command, "sample", "hip", "--out", tmp_path], check=True, capture_output=True)
+    joint = condyle.read_joint(tmp_path / "hip.toml")
+    said = json.loads(subprocess.run([command, "measure", tmp_path / "hip.toml", "--tilt", "5", "--json"], check=True,
+                                     capture_output=True, text=True).stdout)
+    shape = joint.measures(pelvic_tilt_deg=5)
+    assert list(shape) == [each["key"] for each in said["measures"]]
+    for each in said["measures"]:
+        assert shape[each["key"]].value == each["value"] and shape[each["key"]].definition == each["definition"]
+    assert shape["femoral_version_deg"].value is None and "knee" in shape["femoral_version_deg"].why_none
+    assert [None if np.isnan(a) else a for a in shape.alpha_deg] == [each["alpha_deg"] for each in said["around_neck"]]
+    assert shape.rim_points.shape == (len(said["rim"]), 3) and len(shape.centre_edge_deg) == len(said["rim"])
+    with pytest.raises(condyle.UsageError, match="alpha_3_deg"):
+        shape["alpha_3"]
+    with pytest.raises(condyle.UsageError):
+        joint.measures(pelvic_tilt_deg=90)

@@ -1,0 +1,67 @@
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "answer.hpp"
+#include "command_line.hpp"
+#include "commands.hpp"
+#include "condyle/hip_measures.hpp"
+#include "io/joint/name_joint_file.hpp"
+#include "io/result/measure_result.hpp"
+#include "notes.hpp"
+
+namespace condyle::cli {
+namespace {
+
+struct Options {
+  std::string joint, out;
+  double tilt_deg = 0;
+  Strictness strictness = Strictness::notes;
+  AnswerForm form = AnswerForm::text;
+};
+
+void run(const Options& options, const CLI::App& command) {
+  const LoadedJoint loaded = read_joint(options.joint);
+  const std::vector<JointNote> notes = noted(loaded, options.strictness);
+  const Provenance from = provenance_of(loaded, words_of(command));
+  if (!options.out.empty()) check_measure_folder(options.out, &from);
+  MeasureRequest request;
+  request.pelvic_tilt = Angle::degrees(options.tilt_deg);
+  request.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
+  const HipMeasures measures =
+      io::name_joint_file(options.joint, [&] { return measure_hip(loaded.joint, request); });
+  const MeasureResult result{loaded.joint, measures, notes, &from};
+  if (!options.out.empty()) say_written(write_measures(options.out, result));
+  print(options.form == AnswerForm::json ? measure_json(result) : measure_text(result));
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app) {
+  auto* command = app.add_subcommand(
+      "measure", "Measure the shape of a hip: alpha angles, versions, centre-edge angles, coverage");
+  command->footer(
+      "Example: condyle sample hip --out sample\n"
+      "         condyle measure sample/hip.toml\n"
+      "A measure that the meshes do not show is empty and says why.");
+  auto options = std::make_shared<Options>();
+  command->add_option("JOINT", options->joint, "The joint file, .toml")->required();
+  command
+      ->add_option("--tilt", options->tilt_deg,
+                   "Tilt the pelvis forwards by this before acetabular angles are measured, -60 to 60")
+      ->option_text("DEG (0)");
+  command
+      ->add_option("--out", options->out,
+                   "Write measures.json, measures.csv, neck.csv and rim.csv into this folder")
+      ->option_text("FOLDER");
+  command->add_flag_callback(
+      "--json", [options] { options->form = AnswerForm::json; },
+      "Print the answer as JSON, with every number in full");
+  add_strict(*command, options->strictness);
+  command->callback([options, command] { run(*options, *command); });
+}
+
+}  // namespace condyle::cli

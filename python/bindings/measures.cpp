@@ -1,0 +1,75 @@
+#include "condyle/hip_measures.hpp"
+
+#include <limits>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+
+namespace condyle::python {
+namespace {
+
+constexpr double not_measured = std::numeric_limits<double>::quiet_NaN();
+
+/// (key, part, unit, value or None, why none, note, definition, source, in the pelvis frame, (low, high, meaning, source) or None).
+py::tuple measure_tuple(const MeasureDefinition& each, const HipMeasures& measures) {
+  const Measure& measure = each.of(measures);
+  const auto text = [](std::string_view view) { return py::str(view.data(), view.size()); };
+  const py::object normal =
+      each.normal ? py::object(py::make_tuple(each.normal->low, each.normal->high, text(each.normal->meaning),
+                                              text(each.normal->source)))
+                  : py::none();
+  return py::make_tuple(text(each.key), text(name_of(each.part)), text(each.unit),
+                        optional_number(measure.value), measure.why_none, measure.note, text(each.definition),
+                        text(each.source), each.in_pelvis_frame, normal);
+}
+
+/// A column of one number per direction, NaN where there is none.
+template <class Hours, class Read>
+py::array column_of(const Hours& hours, const Read& read) {
+  std::vector<double> values;
+  for (const auto& at : hours) {
+    const std::optional<double> value = read(at);
+    values.push_back(value.value_or(not_measured));
+  }
+  return array_of(std::move(values));
+}
+
+py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg) {
+  MeasureRequest request;
+  request.pelvic_tilt = Angle::degrees(pelvic_tilt_deg);
+  request.ischiofemoral_pose = handle.loaded.report.placement.reference_pose.angles;
+  const HipMeasures measures = [&] {
+    const py::gil_scoped_release released;
+    return measure_hip(handle.joint(), request);
+  }();
+  py::list list;
+  for (const MeasureDefinition& each : measure_definitions()) list.append(measure_tuple(each, measures));
+  const auto& neck = measures.femur.around_neck;
+  const auto& rim = measures.acetabulum.rim;
+  Points points(rim.size());
+  for (std::size_t i = 0; i < rim.size(); ++i)
+    points.set(i, rim[i].point.value_or(Vec3(Vec3::Constant(not_measured))));
+  const auto if_there = [](const RimHour& at, double value) {
+    return at.point ? std::optional(value) : std::nullopt;
+  };
+  py::dict dict;
+  dict["measures"] = list;
+  dict["neck_hour"] = column_of(neck, [](const NeckHour& at) { return std::optional(at.hour); });
+  dict["alpha_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_deg; });
+  dict["alpha_at_1mm_deg"] = column_of(neck, [](const NeckHour& at) { return at.alpha_at_1mm_deg; });
+  dict["offset_mm"] = column_of(neck, [](const NeckHour& at) { return at.offset_mm; });
+  dict["rim_hour"] = column_of(rim, [](const RimHour& at) { return std::optional(at.hour); });
+  dict["rim_points"] = array_of(points);
+  dict["cover_deg"] = column_of(rim, [&](const RimHour& at) { return if_there(at, at.cover_deg); });
+  dict["centre_edge_deg"] =
+      column_of(rim, [&](const RimHour& at) { return if_there(at, at.centre_edge_deg); });
+  return dict;
+}
+
+}  // namespace
+
+void bind_measures(py::module_& module) {
+  module.def("hip_measures_of", &measures_of);
+}
+
+}  // namespace condyle::python

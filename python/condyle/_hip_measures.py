@@ -1,0 +1,93 @@
+"""Measures of a hip's shape."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Iterator, Mapping, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _native
+from ._described_joint import DescribedJoint
+from ._errors import unknown
+from ._words import number
+
+
+class NormalRange(NamedTuple):
+    """Between `low` and `high` lie the measures of other people: `meaning` says which, `source` where from."""
+
+    low: float
+    high: float
+    meaning: str
+    source: str
+
+
+@dataclass(frozen=True)
+class HipMeasure:
+    """One measure: `value` in `unit` ("mm", "deg", "h" or "1"), None where the meshes do not show it, and then `why_none`.
+
+    `note` is to be read with the value; `in_pelvis_frame`: the value turns with the frame of the pelvis, and with its tilt.
+    """
+
+    key: str
+    part: str
+    unit: str
+    value: Optional[float]
+    why_none: str
+    note: str
+    definition: str
+    source: str
+    in_pelvis_frame: bool
+    normal: Optional[NormalRange]
+
+
+class HipMeasures(Mapping[str, HipMeasure]):
+    """Measures of a hip by their keys, made by :meth:`Joint.measures`.
+
+    Attributes
+    ----------
+    neck_hour, alpha_deg, alpha_at_1mm_deg, offset_mm : (72,) float64
+        Around the neck, 12 superior and 3 anterior: alpha angles at tolerances of 0.5 and 1 mm, head-neck offset; NaN where there
+        is none. Empty without a neck.
+    rim_hour, cover_deg, centre_edge_deg : (72,) float64
+        Around the socket. `rim_points` (72, 3) in the fixed body's frame, mm. Empty without a socket.
+    """
+
+    __slots__ = ("_by_key", "neck_hour", "alpha_deg", "alpha_at_1mm_deg", "offset_mm", "rim_hour", "rim_points", "cover_deg",
+                 "centre_edge_deg")
+
+    neck_hour: NDArray[np.float64]
+    alpha_deg: NDArray[np.float64]
+    alpha_at_1mm_deg: NDArray[np.float64]
+    offset_mm: NDArray[np.float64]
+    rim_hour: NDArray[np.float64]
+    rim_points: NDArray[np.float64]
+    cover_deg: NDArray[np.float64]
+    centre_edge_deg: NDArray[np.float64]
+
+    def __init__(self, joint: DescribedJoint, pelvic_tilt_deg: float) -> None:
+        found = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"))
+        self._by_key: dict[str, HipMeasure] = {}
+        for each in found.pop("measures"):
+            key, part, unit, value, why_none, note, definition, source, in_pelvis_frame, normal = each
+            self._by_key[key] = HipMeasure(key, part, unit, value, why_none, note, definition, source, in_pelvis_frame,
+                                           normal and NormalRange(*normal))
+        for name, values in found.items():
+            setattr(self, name, values)
+
+    def __getitem__(self, key: str) -> HipMeasure:
+        try:
+            return self._by_key[key]
+        except KeyError:
+            raise unknown("measure", key, list(self._by_key)) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._by_key)
+
+    def __len__(self) -> int:
+        return len(self._by_key)
+
+    def __repr__(self) -> str:
+        told = sum(each.value is not None for each in self.values())
+        return f"HipMeasures({told} of {len(self)} measures)"

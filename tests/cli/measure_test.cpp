@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "command.hpp"
+#include "condyle/hip_measures.hpp"
+#include "condyle/io/joint_file.hpp"
+#include "io/file/whole_file.hpp"
+#include "support/temporary_folder.hpp"
+
+/// `condyle measure` says what measure_hip() answers, every measure once.
+
+namespace condyle::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class MeasureCommand : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(run("sample hip --out .").exit_code, 0); }
+  Ran run(const std::string& arguments) const { return run_condyle(folder.path(), arguments); }
+  Json answer(const std::string& arguments) const {
+    const Ran ran = run("measure hip.toml --json " + arguments);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return Json::parse(ran.out);
+  }
+  static double value_of(const Json& json, std::string_view key) {
+    for (const Json& each : json["measures"])
+      if (each["key"] == key) return each["value"].get<double>();
+    ADD_FAILURE() << key;
+    return 0;
+  }
+
+  const TemporaryFolder folder;
+};
+
+TEST_F(MeasureCommand, SaysWhatTheLibraryAnswers) {
+  const HipMeasures expected = measure_hip(read_joint(folder / "hip.toml").joint);
+  const Json json = answer("");
+  ASSERT_EQ(json["measures"].size(), measure_definitions().size());
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+    const MeasureDefinition& definition = measure_definitions()[i];
+    const Measure& measure = definition.of(expected);
+    const Json& said = json["measures"][i];
+    EXPECT_EQ(said["key"], definition.key);
+    if (measure.value) {
+      EXPECT_EQ(said["value"], *measure.value) << definition.key;
+    } else {
+      EXPECT_EQ(said["why_none"], measure.why_none);
+    }
+  }
+  EXPECT_EQ(json["around_neck"].size(), expected.femur.around_neck.size());
+  EXPECT_EQ(json["rim"].size(), expected.acetabulum.rim.size());
+  const std::string text = run("measure hip.toml").out;
+  for (const MeasureDefinition& definition : measure_definitions())
+    EXPECT_NE(text.find(" " + std::string(definition.key) + " "), text.npos) << definition.key;
+  EXPECT_NE(text.find("femoral_version_deg: the mesh ends above the knee"), text.npos) << text;
+}
+
+TEST_F(MeasureCommand, TiltsThePelvisAndNotTheFemur) {
+  const Json level = answer(""), tilted = answer("--tilt 10");
+  EXPECT_EQ(value_of(level, "alpha_3_deg"), value_of(tilted, "alpha_3_deg"));
+  // Tilted forwards a socket comes over the head from in front: seen from above it opens less to the front.
+  EXPECT_LT(value_of(tilted, "acetabular_version_deg"), value_of(level, "acetabular_version_deg") - 3);
+  EXPECT_EQ(run("measure hip.toml --tilt 61").exit_code, 2);
+}
+
+TEST_F(MeasureCommand, WritesTables) {
+  ASSERT_EQ(run("measure hip.toml --out out").exit_code, 0);
+  const auto rows = [&](const char* name) {
+    std::istringstream text(io::read_whole_file(folder / name));
+    std::size_t count = 0;
+    for (std::string line; std::getline(text, line);) count += !line.starts_with('#');
+    return count - 1;
+  };
+  EXPECT_EQ(rows("out/measures.csv"), measure_definitions().size());
+  EXPECT_GT(rows("out/neck.csv"), 30u);
+  EXPECT_GT(rows("out/rim.csv"), 30u);
+  EXPECT_EQ(Json::parse(io::read_whole_file(folder / "out/measures.json"))["measures"],
+            answer("")["measures"]);
+}
+
+TEST_F(MeasureCommand, RefusesWhatIsNoHip) {
+  std::string text = io::read_whole_file(folder / "hip.toml");
+  text.replace(text.find("kind = \"ball\""), 13, "kind = \"hinge\"");
+  std::ofstream(folder / "hinge.toml") << text;
+  const Ran ran = run("measure hinge.toml");
+  EXPECT_EQ(ran.exit_code, 2) << ran.err;
+  EXPECT_NE(ran.err.find("hip"), ran.err.npos) << ran.err;
+}
+
+}  // namespace
+}  // namespace condyle::test
