@@ -64,10 +64,8 @@ struct ContactRoles {
   std::vector<ContactRole> fixed = {}, mobile = {};
 
   bool has(ContactRole role) const noexcept;
-  /// Whether some contact slides: then the rest is impingement.
-  bool distinguish_bearing() const noexcept {
-    return has(ContactRole::bearing) || has(ContactRole::bearing_on_bearing);
-  }
+  /// Whether some contact slides, which something of the mobile body must: then the rest is impingement.
+  bool distinguish_bearing() const noexcept;
 };
 
 enum class BearingRule : std::uint8_t {

@@ -129,6 +129,27 @@ TEST(RangeNotes, SayThatSurfacesSlideByNatureWhereNoHeadTellsContactApart) {
   EXPECT_TRUE(notes_of(JointKind::ball, Anatomy::shoulder, 120).empty());
 }
 
+TEST(RangeNotes, SayThatSurfacesSlideUnlessMeshesOfTheMobileBodyDo) {
+  const auto notes_with = [](PartContact of_post, PartContact of_pad) {
+    Joint joint = post_joint(JointAngle::flexion, Side::right).joint;
+    joint.kind = JointKind::hinge;
+    const auto two_meshes = [](Body& body, const TriMesh& more, PartContact first, PartContact second) {
+      const TriMesh whole = body.mesh;
+      body.parts = {{"a", 0, whole.vertices.size(), 0, whole.triangles.size(), first},
+                    {"b", whole.vertices.size(), more.vertices.size(), whole.triangles.size(),
+                     more.triangles.size(), second}};
+      body.mesh = joined(whole, more);
+    };
+    two_meshes(joint.fixed, box({300, 0, 0}, {301, 1, 1}), of_post, PartContact::ends);
+    two_meshes(joint.mobile, box({1, 1, 1}, {2, 2, 2}), PartContact::ends, of_pad);
+    return codes(answered(joint, {.motions = {hip_motions().front()}}).notes);
+  };
+  const std::vector<std::string> sliding{"sliding_surfaces"};
+  EXPECT_EQ(notes_with(PartContact::bearing, PartContact::ends), sliding);
+  EXPECT_EQ(notes_with(PartContact::ends, PartContact::soft), sliding);
+  EXPECT_TRUE(notes_with(PartContact::bearing, PartContact::bearing).empty());
+}
+
 TEST(RangeNotes, OfAShoulderSayWhatLeavesLittleMargin) {
   ParametricShoulder shape;
   shape.acromion_y = 25.2;

@@ -139,7 +139,7 @@ TEST(Layers, AnswerAsTheirPairsOfMeshesDo) {
       if (f) {
         EXPECT_NE(f->contact, PartContact::soft);
       }
-      const bool distinguishes = has(mobile, PartContact::bearing) || has(fixed, PartContact::bearing);
+      const bool distinguishes = has(mobile, PartContact::bearing);
       EXPECT_EQ(end.kind(), distinguishes ? ContactKind::impingement : ContactKind::unknown);
     }
   }

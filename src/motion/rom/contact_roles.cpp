@@ -59,6 +59,10 @@ bool ContactRoles::has(ContactRole role) const noexcept {
   return holds(fixed, role) || holds(mobile, role);
 }
 
+bool ContactRoles::distinguish_bearing() const noexcept {
+  return holds(mobile, ContactRole::bearing) || holds(mobile, ContactRole::bearing_on_bearing);
+}
+
 std::vector<std::uint8_t> motion::triangles_within(const TriMesh& mobile, const BearingSurface& surface) {
   const double radius = surface.head.radius + surface.margin_mm;
   std::vector<std::uint8_t> near_centre(mobile.vertices.size());
