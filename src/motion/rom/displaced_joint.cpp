@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "mesh/vertex_normals.hpp"
 #include "motion/rom/overlap.hpp"
 #include "motion/search/first_contact.hpp"
 
@@ -48,42 +47,21 @@ std::vector<Group> grouped(std::span<const Motion> motions) {
   return groups;
 }
 
-/// Mean of the triangles around each vertex weighted by area, unit; zero if no triangle uses it. A surface that is off by a share
-/// of a voxel has the width of the share in the normal's direction instead: slices are thicker than their pixels.
-Points directions_of(const Body& body, const Uncertainty& sigma) {
-  Points normals = mesh::area_normals(body.mesh);
-  for (std::size_t v = 0; v < normals.size(); ++v) {
-    if (!(normals[v].squaredNorm() > 0)) continue;
-    const Vec3 normal = normals[v].normalized();
-    normals.set(v, sigma.is_by_voxels(body)
-                       ? Vec3(sigma.surface_voxels * body.image->voxel_width_mm(normal) * normal)
-                       : normal);
-  }
-  return normals;
-}
-
 /// A body as its search reads it, its surface movable along its normals.
 class Surface {
  public:
   Surface(const Body& body, const Mesh& part, const Uncertainty& sigma)
-      : vertices_(body.mesh.vertices()),
-        directions_(directions_of(body, sigma)),
-        sigma_(sigma.is_by_voxels(body) ? 1 : sigma.surface_mm),
-        tree_(part) {}
+      : vertices_(body, sigma), tree_(part) {}
 
   const FeatureTree& tree() const noexcept { return tree_; }
   /// Moved by so many standard deviations; empty if it stays where it is.
   std::optional<FeatureTree> moved_by(double standard_deviations) const {
-    const double far = sigma_ * standard_deviations;
-    if (far == 0) return std::nullopt;
-    Points moved(vertices_.size());
-    for (std::size_t v = 0; v < moved.size(); ++v) moved.set(v, vertices_[v] + far * directions_[v]);
-    return tree_.moved_to(moved);
+    const auto moved = vertices_.moved_by(standard_deviations);
+    return moved ? std::optional(tree_.moved_to(*moved)) : std::nullopt;
   }
 
  private:
-  Points vertices_, directions_;
-  double sigma_;  ///< of the length along the directions
+  MovableSurface vertices_;
   FeatureTree tree_;
 };
 
@@ -121,10 +99,7 @@ struct DisplacedJoint::Parts {
     RotatingBody stationary_fixed(fixed), stationary_mobile(mobile), rotating_fixed(fixed),
         rotating_mobile(mobile);
 
-    Pose X_FG = Pose::Identity();
-    X_FG.translation() = d.centre;
-    if (const double angle = d.axes.norm(); angle > 0)
-      X_FG.linear() = Eigen::AngleAxisd(angle, d.axes / angle).toRotationMatrix();
+    const Pose X_FG = displaced_frame(d);
     const Pose A = inverted(X_ref_) * X_FG * X_ref_;
 
     const Group* before = nullptr;

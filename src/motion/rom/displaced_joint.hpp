@@ -5,17 +5,11 @@
 
 #include "condyle/limit_band.hpp"
 #include "condyle/range_of_motion.hpp"
+#include "motion/rom/displacement.hpp"
 
 /// Exact limits of a joint whose centre, axes and surfaces are moved a little: one sample of a band.
 
 namespace condyle::motion {
-
-/// How far a joint is from the one given.
-struct Displacement {
-  Vec3 centre = Vec3::Zero();                    ///< mm
-  Vec3 axes = Vec3::Zero();                      ///< rotation vector, rad
-  double fixed_surface = 0, mobile_surface = 0;  ///< along normals, in standard deviations
-};
 
 /// The joint that all samples are displaced from, prepared once.
 class DisplacedJoint {

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "condyle/limit_band.hpp"
+#include "condyle/pose.hpp"
+
+/// What one sample of a band displaces, and by how much: of limits and of measures.
+
+namespace condyle::motion {
+
+/// How far a joint is from the one given.
+struct Displacement {
+  Vec3 centre = Vec3::Zero();                    ///< mm
+  Vec3 axes = Vec3::Zero();                      ///< rotation vector, rad
+  double fixed_surface = 0, mobile_surface = 0;  ///< along normals, in standard deviations
+};
+
+/// Throws UsageError for fewer than 20 samples, and a standard deviation that is negative or not finite.
+void check_band(const BandOptions& options);
+
+/// A Latin hypercube: of every coordinate one value in each of as many strata of equal probability as there are samples.
+std::vector<Displacement> displacements(const BandOptions& options);
+
+/// Where the frame of a displaced joint lies in that of the joint given.
+Pose displaced_frame(const Displacement& by);
+
+/// A body's surface, movable along its normals: the mean of the triangles around each vertex weighted by area; zero if no triangle
+/// uses it. A surface that is off by a share of a voxel has the width of the share in the normal's direction instead of a length:
+/// slices are thicker than their pixels.
+class MovableSurface {
+ public:
+  MovableSurface(const Body& body, const Uncertainty& sigma);
+
+  /// Its vertices, moved by so many standard deviations; empty if it stays where it is.
+  std::optional<Points> moved_by(double standard_deviations) const;
+
+ private:
+  Points vertices_, directions_;
+  double sigma_;  ///< of the length along the directions
+};
+
+/// Quantile of sorted values, linear between neighbours (type 7 of Hyndman and Fan 1996).
+double quantile(const std::vector<double>& sorted, double q);
+
+}  // namespace condyle::motion
