@@ -11,6 +11,7 @@
 #include "condyle/fit.hpp"
 #include "condyle/impingement_zone.hpp"
 #include "condyle/joint.hpp"
+#include "condyle/limit_band.hpp"
 
 /// Measures of a hip from its meshes: definitions, sources and known answers in docs/mathematics/11-measures.md.
 
@@ -181,5 +182,21 @@ struct HipMeasures {
 ///
 /// Some tens of milliseconds for 50,000 triangles, after the searches for head, socket and condyles, which are kept with the meshes.
 HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request = {});
+
+/// The spread of one measure.
+struct MeasureBand {
+  std::optional<double> p5, median, p95;  ///< of the joints in which it could be told; empty if in none
+  std::size_t samples_without_value = 0;  ///< in which it could not be told
+};
+
+/// Bands of all measures, in the order of measure_definitions(): each of `samples` joints is displaced as for limit_bands(), by
+/// the same draws, and measured anew. The vertices of head and socket are those of the joint as given;
+/// the head's centre moves with the joint's. The same bits whatever the threads; empty if it was stopped before all samples were done.
+///
+/// Throws UsageError as measure_hip() and limit_bands() do.
+std::optional<std::vector<MeasureBand>> measure_bands(const Joint& joint, const MeasureRequest& request,
+                                                      const BandOptions& options, const Control& control);
+std::vector<MeasureBand> measure_bands(const Joint& joint, const MeasureRequest& request = {},
+                                       const BandOptions& options = {});
 
 }  // namespace condyle

@@ -12,8 +12,8 @@ bool keep_between(ContourPiece& piece, double low, double high) {
   low = std::max(low, 0.0), high = std::min(high, 1.0);
   if (!(low < high)) return false;
   const Vec2 from = piece.from, along = piece.to - piece.from;
-  if (low > 0) piece.from = from + low * along;
-  if (high < 1) piece.to = from + high * along;
+  if (low > 0) piece.from = from + low * along, piece.from_end = false;
+  if (high < 1) piece.to = from + high * along, piece.to_end = false;
   return true;
 }
 
@@ -27,6 +27,7 @@ Contour half(const Contour& contour, double sign) {
       Vec2 on_axis = piece.from + a / (a - b) * (piece.to - piece.from);
       on_axis.y() = 0;
       (a < 0 ? piece.from : piece.to) = on_axis;
+      (a < 0 ? piece.from_end : piece.to_end) = false;
     }
     out.push_back(piece);
   }
@@ -36,8 +37,9 @@ Contour half(const Contour& contour, double sign) {
 }  // namespace
 
 AxisSections::AxisSections(const TriMesh& mesh, const Vec3& centre, const Vec3& axis, const Vec3& zero,
-                           const Vec3& quarter)
+                           const Vec3& quarter, std::vector<char> marks)
     : triangles_(mesh.triangles),
+      marks_(std::move(marks)),
       centre_(centre),
       axis_(axis),
       zero_(zero),
@@ -61,6 +63,7 @@ Contour AxisSections::at(double turn) const {
     const Vec2 p = place(i);
     return Vec2(p + above[i] / (above[i] - above[j]) * (place(j) - p));
   };
+  const auto ends = [&](Index i, Index j) { return !marks_.empty() && marks_[i] && marks_[j]; };
   Contour contour;
   for (const auto& [i, j, k] : triangles_) {
     const bool a = above[i] < 0, b = above[j] < 0, d = above[k] < 0;
@@ -69,7 +72,7 @@ Contour AxisSections::at(double turn) const {
     const auto [one, next, last] = a != b && a != d   ? Triangle{i, j, k}
                                    : b != a && b != d ? Triangle{j, k, i}
                                                       : Triangle{k, i, j};
-    contour.push_back({crossing(one, next), crossing(one, last)});
+    contour.push_back({crossing(one, next), crossing(one, last), ends(one, next), ends(one, last)});
   }
   return contour;
 }

@@ -13,6 +13,7 @@ using Vec2 = Eigen::Vector2d;
 /// Where such a plane cuts a triangle.
 struct ContourPiece {
   Vec2 from, to;
+  bool from_end = false, to_end = false;  ///< whether the bone's mesh ends at that point
 };
 using Contour = std::vector<ContourPiece>;
 
@@ -26,8 +27,10 @@ class AxisSections {
  public:
   /// The axis and `zero`, the direction at turn 0, are unit and at a right angle, and so is `quarter`, that at a quarter turn:
   /// the sense of the turn is the caller's.
+  ///
+  /// An edge between two marked vertices is where the mesh ends; without marks it ends nowhere.
   AxisSections(const TriMesh& mesh, const Vec3& centre, const Vec3& axis, const Vec3& zero,
-               const Vec3& quarter);
+               const Vec3& quarter, std::vector<char> marks = {});
 
   /// The section by the plane at this turn (radians), both sides of the axis. A vertex in the plane counts as above
   /// it, so contours of closed meshes close.
@@ -39,6 +42,7 @@ class AxisSections {
 
  private:
   const std::vector<Triangle>& triangles_;
+  std::vector<char> marks_;
   Vec3 centre_, axis_, zero_, quarter_;
   std::vector<double> along_, on_zero_, on_quarter_;  ///< coordinates of the vertices
 };

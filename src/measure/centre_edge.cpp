@@ -22,6 +22,7 @@ constexpr double farthest_behind = 60 * degree;
 struct Interval {
   double begin, end;
   Vec2 at_end;
+  bool mesh_ends;
 };
 
 std::vector<Interval> seen(const Contour& section, double reach) {
@@ -30,7 +31,8 @@ std::vector<Interval> seen(const Contour& section, double reach) {
     if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
     const double a = std::atan2(piece.from.y(), piece.from.x()), b = std::atan2(piece.to.y(), piece.to.x());
     if (std::abs(a - b) > std::numbers::pi) continue;  // straight below: no roof
-    out.push_back(a < b ? Interval{a, b, piece.to} : Interval{b, a, piece.from});
+    out.push_back(a < b ? Interval{a, b, piece.to, piece.to_end}
+                        : Interval{b, a, piece.from, piece.from_end});
   }
   std::sort(out.begin(), out.end(), [](const Interval& a, const Interval& b) { return a.begin < b.begin; });
   return out;
@@ -38,20 +40,22 @@ std::vector<Interval> seen(const Contour& section, double reach) {
 
 }  // namespace
 
-std::optional<CentreEdge> centre_edge(const TriMesh& wall, const Sphere& head, const Vec3& superior,
-                                      const Vec3& direction) {
-  const AxisSections sections(wall, head.centre, superior, direction, superior.cross(direction));
+CentreEdgeFinding centre_edge(const SocketWall& wall, const Sphere& head, const Vec3& superior,
+                              const Vec3& direction) {
+  const AxisSections sections(wall.mesh, head.centre, superior, direction, superior.cross(direction),
+                              wall.ends);
   std::optional<Interval> roof;
   for (const Interval& next : seen(sections.at(0), head.radius + farthest_wall_mm)) {
     if (roof && next.begin <= roof->end + widest_fold) {
-      if (next.end > roof->end) roof->end = next.end, roof->at_end = next.at_end;
+      if (next.end > roof->end) roof = Interval{roof->begin, next.end, next.at_end, next.mesh_ends};
       continue;
     }
     if (next.begin > 0) break;
     roof = next;
   }
-  if (!roof || roof->end < -farthest_behind) return std::nullopt;
-  return CentreEdge{roof->end / degree, sections.point(0, roof->at_end)};
+  if (!roof || roof->end < -farthest_behind) return {{}, "no roof is above the head in this plane"};
+  if (roof->mesh_ends) return {{}, "the mesh ends where the roof goes on"};
+  return {CentreEdge{roof->end / degree, sections.point(0, roof->at_end)}, {}};
 }
 
 }  // namespace condyle::measure

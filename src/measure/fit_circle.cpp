@@ -2,19 +2,24 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+
 #include <cmath>
+#include <utility>
+
+#include "condyle/angle.hpp"
 
 namespace condyle::measure {
 namespace {
 
-constexpr int most_steps = 50, most_rounds = 12;
-/// mm: a step this short is none.
+/// mm: a step this short is none. Dropping settles in some twenty rounds.
 constexpr double settled = 1e-10;
+constexpr int most_steps = 50, most_rounds = 100;
 /// Share of the contour that is kept: a cam of 90 degrees has 15 of the 210 that a head's circle is fitted to, the pit of the
 /// ligament some 30.
 constexpr double kept_share = 0.8;
-/// Of the radius: what is nearer to the circle is never dropped, the rounding of coordinates in floats.
-constexpr double narrowest_band = 1e-6;
+/// As many parts are left out of a start in turn, and so many rounds show which start is best.
+constexpr std::size_t starts = 4;
+constexpr int first_rounds = 3;
 /// Least determinant of the points' spread over its squared trace: an arc of 15 degrees.
 constexpr double least_spread = 1e-5;
 
@@ -23,15 +28,15 @@ struct Weighted {
   double weight;
 };
 
-/// Gauss's two points on each piece.
+/// The middles of parts of each piece that are short beside what is dropped, so that the share does not depend on the triangles.
 std::vector<Weighted> weighted(const Contour& pieces) {
-  constexpr double place = 0.21132486540518712;  // (1 - 1 / sqrt 3) / 2
+  constexpr double longest_mm = 0.5;
   std::vector<Weighted> points;
   for (const ContourPiece& piece : pieces) {
     const Vec2 along = piece.to - piece.from;
-    const double half_length = along.norm() / 2;
-    points.push_back({piece.from + place * along, half_length});
-    points.push_back({piece.to - place * along, half_length});
+    const double length = along.norm(), parts = std::max(1.0, std::ceil(length / longest_mm));
+    for (double i = 0; i < parts; ++i)
+      points.push_back({piece.from + (i + 0.5) / parts * along, length / parts});
   }
   return points;
 }
@@ -56,78 +61,112 @@ std::optional<Circle> algebraic(const std::vector<Weighted>& points) {
   return Circle{mean + c, std::sqrt(c.squaredNorm() + square / sum)};
 }
 
-/// Gauss and Newton's steps on the sum of squared distances.
-std::optional<Circle> geometric(const std::vector<Weighted>& points, Circle circle) {
-  for (int step = 0; step < most_steps; ++step) {
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
-    Vec3 b = Vec3::Zero();
-    for (const auto& [p, w] : points) {
-      const Vec2 ray = p - circle.centre;
-      const double distance = ray.norm();
-      if (!(distance > 0)) continue;
-      const Vec3 row(ray.x() / distance, ray.y() / distance, 1);
-      A += w * row * row.transpose(), b += w * (distance - circle.radius) * row;
-    }
-    const Vec3 change = A.ldlt().solve(b);
-    if (!change.allFinite()) return std::nullopt;
-    circle.centre += change.head<2>(), circle.radius += change.z();
-    if (change.norm() < settled) break;
+/// One of Gauss and Newton's steps on the sum of squared distances; its length, or none if the points leave it open.
+std::optional<double> take_step(const std::vector<Weighted>& points, Circle& circle) {
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Vec3 b = Vec3::Zero();
+  for (const auto& [p, w] : points) {
+    const Vec2 ray = p - circle.centre;
+    const double distance = ray.norm();
+    if (!(distance > 0)) continue;
+    const Vec3 row(ray.x() / distance, ray.y() / distance, 1);
+    A += w * row * row.transpose(), b += w * (distance - circle.radius) * row;
   }
-  if (!(circle.radius > 0) || !circle.centre.allFinite()) return std::nullopt;
-  return circle;
+  const Vec3 change = A.ldlt().solve(b);
+  circle.centre += change.head<2>(), circle.radius += change.z();
+  if (!circle.centre.allFinite() || !(circle.radius > 0)) return std::nullopt;
+  return change.norm();
 }
 
 double residual(const Circle& circle, const Vec2& p) {
   return (p - circle.centre).norm() - circle.radius;
 }
 
-/// So much of the weight has a smaller value.
-double weighted_quantile(std::vector<std::pair<double, double>> values, double q) {
-  std::sort(values.begin(), values.end());
-  double all = 0, below = 0;
-  for (const auto& value : values) all += value.second;
-  for (const auto& value : values) {
-    below += value.second;
-    if (below >= q * all) return value.first;
+/// The points nearest to a circle that have the kept share of the weight: the last of them counts with what is left of it.
+class Trimmed {
+ public:
+  explicit Trimmed(const std::vector<Weighted>& all) : all_(all), off_(all.size()) {
+    for (const Weighted& one : all) kept_weight_ += kept_share * one.weight;
   }
-  return 0;
-}
 
-/// The distance from the circle within which the kept share lies.
-double band_of(const std::vector<Weighted>& points, const Circle& circle) {
-  std::vector<std::pair<double, double>> off;
-  for (const auto& [p, w] : points) off.emplace_back(std::abs(residual(circle, p)), w);
-  return std::max(weighted_quantile(std::move(off), kept_share), narrowest_band * circle.radius);
+  /// The mean of their squared distances.
+  double keep(const Circle& circle) {
+    for (std::size_t i = 0; i < all_.size(); ++i)
+      off_[i] = {std::abs(residual(circle, all_[i].point)), static_cast<Index>(i)};
+    std::sort(off_.begin(), off_.end());
+    kept_.clear();
+    double left = kept_weight_, squares = 0;
+    for (const auto& [distance, i] : off_) {
+      const double weight = std::min(all_[i].weight, left);
+      if (!(weight > 0)) break;
+      kept_.push_back({all_[i].point, weight});
+      left -= weight, squares += weight * distance * distance;
+    }
+    return squares / kept_weight_;
+  }
+  const std::vector<Weighted>& kept() const noexcept { return kept_; }
+  double weight() const noexcept { return kept_weight_; }
+
+ private:
+  const std::vector<Weighted>& all_;
+  std::vector<std::pair<double, Index>> off_;
+  std::vector<Weighted> kept_;
+  double kept_weight_ = 0;
+};
+
+/// Circles to start from: of all points, and without each quarter of them as they lie around their middle.
+std::vector<Circle> starts_of(const std::vector<Weighted>& all) {
+  std::vector<Circle> out;
+  const auto whole = algebraic(all);
+  if (!whole) return out;
+  out.push_back(*whole);
+  for (std::size_t skipped = 0; skipped < starts; ++skipped) {
+    std::vector<Weighted> some;
+    for (const Weighted& one : all) {
+      const Vec2 ray = one.point - whole->centre;
+      const double turn = std::atan2(std::abs(ray.y()), -ray.x()) / (two_pi / 2);  // the same on both sides
+      if (std::min(static_cast<std::size_t>(turn * starts), starts - 1) != skipped) some.push_back(one);
+    }
+    if (const auto circle = algebraic(some)) out.push_back(*circle);
+  }
+  return out;
 }
 
 }  // namespace
 
 std::optional<CircleFit> fit_circle(const Contour& pieces) {
   const std::vector<Weighted> all = weighted(pieces);
-  std::vector<Weighted> kept = all;
-  std::optional<Circle> circle = algebraic(all);
-  for (int round = 0; circle && round < most_rounds; ++round) {
-    circle = geometric(kept, *circle);
-    if (!circle) return std::nullopt;
-    const double band = band_of(all, *circle);
-    std::vector<Weighted> next;
-    for (const Weighted& one : all)
-      if (std::abs(residual(*circle, one.point)) <= band) next.push_back(one);
-    if (next.size() == kept.size()) break;
-    kept = std::move(next);
+  Trimmed trimmed(all);
+  std::optional<Circle> best;
+  double least = 0;
+  for (Circle circle : starts_of(all)) {
+    for (int round = 0; round < first_rounds; ++round) {
+      trimmed.keep(circle);
+      if (!take_step(trimmed.kept(), circle)) return std::nullopt;
+    }
+    const double squares = trimmed.keep(circle);
+    if (!best || squares < least) best = circle, least = squares;
   }
-  if (!circle) return std::nullopt;
-  double length = 0, squares = 0;
-  for (const auto& [p, w] : kept) length += w, squares += w * residual(*circle, p) * residual(*circle, p);
-  if (!(length > 0)) return std::nullopt;
-  return CircleFit{*circle, std::sqrt(squares / length), length};
+  if (!best) return std::nullopt;
+  for (int round = 0; round < most_rounds; ++round) {
+    trimmed.keep(*best);
+    const auto step = take_step(trimmed.kept(), *best);
+    if (!step) return std::nullopt;
+    if (*step < settled) break;
+  }
+  return CircleFit{*best, std::sqrt(trimmed.keep(*best)), trimmed.weight()};
 }
 
 std::optional<Circle> circle_through(const std::vector<Vec2>& points) {
   std::vector<Weighted> all;
   for (const Vec2& p : points) all.push_back({p, 1});
-  const auto start = algebraic(all);
-  return start ? geometric(all, *start) : std::nullopt;
+  std::optional<Circle> circle = algebraic(all);
+  for (int step = 0; circle && step < most_steps; ++step) {
+    const auto length = take_step(all, *circle);
+    if (!length) return std::nullopt;
+    if (*length < settled) break;
+  }
+  return circle;
 }
 
 }  // namespace condyle::measure

@@ -18,6 +18,8 @@ struct FoundParts {
   std::optional<SphericalPatch> head;
   std::vector<Index> socket;    ///< vertices on the socket's sphere; empty if there is none
   std::optional<Vec3> opening;  ///< of the socket, roughly
+  /// Of each vertex whether the mesh ends there: on an open edge, or on a face that closes the bone where its image ends.
+  std::vector<char> hip_bone_ends, femur_ends;
   std::string why_no_condyles;  ///< of the femur; empty if it shows them
 };
 

@@ -50,10 +50,10 @@ void tell_chords(const std::vector<RimHour>& rim, const Sphere& head, const Body
   }
 }
 
-void tell_edges(const TriMesh& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
+void tell_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const auto tell = [&](const Vec3& direction, Measure& measure, std::optional<Vec3>& edge) {
-    const auto found = centre_edge(wall, head, axes.superior, direction);
-    measure = found ? told(found->angle_deg) : not_told("no roof is above the head in this plane");
+    const auto [found, why_none] = centre_edge(wall, head, axes.superior, direction);
+    measure = found ? told(found->angle_deg) : not_told(why_none);
     if (found) edge = found->edge;
   };
   tell(axes.lateral, out.centre_edge_lateral, out.lateral_edge);
@@ -66,7 +66,7 @@ void tell_edges(const TriMesh& wall, const Sphere& head, const BodyAxes& axes, A
 AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const FoundParts& parts,
                                       const BodyAxes& axes) {
   if (!parts.opening) return acetabulum_not_told("no socket faces the head", axes);
-  const TriMesh wall = socket_wall(hip_bone, head);
+  const SocketWall wall = socket_wall(hip_bone, head, parts.hip_bone_ends);
   RimFinding found = find_rim(wall, head, *parts.opening, axes);
   AcetabulumMeasures out = acetabulum_not_told(found.why_none, axes);
   out.rim = std::move(found.hours);

@@ -13,6 +13,7 @@
 #include "measure/joint_space.hpp"
 #include "measure/measure_acetabulum.hpp"
 #include "measure/measure_femur.hpp"
+#include "mesh/edge_table.hpp"
 #include "mesh/findings.hpp"
 
 namespace condyle::measure {
@@ -36,6 +37,19 @@ Mesh bone_of(const Body& body) {
     bone.triangles.insert(bone.triangles.end(), first, first + static_cast<std::ptrdiff_t>(part.triangles));
   }
   return bone;
+}
+
+std::vector<char> ends_of(const Body& body, const Mesh& bone) {
+  std::vector<char> ends(bone.vertices().size());
+  if (!bone.is_closed()) {
+    const mesh::EdgeTable& edges = mesh::edges_of(bone);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (edges.balance(bone, e) != 0)
+        for (const Index v : edges.ends(e)) ends[v] = 1;
+  }
+  if (body.image && !body.image->cuts.empty())
+    for (std::size_t v = 0; v < ends.size(); ++v) ends[v] |= is_on_cut(body, bone.vertices()[v]);
+  return ends;
 }
 
 /// Kept with the femur: the head that it is searched with is that of the mesh.
@@ -70,8 +84,10 @@ BoneMeshes bones_of(const Joint& joint) {
   return {bone_of(joint.fixed), bone_of(joint.mobile)};
 }
 
-FoundParts find_parts(const BoneMeshes& bones) {
+FoundParts find_parts(const Joint& joint, const BoneMeshes& bones) {
   FoundParts parts;
+  parts.hip_bone_ends = ends_of(joint.fixed, bones.hip_bone);
+  parts.femur_ends = ends_of(joint.mobile, bones.femur);
   parts.head = kinematics::head_near_centre(bones.femur);
   if (!parts.head) return parts;
   const Sphere& head = parts.head->fit.sphere;
@@ -114,7 +130,7 @@ namespace condyle {
 HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request) {
   measure::check_measures(joint, request);
   const measure::BoneMeshes bones = measure::bones_of(joint);
-  return measure::measure_bones({bones.hip_bone, bones.femur}, measure::find_parts(bones),
+  return measure::measure_bones({bones.hip_bone, bones.femur}, measure::find_parts(joint, bones),
                                 joint.coordinates(), request);
 }
 

@@ -54,7 +54,7 @@ void tell_around_neck(const TriMesh& femur, const std::optional<ShaftLine>& shaf
 
 void tell_shaft(const TriMesh& femur, const std::optional<ShaftLine>& shaft,
                 const std::optional<NeckLine>& neck, const std::string& no_neck, const Sphere& head,
-                FemurMeasures& out) {
+                const FoundParts& parts, FemurMeasures& out) {
   if (!shaft) {
     const std::string why =
         core::formatted("no straight shaft of %.0f mm begins %.0f mm from the head's centre",
@@ -67,7 +67,7 @@ void tell_shaft(const TriMesh& femur, const std::optional<ShaftLine>& shaft,
                                           -neck->direction.dot(shaft->direction)) /
                                degree)
                         : not_told(no_neck);
-  const TrochanterFinding trochanter = greater_trochanter(femur, head, *shaft);
+  const TrochanterFinding trochanter = greater_trochanter(femur, head, *shaft, parts.femur_ends);
   out.trochanter_top = trochanter.top;
   out.trochanter_height = trochanter.top ? told(trochanter.height_mm) : not_told(trochanter.why_none);
 }
@@ -98,7 +98,7 @@ FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, co
   FemurMeasures out = femur_not_told(found.why_none);
   tell_head(head, out);
   if (found.neck) tell_around_neck(femur, shaft, *found.neck, sphere, axes, out);
-  tell_shaft(femur, shaft, found.neck, found.why_none, sphere, out);
+  tell_shaft(femur, shaft, found.neck, found.why_none, sphere, parts, out);
   tell_version(femur, shaft, found.neck, found.why_none, sphere, parts, axes, out);
   return out;
 }

@@ -1,7 +1,7 @@
 #include "measure/near_part.hpp"
 
+#include <algorithm>
 #include <array>
-#include <vector>
 
 #include "mesh/triangle_distance.hpp"
 
@@ -9,8 +9,8 @@ namespace condyle::measure {
 namespace {
 
 template <class Keep>
-TriMesh kept_part(const TriMesh& mesh, const Keep& keep) {
-  TriMesh part;
+MeshPart kept_part(const TriMesh& mesh, const Keep& keep) {
+  MeshPart part;
   std::vector<Index> number(mesh.vertices.size(), no_index);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!keep(t)) continue;
@@ -18,36 +18,54 @@ TriMesh kept_part(const TriMesh& mesh, const Keep& keep) {
     for (Index& v : triangle) {
       if (number[v] == no_index) {
         number[v] = static_cast<Index>(part.vertices.size());
-        part.vertices.push_back(mesh.vertices[v]);
+        part.vertices.push_back(v);
+        part.mesh.vertices.push_back(mesh.vertices[v]);
       }
       v = number[v];
     }
-    part.triangles.push_back(triangle);
+    part.mesh.triangles.push_back(triangle);
   }
   return part;
 }
 
-}  // namespace
+/// Whether triangles reach into a ball.
+class Reach {
+ public:
+  Reach(const TriMesh& mesh, const Sphere& ball) : mesh_(mesh), ball_(ball), distance_(mesh.vertices.size()) {
+    for (std::size_t v = 0; v < distance_.size(); ++v) distance_[v] = (mesh.vertices[v] - ball.centre).norm();
+  }
 
-TriMesh near_part(const TriMesh& mesh, const Sphere& ball) {
-  std::vector<double> distance(mesh.vertices.size());
-  for (std::size_t v = 0; v < distance.size(); ++v) distance[v] = (mesh.vertices[v] - ball.centre).norm();
-  return kept_part(mesh, [&](std::size_t t) {
-    const auto [i, j, k] = mesh.triangles[t];
-    if (distance[i] < ball.radius || distance[j] < ball.radius || distance[k] < ball.radius) return true;
-    // No point of a triangle is nearer than a corner by more than its longest edge.
-    const std::array corners{mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+  bool operator()(std::size_t t) const {
+    const auto [i, j, k] = mesh_.triangles[t];
+    const double radius = ball_.radius;
+    if (distance_[i] < radius || distance_[j] < radius || distance_[k] < radius) return true;
+    // No point of a triangle is nearer than a corner by more than the longer edge from it.
+    const std::array corners{mesh_.corner(t, 0), mesh_.corner(t, 1), mesh_.corner(t, 2)};
     const double longest = std::max((corners[1] - corners[0]).norm(), (corners[2] - corners[0]).norm());
-    if (distance[i] - longest > ball.radius) return false;
-    return (mesh::nearest_on_triangle(ball.centre, corners) - ball.centre).norm() < ball.radius;
-  });
+    if (distance_[i] - longest > radius) return false;
+    return (mesh::nearest_on_triangle(ball_.centre, corners) - ball_.centre).norm() < radius;
+  }
+
+ private:
+  const TriMesh& mesh_;
+  Sphere ball_;
+  std::vector<double> distance_;
+};
+
+bool faces(const TriMesh& mesh, std::size_t t, const Vec3& point) {
+  const Vec3 a = mesh.corner(t, 0);
+  return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).dot(a - point) < 0;
 }
 
-TriMesh facing_part_of(const TriMesh& mesh, const Vec3& point) {
-  return kept_part(mesh, [&](std::size_t t) {
-    const Vec3 a = mesh.corner(t, 0);
-    return (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a).dot(a - point) < 0;
-  });
+}  // namespace
+
+MeshPart near_part(const TriMesh& mesh, const Sphere& ball) {
+  return kept_part(mesh, Reach(mesh, ball));
+}
+
+MeshPart facing_part(const TriMesh& mesh, const Sphere& ball) {
+  const Reach reaches(mesh, ball);
+  return kept_part(mesh, [&](std::size_t t) { return faces(mesh, t, ball.centre) && reaches(t); });
 }
 
 }  // namespace condyle::measure

@@ -1,13 +1,21 @@
 #pragma once
 
+#include <vector>
+
 #include "condyle/fit.hpp"
 
 namespace condyle::measure {
 
-/// The triangles that reach into a ball, over the mesh's vertices that they use. Linear in the mesh.
-TriMesh near_part(const TriMesh& mesh, const Sphere& ball);
+/// Some triangles of a mesh, over the vertices that they use.
+struct MeshPart {
+  TriMesh mesh;
+  std::vector<Index> vertices;  ///< of the whole mesh
+};
 
-/// Of these triangles those that face a point: the wall of a socket, seen from the centre of its head.
-TriMesh facing_part_of(const TriMesh& mesh, const Vec3& point);
+/// The triangles that reach into a ball. Linear in the mesh.
+MeshPart near_part(const TriMesh& mesh, const Sphere& ball);
+
+/// Those of them that face the ball's centre.
+MeshPart facing_part(const TriMesh& mesh, const Sphere& ball);
 
 }  // namespace condyle::measure

@@ -76,7 +76,7 @@ std::optional<ClockFace> clock_about(const Vec3& axis, const Vec3& up, const Vec
 
 std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck) {
   const double radius = neck.head.radius;
-  const TriMesh near = near_part(femur, {neck.head.centre, 1.01 * neck_reach * radius});
+  const TriMesh near = near_part(femur, {neck.head.centre, 1.01 * neck_reach * radius}).mesh;
   const AxisSections sections(near, neck.head.centre, neck.direction, neck.clock.twelve, neck.clock.three);
   std::vector<NeckHour> hours(neck_steps);
   const auto tell_plane = [&](std::size_t k) {

@@ -25,17 +25,22 @@ constexpr int rim_rounds = 3;
 std::optional<Vec2> farthest_towards_opening(const Contour& half, double reach) {
   std::optional<Vec2> farthest;
   double largest = -1;
+  bool is_end = false;
+  const auto look_at = [&](const Vec2& p, bool ends) {
+    const double angle = std::atan2(p.y(), -p.x());
+    if (angle > largest) largest = angle, farthest = p, is_end = ends;
+  };
   for (ContourPiece piece : half) {
     if (!clip_to_circle(piece, Vec2::Zero(), reach)) continue;
-    for (const Vec2& p : {piece.from, piece.to})
-      if (const double angle = std::atan2(p.y(), -p.x()); angle > largest) largest = angle, farthest = p;
+    look_at(piece.from, piece.from_end);
+    look_at(piece.to, piece.to_end);
   }
-  return farthest;
+  return is_end ? std::nullopt : farthest;
 }
 
-std::vector<RimHour> rim_about(const TriMesh& wall, const Sphere& head, const Vec3& opening,
+std::vector<RimHour> rim_about(const SocketWall& wall, const Sphere& head, const Vec3& opening,
                                const ClockFace& clock, const BodyAxes& axes) {
-  const AxisSections sections(wall, head.centre, opening, clock.twelve, clock.three);
+  const AxisSections sections(wall.mesh, head.centre, opening, clock.twelve, clock.three, wall.ends);
   const double reach = head.radius + farthest_wall_mm;
   std::vector<RimHour> rim(rim_steps);
   const auto tell = [&](std::size_t step, const Contour& half) {
@@ -106,11 +111,14 @@ std::optional<RimGeometry> circle_in(const Plane& plane, const std::vector<RimHo
 
 }  // namespace
 
-TriMesh socket_wall(const TriMesh& hip_bone, const Sphere& head) {
-  return facing_part_of(near_part(hip_bone, {head.centre, head.radius + farthest_wall_mm}), head.centre);
+SocketWall socket_wall(const TriMesh& hip_bone, const Sphere& head, const std::vector<char>& ends) {
+  MeshPart part = facing_part(hip_bone, {head.centre, head.radius + farthest_wall_mm});
+  SocketWall wall{std::move(part.mesh), {}};
+  for (const Index v : part.vertices) wall.ends.push_back(ends[v]);
+  return wall;
 }
 
-RimFinding find_rim(const TriMesh& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes) {
+RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes) {
   RimFinding found;
   Vec3 about = opening;
   for (int round = 0; round < rim_rounds; ++round) {

@@ -14,13 +14,17 @@ inline constexpr std::size_t rim_steps = 72, fewest_rim_steps = 48;
 inline constexpr double farthest_wall_mm = 10;
 
 /// The socket's wall: triangles that face the head's centre and reach within the head's radius and farthest_wall_mm of it.
-TriMesh socket_wall(const TriMesh& hip_bone, const Sphere& head);
+struct SocketWall {
+  TriMesh mesh;
+  std::vector<char> ends;  ///< of its vertices, FoundParts::hip_bone_ends
+};
+SocketWall socket_wall(const TriMesh& hip_bone, const Sphere& head, const std::vector<char>& ends);
 
 /// The rim of a socket and its plane.
 ///
 ///          rim  . theta        In each half-plane about the opening the rim is the wall's farthest point towards it, seen from
 ///            .-`|              the head's centre: the one at the largest angle theta from the inward axis.
-///           (   o-----> opening
+///           (   o-----> opening        Where the mesh ends there, the rim is not in it, and the hour has no point.
 ///            `-.|
 struct RimFinding {
   std::vector<RimHour> hours;  ///< about the plane's normal if there is one
@@ -30,6 +34,6 @@ struct RimFinding {
 
 /// The plane is that of least squares, six times without the farthest three tenths of the hours, which a notch is; the rim is
 /// found anew about the plane's normal, and the plane from that. `opening` is the first one.
-RimFinding find_rim(const TriMesh& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes);
+RimFinding find_rim(const SocketWall& wall, const Sphere& head, const Vec3& opening, const BodyAxes& axes);
 
 }  // namespace condyle::measure

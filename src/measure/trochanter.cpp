@@ -13,22 +13,24 @@ constexpr double least_offset = 0.3;
 }  // namespace
 
 TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head,
-                                     const kinematics::ShaftLine& shaft) {
+                                     const kinematics::ShaftLine& shaft, const std::vector<char>& ends) {
   const Vec3 to_line = shaft.point - head.centre;
   const Vec3 across = to_line - to_line.dot(shaft.direction) * shaft.direction;
   const double offset = across.norm();
   if (!(offset >= least_offset * head.radius)) return {{}, 0, "the shaft's axis passes through the head"};
   const Vec3 side = across / offset;
   TrochanterFinding found;
+  bool is_end = false;
   double highest = -std::numeric_limits<double>::infinity(), beyond = 0;
   for (const Triangle& t : femur.triangles)
     for (const Index v : t) {
       const Vec3 p = femur.vertices[v] - head.centre;
       const double height = -p.dot(shaft.direction), out = p.dot(side) - begins * offset;
       if (out < 0 || height <= highest) continue;
-      highest = height, beyond = out, found.top = femur.vertices[v];
+      highest = height, beyond = out, found.top = femur.vertices[v], is_end = ends[v];
     }
   if (!found.top || beyond < least_beyond) return {{}, 0, "no greater trochanter rises beside the neck"};
+  if (is_end) return {{}, 0, "the mesh ends at the greater trochanter"};
   found.height_mm = highest;
   return found;
 }

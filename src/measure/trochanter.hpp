@@ -20,7 +20,8 @@ struct TrochanterFinding {
 ///      .--.  o head     Height falls from the trochanter towards the neck: a highest point at the border of that region is
 ///     |    \/           the neck's, and then there is no top.
 ///     |  |
+/// `ends` marks vertices where the mesh ends: a top there is none.
 TrochanterFinding greater_trochanter(const TriMesh& femur, const Sphere& head,
-                                     const kinematics::ShaftLine& shaft);
+                                     const kinematics::ShaftLine& shaft, const std::vector<char>& ends);
 
 }  // namespace condyle::measure

@@ -149,7 +149,7 @@ TEST(KnownMeasures, APelvisThatTiltsForwardsTurnsItsOpeningAndNothingOfTheFemur)
   const Vec3 o = opening_of(45, 18);
   const Joint hip = hip_of(sharp_cup(o, 27.5, 0), head_with_cone(neck_axis, 24, 12, 0.15));
   const HipMeasures level = measure_hip(hip);
-  for (const double tilt : {-10.0, 7.0, 20.0}) {
+  for (const double tilt : {-10.0, 20.0}) {
     const Vec3 tilted = Eigen::AngleAxisd(-tilt * degree, Vec3::UnitZ()) * o;
     const HipMeasures m = measure_hip(hip, {.pelvic_tilt = Angle::degrees(tilt)});
     EXPECT_NEAR(*m.acetabulum.version.value, std::atan2(tilted.x(), tilted.z()) / degree, within_deg);

@@ -1,0 +1,158 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "condyle/error.hpp"
+#include "condyle/hip_measures.hpp"
+#include "condyle/sample/hip.hpp"
+#include "measure/analytic_hip.hpp"
+#include "support/real_hip.hpp"
+#include "support/test_meshes.hpp"
+
+/// What is not in the meshes is not told, and says why; what does not depend on it stays as it is.
+
+namespace condyle {
+namespace {
+
+using namespace test;
+
+const SampleHip& sample() {
+  static const SampleHip hip = sample_hip({}, Scenario::two);
+  return hip;
+}
+
+/// The triangles whose corners are all kept: open where it is cut.
+template <class Keep>
+TriMesh kept_of(const TriMesh& mesh, const Keep& keep) {
+  TriMesh kept{mesh.vertices, {}};
+  for (const Triangle& t : mesh.triangles)
+    if (keep(mesh.vertices[t[0]]) && keep(mesh.vertices[t[1]]) && keep(mesh.vertices[t[2]]))
+      kept.triangles.push_back(t);
+  return kept;
+}
+
+void expect_why(const Measure& measure, const std::string& part) {
+  EXPECT_FALSE(measure.value) << *measure.value;
+  EXPECT_NE(measure.why_none.find(part), std::string::npos) << measure.why_none;
+}
+
+TEST(MissingParts, EveryMeasureHasAValueOrAReason) {
+  const TriMesh& hip_bone = sample().hip_bone;
+  const TriMesh& femur = sample().femur;
+  const auto near = [](double radius) { return [=](const Vec3& p) { return p.norm() < radius; }; };
+  const auto roof = [](const Vec3& p) { return p.y() > 10; };
+  for (const Joint& joint :
+       {hip_of(hip_bone, femur), hip_of(hip_bone, kept_of(femur, near(40))),
+        hip_of(hip_bone, kept_of(femur, near(28))), hip_of(kept_of(hip_bone, roof), femur),
+        hip_of(kept_of(hip_bone, near(45)), femur), hip_of(box({60, 60, 60}, {90, 90, 90}), femur),
+        hip_of(hip_bone, box({-20, -20, -20}, {20, 20, 20}))}) {
+    const HipMeasures m = measure_hip(joint);
+    for (const MeasureDefinition& definition : measure_definitions()) {
+      const Measure& measure = definition.of(m);
+      EXPECT_NE(measure.value.has_value(), !measure.why_none.empty()) << definition.key;
+      if (measure.value) {
+        EXPECT_TRUE(std::isfinite(*measure.value)) << definition.key;
+      }
+    }
+  }
+}
+
+TEST(MissingParts, WithoutShaftThereIsNoNeckShaftAngleAndTheClockIsTheFrames) {
+  const Joint cut =
+      hip_of(sample().hip_bone, kept_of(sample().femur, [](const Vec3& p) { return p.y() > -60; }));
+  const FemurMeasures m = measure_hip(cut).femur;
+  expect_why(m.neck_shaft, "no straight shaft");
+  expect_why(m.trochanter_height, "no straight shaft");
+  expect_why(m.version, "the mesh ends above the knee");
+  ASSERT_TRUE(m.neck);
+  EXPECT_EQ(m.neck->clock_from, ClockSource::frame);
+  EXPECT_TRUE(m.alpha_1_30.value);
+  EXPECT_FALSE(m.torsion_in_frame.note.empty());
+}
+
+TEST(MissingParts, AHeadWithoutNeckHasOnlyTheMeasuresOfAHead) {
+  const Joint cut =
+      hip_of(sample().hip_bone, kept_of(sample().femur, [](const Vec3& p) { return p.norm() < 28; }));
+  const HipMeasures m = measure_hip(cut);
+  EXPECT_NEAR(*m.femur.head_radius.value, 24, 0.01);
+  expect_why(m.femur.neck_shaft, "no");
+  expect_why(m.femur.alpha_12, "has no neck");
+  EXPECT_TRUE(m.femur.around_neck.empty());
+  EXPECT_TRUE(m.acetabulum.inclination.value);
+}
+
+TEST(MissingParts, WithoutARimThereIsNoOpeningAndWithoutASocketNothingOfIt) {
+  const Joint roof =
+      hip_of(kept_of(sample().hip_bone, [](const Vec3& p) { return p.y() > 10; }), sample().femur);
+  const HipMeasures of_roof = measure_hip(roof);
+  expect_why(of_roof.acetabulum.inclination, "of 360 degrees");
+  expect_why(of_roof.acetabulum.version_10mm, "of 360 degrees");
+  expect_why(of_roof.both.ischiofemoral, "the hip bone ends");
+  EXPECT_TRUE(of_roof.acetabulum.centre_edge_lateral.value) << "a section needs no whole rim";
+  const Joint cut_short =
+      hip_of(kept_of(sample().hip_bone, [](const Vec3& p) { return p.z() < 10; }), sample().femur);
+  expect_why(measure_hip(cut_short).acetabulum.centre_edge_lateral, "the mesh ends where the roof goes on");
+  const Joint none = hip_of(box({60, 60, 60}, {90, 90, 90}), sample().femur);
+  const HipMeasures m = measure_hip(none);
+  expect_why(m.acetabulum.coverage, "no socket faces the head");
+  expect_why(m.both.joint_space_least, "no socket's sphere");
+  EXPECT_TRUE(m.femur.alpha_12.value);
+}
+
+TEST(MissingParts, WithoutAHeadNothingIsTold) {
+  const HipMeasures m = measure_hip(hip_of(sample().hip_bone, box({-20, -20, -20}, {20, 20, 20})));
+  for (const MeasureDefinition& definition : measure_definitions())
+    expect_why(definition.of(m), "no spherical head");
+}
+
+TEST(MissingParts, OnlyBonesAreMeasured) {
+  // A shell around the head that is called bearing, in the femur's own mesh.
+  const TriMesh& femur = sample().femur;
+  const TriMesh both = joined(femur, sphere(Vec3::Zero(), 26, 4));
+  Joint joint = hip_of(sample().hip_bone, both);
+  joint.mobile.parts = {
+      {"femur", 0, femur.vertices.size(), 0, femur.triangles.size(), PartContact::ends},
+      {"cartilage", femur.vertices.size(), both.vertices.size() - femur.vertices.size(),
+       femur.triangles.size(), both.triangles.size() - femur.triangles.size(), PartContact::bearing}};
+  const HipMeasures m = measure_hip(joint), bare = measure_hip(hip_of(sample().hip_bone, femur));
+  EXPECT_NEAR(*m.femur.head_radius.value, 24, 0.01);
+  EXPECT_NEAR(*m.femur.alpha_1_30.value, *bare.femur.alpha_1_30.value, 1e-9);
+  EXPECT_NEAR(*m.both.joint_space_median.value, *bare.both.joint_space_median.value, 1e-9);
+}
+
+TEST(MissingParts, OtherJointsAndWildRequestsAreRefused) {
+  Joint joint = hip_of(sample().hip_bone, sample().femur);
+  EXPECT_THROW(measure_hip(joint, {.pelvic_tilt = Angle::degrees(61)}), UsageError);
+  EXPECT_THROW(measure_hip(joint, {.pelvic_tilt = Angle::degrees(std::nan(""))}), UsageError);
+  joint.kind = JointKind::hinge;
+  EXPECT_THROW(measure_hip(joint), UsageError);
+  joint.kind = JointKind::ball, joint.anatomy = Anatomy::shoulder;
+  EXPECT_THROW(measure_hip(joint), UsageError);
+}
+
+TEST(MissingParts, CondylesThatAreTwistedOnTheShaftTwistFemoralVersion) {
+  const auto hip = hip_vhf_right();
+  if (!hip) GTEST_SKIP() << "no real hip in CONDYLE_DATA";
+  const FemurMeasures given = measure_hip(*hip).femur;
+  ASSERT_TRUE(given.condyles);
+  const Vec3 head = given.neck->head.centre, down = (given.condyles->middle - head).normalized();
+  constexpr double twist_deg = 10;
+  Points vertices = hip->mobile.mesh.vertices();
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
+    const Vec3 p = vertices[v] - head;
+    // Down is the axis: on a right femur a positive turn about it brings the medial condyle backwards.
+    if (p.dot(down) > 250)
+      vertices.set(v, head + Eigen::AngleAxisd(twist_deg * std::numbers::pi / 180, down) * p);
+  }
+  const Joint twisted = hip_of(hip->fixed.mesh, TriMesh{vertices, hip->mobile.mesh.triangles()});
+  const FemurMeasures m = measure_hip(twisted).femur;
+  ASSERT_TRUE(m.version.value) << m.version.why_none;
+  EXPECT_NEAR(std::abs(*m.version.value - *given.version.value), twist_deg, 0.05);
+  EXPECT_NEAR(*m.neck_shaft.value, *given.neck_shaft.value, 1e-9);
+}
+
+}  // namespace
+}  // namespace condyle
