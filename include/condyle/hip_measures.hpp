@@ -177,7 +177,7 @@ struct HipMeasures {
   std::string pelvis_frame;
 };
 
-/// Measures of a hip as its meshes show it. What cannot be told is empty and says why. If a body has several meshes, those called
+/// Measures of a hip as its meshes show it. What cannot be measured is empty and says why. If a body has several meshes, those called
 /// bearing or soft are left out. Throws UsageError for another joint than a hip, a hinge, and a request outside its ranges.
 ///
 /// Some tens of milliseconds for 50,000 triangles, after the searches for head, socket and condyles, which are kept with the meshes.
@@ -185,8 +185,8 @@ HipMeasures measure_hip(const Joint& joint, const MeasureRequest& request = {});
 
 /// The spread of one measure.
 struct MeasureBand {
-  std::optional<double> p5, median, p95;  ///< of the joints in which it could be told; empty if in none
-  std::size_t samples_without_value = 0;  ///< in which it could not be told
+  std::optional<double> p5, median, p95;  ///< of the joints in which it could be measured; empty if in none
+  std::size_t samples_without_value = 0;  ///< in which it could not be measured
 };
 
 /// Bands of all measures, in the order of measure_definitions(): each of `samples` joints is displaced as for limit_bands(), by

@@ -11,16 +11,16 @@ BodyAxes body_axes(Side side, Angle tilt) {
   return {{c, s, 0}, {-s, c, 0}, {0, 0, side == Side::right ? 1.0 : -1.0}};
 }
 
-Measure told(double value) {
+Measure measured(double value) {
   return {value, {}, {}};
 }
 
-Measure not_told(std::string why) {
+Measure not_measured(std::string why) {
   return {{}, std::move(why), {}};
 }
 
-Measure told_or(const std::optional<double>& value, const std::string& why) {
-  return value ? told(*value) : not_told(why);
+Measure measured_or(const std::optional<double>& value, const std::string& why) {
+  return value ? measured(*value) : not_measured(why);
 }
 
 }  // namespace condyle::measure

@@ -30,9 +30,9 @@ struct BodyAxes {
 BodyAxes body_axes(Side side, Angle tilt = {});
 
 /// A value, or none.
-Measure told(double value);
-Measure not_told(std::string why);
+Measure measured(double value);
+Measure not_measured(std::string why);
 /// A value that is empty for one reason.
-Measure told_or(const std::optional<double>& value, const std::string& why);
+Measure measured_or(const std::optional<double>& value, const std::string& why);
 
 }  // namespace condyle::measure

@@ -13,15 +13,15 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-void tell_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
+void set_opening(const RimGeometry& rim, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
   const double front = rim.normal.dot(axes.anterior), up = rim.normal.dot(axes.superior),
                side = rim.normal.dot(axes.lateral);
-  out.inclination = told(std::atan2(std::hypot(front, side), -up) / degree);
-  out.version = told(std::atan2(front, side) / degree);
-  out.inclination_radiographic = told(std::atan2(side, -up) / degree);
-  out.version_radiographic = told(std::atan2(front, std::hypot(side, up)) / degree);
-  out.rim_radius = told(rim.radius_mm);
-  out.rim_height = told((rim.centre - head.centre).dot(rim.normal));
+  out.inclination = measured(std::atan2(std::hypot(front, side), -up) / degree);
+  out.version = measured(std::atan2(front, side) / degree);
+  out.inclination_radiographic = measured(std::atan2(side, -up) / degree);
+  out.version_radiographic = measured(std::atan2(front, std::hypot(side, up)) / degree);
+  out.rim_radius = measured(rim.radius_mm);
+  out.rim_height = measured((rim.centre - head.centre).dot(rim.normal));
 }
 
 /// The mean over all hours of the share within a cone of that hour's angle; hours without wall are between their neighbours.
@@ -39,42 +39,42 @@ double coverage_of(const std::vector<RimHour>& rim) {
   return sum / static_cast<double>(count);
 }
 
-void tell_chords(const std::vector<RimHour>& rim, const Sphere& head, const BodyAxes& axes,
-                 AcetabulumMeasures& out) {
+void set_chords(const std::vector<RimHour>& rim, const Sphere& head, const BodyAxes& axes,
+                AcetabulumMeasures& out) {
   const std::array<std::pair<double, Measure*>, 4> heights{
       {{0, &out.version_0mm}, {5, &out.version_5mm}, {10, &out.version_10mm}, {15, &out.version_15mm}}};
   for (const auto& [height, measure] : heights) {
     const ChordFinding found = chord_at(rim, head, axes, height);
-    *measure = found.chord ? told(chord_version_deg(*found.chord, axes)) : not_told(found.why_none);
+    *measure = found.chord ? measured(chord_version_deg(*found.chord, axes)) : not_measured(found.why_none);
     if (found.chord) out.chords.push_back(*found.chord);
   }
 }
 
-void tell_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
-  const auto tell = [&](const Vec3& direction, Measure& measure, std::optional<Vec3>& edge) {
+void set_edges(const SocketWall& wall, const Sphere& head, const BodyAxes& axes, AcetabulumMeasures& out) {
+  const auto set = [&](const Vec3& direction, Measure& measure, std::optional<Vec3>& edge) {
     const auto [found, why_none] = centre_edge(wall, head, axes.superior, direction);
-    measure = found ? told(found->angle_deg) : not_told(why_none);
+    measure = found ? measured(found->angle_deg) : not_measured(why_none);
     if (found) edge = found->edge;
   };
-  tell(axes.lateral, out.centre_edge_lateral, out.lateral_edge);
-  tell(axes.anterior, out.centre_edge_anterior, out.anterior_edge);
-  tell(-axes.anterior, out.centre_edge_posterior, out.posterior_edge);
+  set(axes.lateral, out.centre_edge_lateral, out.lateral_edge);
+  set(axes.anterior, out.centre_edge_anterior, out.anterior_edge);
+  set(-axes.anterior, out.centre_edge_posterior, out.posterior_edge);
 }
 
 }  // namespace
 
 AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& head, const FoundParts& parts,
                                       const BodyAxes& axes) {
-  if (!parts.opening) return acetabulum_not_told("no socket faces the head", axes);
+  if (!parts.opening) return acetabulum_not_measured("no socket faces the head", axes);
   const SocketWall wall = socket_wall(hip_bone, head, parts.hip_bone_ends);
   RimFinding found = find_rim(wall, head, *parts.opening, axes);
-  AcetabulumMeasures out = acetabulum_not_told(found.why_none, axes);
+  AcetabulumMeasures out = acetabulum_not_measured(found.why_none, axes);
   out.rim = std::move(found.hours);
-  tell_edges(wall, head, axes, out);
+  set_edges(wall, head, axes, out);
   if (!found.plane) return out;
-  tell_opening(*found.plane, head, axes, out);
-  tell_chords(out.rim, head, axes, out);
-  out.coverage = told(coverage_of(out.rim));
+  set_opening(*found.plane, head, axes, out);
+  set_chords(out.rim, head, axes, out);
+  out.coverage = measured(coverage_of(out.rim));
   out.plane = std::move(found.plane);
   return out;
 }

@@ -9,6 +9,6 @@ AcetabulumMeasures measure_acetabulum(const TriMesh& hip_bone, const Sphere& hea
                                       const BodyAxes& axes);
 
 /// All of them empty for one reason.
-AcetabulumMeasures acetabulum_not_told(const std::string& why, const BodyAxes& axes);
+AcetabulumMeasures acetabulum_not_measured(const std::string& why, const BodyAxes& axes);
 
 }  // namespace condyle::measure

@@ -57,14 +57,14 @@ struct KeptSearch {
   core::Lazy<std::string> why_no_condyles;
 };
 
-void tell_both(const Bones& bones, const Sphere& head, const FoundParts& parts, CoordinateSystem system,
-               const MeasureRequest& request, BothMeasures& out) {
+void set_both(const Bones& bones, const Sphere& head, const FoundParts& parts, CoordinateSystem system,
+              const MeasureRequest& request, BothMeasures& out) {
   const JointSpaceFinding space = joint_space(bones, head, parts.socket);
-  out.joint_space_least = space.space ? told(space.space->least_mm) : not_told(space.why_none);
-  out.joint_space_median = space.space ? told(space.space->median_mm) : not_told(space.why_none);
+  out.joint_space_least = space.space ? measured(space.space->least_mm) : not_measured(space.why_none);
+  out.joint_space_median = space.space ? measured(space.space->median_mm) : not_measured(space.why_none);
   if (space.space) out.joint_space_at = space.space->at;
   const auto nearest = ischiofemoral_distance(bones, head, pose_at(system, request.ischiofemoral_pose));
-  out.ischiofemoral = told_or(nearest.distance_mm, nearest.why_none);
+  out.ischiofemoral = measured_or(nearest.distance_mm, nearest.why_none);
   out.ischiofemoral_at = nearest.at;
 }
 
@@ -111,15 +111,15 @@ HipMeasures measure_bones(const Bones& bones, const FoundParts& parts, Coordinat
   out.pelvis_frame = request.pelvis_frame;
   out.both.ischiofemoral_pose = request.ischiofemoral_pose;
   if (!parts.head) {
-    out.femur = femur_not_told(no_head);
-    out.acetabulum = acetabulum_not_told(no_head, pelvis_axes);
-    out.both.joint_space_least = out.both.joint_space_median = out.both.ischiofemoral = not_told(no_head);
+    out.femur = femur_not_measured(no_head);
+    out.acetabulum = acetabulum_not_measured(no_head, pelvis_axes);
+    out.both.joint_space_least = out.both.joint_space_median = out.both.ischiofemoral = not_measured(no_head);
     return out;
   }
   const Sphere& head = parts.head->fit.sphere;
   out.femur = measure_femur(bones.femur, *parts.head, parts, femur_axes);
   out.acetabulum = measure_acetabulum(bones.hip_bone, head, parts, pelvis_axes);
-  tell_both(bones, head, parts, system, request, out.both);
+  set_both(bones, head, parts, system, request, out.both);
   return out;
 }
 

@@ -181,22 +181,22 @@ namespace condyle::measure {
 namespace {
 
 /// The rows know the measures' places; those of `out` are ours to write.
-void tell_none(HipMeasures& out, MeasuredPart part, const std::string& why) {
+void set_none(HipMeasures& out, MeasuredPart part, const std::string& why) {
   for (const MeasureDefinition& definition : measure_definitions())
-    if (definition.part == part) const_cast<Measure&>(definition.of(out)) = not_told(why);
+    if (definition.part == part) const_cast<Measure&>(definition.of(out)) = not_measured(why);
 }
 
 }  // namespace
 
-FemurMeasures femur_not_told(const std::string& why) {
+FemurMeasures femur_not_measured(const std::string& why) {
   HipMeasures out;
-  tell_none(out, MeasuredPart::femur, why);
+  set_none(out, MeasuredPart::femur, why);
   return std::move(out.femur);
 }
 
-AcetabulumMeasures acetabulum_not_told(const std::string& why, const BodyAxes& axes) {
+AcetabulumMeasures acetabulum_not_measured(const std::string& why, const BodyAxes& axes) {
   HipMeasures out;
-  tell_none(out, MeasuredPart::acetabulum, why);
+  set_none(out, MeasuredPart::acetabulum, why);
   out.acetabulum.anterior = axes.anterior;
   out.acetabulum.superior = axes.superior;
   out.acetabulum.lateral = axes.lateral;

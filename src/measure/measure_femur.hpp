@@ -9,6 +9,6 @@ FemurMeasures measure_femur(const TriMesh& femur, const SphericalPatch& head, co
                             const BodyAxes& axes);
 
 /// All of them empty for one reason.
-FemurMeasures femur_not_told(const std::string& why);
+FemurMeasures femur_not_measured(const std::string& why);
 
 }  // namespace condyle::measure

@@ -16,7 +16,7 @@ constexpr double smallest_sine = 0.0175;
 /// The alpha angle is largest here in cams: from 11 to 4 o'clock.
 constexpr double first_hour = 11, last_hour = 4;
 
-void tell_doubt(NeckHour& hour) {
+void set_doubt(NeckHour& hour) {
   hour.is_doubtful = hour.alpha_deg && hour.alpha_at_1mm_deg &&
                      std::abs(*hour.alpha_deg - *hour.alpha_at_1mm_deg) > alpha_doubt_deg;
 }
@@ -46,12 +46,12 @@ NeckHour on_side(const Contour& half, const std::optional<CircleFit>& fit, doubl
     out.alpha_point = sections.point(turn, at_half.alpha->point);
   }
   if (at_one.alpha) out.alpha_at_1mm_deg = at_one.alpha->alpha_deg;
-  tell_doubt(out);
+  set_doubt(out);
   return out;
 }
 
 Measure alpha_at(const NeckHour& hour) {
-  Measure out = told_or(hour.alpha_deg, hour.why_no_alpha);
+  Measure out = measured_or(hour.alpha_deg, hour.why_no_alpha);
   if (hour.is_doubtful)
     out.note = core::formatted("%.1f at a tolerance of 1 mm: the contour leaves its circle slowly",
                                *hour.alpha_at_1mm_deg);
@@ -79,7 +79,7 @@ std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck
   const TriMesh near = near_part(femur, {neck.head.centre, 1.01 * neck_reach * radius}).mesh;
   const AxisSections sections(near, neck.head.centre, neck.direction, neck.clock.twelve, neck.clock.three);
   std::vector<NeckHour> hours(neck_steps);
-  const auto tell_plane = [&](std::size_t k) {
+  const auto set_plane = [&](std::size_t k) {
     const std::size_t other = k + neck_steps / 2;
     const auto hour = [](std::size_t step) { return 12.0 * static_cast<double>(step) / neck_steps; };
     const double turn = two_pi * static_cast<double>(k) / neck_steps;
@@ -91,17 +91,17 @@ std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck
         on_side(lower_half(section), fit, -beside, hour(other), turn + two_pi / 2, sections, radius);
   };
   core::parallel_chunks(neck_steps / 2, 1, [&](std::size_t first, std::size_t last) {
-    for (std::size_t k = first; k < last; ++k) tell_plane(k);
+    for (std::size_t k = first; k < last; ++k) set_plane(k);
   });
   return hours;
 }
 
-void tell_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMeasures& out) {
+void set_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMeasures& out) {
   const NeckHour &at_12 = hours[neck_step(0)], &at_1_30 = hours[neck_step(1.5)], &at_3 = hours[neck_step(3)];
   out.alpha_12 = alpha_at(at_12), out.alpha_1_30 = alpha_at(at_1_30), out.alpha_3 = alpha_at(at_3);
-  out.alpha_12_at_1mm = told_or(at_12.alpha_at_1mm_deg, at_12.why_no_alpha);
-  out.alpha_1_30_at_1mm = told_or(at_1_30.alpha_at_1mm_deg, at_1_30.why_no_alpha);
-  out.alpha_3_at_1mm = told_or(at_3.alpha_at_1mm_deg, at_3.why_no_alpha);
+  out.alpha_12_at_1mm = measured_or(at_12.alpha_at_1mm_deg, at_12.why_no_alpha);
+  out.alpha_1_30_at_1mm = measured_or(at_1_30.alpha_at_1mm_deg, at_1_30.why_no_alpha);
+  out.alpha_3_at_1mm = measured_or(at_3.alpha_at_1mm_deg, at_3.why_no_alpha);
   const NeckHour* largest = nullptr;
   std::optional<double> largest_at_1mm;
   for (const NeckHour& hour : hours) {
@@ -111,17 +111,17 @@ void tell_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMea
       largest_at_1mm = hour.alpha_at_1mm_deg;
   }
   const std::string none = "there is no alpha angle between 11 and 4 o'clock";
-  out.alpha_largest = largest ? alpha_at(*largest) : not_told(none);
-  out.alpha_largest_hour = largest ? told(largest->hour) : not_told(none);
-  out.alpha_largest_at_1mm = told_or(largest_at_1mm, none);
+  out.alpha_largest = largest ? alpha_at(*largest) : not_measured(none);
+  out.alpha_largest_hour = largest ? measured(largest->hour) : not_measured(none);
+  out.alpha_largest_at_1mm = measured_or(largest_at_1mm, none);
   const std::string no_neck = "no contour of the neck is in this plane";
-  const auto tell_offset = [&](const NeckHour& hour, Measure& offset, Measure& ratio) {
-    offset = told_or(hour.offset_mm, no_neck);
-    ratio = hour.offset_mm ? told(*hour.offset_mm / (2 * head_radius)) : not_told(no_neck);
+  const auto set_offset = [&](const NeckHour& hour, Measure& offset, Measure& ratio) {
+    offset = measured_or(hour.offset_mm, no_neck);
+    ratio = hour.offset_mm ? measured(*hour.offset_mm / (2 * head_radius)) : not_measured(no_neck);
   };
-  tell_offset(at_12, out.offset_12, out.offset_ratio_12);
-  tell_offset(at_1_30, out.offset_1_30, out.offset_ratio_1_30);
-  tell_offset(at_3, out.offset_3, out.offset_ratio_3);
+  set_offset(at_12, out.offset_12, out.offset_ratio_12);
+  set_offset(at_1_30, out.offset_1_30, out.offset_ratio_1_30);
+  set_offset(at_3, out.offset_3, out.offset_ratio_3);
 }
 
 }  // namespace condyle::measure

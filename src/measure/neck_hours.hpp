@@ -20,6 +20,6 @@ std::optional<ClockFace> clock_about(const Vec3& axis, const Vec3& up, const Vec
 std::vector<NeckHour> around_neck(const TriMesh& femur, const NeckGeometry& neck);
 
 /// The measures that are read off them.
-void tell_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMeasures& out);
+void set_alpha(const std::vector<NeckHour>& hours, double head_radius, FemurMeasures& out);
 
 }  // namespace condyle::measure

@@ -43,7 +43,7 @@ std::vector<RimHour> rim_about(const SocketWall& wall, const Sphere& head, const
   const AxisSections sections(wall.mesh, head.centre, opening, clock.twelve, clock.three, wall.ends);
   const double reach = head.radius + farthest_wall_mm;
   std::vector<RimHour> rim(rim_steps);
-  const auto tell = [&](std::size_t step, const Contour& half) {
+  const auto set = [&](std::size_t step, const Contour& half) {
     const double turn = two_pi * static_cast<double>(step) / rim_steps;
     RimHour& out = rim[step];
     out = {12.0 * static_cast<double>(step) / rim_steps, {}, 0, 0, false};
@@ -56,8 +56,8 @@ std::vector<RimHour> rim_about(const SocketWall& wall, const Sphere& head, const
   };
   for (std::size_t k = 0; k < rim_steps / 2; ++k) {
     const Contour section = sections.at(two_pi * static_cast<double>(k) / rim_steps);
-    tell(k, upper_half(section));
-    tell(k + rim_steps / 2, lower_half(section));
+    set(k, upper_half(section));
+    set(k + rim_steps / 2, lower_half(section));
   }
   return rim;
 }

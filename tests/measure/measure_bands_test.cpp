@@ -56,15 +56,16 @@ TEST(MeasureBands, AxesAndSurfacesMoveAnglesAndLengthsAsFarAsTheyAreUncertain) {
   const auto width = [](const MeasureBand& band) { return *band.p95 - *band.p5; };
   const auto of_axes = measure_bands(
       hip, {}, {.sigma = {.centre_mm = 0, .axes = Angle::degrees(1), .surface_mm = 0}, .samples = 60});
-  // About the one axis that is square to the opening and the vertical an inclination turns one to one.
-  EXPECT_NEAR(width(band_of(of_axes, "acetabular_inclination_deg")), width_of(1), 0.15);
+  // About the one axis that is square to the opening and the vertical an inclination turns one to one. Of 60 samples a 5 % quantile
+  // has a deviation of 0.27: twice that, of two of them.
+  EXPECT_NEAR(width(band_of(of_axes, "acetabular_inclination_deg")), width_of(1), 0.76);
   // The femur's own angles do not turn with a frame, but for 12 o'clock without a shaft.
   EXPECT_LT(width(band_of(of_axes, "alpha_1_30_deg")), 0.02);
   EXPECT_LT(width(band_of(of_axes, "head_covered_share")), 1e-3);
   const auto of_surface =
       measure_bands(hip, {}, {.sigma = {.centre_mm = 0, .axes = Angle(), .surface_mm = 0.25}, .samples = 60});
-  EXPECT_NEAR(width(band_of(of_surface, "head_radius_mm")), width_of(0.25), 0.05);
-  EXPECT_NEAR(width(band_of(of_surface, "joint_space_median_mm")), width_of(std::sqrt(2) * 0.25), 0.1);
+  EXPECT_NEAR(width(band_of(of_surface, "head_radius_mm")), width_of(0.25), 0.1);
+  EXPECT_NEAR(width(band_of(of_surface, "joint_space_median_mm")), width_of(std::sqrt(2) * 0.25), 0.27);
   // A rim that is rounded goes outwards with its surface.
   EXPECT_LT(width(band_of(of_surface, "acetabular_version_deg")), 0.2);
 }

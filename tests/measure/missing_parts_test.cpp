@@ -12,7 +12,7 @@
 #include "support/real_hip.hpp"
 #include "support/test_meshes.hpp"
 
-/// What is not in the meshes is not told, and says why; what does not depend on it stays as it is.
+/// What is not in the meshes is not measured, and says why; what does not depend on it stays as it is.
 
 namespace condyle {
 namespace {
@@ -102,7 +102,7 @@ TEST(MissingParts, WithoutARimThereIsNoOpeningAndWithoutASocketNothingOfIt) {
   EXPECT_TRUE(m.femur.alpha_12.value);
 }
 
-TEST(MissingParts, WithoutAHeadNothingIsTold) {
+TEST(MissingParts, WithoutAHeadNothingIsMeasured) {
   const HipMeasures m = measure_hip(hip_of(sample().hip_bone, box({-20, -20, -20}, {20, 20, 20})));
   for (const MeasureDefinition& definition : measure_definitions())
     expect_why(definition.of(m), "no spherical head");
