@@ -9,9 +9,12 @@
 #include "command_line.hpp"
 #include "commands.hpp"
 #include "condyle/hip_measures.hpp"
+#include "followed.hpp"
+#include "help_formatter.hpp"
 #include "io/joint/name_joint_file.hpp"
 #include "io/result/measure_result.hpp"
 #include "notes.hpp"
+#include "range_options.hpp"
 
 namespace condyle::cli {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 struct Options {
   std::string joint, out;
   double tilt_deg = 0;
+  std::shared_ptr<RangeGiven> range = std::make_shared<RangeGiven>();
   Strictness strictness = Strictness::notes;
   AnswerForm form = AnswerForm::text;
 };
@@ -33,7 +37,14 @@ void run(const Options& options, const CLI::App& command) {
   request.ischiofemoral_pose = loaded.report.placement.reference_pose.angles;
   const HipMeasures measures =
       io::name_joint_file(options.joint, [&] { return measure_hip(loaded.joint, request); });
-  const MeasureResult result{loaded.joint, measures, notes, &from};
+  const std::optional<BandOptions> band_options = range_request_of(*options.range, loaded, {}).bands;
+  std::vector<MeasureBand> bands;
+  if (band_options)
+    bands = followed("joints of the band", [&](const auto& progress, const std::stop_token& stop) {
+      return measure_bands(loaded.joint, request, *band_options, {progress, stop});
+    });
+  const MeasureResult result{loaded.joint, measures, bands, band_options.value_or(BandOptions{}),
+                             notes,        &from};
   if (!options.out.empty()) say_written(write_measures(options.out, result));
   print(options.form == AnswerForm::json ? measure_json(result) : measure_text(result));
 }
@@ -53,6 +64,7 @@ void add_measure(CLI::App& app) {
       ->add_option("--tilt", options->tilt_deg,
                    "Tilt the pelvis forwards by this before acetabular angles are measured, -60 to 60")
       ->option_text("DEG (0)");
+  add_band(*command, options->range);
   command
       ->add_option("--out", options->out,
                    "Write measures.json, measures.csv, neck.csv and rim.csv into this folder")
@@ -61,6 +73,9 @@ void add_measure(CLI::App& app) {
       "--json", [options] { options->form = AnswerForm::json; },
       "Print the answer as JSON, with every number in full");
   add_strict(*command, options->strictness);
+  group_help(*command, {{"Most used", {"--band", "--tilt", "--out", "--json", "--strict"}},
+                        uncertainty_group(),
+                        {"Output", {"--help"}}});
   command->callback([options, command] { run(*options, *command); });
 }
 

@@ -4,6 +4,7 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "interrupts.hpp"
 
 namespace condyle::python {
 namespace {
@@ -34,7 +35,18 @@ py::array column_of(const Hours& hours, const Read& read) {
   return array_of(std::move(values));
 }
 
-py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg) {
+/// (p5, median, p95, samples without a value), or None.
+py::object band_tuple(const std::vector<MeasureBand>& bands, std::size_t i) {
+  if (bands.empty()) return py::none();
+  const MeasureBand& band = bands[i];
+  return py::make_tuple(optional_number(band.p5), optional_number(band.median), optional_number(band.p95),
+                        band.samples_without_value);
+}
+
+/// Without bands if `samples` is 0.
+py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg, std::size_t samples,
+                     std::uint64_t seed, double centre_mm, double axes_deg, double surface_mm,
+                     double surface_voxels, const py::object& progress) {
   MeasureRequest request;
   request.pelvic_tilt = Angle::degrees(pelvic_tilt_deg);
   request.ischiofemoral_pose = handle.loaded.report.placement.reference_pose.angles;
@@ -42,8 +54,17 @@ py::dict measures_of(const JointHandle& handle, double pelvic_tilt_deg) {
     const py::gil_scoped_release released;
     return measure_hip(handle.joint(), request);
   }();
+  std::vector<MeasureBand> bands;
+  if (samples > 0)
+    bands = *followed(progress, [&](const auto& report, const std::stop_token& stop) {
+      const BandOptions options{.sigma = {centre_mm, Angle::degrees(axes_deg), surface_mm, surface_voxels},
+                                .samples = samples,
+                                .seed = seed};
+      return measure_bands(handle.joint(), request, options, {.progress = report, .stop = stop});
+    });
   py::list list;
-  for (const MeasureDefinition& each : measure_definitions()) list.append(measure_tuple(each, measures));
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i)
+    list.append(py::make_tuple(measure_tuple(measure_definitions()[i], measures), band_tuple(bands, i)));
   const auto& neck = measures.femur.around_neck;
   const auto& rim = measures.acetabulum.rim;
   Points points(rim.size());

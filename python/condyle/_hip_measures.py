@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from . import _native
 from ._described_joint import DescribedJoint
 from ._errors import unknown
-from ._words import number
+from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES
+from ._words import Progress, count, number, progress_of
 
 
 class NormalRange(NamedTuple):
@@ -21,6 +22,15 @@ class NormalRange(NamedTuple):
     high: float
     meaning: str
     source: str
+
+
+class MeasureBand(NamedTuple):
+    """5 %, median and 95 % of a measure over displaced joints, None where none shows it; and how many do not."""
+
+    p5: Optional[float]
+    median: Optional[float]
+    p95: Optional[float]
+    samples_without_value: int
 
 
 @dataclass(frozen=True)
@@ -40,6 +50,7 @@ class HipMeasure:
     source: str
     in_pelvis_frame: bool
     normal: Optional[NormalRange]
+    band: Optional[MeasureBand] = None
 
 
 class HipMeasures(Mapping[str, HipMeasure]):
@@ -66,13 +77,19 @@ class HipMeasures(Mapping[str, HipMeasure]):
     cover_deg: NDArray[np.float64]
     centre_edge_deg: NDArray[np.float64]
 
-    def __init__(self, joint: DescribedJoint, pelvic_tilt_deg: float) -> None:
-        found = _native.hip_measures_of(joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"))
+    def __init__(self, joint: DescribedJoint, pelvic_tilt_deg: float, band_samples: int, seed: Optional[int],
+                 progress: Progress) -> None:
+        centre_mm, axes_deg, surface_mm, usual_seed, voxels = _native.uncertainty(joint._native)
+        found = _native.hip_measures_of(
+            joint._asked, number(pelvic_tilt_deg, "pelvic_tilt_deg"),
+            band_samples and count(band_samples, "band_samples", FEWEST_SAMPLES, MOST_SAMPLES),
+            usual_seed if seed is None else count(seed, "seed", high=2**64 - 1), centre_mm, axes_deg, surface_mm, voxels,
+            progress_of(progress))
         self._by_key: dict[str, HipMeasure] = {}
         for each in found.pop("measures"):
-            key, part, unit, value, why_none, note, definition, source, in_pelvis_frame, normal = each
+            (key, part, unit, value, why_none, note, definition, source, in_pelvis_frame, normal), band = each
             self._by_key[key] = HipMeasure(key, part, unit, value, why_none, note, definition, source, in_pelvis_frame,
-                                           normal and NormalRange(*normal))
+                                           normal and NormalRange(*normal), band and MeasureBand(*band))
         for name, values in found.items():
             setattr(self, name, values)
 

@@ -450,11 +450,13 @@ class Joint(DescribedJoint):
             "accept_reference_contact": bool(accept_reference_contact), "leave_out_rings": rings}
         return RangeOfMotion(self, _native.range_of_motion(self._asked, translation_mm, options), motions)
 
-    def measures(self, *, pelvic_tilt_deg: float = 0) -> HipMeasures:
+    def measures(self, *, pelvic_tilt_deg: float = 0, band_samples: int = 0, seed: Optional[int] = None,
+                 progress: Progress = None) -> HipMeasures:
         """The shape of a hip in numbers: alpha angles, versions, centre-edge angles, coverage, distances.
 
         Each is None where the meshes do not show it, with the reason. `pelvic_tilt_deg` tilts the pelvis forwards before
-        acetabular angles are measured, which are those of the joint's frame else. UsageError for joints other than hips.
+        acetabular angles are measured, which are those of the joint's frame else. `band_samples` above 0: with bands over so many
+        displaced joints, as :meth:`RangeOfMotion.bands` displaces them. UsageError for joints other than hips.
 
         C++: `condyle::measure_hip` in condyle/hip_measures.hpp; `condyle measure`.
 
@@ -466,7 +468,7 @@ class Joint(DescribedJoint):
         >>> shape["femoral_version_deg"].why_none
         'the mesh ends above the knee, 138 mm from the head'
         """
-        return HipMeasures(self, pelvic_tilt_deg)
+        return HipMeasures(self, pelvic_tilt_deg, band_samples, seed, progress)
 
     def range_following(self, motions: Optional[Sequence[MotionLike]] = None, *, poses: Optional[ArrayLike] = None,
                         contact: Optional[ElasticContact] = None, force_n: Optional[ArrayLike] = None, frame: Body = "fixed",

@@ -14,7 +14,7 @@ from ._contact_checks import ContactNote, reported
 from ._described_joint import DescribedJoint
 from ._errors import UsageError, unknown
 from ._impingement_zone import ImpingementZone, body_zone_of
-from ._limit_band import LimitBand
+from ._limit_band import FEWEST_SAMPLES, MOST_SAMPLES, LimitBand
 from ._limits import FreeAngles, Limit, MotionLimit, motion_limit_of, witness_of
 from ._motion import Motion, MotionLike, Motions
 from ._motion_map import MotionMap, map_of
@@ -22,11 +22,6 @@ from ._words import Path, Progress, count, number, path_of, progress_of, text_of
 
 if TYPE_CHECKING:
     import pandas
-
-#: Of a band: fewer leave nothing below 5 and above 95 % of them.
-FEWEST_SAMPLES = 20
-#: At some milliseconds each these are an hour, and percentiles have long settled.
-MOST_SAMPLES = 100_000
 
 
 class Bearing(TypedDict):

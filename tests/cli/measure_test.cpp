@@ -68,6 +68,19 @@ TEST_F(MeasureCommand, TiltsThePelvisAndNotTheFemur) {
   EXPECT_EQ(run("measure hip.toml --tilt 61").exit_code, 2);
 }
 
+TEST_F(MeasureCommand, GivesTheLibrarysBands) {
+  const Json json = answer("--band=20 --seed 3");
+  const auto bands = measure_bands(read_joint(folder / "hip.toml").joint, {}, {.samples = 20, .seed = 3});
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    const Json& band = json["measures"][i]["band"];
+    EXPECT_EQ(band["p5"], bands[i].p5 ? Json(*bands[i].p5) : Json(nullptr)) << json["measures"][i]["key"];
+    EXPECT_EQ(band["p95"], bands[i].p95 ? Json(*bands[i].p95) : Json(nullptr));
+    EXPECT_EQ(band["samples_without_value"], bands[i].samples_without_value);
+  }
+  EXPECT_NE(run("measure hip.toml --band=20").out.find("5 to 95 % of 20 joints"), std::string::npos);
+  EXPECT_TRUE(answer("")["band"].is_null());
+}
+
 TEST_F(MeasureCommand, WritesTables) {
   ASSERT_EQ(run("measure hip.toml --out out").exit_code, 0);
   const auto rows = [&](const char* name) {

@@ -195,11 +195,12 @@ def test_what_contact_of_each_mesh_means(tmp_path, command):
 def test_measures_are_those_of_the_command(tmp_path, command):
     subprocess.run([command, "sample", "hip", "--out", tmp_path], check=True, capture_output=True)
     joint = condyle.read_joint(tmp_path / "hip.toml")
-    said = json.loads(subprocess.run([command, "measure", tmp_path / "hip.toml", "--tilt", "5", "--json"], check=True,
+    said = json.loads(subprocess.run([command, "measure", tmp_path / "hip.toml", "--tilt", "5", "--band=20", "--json"], check=True,
                                      capture_output=True, text=True).stdout)
-    shape = joint.measures(pelvic_tilt_deg=5)
+    shape = joint.measures(pelvic_tilt_deg=5, band_samples=20)
     assert list(shape) == [each["key"] for each in said["measures"]]
     for each in said["measures"]:
+        assert shape[each["key"]].band._asdict() == each["band"]
         assert shape[each["key"]].value == each["value"] and shape[each["key"]].definition == each["definition"]
     assert shape["femoral_version_deg"].value is None and "knee" in shape["femoral_version_deg"].why_none
     assert [None if np.isnan(a) else a for a in shape.alpha_deg] == [each["alpha_deg"] for each in said["around_neck"]]

@@ -33,14 +33,21 @@ std::string pelvis_text(const HipMeasures& measures) {
              : fmt::format("{}, tilted forwards by {:g} deg", frame, measures.pelvic_tilt.degrees());
 }
 
+/// With as many digits as its unit is read with.
+std::string measured_number(const MeasureDefinition& definition, double value) {
+  return fmt::format("{:.{}f}", value, definition.unit == "1" ? 3 : definition.unit == "h" ? 2 : 1);
+}
+
 std::string measured_value(const MeasureDefinition& definition, const Measure& measure) {
   if (!measure.value) return "-";
-  const bool is_share = definition.unit == "1";
-  return fmt::format("{:.{}f}{}", *measure.value,
-                     is_share                 ? 3
-                     : definition.unit == "h" ? 2
-                                              : 1,
-                     is_share ? "" : fmt::format(" {}", definition.unit));
+  return measured_number(definition, *measure.value) +
+         (definition.unit == "1" ? "" : fmt::format(" {}", definition.unit));
+}
+
+/// "41.2 to 47.9", or nothing.
+std::string measure_band_text(const MeasureDefinition& definition, const MeasureBand& band) {
+  if (!band.p5 || !band.p95) return "-";
+  return measured_number(definition, *band.p5) + " to " + measured_number(definition, *band.p95);
 }
 
 std::string normal_text(const MeasureDefinition& definition) {
@@ -58,6 +65,13 @@ std::string_view heading_of(MeasuredPart part) {
       break;
   }
   return "both";
+}
+
+Json measure_band_json(const MeasureBand& band) {
+  return {{"p5", io::nullable(band.p5)},
+          {"median", io::nullable(band.median)},
+          {"p95", io::nullable(band.p95)},
+          {"samples_without_value", band.samples_without_value}};
 }
 
 Json measure_entry(const MeasureDefinition& definition, const HipMeasures& measures) {
@@ -159,18 +173,28 @@ std::string measure_text(const MeasureResult& result) {
   for (const MeasureDefinition& each : measure_definitions()) widest = std::max(widest, each.key.size());
   std::string_view heading;
   std::string reasons, notes;
-  for (const MeasureDefinition& each : measure_definitions()) {
-    if (heading != heading_of(each.part))
-      text += fmt::format("  {:<{}}  {:>10}  normal\n", heading = heading_of(each.part), widest + 2, "");
+  const bool has_bands = !result.bands.empty();
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+    const MeasureDefinition& each = measure_definitions()[i];
+    if (heading != heading_of(each.part)) {
+      heading = heading_of(each.part);
+      text += fmt::format("  {:<{}}  {:>10}{}  normal\n", heading, widest + 2, "",
+                          has_bands ? fmt::format("  {:<16}", "5 to 95 %") : "");
+    }
     const Measure& measure = each.of(result.measures);
-    std::string line = fmt::format("    {:<{}}  {:>10}  {}", each.key, widest, measured_value(each, measure),
-                                   normal_text(each));
+    const std::string band =
+        has_bands ? fmt::format("  {:<16}", measure_band_text(each, result.bands[i])) : "";
+    std::string line = fmt::format("    {:<{}}  {:>10}{}  {}", each.key, widest,
+                                   measured_value(each, measure), band, normal_text(each));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
     if (!measure.value) reasons += fmt::format("    {}: {}\n", each.key, measure.why_none);
     if (!measure.note.empty()) notes += fmt::format("    {}: {}\n", each.key, measure.note);
   }
   if (!reasons.empty()) text += "  cannot be told:\n" + reasons;
   if (!notes.empty()) text += "  to be read with:\n" + notes;
+  if (has_bands)
+    text += fmt::format("  5 to 95 % of {} joints with centre, axes and surfaces displaced, seed {}\n",
+                        result.band_options.samples, result.band_options.seed);
   text +=
       "  normal ranges are of other people, each by a method of its own: --json has what and whose they "
       "are\n";
@@ -180,7 +204,10 @@ std::string measure_text(const MeasureResult& result) {
 std::string measure_json(const MeasureResult& result) {
   const HipMeasures& measures = result.measures;
   Json list = Json::array();
-  for (const MeasureDefinition& each : measure_definitions()) list.push_back(measure_entry(each, measures));
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+    list.push_back(measure_entry(measure_definitions()[i], measures));
+    list.back()["band"] = result.bands.empty() ? Json(nullptr) : measure_band_json(result.bands[i]);
+  }
   Json json{
       {"condyle", io::format_version},
       {"joint", result.joint.name},
@@ -202,16 +229,19 @@ std::string measure_json(const MeasureResult& result) {
 
 std::string measures_csv(const MeasureResult& result) {
   std::string text = io::provenance_comments(result.provenance) +
-                     "key,part,value,unit,normal_low,normal_high,why_none,note,definition,source\n";
-  for (const MeasureDefinition& each : measure_definitions()) {
+                     "key,part,value,unit,p5,p95,normal_low,normal_high,why_none,note,definition,source\n";
+  for (std::size_t i = 0; i < measure_definitions().size(); ++i) {
+    const MeasureDefinition& each = measure_definitions()[i];
+    const MeasureBand band = result.bands.empty() ? MeasureBand{} : result.bands[i];
     const Measure& measure = each.of(result.measures);
     const auto normal = [&](double NormalRange::*end) {
       return each.normal ? fmt::format("{}", (*each.normal).*end) : "";
     };
-    text += fmt::format(
-        "{},{},{},{},{},{},{},{},{},{}\n", each.key, heading_of(each.part), csv_number(measure.value),
-        each.unit, normal(&NormalRange::low), normal(&NormalRange::high), io::csv_field(measure.why_none),
-        io::csv_field(measure.note), io::csv_field(each.definition), io::csv_field(each.source));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", each.key, heading_of(each.part),
+                    csv_number(measure.value), each.unit, csv_number(band.p5), csv_number(band.p95),
+                    normal(&NormalRange::low), normal(&NormalRange::high), io::csv_field(measure.why_none),
+                    io::csv_field(measure.note), io::csv_field(each.definition), io::csv_field(each.source));
   }
   return text;
 }

@@ -16,6 +16,8 @@ namespace condyle {
 struct MeasureResult {
   const Joint& joint;
   const HipMeasures& measures;
+  std::span<const MeasureBand> bands = {};  ///< in the order of measure_definitions(); none if not requested
+  BandOptions band_options = {};
   std::span<const JointNote> notes = {};
   const Provenance* provenance = nullptr;
 };
