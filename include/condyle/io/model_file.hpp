@@ -104,18 +104,18 @@ struct ModelCoupler {
 
 /// What to know of a model, or of a joint file made from it.
 enum class ModelNoteCode : std::uint8_t {
-  missing_mesh,        ///< It is left out.
-  other_case,          ///< A mesh was found by a name in another case of letters.
-  mirrored,            ///< A mesh by its scale factors; its triangles are turned round.
-  not_used,            ///< Kinds of components, and how many of each.
-  welded,              ///< Bodies that are one.
-  oblique_axis,        ///< A hinge does not turn about an axis to the side.
-  contact_left_out,    ///< It is not applied, or lacks a surface.
-  several_contacts,    ///< Between the two bodies; one is taken.
-  measured_thickness,  ///< Near to OpenSim-JAM's, not equal.
+  missing_mesh,         ///< It is left out.
+  other_case,           ///< A mesh was found by a name in another case of letters.
+  mirrored,             ///< A mesh by its scale factors; its triangles are turned round.
+  not_used,             ///< Kinds of components, and how many of each.
+  welded,               ///< Bodies that are one.
+  oblique_axis,         ///< A hinge does not turn about an axis to the side.
+  contact_left_out,     ///< It is not applied, or lacks a surface.
+  several_contacts,     ///< Between the two bodies; one is taken.
+  measured_thickness,   ///< Near to OpenSim-JAM's, not equal.
   reverse_passed_over,  ///< A joint of a later version has it, and no meaning.
   exchanged_bodies,     ///< The child is the proximal bone: angles have the other sense.
-  coupled_coordinate,  ///< It follows others where a motion has no column of it.
+  coupled_coordinate,   ///< It follows others where a motion has no column of it.
 };
 /// As written: "missing_mesh".
 std::string_view name_of(ModelNoteCode code) noexcept;

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <array>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "condyle/error.hpp"
+#include "motion/rom/displacement.hpp"
+
+namespace condyle::motion {
+namespace {
+
+constexpr std::size_t fewest_samples = 20;
+
+constexpr std::size_t dimensions = 8;
+
+/// Numbers in [0, 1) of the generator's upper 53 bits: std::uniform_real_distribution may differ between libraries.
+class Uniform {
+ public:
+  explicit Uniform(std::uint64_t seed) : bits_(seed) {}
+  double operator()() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  std::size_t below(std::size_t count) {
+    return std::min(static_cast<std::size_t>((*this)() * static_cast<double>(count)), count - 1);
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+}  // namespace
+
+std::vector<Displacement> displacements(const BandOptions& options) {
+  const std::size_t count = options.samples;
+  Uniform uniform(options.seed);
+  std::vector<std::array<double, dimensions>> standard(count);
+  std::vector<std::size_t> stratum(count);
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    for (std::size_t i = 0; i < count; ++i) stratum[i] = i;
+    for (std::size_t i = count; i-- > 1;) std::swap(stratum[i], stratum[uniform.below(i + 1)]);
+    for (std::size_t i = 0; i < count; ++i) {
+      // Within the stratum, clear of 0 and 1.
+      const double u =
+          (static_cast<double>(stratum[i]) + 0.005 + 0.99 * uniform()) / static_cast<double>(count);
+      standard[i][k] = -std::numbers::sqrt2 * boost::math::erfc_inv(2 * u);
+    }
+  }
+  const Uncertainty& sigma = options.sigma;
+  std::vector<Displacement> out;
+  for (const auto& z : standard)
+    out.push_back({sigma.centre_mm * Vec3(z[0], z[1], z[2]), sigma.axes.radians() * Vec3(z[3], z[4], z[5]),
+                   z[6], z[7]});
+  return out;
+}
+
+double quantile(const std::vector<double>& sorted, double q) {
+  const double at = q * static_cast<double>(sorted.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, sorted.size() - 1);
+  return sorted[low] + (at - static_cast<double>(low)) * (sorted[high] - sorted[low]);
+}
+
+void check_band(const BandOptions& options) {
+  if (options.samples < fewest_samples)
+    throw UsageError("band: " + std::to_string(fewest_samples) + " samples or more are needed");
+  const auto bad = [](double sigma) { return !(sigma >= 0) || !std::isfinite(sigma); };
+  const Uncertainty& sigma = options.sigma;
+  if (bad(sigma.centre_mm) || bad(sigma.axes.radians()) || bad(sigma.surface_mm) || bad(sigma.surface_voxels))
+    throw UsageError("band: standard deviations must be 0 or more");
+}
+
+}  // namespace condyle::motion
