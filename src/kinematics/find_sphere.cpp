@@ -421,6 +421,32 @@ SphericalPatch kinematics::patch_of(const TriMesh& mesh, const std::vector<Index
   return measured(points, part, fit_sphere(mesh.vertices, vertices)).patch;
 }
 
+std::optional<SphericalPatch> kinematics::patch_on(const TriMesh& mesh, const Sphere& head) {
+  const double reach = head.radius * (1 + 2 * first_band);
+  const auto points = surface_points(mesh, Sphere{head.centre, reach});
+  const SearchedPoints searched(mesh, points);
+  const auto residual = [&](Index i) { return (points[i].position - head.centre).norm() - head.radius; };
+  double band = first_band * head.radius;
+  std::vector<Index> part;
+  constexpr int rounds = 2;  // the first one for the band alone
+  for (int round = 0; round < rounds; ++round) {
+    part = searched.neighbours.largest_connected_part(
+        points, on_sphere(points, searched.places, head, 1.0, band));
+    if (part.size() < fewest_vertices) return std::nullopt;
+    std::vector<double> residuals;
+    for (const Index i : part) residuals.push_back(residual(i));
+    band = std::clamp(deviations_kept * robust_deviation(std::move(residuals)), narrowest_band * head.radius,
+                      widest_band * head.radius);
+  }
+  SphereFit fit{head, 0, 0, vertices_of(points, part)};
+  for (const Index i : part) {
+    fit.rms_residual += residual(i) * residual(i) / static_cast<double>(part.size());
+    fit.largest_residual = std::max(fit.largest_residual, std::abs(residual(i)));
+  }
+  fit.rms_residual = std::sqrt(fit.rms_residual);
+  return measured(points, part, std::move(fit)).patch;
+}
+
 SphericalPatch find_sphere(const TriMesh& mesh, const SphereSearch& search) {
   const bool is_head = search.part == SphericalPart::head;
   auto points = kinematics::surface_points(mesh, search.within);

@@ -65,6 +65,11 @@ void keep_head(const Mesh& mobile, const std::vector<Index>& vertices) {
   kept.head_near_centre.get([&](std::optional<SphericalPatch>& head) { head = fitted; });
 }
 
+void keep_head(const Mesh& mobile, const Sphere& head) {
+  kept_with(mobile).head_near_centre.get(
+      [&](std::optional<SphericalPatch>& known) { known = patch_on(mobile, head); });
+}
+
 const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile) {
   return kept_with(mobile).fitted_head.get([](std::optional<SphericalPatch>&) {});
 }

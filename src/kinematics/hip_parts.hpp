@@ -20,7 +20,10 @@ const std::optional<SphericalPatch>& head_anywhere(const Mesh& mobile);
 /// Keeps the head that these vertices are, which a search of the whole surface found before the mesh was placed. Does
 /// nothing if the head near the centre is known.
 void keep_head(const Mesh& mobile, const std::vector<Index>& vertices);
-/// The head that was kept so; empty if none was.
+/// Keeps the head that this sphere is, which is known: that of a bone before it was cut. Does nothing if the head near the centre is
+/// known.
+void keep_head(const Mesh& mobile, const Sphere& head);
+/// The head that was kept so by its vertices; empty if none was.
 const std::optional<SphericalPatch>& fitted_head(const Mesh& mobile);
 
 /// sphere_around(), into which the head may not fit, and socket_rim(); for the latest few heads.

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "condyle/control.hpp"
+#include "condyle/joint.hpp"
+#include "condyle/make_joint.hpp"
+#include "condyle/range_of_motion.hpp"
+
+/// Inverse resection: the bone that must go so that motions reach what is asked of them. docs/mathematics/12-resection.md.
+
+namespace condyle {
+
+/// A motion, and how far it shall turn from its start.
+struct ReachTarget {
+  Motion motion = {};
+  Angle reach = {};
+};
+
+/// Why bone stays.
+enum class KeptBy : std::uint8_t {
+  bearing,  ///< It belongs to the bearing surface.
+  depth,    ///< It lies deeper than may be removed.
+  zone,     ///< It lies farther from the bearing surface than may be removed.
+  marked,   ///< The request names it.
+};
+
+/// As in files: "bearing".
+std::string_view name_of(KeptBy by) noexcept;
+
+/// What of a bone must stay, beside its bearing surface.
+struct KeptBone {
+  std::optional<double> deepest_mm = {};  ///< no vertex is lowered by more
+  /// What is farther than this outside the ball of the bearing surface, the head's radius and margin about its centre, stays.
+  std::optional<double> within_mm = {};
+  std::vector<std::uint8_t> vertices = {};  ///< 1 for those that stay, one per vertex of the mesh; or none
+};
+
+struct ResectionRequest {
+  std::vector<ReachTarget> targets = {};
+  /// Of the depth that the mobile body alone would lose, the share that the fixed body is cut for instead: 0 cuts the mobile body
+  /// only, 1 the fixed body only.
+  double fixed_share = 0;
+  KeptBone mobile = {}, fixed = {};
+  double edge_mm = 0.5;  ///< Triangles around the cut become so small.
+  RangeOptions range = {};
+};
+
+/// A bone after its cut.
+struct CutBone {
+  Body body;      ///< with triangles made smaller around the cut, and lowered
+  TriMesh before;  ///< the same triangles where the surface was
+  std::vector<double> depth_mm;      ///< of each vertex
+  std::vector<int> needed_by;        ///< the target that needs it, of each vertex; -1 where nothing goes
+  std::vector<double> needed_from_deg;  ///< the angle of its motion from which on it is in the way; 0 where nothing goes
+  double volume_mm3 = 0;
+  /// Of what was removed, what the other bone really sweeps over: no cut could do with less.
+  double least_volume_mm3 = 0;
+  double area_mm2 = 0;  ///< of the triangles that moved, before
+  double deepest_mm = 0;
+  Vec3 deepest_at = Vec3::Zero();  ///< on the surface before
+
+  bool is_cut() const noexcept { return volume_mm3 > 0; }
+};
+
+/// Kept bone that stops a motion short of its target.
+struct Blocked {
+  KeptBy by;
+  BodyRole body;
+  Vec3 point_mm;  ///< in the bone's frame
+};
+
+struct ReachOutcome {
+  ReachTarget target;
+  Angle planned;  ///< the reach, or as far as kept bone lets the motion go
+  MotionLimit before, after;
+  std::optional<Blocked> blocked = {};
+};
+
+struct Resection {
+  Joint joint;                         ///< with the cut bones
+  std::vector<ReachOutcome> targets;   ///< in the order of the request
+  std::optional<CutBone> mobile, fixed;  ///< those that were to be cut
+};
+
+/// Throws UsageError for a request without targets, reaches that are not within the motion's range, and values outside theirs.
+void check_resection(const Joint& joint, const ResectionRequest& request);
+
+/// The bone that must go so that each motion reaches its target, and the joint without it. What is removed holds everything that
+/// the other bone sweeps over, and little more; the limits are exact ones of the joint with the cut bones.
+///
+/// Throws UsageError as check_resection(), MeshError if a body is not closed or a cut surface would run through itself, and
+/// ReferenceContactError. A second or so for a hip of 20,000 triangles and one motion.
+Resection resect(const Joint& joint, const ResectionRequest& request);
+/// The same; empty if it was stopped.
+std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control);
+
+}  // namespace condyle

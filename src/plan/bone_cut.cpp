@@ -1,0 +1,333 @@
+#include "plan/bone_cut.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+#include "kinematics/hip_parts.hpp"
+#include "mesh/enclosed_volume.hpp"
+#include "mesh/self_crossings.hpp"
+#include "plan/refine.hpp"
+
+namespace condyle::plan {
+namespace {
+
+/// Asked beyond a target, so that what is left meets the other bone only past it; a fifth of it is what rounding needs.
+constexpr Angle beyond = Angle::degrees(0.02);
+/// A motion that kept bone stops is planned short of that.
+constexpr Angle short_of_kept = Angle::degrees(0.001);
+/// Where surfaces still meet, the feature that does is lowered by this, mm, and so often at most.
+constexpr double correction_mm = 0.02;
+constexpr int most_corrections = 300;
+/// Kept bone is found anew so often: each time the motions go less far.
+constexpr int most_stops = 20;
+/// Points in which a surface is asked for what goes: so far apart, and so far outside of it too, mm.
+constexpr double search_spacing_mm = 1, search_outside_mm = 1;
+/// What is removed is asked so far apart for what had to be, mm.
+constexpr double least_spacing_mm = 0.15;
+
+bool is_soft(const Body& body, std::size_t triangle) {
+  const BodyPart* part = part_of_triangle(body, triangle);
+  return part && part->contact == PartContact::soft;
+}
+
+/// A body without what is soft, and without what lies in the ball; which triangles of the mesh these are.
+motion::PartOfMesh counted(const Body& body, const Mesh& mesh, const std::optional<BearingBall>& ball) {
+  TriMesh part{mesh.vertices(), {}};
+  std::vector<Index> in_whole;
+  for (Index t = 0; t < mesh.triangles().size(); ++t) {
+    if (is_soft(body, t)) continue;
+    if (ball && ball->holds(mesh.corner(t, 0)) && ball->holds(mesh.corner(t, 1)) && ball->holds(mesh.corner(t, 2)))
+      continue;
+    part.triangles.push_back(mesh.triangles()[t]);
+    in_whole.push_back(t);
+  }
+  return {Mesh(std::move(part)), std::move(in_whole)};
+}
+
+/// With all triangles that share a vertex with one of these.
+std::vector<std::uint8_t> with_neighbours(const TriMesh& mesh, std::vector<std::uint8_t> triangles) {
+  std::vector<std::uint8_t> vertices(mesh.vertices.size(), 0);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (triangles[t])
+      for (const Index v : mesh.triangles[t]) vertices[v] = 1;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (const Index v : mesh.triangles[t])
+      if (vertices[v]) triangles[t] = 1;
+  return triangles;
+}
+
+}  // namespace
+
+BoneCut::BoneCut(const Joint& joint, BodyRole cut_role, const ResectionRequest& request,
+                 std::vector<CutTarget> targets)
+    : joint_(joint),
+      role_(cut_role),
+      bone_(cut_role == BodyRole::mobile ? joint.mobile : joint.fixed),
+      request_(request),
+      targets_(std::move(targets)),
+      stopped_(targets_.size()) {
+  bearing_ = find_bearing_surface(joint, request.range.bearing).surface;
+  if (bearing_ && request.range.bearing.rule == BearingRule::leave_out) ball_.emplace(*bearing_);
+  const bool cuts_mobile = role_ == BodyRole::mobile;
+  const Body& other = cuts_mobile ? joint.fixed : joint.mobile;
+  const Mesh solid = counted(other, other.mesh, std::nullopt).mesh;
+  if (!solid.is_closed())
+    throw MeshError(other.name + ": its mesh is open, and bone that an open mesh sweeps over cannot be told");
+  if (!bone_.mesh.is_closed()) throw MeshError(bone_.name + ": its mesh is open, and no bone can be removed from it");
+  const Mesh ending = cuts_mobile ? solid : counted(other, other.mesh, ball_).mesh;
+  for (const CutTarget& target : targets_) {
+    sweeps_.push_back(std::make_unique<Sweep>(joint, role_, solid, target.motion, ball_));
+    exact_.push_back(std::make_unique<ExactReach>(joint, role_, ending, target.motion));
+    reach_.push_back(target.reach);
+  }
+  met_.assign(bone_.mesh.triangles().size(), 0);
+  wanted_ = with_neighbours(bone_.mesh, triangles_to_cut(bone_));
+  refine();
+  cut();
+}
+
+std::vector<SweepTo> BoneCut::sweeps_to_reach() const {
+  std::vector<SweepTo> all;
+  for (std::size_t i = 0; i < sweeps_.size(); ++i) all.push_back({sweeps_[i].get(), reach_[i] + beyond});
+  return all;
+}
+
+std::vector<std::uint8_t> BoneCut::triangles_to_cut(const Body& body) const {
+  const Mesh& mesh = body.mesh;
+  const std::optional<BearingBall> mobile_ball = role_ == BodyRole::mobile ? ball_ : std::nullopt;
+  Points points;
+  std::vector<Index> of;
+  for (Index t = 0; t < mesh.triangles().size(); ++t) {
+    const Vec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+    if (is_soft(body, t) || (mobile_ball && mobile_ball->holds(a) && mobile_ball->holds(b) && mobile_ball->holds(c))) continue;
+    const double longest = std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()});
+    const int n = std::max(1, static_cast<int>(std::ceil(longest / search_spacing_mm)));
+    const Vec3 outwards = (b - a).cross(c - a).stableNormalized();
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; i + j <= n; ++j)
+        for (const double off : {0.0, search_outside_mm}) {
+          points.push_back((i * a + j * b + (n - i - j) * c) / n + off * outwards);
+          of.push_back(t);
+        }
+  }
+  std::vector<std::uint8_t> marks(mesh.triangles().size(), 0);
+  for (const SweepTo& sweep : sweeps_to_reach()) {
+    const std::vector<double> first = sweep.sweep->first_inside(points, sweep.reach);
+    for (std::size_t i = 0; i < first.size(); ++i)
+      if (std::isfinite(first[i])) marks[of[i]] = 1;
+  }
+  return marks;
+}
+
+std::vector<std::optional<KeptBy>> BoneCut::kept_vertices(const Body& body) const {
+  const KeptBone& keep = role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
+  const Mesh& mesh = body.mesh;
+  std::vector<std::optional<KeptBy>> kept(mesh.vertices().size());
+  if (keep.within_mm && bearing_) {
+    const BearingBall ball(*bearing_);
+    for (std::size_t v = 0; v < kept.size(); ++v)
+      if ((mesh.vertices()[v] - ball.centre).norm() > ball.radius_mm + *keep.within_mm) kept[v] = KeptBy::zone;
+  }
+  if (bearing_ && role_ == BodyRole::mobile) {
+    const BearingBall ball(*bearing_);
+    for (std::size_t v = 0; v < kept.size(); ++v)
+      if (ball.holds(mesh.vertices()[v])) kept[v] = KeptBy::bearing;
+  }
+  for (const BodyPart& part : body.parts)
+    if (part.contact != PartContact::ends)
+      std::fill_n(kept.begin() + static_cast<std::ptrdiff_t>(part.first_vertex), part.vertices, KeptBy::bearing);
+  return kept;
+}
+
+void BoneCut::refine() {
+  RefinedBody fine = refined(bone_, wanted_, request_.edge_mm);
+  std::vector<std::optional<KeptBy>> kept = kept_vertices(fine.body);
+  const KeptBone& keep = role_ == BodyRole::mobile ? request_.mobile : request_.fixed;
+  if (!keep.vertices.empty()) {
+    // Triangles that have a marked corner stay whole.
+    for (std::size_t t = 0; t < fine.triangle_before.size(); ++t) {
+      const Triangle& before = bone_.mesh.triangles()[fine.triangle_before[t]];
+      if (std::any_of(before.begin(), before.end(), [&](Index v) { return keep.vertices[v] != 0; }))
+        for (const Index v : fine.body.mesh.triangles()[t]) kept[v] = KeptBy::marked;
+    }
+  }
+  std::vector<std::uint8_t> near = with_neighbours(fine.body.mesh, triangles_to_cut(fine.body));
+  for (std::size_t t = 0; t < near.size(); ++t) {
+    const Index before = fine.triangle_before[t];
+    near[t] = (near[t] && wanted_[before]) || met_[before];
+  }
+  triangle_before_ = std::move(fine.triangle_before);
+  surface_.emplace(std::move(fine.body), near, std::move(kept), keep.deepest_mm, request_.edge_mm);
+  surface_->smooth_directions(smoothing_mm_);
+}
+
+bool BoneCut::stop(std::size_t target, Angle at, KeptBy by, const Vec3& point) {
+  const Angle possible = std::max(Angle(), at - short_of_kept);
+  if (!(possible < reach_[target])) return false;
+  reach_[target] = possible;
+  stopped_[target] = StoppedAt{possible, {by, role_, point}};
+  return true;
+}
+
+bool BoneCut::lower_for_reach() {
+  surface_->restore();
+  const std::vector<InTheWay> left = surface_->lower(sweeps_to_reach());
+  bool stopped = false;
+  for (const InTheWay& in_the_way : left)
+    stopped = stop(in_the_way.target, Angle::radians(in_the_way.from_rad), in_the_way.by, in_the_way.point) || stopped;
+  return !stopped;
+}
+
+/// False if the surface must be lowered anew: with more of it near, or for a motion that kept bone stops.
+bool BoneCut::lower_at(std::size_t target, const Limit& limit, const Feature& feature) {
+  using Lowered = CutSurface::Lowered;
+  const Lowered lowered = surface_->lower_feature(feature, {target, limit.turned.radians()}, correction_mm);
+  if (lowered == Lowered::some) return true;
+  const Mesh& mesh = surface_->body().mesh;
+  const Index corner = feature.kind == FeatureKind::face ? mesh.triangles()[feature.id][0] : feature.id;
+  if (getenv("DBG")) { fprintf(stderr, "not lowered %d kind %d corner %u at %.4f:", int(lowered), int(feature.kind), corner, limit.turned.degrees()); std::array<Index,3> c{feature.id, feature.other_end, no_index}; if (feature.kind==FeatureKind::face) c = mesh.triangles()[feature.id]; for (auto v : c) if (v != no_index) fprintf(stderr, " [%.3f r %.4f kept %d room %.2f]", surface_->vertices()[v].depth_mm, surface_->at(v).norm(), surface_->vertices()[v].kept ? int(*surface_->vertices()[v].kept) : -1, surface_->vertices()[v].room_mm); fprintf(stderr, "\n"); }
+  if (lowered == Lowered::kept) {
+    stop(target, limit.turned, surface_->vertices()[corner].kept.value_or(KeptBy::depth), limit.contact->mobile_point);
+    return false;
+  }
+  for (std::size_t t = 0; t < mesh.triangles().size(); ++t)
+    if (const Triangle& v = mesh.triangles()[t]; std::find(v.begin(), v.end(), corner) != v.end())
+      met_[triangle_before_[t]] = 1;
+  met_ = with_neighbours(bone_.mesh, std::move(met_));
+  for (std::size_t t = 0; t < met_.size(); ++t) wanted_[t] |= met_[t];
+  refine();
+  return false;
+}
+
+/// Lowers what the exact search still finds in the way. False if kept bone stops a motion.
+bool BoneCut::correct() {
+  for (int i = 0; i < most_corrections; ++i) {
+    const motion::PartOfMesh part = counted(surface_->body(), surface_->mesh(), role_ == BodyRole::mobile ? ball_ : std::nullopt);
+    bool reached = true;
+    for (std::size_t t = 0; t < targets_.size(); ++t) {
+      const Limit limit = exact_[t]->limit(part.mesh, reach_[t]);
+      if (limit.reason == LimitReason::end_of_range || !limit.contact) continue;
+      reached = false;
+      Feature feature = limit.contact->mobile_feature;
+      if (feature.kind == FeatureKind::face) feature.id = part.triangle_in_whole[feature.id];
+      if (getenv("DBG2")) printf("  %d target %zu at %.4f reason %d kind %d id %u point %.2f %.2f %.2f r %.3f depth %.3f\n", i, t, limit.turned.degrees(), int(limit.reason), int(feature.kind), feature.id, limit.contact->mobile_point.x(), limit.contact->mobile_point.y(), limit.contact->mobile_point.z(), limit.contact->mobile_point.norm(), surface_->vertices()[feature.kind==FeatureKind::face? surface_->body().mesh.triangles()[feature.id][0]:feature.id].depth_mm);
+      if (!lower_at(t, limit, feature)) return false;
+    }
+    if (reached) { if (getenv("DBG")) printf("corrections %d\n", i); return true; }
+  }
+  throw MeshError(bone_.name + ": after " + std::to_string(most_corrections) +
+              " corrections its cut surface still meets the other bone");
+}
+
+/// What is wrong with the surface as it is now; empty if nothing is.
+std::string BoneCut::fault() const {
+  const Mesh mesh = surface_->mesh();
+  const TriMesh& before = surface_->body().mesh;
+  std::size_t turned = 0;
+  for (const Index t : surface_->near()) {
+    const auto normal = [&](const TriMesh& m) {
+      return Vec3((m.corner(t, 1) - m.corner(t, 0)).cross(m.corner(t, 2) - m.corner(t, 0)));
+    };
+    if (normal(before).dot(normal(mesh)) < 0) { ++turned; if (getenv("DBG")) { for (int k = 0; k < 3; ++k) { auto& v = surface_->vertices()[before.triangles[t][k]]; fprintf(stderr, "   (%.2f %.2f %.2f) d %.3f kept %d", v.before.x(), v.before.y(), v.before.z(), v.depth_mm, v.kept ? int(*v.kept) : -1);} fprintf(stderr, "\n"); } }
+  }
+  if (turned > 0) return "turns " + std::to_string(turned) + " triangles over";
+  if (mesh::self_crossings_of(mesh).pairs > mesh::self_crossings_of(surface_->body().mesh).pairs)
+    return "runs through itself";
+  return {};
+}
+
+void BoneCut::cut() {
+  std::string why;
+  for (const double smoothing_mm : {3., 6., 12., 24., 48.}) {
+    for (std::size_t t = 0; t < targets_.size(); ++t) reach_[t] = targets_[t].reach, stopped_[t].reset();
+    smoothing_mm_ = smoothing_mm;
+    surface_->smooth_directions(smoothing_mm);
+    for (int i = 0; i < most_stops; ++i)
+      if (lower_for_reach() && (surface_->unfold(), correct())) break;
+    surface_->unfold();
+    why = fault();
+    if (getenv("DBG")) fprintf(stderr, "smoothing %g: %s\n", smoothing_mm, why.c_str());
+    if (why.empty()) return;
+  }
+  throw MeshError(bone_.name + ": a cut so deep " + why + ", whichever way it goes inwards");
+}
+
+Joint BoneCut::joint() const {
+  Joint joint = joint_;
+  Body& bone = role_ == BodyRole::mobile ? joint.mobile : joint.fixed;
+  bone = surface_->body();
+  bone.mesh = surface_->mesh();
+  // Smaller triangles around a cut weigh more in a fit: the head is the one that it was.
+  if (bearing_ && role_ == BodyRole::mobile) kinematics::keep_head(bone.mesh, bearing_->head);
+  return joint;
+}
+
+CutBone BoneCut::cut_bone() const {
+  CutBone cut{surface_->body(), surface_->body().mesh, {}, {}, {}, 0, 0, 0, 0, Vec3::Zero()};
+  cut.body.mesh = surface_->mesh();
+  for (const CutSurface::Vertex& vertex : surface_->vertices()) {
+    const bool goes = vertex.depth_mm > 0 && vertex.need;
+    cut.depth_mm.push_back(vertex.depth_mm);
+    cut.needed_by.push_back(goes ? static_cast<int>(targets_[vertex.need->target].number) : -1);
+    cut.needed_from_deg.push_back(goes ? Angle::radians(vertex.need->from_rad).degrees() : 0);
+    if (vertex.depth_mm > cut.deepest_mm) cut.deepest_mm = vertex.depth_mm, cut.deepest_at = vertex.before;
+  }
+  const TriMesh &before = cut.before, &after = cut.body.mesh;
+  mesh::CompensatedSum volume;
+  for (const Index t : surface_->near()) {
+    if (std::all_of(before.triangles[t].begin(), before.triangles[t].end(),
+                    [&](Index v) { return cut.depth_mm[v] == 0; }))
+      continue;
+    const Vec3 p = cut.deepest_at;
+    volume.add(mesh::volume_below(before, t, p) - mesh::volume_below(after, t, p));
+    cut.area_mm2 += (before.corner(t, 1) - before.corner(t, 0)).cross(before.corner(t, 2) - before.corner(t, 0)).norm() / 2;
+  }
+  cut.volume_mm3 = volume.value();
+  cut.least_volume_mm3 = cut.volume_mm3 * least_share();
+  return cut;
+}
+
+/// Of what was removed, the share that the other bone sweeps over.
+double BoneCut::least_share() const {
+  Points points;
+  std::vector<double> weight;
+  for (const Index t : surface_->near()) {
+    std::array<Vec3, 3> p{}, d{};
+    double deepest = 0;
+    for (int k = 0; k < 3; ++k) {
+      const CutSurface::Vertex& vertex = surface_->vertices()[surface_->body().mesh.triangles()[t][k]];
+      p[k] = vertex.before, d[k] = vertex.depth_mm * vertex.inwards;
+      deepest = std::max(deepest, vertex.depth_mm);
+    }
+    if (deepest == 0) continue;
+    const int layers = static_cast<int>(std::ceil(deepest / least_spacing_mm));
+    // The middles of the four triangles that halved sides make.
+    constexpr std::array<std::array<double, 2>, 4> middles{{{1. / 3, 1. / 3}, {1. / 6, 1. / 6}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}}};
+    for (const auto& [u, v] : middles)
+      for (int layer = 0; layer < layers; ++layer) {
+        const double s = (layer + 0.5) / layers;
+        const Vec3 down = d[0] + u * (d[1] - d[0]) + v * (d[2] - d[0]);
+        points.push_back(p[0] + u * (p[1] - p[0]) + v * (p[2] - p[0]) + s * down);
+        const Vec3 along_u = p[1] - p[0] + s * (d[1] - d[0]), along_v = p[2] - p[0] + s * (d[2] - d[0]);
+        weight.push_back(-down.dot(along_u.cross(along_v)) / layers);
+      }
+  }
+  std::vector<std::uint8_t> goes(points.size(), 0);
+  for (std::size_t i = 0; i < sweeps_.size(); ++i) {
+    const std::vector<double> first = sweeps_[i]->first_inside(points, reach_[i]);
+    for (std::size_t k = 0; k < goes.size(); ++k)
+      if (std::isfinite(first[k])) goes[k] = 1;
+  }
+  double all = 0, gone = 0;
+  for (std::size_t k = 0; k < goes.size(); ++k) all += weight[k], gone += goes[k] ? weight[k] : 0;
+  return all > 0 ? gone / all : 0;
+}
+
+void BoneCut::scale_depths(double share) {
+  surface_->scale_depths(share);
+}
+
+}  // namespace condyle::plan

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "condyle/resection.hpp"
+#include "plan/cut_surface.hpp"
+#include "plan/exact_reach.hpp"
+#include "plan/sweep.hpp"
+
+namespace condyle::plan {
+
+/// A target as one bone's cut sees it.
+struct CutTarget {
+  std::size_t number;  ///< in the request
+  Motion motion;
+  Angle reach;
+};
+
+/// Where kept bone stops a target.
+struct StoppedAt {
+  Angle reach;  ///< as far as the motion can be planned
+  Blocked by;
+};
+
+/// One bone, cut for some targets.
+class BoneCut {
+ public:
+  /// The targets must be free at their start. Throws MeshError if the other body is not closed.
+  BoneCut(const Joint& joint, BodyRole cut, const ResectionRequest& request, std::vector<CutTarget> targets);
+
+  /// The joint with this bone as it is cut now.
+  Joint joint() const;
+  /// Only this share of all depths stays.
+  void scale_depths(double share);
+  CutBone cut_bone() const;
+  /// As far as each target goes; in the order of the targets.
+  const std::vector<Angle>& reach() const noexcept { return reach_; }
+  const std::vector<std::optional<StoppedAt>>& stopped() const noexcept { return stopped_; }
+
+ private:
+  std::vector<SweepTo> sweeps_to_reach() const;
+  std::vector<std::uint8_t> triangles_to_cut(const Body& body) const;
+  std::vector<std::optional<KeptBy>> kept_vertices(const Body& body) const;
+  void refine();
+  void cut();
+  std::string fault() const;
+  bool lower_for_reach();
+  bool correct();
+  bool stop(std::size_t target, Angle at, KeptBy by, const Vec3& point);
+  bool lower_at(std::size_t target, const Limit& limit, const Feature& feature);
+  double least_share() const;
+
+  const Joint& joint_;
+  BodyRole role_;
+  const Body& bone_;
+  const ResectionRequest& request_;
+  std::vector<CutTarget> targets_;
+  std::optional<BearingSurface> bearing_;
+  std::optional<BearingBall> ball_;
+  std::vector<std::unique_ptr<Sweep>> sweeps_;
+  std::vector<std::unique_ptr<ExactReach>> exact_;
+  std::vector<Angle> reach_;
+  std::vector<std::optional<StoppedAt>> stopped_;
+  std::vector<std::uint8_t> wanted_;  ///< of the triangles before: those to be refined
+  std::vector<std::uint8_t> met_;     ///< of the same: those that the exact search met elsewhere
+  std::vector<Index> triangle_before_;  ///< of the refined triangles
+  double smoothing_mm_ = 3;
+  std::optional<CutSurface> surface_;
+};
+
+}  // namespace condyle::plan

@@ -1,0 +1,159 @@
+#include "plan/refine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "mesh/edge_table.hpp"
+
+namespace condyle::plan {
+namespace {
+
+/// A mesh on its way: which triangle of the first one each comes from, and of which part each vertex is.
+struct Pieces {
+  TriMesh mesh;
+  std::vector<Index> before;
+  std::vector<Index> part_of_vertex;
+};
+
+double length(const TriMesh& mesh, const std::array<Index, 2>& edge) {
+  return (mesh.vertices[edge[0]] - mesh.vertices[edge[1]]).norm();
+}
+
+/// Edges to be halved, by their numbers.
+std::vector<std::uint8_t> edges_to_halve(const Pieces& pieces, const mesh::EdgeTable& edges,
+                                         const std::vector<std::uint8_t>& wanted, double longest) {
+  const std::size_t triangles = pieces.mesh.triangles.size();
+  std::vector<std::uint8_t> halve(edges.size(), 0);
+  const auto edge = [&](std::size_t t, int k) { return edges.edge_of(static_cast<Index>(3 * t + k)); };
+  for (std::size_t t = 0; t < triangles; ++t)
+    for (int k = 0; k < 3; ++k)
+      if (wanted[pieces.before[t]] && edge(t, k) != no_index &&
+          length(pieces.mesh, edges.ends(edge(t, k))) > longest)
+        halve[edge(t, k)] = 1;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t t = 0; t < triangles; ++t) {
+      Index longest_side = no_index;
+      double most = 0;
+      bool any = false;
+      for (int k = 0; k < 3; ++k) {
+        const Index e = edge(t, k);
+        if (e == no_index) continue;
+        any = any || halve[e];
+        const double l = length(pieces.mesh, edges.ends(e));
+        // Of two as long the same one from either side.
+        if (l > most || (l == most && e < longest_side)) most = l, longest_side = e;
+      }
+      if (any && longest_side != no_index && !halve[longest_side]) halve[longest_side] = 1, changed = true;
+    }
+  }
+  return halve;
+}
+
+/// False if there was nothing to halve.
+bool halve_once(Pieces& pieces, const std::vector<std::uint8_t>& wanted, double longest) {
+  const mesh::EdgeTable edges(pieces.mesh);
+  const std::vector<std::uint8_t> halve = edges_to_halve(pieces, edges, wanted, longest);
+  std::vector<Index> middle(edges.size(), no_index);
+  for (std::size_t e = 0; e < halve.size(); ++e) {
+    if (!halve[e]) continue;
+    const auto [a, b] = edges.ends(e);
+    middle[e] = static_cast<Index>(pieces.mesh.vertices.size());
+    pieces.mesh.vertices.push_back((pieces.mesh.vertices[a] + pieces.mesh.vertices[b]) / 2);
+    pieces.part_of_vertex.push_back(pieces.part_of_vertex[a]);
+  }
+  if (std::all_of(halve.begin(), halve.end(), [](std::uint8_t h) { return h == 0; })) return false;
+
+  std::vector<Triangle> triangles;
+  std::vector<Index> before;
+  for (std::size_t t = 0; t < pieces.mesh.triangles.size(); ++t) {
+    const auto add = [&](Index a, Index b, Index c) {
+      triangles.push_back({a, b, c});
+      before.push_back(pieces.before[t]);
+    };
+    std::array<Index, 3> m{};
+    for (int k = 0; k < 3; ++k) {
+      const Index e = edges.edge_of(static_cast<Index>(3 * t + k));
+      m[k] = e == no_index ? no_index : middle[e];
+    }
+    const Triangle& v = pieces.mesh.triangles[t];
+    const auto halved = std::count_if(m.begin(), m.end(), [](Index i) { return i != no_index; });
+    if (halved == 0) {
+      add(v[0], v[1], v[2]);
+    } else if (halved == 3) {
+      add(v[0], m[0], m[2]), add(m[0], v[1], m[1]), add(m[2], m[1], v[2]), add(m[0], m[1], m[2]);
+    } else {
+      // Turned so that side 0, from a to b, is halved, and with two the side after it too.
+      int k = 0;
+      while (m[k] == no_index || (halved == 2 && m[(k + 1) % 3] == no_index)) ++k;
+      const Index a = v[k], b = v[(k + 1) % 3], c = v[(k + 2) % 3], ab = m[k], bc = m[(k + 1) % 3];
+      if (halved == 1) {
+        add(a, ab, c), add(ab, b, c);
+      } else {
+        add(ab, b, bc);
+        // The four-cornered rest along its shorter diagonal.
+        const auto& at = pieces.mesh.vertices;
+        if ((at[a] - at[bc]).squaredNorm() <= (at[ab] - at[c]).squaredNorm())
+          add(a, ab, bc), add(a, bc, c);
+        else
+          add(a, ab, c), add(ab, bc, c);
+      }
+    }
+  }
+  pieces.mesh.triangles = std::move(triangles);
+  pieces.before = std::move(before);
+  return true;
+}
+
+/// Vertices and triangles in the order of the parts.
+RefinedBody in_order_of_parts(Pieces pieces, const Body& body) {
+  RefinedBody refined{body, {}};
+  if (body.parts.empty()) {
+    refined.body.mesh = Mesh(std::move(pieces.mesh));
+    refined.triangle_before = std::move(pieces.before);
+    return refined;
+  }
+  const std::vector<Index>& part = pieces.part_of_vertex;
+  std::vector<Index> order(part.size()), place(part.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return part[a] < part[b]; });
+  TriMesh sorted;
+  for (Index i = 0; i < order.size(); ++i) {
+    place[order[i]] = i;
+    sorted.vertices.push_back(pieces.mesh.vertices[order[i]]);
+  }
+  // Pieces of triangles follow each other in the order of these already.
+  for (const Triangle& t : pieces.mesh.triangles) sorted.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+  std::size_t vertex = 0, triangle = 0;
+  for (std::size_t p = 0; p < body.parts.size(); ++p) {
+    BodyPart& of = refined.body.parts[p];
+    const std::size_t past = of.first_triangle + of.triangles;
+    const auto vertices = static_cast<std::size_t>(std::count(part.begin(), part.end(), static_cast<Index>(p)));
+    const auto triangles = static_cast<std::size_t>(
+        std::count_if(pieces.before.begin(), pieces.before.end(),
+                      [&](Index t) { return t >= body.parts[p].first_triangle && t < past; }));
+    of.first_vertex = vertex, of.vertices = vertices, vertex += vertices;
+    of.first_triangle = triangle, of.triangles = triangles, triangle += triangles;
+  }
+  refined.body.mesh = Mesh(std::move(sorted));
+  refined.triangle_before = std::move(pieces.before);
+  return refined;
+}
+
+}  // namespace
+
+RefinedBody refined(const Body& body, const std::vector<std::uint8_t>& wanted, double longest_edge_mm) {
+  Pieces pieces{body.mesh.arrays(), {}, {}};
+  pieces.before.resize(pieces.mesh.triangles.size());
+  std::iota(pieces.before.begin(), pieces.before.end(), Index{0});
+  pieces.part_of_vertex.assign(pieces.mesh.vertices.size(), 0);
+  for (std::size_t p = 0; p < body.parts.size(); ++p)
+    std::fill_n(pieces.part_of_vertex.begin() + static_cast<std::ptrdiff_t>(body.parts[p].first_vertex),
+                body.parts[p].vertices, static_cast<Index>(p));
+  while (halve_once(pieces, wanted, longest_edge_mm)) {
+  }
+  return in_order_of_parts(std::move(pieces), body);
+}
+
+}  // namespace condyle::plan

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "condyle/joint.hpp"
+
+namespace condyle::plan {
+
+/// A body with smaller triangles where they are wanted. Its surface is where it was, up to the rounding of midpoints.
+struct RefinedBody {
+  Body body;
+  std::vector<Index> triangle_before;  ///< of each triangle: the one of the body before that it is a piece of
+};
+
+/// Halves edges until none of a wanted triangle is longer. A triangle with a side halved also has its longest one halved, so that
+/// triangles around do not become narrow; edges shared by any number of triangles stay shared. Parts of the body stay apart.
+RefinedBody refined(const Body& body, const std::vector<std::uint8_t>& wanted, double longest_edge_mm);
+
+}  // namespace condyle::plan

@@ -1,0 +1,114 @@
+#include "condyle/resection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "condyle/error.hpp"
+#include "core/formatted.hpp"
+#include "plan/bone_cut.hpp"
+
+namespace condyle {
+namespace {
+
+using plan::BoneCut;
+using plan::CutTarget;
+
+std::string degrees(Angle angle) {
+  return core::formatted("%.6g", angle.degrees());
+}
+
+void check_kept(const KeptBone& kept, const Body& body) {
+  if (kept.deepest_mm && !(*kept.deepest_mm > 0 && std::isfinite(*kept.deepest_mm)))
+    throw UsageError("resection: the largest depth must be above 0 mm");
+  if (kept.within_mm && !(*kept.within_mm >= 0 && std::isfinite(*kept.within_mm)))
+    throw UsageError("resection: the distance from the bearing surface must be 0 mm or more");
+  if (!kept.vertices.empty() && kept.vertices.size() != body.mesh.vertices().size())
+    throw UsageError("resection: " + std::to_string(kept.vertices.size()) + " marks of vertices for the " +
+                     std::to_string(body.mesh.vertices().size()) + " of " + body.name);
+}
+
+}  // namespace
+
+std::string_view name_of(KeptBy by) noexcept {
+  switch (by) {
+    case KeptBy::bearing: return "bearing";
+    case KeptBy::depth: return "depth";
+    case KeptBy::zone: return "zone";
+    case KeptBy::marked: break;
+  }
+  return "marked";
+}
+
+void check_resection(const Joint& joint, const ResectionRequest& request) {
+  if (request.targets.empty()) throw UsageError("resection: no motion has a target to reach");
+  for (const auto& [motion, reach] : request.targets) {
+    check_motion(motion, joint.kind);
+    if (!(reach > Angle() && reach <= motion.range))
+      throw UsageError("resection: " + motion.name + " cannot reach " + degrees(reach) +
+                       " degrees: its range is above 0 and at most " + degrees(motion.range));
+  }
+  if (!(request.fixed_share >= 0 && request.fixed_share <= 1))
+    throw UsageError("resection: the share of the fixed body must be from 0 to 1");
+  if (!(request.edge_mm >= 0.05 && request.edge_mm <= 10))
+    throw UsageError("resection: edges must be from 0.05 to 10 mm");
+  if (request.range.overlap.leave_out_reference_contacts)
+    throw UsageError("resection: contacts of the reference pose cannot be left out of what is removed");
+  check_kept(request.mobile, joint.mobile);
+  check_kept(request.fixed, joint.fixed);
+}
+
+Resection resect(const Joint& joint, const ResectionRequest& request) {
+  return *resect(joint, request, {});
+}
+
+std::optional<Resection> resect(const Joint& joint, const ResectionRequest& request, const Control& control) {
+  check_resection(joint, request);
+  Resection done{joint, {}, {}, {}};
+  const RangeOfMotion before(joint, request.range);
+  std::vector<CutTarget> open;
+  for (std::size_t i = 0; i < request.targets.size(); ++i) {
+    const ReachTarget& target = request.targets[i];
+    done.targets.push_back({target, target.reach, before.limit(target.motion), {}, {}});
+    const Limit& end = done.targets.back().before.end;
+    if (end.reason == LimitReason::contact_at_start)
+      throw UsageError("resection: " + target.motion.name +
+                       " is in contact at its start: what brings the joint there must be a target first");
+    if (end.turned < target.reach) open.push_back({i, target.motion, target.reach});
+  }
+  const auto note_reach = [&](const BoneCut& cut) {
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      ReachOutcome& outcome = done.targets[open[i].number];
+      outcome.planned = cut.reach()[i];
+      outcome.blocked.reset();
+      if (cut.stopped()[i]) outcome.blocked = cut.stopped()[i]->by;
+    }
+  };
+  const std::size_t bones = (request.fixed_share < 1) + (request.fixed_share > 0);
+  std::size_t cut_bones = 0;
+  const auto report = [&] {
+    if (control.progress) control.progress(cut_bones++, bones);
+    return !control.stop.stop_requested();
+  };
+  if (!report()) return std::nullopt;
+  if (request.fixed_share < 1 && !open.empty()) {
+    BoneCut cut(joint, BodyRole::mobile, request, open);
+    if (request.fixed_share > 0) cut.scale_depths(1 - request.fixed_share);
+    note_reach(cut);
+    done.mobile = cut.cut_bone();
+    done.joint = cut.joint();
+    if (!report()) return std::nullopt;
+  }
+  if (request.fixed_share > 0 && !open.empty()) {
+    const Joint with_mobile = done.joint;
+    BoneCut cut(with_mobile, BodyRole::fixed, request, open);
+    note_reach(cut);
+    done.fixed = cut.cut_bone();
+    done.joint = cut.joint();
+    if (!report()) return std::nullopt;
+  }
+  const RangeOfMotion after(done.joint, request.range);
+  for (ReachOutcome& outcome : done.targets) outcome.after = after.limit(outcome.target.motion);
+  return done;
+}
+
+}  // namespace condyle
